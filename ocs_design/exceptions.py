@@ -1,0 +1,118 @@
+"""Errors that a user can act on.
+
+Every error carries its data as attributes, a message that says what is wrong and where, and a
+hint that names the cure. The command line prints them as one panel; anything else that escapes
+is a bug and keeps its traceback.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+
+class OcsError(Exception):
+    """Base of all expected errors.
+
+    Attributes:
+        message: what is wrong, and where.
+        hint: what the user can do about it; empty if there is nothing to add.
+        kind: short machine-readable name, stable over versions.
+        exit_code: the process exit code of the command line.
+    """
+
+    kind: ClassVar[str] = "error"
+    exit_code: ClassVar[int] = 3
+
+    def __init__(self, message: str, *, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+    def data(self) -> Mapping[str, Any]:
+        """Further fields for the JSON form of the error."""
+        return {}
+
+
+class UsageError(OcsError):
+    """Options that contradict each other or cannot be understood (exit 2)."""
+
+    kind = "usage"
+    exit_code = 2
+
+
+class QuantityError(OcsError):
+    """A quantity that cannot be read: no number, an unknown unit, a wrong dimension."""
+
+    kind = "quantity"
+    exit_code = 2
+
+
+class RobotError(OcsError):
+    """The robot cannot be read or is not physical."""
+
+    kind = "robot"
+
+
+class SpecificationError(OcsError):
+    """The specification file is wrong; `problems` lists every fault found, each with its key's path."""
+
+    kind = "specification"
+
+    def __init__(self, message: str, *, problems: Sequence[str] = (), hint: str = "") -> None:
+        super().__init__(message, hint=hint)
+        self.problems = tuple(problems)
+
+    def data(self) -> Mapping[str, Any]:
+        """Each fault as one line."""
+        return {"problems": list(self.problems)}
+
+
+class OutputError(OcsError):
+    """The output folder cannot be written or exists already."""
+
+    kind = "output"
+
+
+class Infeasible(OcsError):
+    """No design meets the specification.
+
+    Attributes:
+        binding: names of the constraints that together forbid a design.
+        largest_spin_inertia: the largest spin inertia that the limits allow [kg m^2].
+        required_spin_inertia: what was asked for [kg m^2].
+        relaxations: for each constraint that can mend it alone, the limit that would just do (SI).
+    """
+
+    kind = "infeasible"
+    exit_code = 4
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        binding: Sequence[str],
+        required_spin_inertia: float,
+        largest_spin_inertia: float,
+        relaxations: Mapping[str, float],
+        hint: str = "",
+    ) -> None:
+        super().__init__(message, hint=hint)
+        self.binding = tuple(binding)
+        self.required_spin_inertia = required_spin_inertia
+        self.largest_spin_inertia = largest_spin_inertia
+        self.relaxations = dict(relaxations)
+
+    def data(self) -> Mapping[str, Any]:
+        """Binding constraints, inertias and relaxations, SI."""
+        return {
+            "binding": list(self.binding),
+            "required_spin_inertia": self.required_spin_inertia,
+            "largest_spin_inertia": self.largest_spin_inertia,
+            "relaxations": self.relaxations,
+        }
+
+
+class MissingToolError(OcsError):
+    """An optional tool is not installed; the hint has the command that installs it."""
+
+    kind = "missing_tool"
+    exit_code = 5

@@ -1,0 +1,83 @@
+"""Mass, centre of mass and inertia of a rigid body, and how they move and add up.
+
+Source of the transport and sum rules: Featherstone, Rigid Body Dynamics Algorithms (2008),
+section 2.13; of the physical conditions: Traversaro et al., IROS 2016.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray, frozen
+
+
+@dataclass(frozen=True, eq=False)
+class MassProperties:
+    """Rigid-body mass properties in some frame.
+
+    Attributes:
+        mass: [kg].
+        com: centre of mass in the frame [m], shape (3,).
+        inertia: rotational inertia about the centre of mass, in the frame's axes [kg m^2], shape (3, 3).
+    """
+
+    mass: float
+    com: FloatArray
+    inertia: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "com", frozen(self.com))
+        object.__setattr__(self, "inertia", frozen(self.inertia))
+
+    @classmethod
+    def zero(cls) -> "MassProperties":
+        """Nothing at all."""
+        return cls(0.0, np.zeros(3), np.zeros((3, 3)))
+
+    def moved(self, rotation: FloatArray, position: FloatArray) -> "MassProperties":
+        """The same body seen from a frame in which its old frame stands at `rotation`, `position`."""
+        return MassProperties(
+            self.mass,
+            rotation @ self.com + position,
+            rotation @ self.inertia @ rotation.T,
+        )
+
+    def inertia_about(self, point: FloatArray) -> FloatArray:
+        """Inertia about `point` of the frame (parallel axes) [kg m^2], shape (3, 3)."""
+        offset = self.com - point
+        return self.inertia + self.mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
+
+
+def combine(parts: Iterable[MassProperties]) -> MassProperties:
+    """Mass properties of several bodies of one frame, rigidly joined."""
+    bodies = list(parts)
+    mass = sum(body.mass for body in bodies)
+    if mass == 0.0:
+        inertia = sum((body.inertia for body in bodies), np.zeros((3, 3)))
+        return MassProperties(0.0, np.zeros(3), inertia)
+    com = sum((body.mass * body.com for body in bodies), np.zeros(3)) / mass
+    inertia = sum((body.inertia_about(com) for body in bodies), np.zeros((3, 3)))
+    return MassProperties(mass, com, inertia)
+
+
+def physical_defect(body: MassProperties, tolerance: float = 1e-9) -> str | None:
+    """Why no distribution of positive mass has these properties, or None if one has.
+
+    Principal moments must be positive and obey the triangle inequality; `tolerance` is relative
+    to the largest moment, for files that round.
+    """
+    if not (np.isfinite(body.mass) and np.isfinite(body.com).all() and np.isfinite(body.inertia).all()):
+        return "holds a number that is not finite"
+    if body.mass < 0.0:
+        return f"has the negative mass {body.mass:g} kg"
+    moments = np.linalg.eigvalsh(body.inertia)
+    slack = tolerance * max(abs(moments[2]), abs(moments[0]))
+    if moments[0] < -slack:
+        return f"has the negative principal moment {moments[0]:.3g} kg m^2"
+    if moments[2] > moments[0] + moments[1] + slack:
+        return (
+            "has principal moments that break the triangle inequality "
+            f"({moments[0]:.4g} + {moments[1]:.4g} < {moments[2]:.4g} kg m^2)"
+        )
+    return None

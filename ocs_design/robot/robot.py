@@ -1,0 +1,99 @@
+"""The robot as the rest of the chain sees it: one frozen value."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.tree import Tree
+
+
+class Format(StrEnum):
+    """Where the robot came from."""
+
+    URDF = "urdf"
+    MJCF = "mjcf"
+    MANUAL = "manual"
+
+
+@dataclass(frozen=True, eq=False)
+class Leg:
+    """A chain that ends in a foot.
+
+    Attributes:
+        name: of the foot's link.
+        body: index of the foot's body in `Tree.bodies`.
+        joints: moving joints from the trunk to the foot, mimics left out.
+        foot: the point that touches the ground, in the foot body's frame [m], shape (3,).
+        foot_radius: of a sphere around `foot` that reaches the sole; 0 for a bare point [m].
+        length: of the stretched leg, first leg joint to foot [m].
+    """
+
+    name: str
+    body: int
+    joints: tuple[str, ...]
+    foot: FloatArray
+    foot_radius: float
+    length: float
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A robot at its nominal posture.
+
+    Attributes:
+        name: from the file, or given.
+        source: path as the user wrote it, `-` for standard input, `by hand`.
+        sha256: of the bytes that were read; empty by hand.
+        format: see `Format`.
+        content: the file's text as bytes, unzipped and expanded; empty by hand.
+        tree: moving bodies; None by hand.
+        trunk: link that carries the device; its frame is the base frame B.
+        floating_base: link of the tree's root.
+        posture: value of every moving joint [rad or m].
+        posture_name: `zero`, `stand`, the name of a keyframe or SRDF state, with ` + joints` if some
+            were set one by one.
+        mass_properties: of the whole robot with its joints held at `posture`, in B.
+        legs: found legs, in file order; empty if none.
+        standing_height: of the trunk frame's origin over the feet at `posture`, or, without legs,
+            Solo12's scaled by the radius of gyration [m].
+        warnings: one sentence each, naming the link or joint.
+    """
+
+    name: str
+    source: str
+    sha256: str
+    format: Format
+    content: bytes
+    tree: Tree | None
+    trunk: str
+    floating_base: str
+    posture: Mapping[str, float]
+    posture_name: str
+    mass_properties: MassProperties
+    legs: tuple[Leg, ...]
+    standing_height: float
+    warnings: tuple[str, ...]
+
+    @property
+    def mass(self) -> float:
+        """[kg]."""
+        return self.mass_properties.mass
+
+    @property
+    def com(self) -> FloatArray:
+        """Centre of mass in B [m], shape (3,)."""
+        return self.mass_properties.com
+
+    @property
+    def inertia(self) -> FloatArray:
+        """Locked inertia about the centre of mass in B [kg m^2], shape (3, 3)."""
+        return self.mass_properties.inertia
+
+    @property
+    def gyration_radius(self) -> float:
+        """sqrt(trace(I) / m) [m]: a length that needs no geometry."""
+        return float(np.sqrt(np.trace(self.inertia) / self.mass))

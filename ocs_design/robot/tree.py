@@ -1,0 +1,211 @@
+"""The kinematic tree: moving bodies, their joints, where they stand, what they weigh.
+
+A reader lumps everything that is rigidly joined into one `Body`; only moving joints remain, each
+with at most one degree of freedom. Mass properties are the file's raw numbers.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ocs_design.arrays import FloatArray, frozen
+from ocs_design.robot.mass_properties import MassProperties, combine
+
+
+class JointKind(StrEnum):
+    """How a body moves against its parent."""
+
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
+
+
+class ShapeKind(StrEnum):
+    """Shapes of links; `size` holds what MuJoCo's geom of that name takes, in metres.
+
+    box: half extents (3); sphere: radius; cylinder and capsule: radius, half length along z;
+    mesh: scale factors (3).
+    """
+
+    BOX = "box"
+    SPHERE = "sphere"
+    CYLINDER = "cylinder"
+    CAPSULE = "capsule"
+    MESH = "mesh"
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """One collision or visual shape, placed in its body's frame.
+
+    Attributes:
+        kind: see `ShapeKind`.
+        size: see `ShapeKind` [m].
+        position: of the shape's frame [m], shape (3,).
+        rotation: of the shape's frame, shape (3, 3).
+        link: the link that it belongs to.
+        collides: whether it is collision geometry (else only to look at).
+        mesh: the mesh file if `kind` is MESH and the file was found, else None.
+    """
+
+    kind: ShapeKind
+    size: tuple[float, ...]
+    position: FloatArray
+    rotation: FloatArray
+    link: str
+    collides: bool
+    mesh: Path | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """A moving joint.
+
+    Attributes:
+        name: as in the file.
+        kind: revolute (also "continuous" and "hinge") or prismatic (also "slide").
+        axis: unit vector in the body's frame, shape (3,).
+        lower, upper: limits [rad or m]; -inf and inf without limits or where the file's are void.
+        effort: largest torque or force of the drive [N m or N]; inf if not stated.
+        velocity: largest speed [rad/s or m/s]; inf if not stated.
+        damping: [N m s/rad or N s/m]. friction: [N m or N]. armature: [kg m^2 or kg].
+        mimic: (joint, multiplier, offset) if this joint follows another.
+    """
+
+    name: str
+    kind: JointKind
+    axis: FloatArray
+    lower: float = -np.inf
+    upper: float = np.inf
+    effort: float = np.inf
+    velocity: float = np.inf
+    damping: float = 0.0
+    friction: float = 0.0
+    armature: float = 0.0
+    mimic: tuple[str, float, float] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """A frame in another: `rotation` (3, 3) takes coordinates of the frame to the other, `position` [m] (3,)."""
+
+    rotation: FloatArray
+    position: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rotation", frozen(self.rotation))
+        object.__setattr__(self, "position", frozen(self.position))
+
+    @classmethod
+    def identity(cls) -> "Placement":
+        """The frame itself."""
+        return cls(np.eye(3), np.zeros(3))
+
+    def __matmul__(self, inner: "Placement") -> "Placement":
+        return Placement(
+            self.rotation @ inner.rotation, self.rotation @ inner.position + self.position
+        )
+
+    def inverse(self) -> "Placement":
+        """The other frame in this one."""
+        return Placement(self.rotation.T, -self.rotation.T @ self.position)
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A moving body: one or more links of the file, rigidly joined.
+
+    Attributes:
+        name: of the link whose frame is the body's frame; MJCF bodies with several joints are split
+            into massless bodies named `<body>:<joint>` in front of the last.
+        parent: index of the parent body in `Tree.bodies`; -1 for the root. Parents come first.
+        placement: of the body's frame in its parent's frame when the joint is at zero.
+        joint: how it moves against the parent; None for the root.
+        mass_properties: raw, in the body's frame.
+        links: each link of the file that is part of the body, with its frame in the body's frame.
+        link_masses: [kg] of each link in `links`.
+        shapes: in the body's frame.
+    """
+
+    name: str
+    parent: int
+    placement: Placement
+    joint: Joint | None
+    mass_properties: MassProperties
+    links: Mapping[str, Placement]
+    link_masses: Mapping[str, float]
+    shapes: tuple[Shape, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Tree:
+    """A robot as a tree of moving bodies with a free root.
+
+    Attributes:
+        name: of the robot.
+        bodies: parents before children; `bodies[0]` is the floating base.
+        named_postures: joint values [rad or m] by posture name, from MJCF keyframes or an SRDF.
+        warnings: what was odd in the file and how it was read, one sentence each.
+    """
+
+    name: str
+    bodies: tuple[Body, ...]
+    named_postures: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    @cached_property
+    def joints(self) -> Mapping[str, Joint]:
+        """Moving joints by name, in tree order."""
+        return {body.joint.name: body.joint for body in self.bodies if body.joint is not None}
+
+    @cached_property
+    def body_of_link(self) -> Mapping[str, int]:
+        """Index of the body that each link of the file belongs to."""
+        return {link: index for index, body in enumerate(self.bodies) for link in body.links}
+
+    def placements(self, posture: Mapping[str, float]) -> tuple[Placement, ...]:
+        """Frame of each body in the root's frame; joints missing in `posture` are at zero."""
+        values = self.complete(posture)
+        found: list[Placement] = []
+        for body in self.bodies:
+            if body.joint is None:
+                found.append(Placement.identity())
+                continue
+            motion = joint_motion(body.joint, values[body.joint.name])
+            found.append(found[body.parent] @ body.placement @ motion)
+        return tuple(found)
+
+    def complete(self, posture: Mapping[str, float]) -> dict[str, float]:
+        """Every joint's value: as given, else zero; joints that mimic another follow it."""
+        values = {name: float(posture.get(name, 0.0)) for name in self.joints}
+        for name, joint in self.joints.items():
+            if joint.mimic is not None and joint.mimic[0] in values:
+                leader, multiplier, offset = joint.mimic
+                values[name] = multiplier * values[leader] + offset
+        return values
+
+    def locked_mass_properties(self, posture: Mapping[str, float], link: str) -> MassProperties:
+        """The whole robot with its joints held at `posture`, in the frame of `link`.
+
+        The composite rigid body of Featherstone (2008), section 6.2; Pinocchio calls its inertia
+        `data.Ig` after `ccrba`.
+        """
+        placements = self.placements(posture)
+        index = self.body_of_link[link]
+        to_link = (placements[index] @ self.bodies[index].links[link]).inverse()
+        seen = [to_link @ placement for placement in placements]
+        return combine(
+            body.mass_properties.moved(place.rotation, place.position)
+            for body, place in zip(self.bodies, seen, strict=True)
+        )
+
+
+def joint_motion(joint: Joint, value: float) -> Placement:
+    """Displacement of a joint's body at `value` [rad or m], in the body's own frame at zero."""
+    if joint.kind is JointKind.PRISMATIC:
+        return Placement(np.eye(3), value * joint.axis)
+    return Placement(Rotation.from_rotvec(value * joint.axis).as_matrix(), np.zeros(3))
