@@ -50,7 +50,7 @@ class Robot:
         sha256: of the bytes that were read; empty by hand.
         format: see `Format`.
         content: the file's text as bytes, unzipped and expanded; empty by hand.
-        tree: moving bodies; None by hand.
+        tree: moving bodies; by hand, one body with the homogeneous box of the same inertia.
         trunk: link that carries the device; its frame is the base frame B.
         floating_base: link of the tree's root.
         posture: value of every moving joint [rad or m].
@@ -58,8 +58,7 @@ class Robot:
             were set one by one.
         mass_properties: of the whole robot with its joints held at `posture`, in B.
         legs: found legs, in file order; empty if none.
-        standing_height: of the trunk frame's origin over the feet at `posture`, or, without legs,
-            Solo12's scaled by the radius of gyration [m].
+        standing_height: of the trunk frame's origin over the feet at `posture` [m]; None without legs.
         warnings: one sentence each, naming the link or joint.
     """
 
@@ -68,14 +67,14 @@ class Robot:
     sha256: str
     format: Format
     content: bytes
-    tree: Tree | None
+    tree: Tree
     trunk: str
     floating_base: str
     posture: Mapping[str, float]
     posture_name: str
     mass_properties: MassProperties
     legs: tuple[Leg, ...]
-    standing_height: float
+    standing_height: float | None
     warnings: tuple[str, ...]
 
     @property

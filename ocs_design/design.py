@@ -1,0 +1,71 @@
+"""The one artefact: a designed orientation control system as a frozen value."""
+
+from dataclasses import dataclass
+
+from ocs_design.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """A hollow cylinder that spins about its z axis.
+
+    Attributes:
+        inner_radius, outer_radius, height: [m].
+        material: name in the catalogue. density: [kg/m^3].
+        mass: [kg].
+        spin_inertia: about the spin axis, motor rotor included [kg m^2].
+        transverse_inertia: about any axis across it through its centre of mass [kg m^2].
+        hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
+        stress_margin: allowed over actual hoop stress; None if the material's strength is not known.
+        stored_energy: at the highest wheel speed [J].
+    """
+
+    inner_radius: float
+    outer_radius: float
+    height: float
+    material: str
+    density: float
+    mass: float
+    spin_inertia: float
+    transverse_inertia: float
+    hoop_stress: float | None
+    stress_margin: float | None
+    stored_energy: float
+
+
+@dataclass(frozen=True, eq=False)
+class Module:
+    """One flywheel on the trunk.
+
+    Attributes:
+        name: "left" or "right".
+        axis: unit spin axis in B, shape (3,).
+        position: of the wheel's centre of mass in B [m], shape (3,).
+    """
+
+    name: str
+    axis: FloatArray
+    position: FloatArray
+
+
+@dataclass(frozen=True)
+class Motor:
+    """What drives a wheel: the voltage line and the current limit, at the wheel.
+
+    Attributes:
+        name: in the catalogue, or "assumed".
+        mass: [kg].
+        stall_torque: torque of the voltage line at rest [N m]; None: not limited.
+        no_load_speed: [rad/s].
+        torque_limit: at the current limit [N m]; None: not limited.
+        rotor_inertia: [kg m^2].
+        source: where the figures come from.
+    """
+
+    name: str
+    mass: float
+    stall_torque: float | None
+    no_load_speed: float
+    torque_limit: float | None
+    rotor_inertia: float
+    source: str
