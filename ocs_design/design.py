@@ -1,8 +1,11 @@
 """The one artefact: a designed orientation control system as a frozen value."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.sizing.incidence import module_axes
 
 
 @dataclass(frozen=True)
@@ -69,3 +72,31 @@ class Motor:
     torque_limit: float | None
     rotor_inertia: float
     source: str
+
+
+@dataclass(frozen=True, eq=False)
+class Device:
+    """The orientation control system: two equal modules and what drives them.
+
+    Attributes:
+        incidence: angle between each wheel axis and the lateral direction y [rad].
+        modules: left and right.
+        flywheel: of each module.
+        motor: of each module.
+    """
+
+    incidence: float
+    modules: tuple[Module, Module]
+    flywheel: Flywheel
+    motor: Motor
+
+    @property
+    def axes(self) -> FloatArray:
+        """Spin axes as columns, the matrix C of the paper, shape (3, 2)."""
+        return np.column_stack([module.axis for module in self.modules])
+
+    def at_incidence(self, incidence: float) -> "Device":
+        """The same device with its modules turned by hand, as the paper does for its back-flip."""
+        axes = module_axes(incidence)
+        turned = [replace(module, axis=axis) for module, axis in zip(self.modules, axes.T, strict=True)]
+        return replace(self, incidence=incidence, modules=(turned[0], turned[1]))
