@@ -61,6 +61,9 @@ class SpecificationError(OcsError):
         super().__init__(message, hint=hint)
         self.problems = tuple(problems)
 
+    def __str__(self) -> str:
+        return "\n  ".join((self.message, *self.problems))
+
     def data(self) -> Mapping[str, Any]:
         """Each fault as one line."""
         return {"problems": list(self.problems)}

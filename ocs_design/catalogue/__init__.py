@@ -1,0 +1,1 @@
+"""What can be chosen, each row with its source."""

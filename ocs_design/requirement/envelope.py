@@ -1,6 +1,8 @@
 """The room that a flywheel may take."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 
 @dataclass(frozen=True)
@@ -22,3 +24,17 @@ class Envelope:
     wall_min: float
     mass_max: float
     stress_safety: float
+
+
+LIMIT_OF_KEY: Mapping[str, str] = MappingProxyType(
+    {
+        "r_max": "outer_radius_max",
+        "r_min": "inner_radius_min",
+        "h_max": "height_max",
+        "h_min": "height_min",
+        "wall_min": "wall_min",
+        "wheel_mass_max": "mass_max",
+        "stress_safety": "stress_safety",
+    }
+)
+"""Field of `Envelope` that each key of `[flywheel]` sets."""

@@ -6,6 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.exceptions import SpecificationError
+from ocs_design.units import format_quantity
+
+STANDARD_GRAVITY = 9.81
+"""[m/s^2], as the paper takes it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -15,21 +20,26 @@ class Maneuver(ABC):
     Attributes:
         name: unique in a specification.
         gravity: [m/s^2], positive.
-        incidence: angle that the device is set to by hand for this maneuver [rad]; None: the design's.
+        incidence: angle that the device is set to by hand [rad]; None: the design's.
     """
 
     name: str
-    gravity: float = 9.81
+    gravity: float = STANDARD_GRAVITY
     incidence: float | None = None
 
     @abstractmethod
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """Largest roll and pitch momentum that both wheels together must take at once [N m s], shape (2,).
+        """Largest roll and pitch momentum that both wheels take at once [N m s], shape (2,).
 
         Args:
             inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
             standing_height: of the trunk over the ground [m].
         """
+
+    @property
+    @abstractmethod
+    def summary(self) -> str:
+        """What happens, for people, with units."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -51,7 +61,23 @@ class Disturbance(Maneuver):
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
         """The angular impulse, which the wheels hold until touchdown (THEORY, section 6)."""
         del inertia, standing_height
-        return np.abs(np.array(self.torque[:2])) * self.duration
+        roll, pitch, _ = self.torque
+        return np.array([abs(roll) * self.duration, abs(pitch) * self.duration])
+
+    @property
+    def flight_time(self) -> float:
+        """Until a rigid robot lands where it took off [s]."""
+        return 2.0 * self.takeoff_velocity[1] / self.gravity
+
+    @property
+    def summary(self) -> str:
+        """Lift-off and torque."""
+        forward, upward = self.takeoff_velocity
+        torque = ", ".join(f"{value:.3g}" for value in self.torque)
+        return (
+            f"lift-off at {forward:.3g} m/s forward and {upward:.3g} m/s up, "
+            f"({torque}) N m on the trunk for {self.duration:.3g} s, {self.onset:.3g} s after it"
+        )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -68,13 +94,30 @@ class Drop(Maneuver):
     pitch: float
 
     def duration(self, standing_height: float) -> float:
-        """From release until the feet of the levelled robot meet the ground [s]."""
-        return float(np.sqrt(2.0 * (self.height - standing_height) / self.gravity))
+        """From release until the feet of the levelled robot meet the ground [s].
+
+        Raises:
+            SpecificationError: the robot would stand on the ground already.
+        """
+        fall = self.height - standing_height
+        if fall <= 0.0:
+            raise SpecificationError(
+                f"maneuver {self.name!r}: the trunk is released at {self.height:.3g} m, but stands "
+                f"at {standing_height:.3g} m: there is no fall",
+                hint="Release it higher.",
+            )
+        return float(np.sqrt(2.0 * fall / self.gravity))
 
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
         """Half the time up, half the time down: a peak rate of 2 theta / T."""
-        rate = 2.0 * np.abs([self.roll, self.pitch]) / self.duration(standing_height)
-        return np.diag(inertia)[:2] * rate
+        peak = 2.0 / self.duration(standing_height)
+        return np.array([inertia[0, 0] * abs(self.roll), inertia[1, 1] * abs(self.pitch)]) * peak
+
+    @property
+    def summary(self) -> str:
+        """Height, attitude and gravity."""
+        roll, pitch = format_quantity(self.roll, "deg"), format_quantity(self.pitch, "deg")
+        return f"falls from {self.height:.3g} m at roll {roll} and pitch {pitch}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -95,3 +138,16 @@ class Flip(Maneuver):
         """Half the time up, half the time down: a peak rate of 2 theta / T."""
         del standing_height
         return np.array([0.0, inertia[1, 1] * 2.0 * abs(self.angle) / self.duration])
+
+    @property
+    def flight_time(self) -> float:
+        """Until a rigid robot lands where it took off [s]."""
+        return float(2.0 * np.sqrt(2.0 * self.jump_height / self.gravity))
+
+    @property
+    def summary(self) -> str:
+        """Turn, time, jump and gravity."""
+        return (
+            f"turns {format_quantity(self.angle, 'deg')} of pitch in {self.duration:.3g} s, "
+            f"in a vertical jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
+        )

@@ -11,9 +11,9 @@ class Requirement:
 
     Attributes:
         maneuvers: see `Maneuver`; may be empty.
-        rate_change: of the trunk, on pitch and on roll, one axis at a time [rad/s]; None: not asked.
+        rate_change: of the trunk, on roll and pitch one at a time [rad/s]; None: not asked.
         wheel_speed_max: of a wheel relative to the trunk [rad/s].
-        spin_inertia: of one wheel, asked for directly in place of all else [kg m^2]; None: solved for.
+        spin_inertia: of one wheel, asked for in place of all else [kg m^2]; None: solved for.
         standing_height: of the trunk over the ground, for maneuvers that end there [m].
     """
 

@@ -19,7 +19,7 @@ class MassProperties:
     Attributes:
         mass: [kg].
         com: centre of mass in the frame [m], shape (3,).
-        inertia: rotational inertia about the centre of mass, in the frame's axes [kg m^2], shape (3, 3).
+        inertia: about the centre of mass, in the frame's axes [kg m^2], shape (3, 3).
     """
 
     mass: float
@@ -36,7 +36,7 @@ class MassProperties:
         return cls(0.0, np.zeros(3), np.zeros((3, 3)))
 
     def moved(self, rotation: FloatArray, position: FloatArray) -> "MassProperties":
-        """The same body seen from a frame in which its old frame stands at `rotation`, `position`."""
+        """The same body seen from where its old frame stands at `rotation`, `position`."""
         return MassProperties(
             self.mass,
             rotation @ self.com + position,
@@ -61,18 +61,24 @@ def combine(parts: Iterable[MassProperties]) -> MassProperties:
     return MassProperties(mass, com, inertia)
 
 
+NEGLIGIBLE_MOMENT = 1e-15
+"""What rounding leaves of zero [kg m^2]: a milligram 0.1 mm away has ten times as much."""
+
+
 def physical_defect(body: MassProperties, tolerance: float = 1e-9) -> str | None:
     """Why no distribution of positive mass has these properties, or None if one has.
 
     Principal moments must be positive and obey the triangle inequality; `tolerance` is relative
     to the largest moment, for files that round.
     """
-    if not (np.isfinite(body.mass) and np.isfinite(body.com).all() and np.isfinite(body.inertia).all()):
+    if not (
+        np.isfinite(body.mass) and np.isfinite(body.com).all() and np.isfinite(body.inertia).all()
+    ):
         return "holds a number that is not finite"
     if body.mass < 0.0:
         return f"has the negative mass {body.mass:g} kg"
     moments = np.linalg.eigvalsh(body.inertia)
-    slack = tolerance * max(abs(moments[2]), abs(moments[0]))
+    slack = max(tolerance * max(abs(moments[2]), abs(moments[0])), NEGLIGIBLE_MOMENT)
     if moments[0] < -slack:
         return f"has the negative principal moment {moments[0]:.3g} kg m^2"
     if moments[2] > moments[0] + moments[1] + slack:

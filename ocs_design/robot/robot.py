@@ -29,7 +29,7 @@ class Leg:
         joints: moving joints from the trunk to the foot, mimics left out.
         foot: the point that touches the ground, in the foot body's frame [m], shape (3,).
         foot_radius: of a sphere around `foot` that reaches the sole; 0 for a bare point [m].
-        length: of the stretched leg, first leg joint to foot [m].
+        length: of the stretched leg within its limits, hip pitch axis to foot [m].
     """
 
     name: str

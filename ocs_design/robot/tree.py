@@ -11,10 +11,10 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ocs_design.arrays import FloatArray, frozen
 from ocs_design.robot.mass_properties import MassProperties, combine
+from ocs_design.robot.rotations import rotation_about
 
 
 class JointKind(StrEnum):
@@ -73,7 +73,7 @@ class Joint:
         effort: largest torque or force of the drive [N m or N]; inf if not stated.
         velocity: largest speed [rad/s or m/s]; inf if not stated.
         damping: [N m s/rad or N s/m]. friction: [N m or N]. armature: [kg m^2 or kg].
-        mimic: (joint, multiplier, offset) if this joint follows another.
+        mimic: (joint, multiplier, offset) if this joint follows another, which itself follows none.
     """
 
     name: str
@@ -91,7 +91,12 @@ class Joint:
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """A frame in another: `rotation` (3, 3) takes coordinates of the frame to the other, `position` [m] (3,)."""
+    """A frame in another.
+
+    Attributes:
+        rotation: takes coordinates of the frame to the other, shape (3, 3).
+        position: of the frame's origin in the other [m], shape (3,).
+    """
 
     rotation: FloatArray
     position: FloatArray
@@ -120,7 +125,8 @@ class Body:
     """A moving body: one or more links of the file, rigidly joined.
 
     Attributes:
-        name: of the link whose frame is the body's frame; MJCF bodies with several joints are split
+        name: of the link that the joint moves; its frame is the body's frame, except where a MJCF
+            joint is anchored elsewhere (see `links`). MJCF bodies with several joints are split
             into massless bodies named `<body>:<joint>` in front of the last.
         parent: index of the parent body in `Tree.bodies`; -1 for the root. Parents come first.
         placement: of the body's frame in its parent's frame when the joint is at zero.
@@ -208,4 +214,4 @@ def joint_motion(joint: Joint, value: float) -> Placement:
     """Displacement of a joint's body at `value` [rad or m], in the body's own frame at zero."""
     if joint.kind is JointKind.PRISMATIC:
         return Placement(np.eye(3), value * joint.axis)
-    return Placement(Rotation.from_rotvec(value * joint.axis).as_matrix(), np.zeros(3))
+    return Placement(rotation_about(joint.axis, value), np.zeros(3))

@@ -1,15 +1,98 @@
 """The incidence angle of the two wheel axes (THEORY, section 4)."""
 
+from collections.abc import Mapping
+from enum import StrEnum
+
 import numpy as np
 
 from ocs_design.arrays import FloatArray, frozen
 
 
+class Criterion(StrEnum):
+    """What the incidence angle is best for.
+
+    Attributes:
+        EQUAL_RATE: the same change of rate on roll and on pitch, one axis at a time (paper).
+        WEIGHTED: the momenta asked of roll and of pitch, one axis at a time.
+        SIMULTANEOUS: the momenta asked of roll and of pitch at once.
+        PITCH_ONLY: both axes lateral. ROLL_ONLY: both axes forward.
+    """
+
+    EQUAL_RATE = "equal-rate"
+    WEIGHTED = "weighted"
+    SIMULTANEOUS = "simultaneous"
+    PITCH_ONLY = "pitch-only"
+    ROLL_ONLY = "roll-only"
+
+
 def module_axes(incidence: float) -> FloatArray:
-    """Unit spin axes of the left and the right wheel in B as columns, shape (3, 2) (paper, section 3.2).
+    """Unit spin axes of the left and the right wheel in B as columns, shape (3, 2).
+
+    The matrix C of the paper, section 3.2.
 
     Args:
         incidence: angle between a wheel axis and the lateral direction y [rad], 0..pi/2.
     """
     sine, cosine = np.sin(incidence), np.cos(incidence)
     return frozen([[sine, -sine], [cosine, cosine], [0.0, 0.0]])
+
+
+def incidence_by_criterion(
+    inertia: FloatArray, momenta: FloatArray | None = None
+) -> Mapping[Criterion, float]:
+    """The best incidence under each criterion [rad] (THEORY, section 4).
+
+    Args:
+        inertia: of what the wheels turn, about its centre of mass in B [kg m^2], shape (3, 3).
+        momenta: asked of roll and of pitch [N m s], shape (2,); only their ratio matters. Where
+            none are asked, those of the same rate on both axes stand in for them.
+    """
+    same_rate = np.diag(inertia)[:2]
+    roll, pitch = np.abs(momenta) if momenta is not None and np.any(momenta) else same_rate
+    return {
+        Criterion.EQUAL_RATE: float(np.arctan2(*same_rate)),
+        Criterion.WEIGHTED: float(np.arctan2(roll, pitch)),
+        Criterion.SIMULTANEOUS: float(np.arctan2(np.cbrt(roll), np.cbrt(pitch))),
+        Criterion.PITCH_ONLY: 0.0,
+        Criterion.ROLL_ONLY: float(np.pi / 2.0),
+    }
+
+
+def simultaneous_momentum(momenta: FloatArray) -> float:
+    """Momentum of each wheel that takes these at once at the best incidence, H* [N m s].
+
+    The rhombi of all incidences with the same H fill an astroid (THEORY, section 4).
+
+    Args:
+        momenta: on roll and on pitch [N m s], shape (2,).
+    """
+    return float((np.abs(momenta) ** (2.0 / 3.0)).sum() ** 1.5 / 2.0)
+
+
+def condition_number(incidence: float) -> float:
+    """How unevenly the wheels act on roll and pitch: max(tan, cot) (THEORY, section 4)."""
+    tangent = abs(np.tan(incidence))
+    return float(max(tangent, 1.0 / tangent)) if tangent > 0.0 else float("inf")
+
+
+def heading_drift(inertia: FloatArray) -> FloatArray:
+    """Yaw rate per roll rate and per pitch rate at zero momentum, shape (2,) (THEORY, section 4).
+
+    Args:
+        inertia: of the robot with its device about the centre of mass in B [kg m^2], shape (3, 3).
+    """
+    return frozen(-inertia[2, :2] / inertia[2, 2])
+
+
+def actuated_inertia(total: FloatArray, spin_inertia: float, incidence: float) -> FloatArray:
+    """What the motors' torque accelerates, J = I_tot - I_w A A^T [kg m^2], shape (3, 3).
+
+    The wheels' mass and transverse inertia count, their spin inertia does not (THEORY, section 2).
+
+    Args:
+        total: inertia of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+        spin_inertia: of one wheel [kg m^2].
+        incidence: [rad].
+    """
+    axes = module_axes(incidence)
+    return frozen(total - spin_inertia * axes @ axes.T)

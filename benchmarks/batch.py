@@ -1,0 +1,123 @@
+"""Closed-loop batch against open-loop `rollout`, and the paper's runs against bare `mj_step`.
+
+Ratios of one process on one machine, as absolute rates mean little elsewhere:
+
+    python benchmarks/batch.py ROBOT.urdf
+"""
+
+import argparse
+import time
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+from mujoco.rollout import Rollout
+
+from ocs_design.design import Device, Flywheel, Module, Motor
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.robot.reader import read_robot
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder, start_states
+from ocs_design.sizing.incidence import module_axes
+
+SECONDS = 0.2
+WORLDS = 256
+ROUNDS = 5
+
+
+def paper_device() -> Device:
+    """The wheels of the paper's table 2 at 40 deg without motor limits."""
+    wheel = Flywheel(
+        0.022, 0.03, 0.01, "steel", 7860.0, 0.10273, 7.108e-5, 3.64e-5, None, None, 0.0
+    )
+    axes = module_axes(np.radians(40.0))
+    left = Module("left", axes[:, 0], np.array([0.0, 0.04, 0.05]))
+    right = Module("right", axes[:, 1], np.array([0.0, -0.04, 0.05]))
+    motor = Motor("unlimited", 0.0, None, np.inf, None, 0.0, "benchmark")
+    return Device(np.radians(40.0), (left, right), wheel, motor)
+
+
+def open_loop_rate(worlds, threads):
+    """Physics steps per second of one `rollout` of all worlds."""
+    steps = round(SECONDS / worlds[0].model.opt.timestep)
+    control = np.repeat(np.stack([w.ctrl for w in worlds])[:, None], steps, axis=1)
+    models, data = (
+        [w.model for w in worlds],
+        [mujoco.MjData(worlds[0].model) for _ in range(threads)],
+    )
+    with Rollout(nthread=threads if threads > 1 else 0) as pool:
+        start = time.perf_counter()
+        pool.rollout(models, data, start_states(worlds), control)
+        return len(worlds) * steps / (time.perf_counter() - start)
+
+
+def closed_loop_rate(worlds, threads, hold):
+    """Physics steps per second of the engine."""
+    start = time.perf_counter()
+    recording = simulate(worlds, hold=hold, threads=threads)
+    return int(recording.lengths.sum()) * hold / (time.perf_counter() - start)
+
+
+def closed_loop_time(worlds, threads):
+    """Seconds that the engine takes for all worlds to their ends."""
+    start = time.perf_counter()
+    simulate(worlds, threads=threads)
+    return time.perf_counter() - start
+
+
+def best_of_rounds(cases):
+    """Best rate of each case; interleaved, so that other load on the machine meets all alike."""
+    rounds = [{name: case() for name, case in cases.items()} for _ in range(ROUNDS)]
+    return {name: max(rates[name] for rates in rounds) for name in cases}
+
+
+def bare_step_time(worlds):
+    """Seconds for the same steps of the same worlds by `mj_step(m, d, nstep)` on one thread."""
+    start = time.perf_counter()
+    for world in worlds:
+        data = mujoco.MjData(world.model)
+        data.qpos[:], data.qvel[:], data.ctrl[:] = world.qpos, world.qvel, world.ctrl
+        steps = int(np.ceil(world.duration / world.model.opt.timestep))
+        mujoco.mj_step(world.model, data, steps)
+    return time.perf_counter() - start
+
+
+def main():
+    """Prints the ratios."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("robot")
+    parser.add_argument("--threads", type=int, default=2)
+    arguments = parser.parse_args()
+    robot = read_robot(arguments.robot)
+    builder = WorldBuilder(robot, paper_device())
+    maneuvers = default_maneuvers(robot)
+    flip = replace(builder.flight(maneuvers[2], Wheels.ACTIVE), duration=SECONDS)
+    batch = [flip] * WORLDS
+    threads = arguments.threads
+    cases = {
+        "open loop": lambda: open_loop_rate(batch, threads),
+        "held 1 step": lambda: closed_loop_rate(batch, threads, 1),
+        "held 5 steps": lambda: closed_loop_rate(batch, threads, 5),
+    }
+    rates = best_of_rounds(cases)
+    print(f"{WORLDS} worlds, {threads} threads, best of {ROUNDS} interleaved rounds")
+    for name, rate in rates.items():
+        print(f"{name:14s}{rate:9.0f} steps/s, ratio {rate / rates['open loop']:.2f}")
+    six = [
+        builder.flight(maneuver, wheels)
+        for maneuver in maneuvers
+        for wheels in (Wheels.ACTIVE, Wheels.ABSENT)
+    ]
+    speeds = best_of_rounds(
+        {
+            "bare steps": lambda: 1.0 / bare_step_time(six),
+            "six runs": lambda: 1.0 / closed_loop_time(six, threads),
+        }
+    )
+    ratio = speeds["bare steps"] / speeds["six runs"]
+    print(f"six runs {1 / speeds['six runs']:.2f} s, {ratio:.2f} of bare mj_step on one thread")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,27 @@
+"""How Sphinx builds these pages: Markdown in, HTML out, nothing from the network."""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent)]
+
+from ocs_design import __version__  # noqa: E402  found through the line above
+
+project = "ocs-design"
+release = version = __version__
+author = "The ocs-design developers"
+copyright = author
+
+extensions = ["myst_parser", "mathml"]
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 3
+nitpicky = True
+
+html_theme = "furo"
+html_title = f"{project} {release}"
+html_math_renderer = "mathml"
+html_static_path = ["_static"]
+html_css_files = ["ocs.css"]
+html_show_sphinx = False
+html_copy_source = False

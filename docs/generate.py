@@ -1,0 +1,214 @@
+"""Fills in what the docs quote from the program, so that they cannot say what it does not.
+
+    python docs/generate.py            runs everything, writes the pages
+    python docs/generate.py --quick    leaves out what must be run, which takes a minute
+    python docs/generate.py --check    writes nothing; fails if a quick block is stale
+
+A block stands between `<!-- begin KIND: ARGUMENT -->` and `<!-- end -->` in a Markdown page. Kinds:
+
+    help: COMMAND          what `ocs-design COMMAND --help` prints
+    keys: SECTION          table of the keys of one section of the specification file
+    maneuver keys: KIND    table of the keys of one kind of [[maneuver]]
+    run: COMMAND LINE      what the command prints, run in an empty folder that holds `examples/`
+"""
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+
+from ocs_design.cli import app
+from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
+from ocs_design.requirement.specification import SECTIONS, keys_of
+from ocs_design.requirement.values import Choice, Quantities, Quantity, Value
+from ocs_design.units import UNITS
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+CLI_PAGE = ROOT / "docs" / "cli.md"
+WIDTH = 80
+
+OPTIONS = {"robot.joints": "--joint", "validation.enabled": "--no-validate"}
+"""Options that are not named after their key."""
+
+BLOCK = re.compile(
+    r"(?P<begin><!-- begin (?P<kind>[a-z ]+): (?P<argument>.+?) -->\n)"
+    r"(?P<body>.*?)"
+    r"(?P<end><!-- end -->)",
+    re.DOTALL,
+)
+
+
+def command_help(name: str) -> str:
+    """What `--help` prints; `ocs-design` stands for the program itself."""
+    group = typer.main.get_command(app)
+    outer = group.context_class(group, info_name="ocs-design", max_content_width=WIDTH)
+    if name == "ocs-design":
+        return fenced(group.get_help(outer))
+    command = commands()[name]
+    inner = command.context_class(command, outer, info_name=name, max_content_width=WIDTH)
+    return fenced(command.get_help(inner))
+
+
+def commands() -> Mapping[str, TyperCommand | TyperGroup]:
+    """Every command by its name, those of a group as `group command`, in the order of the app."""
+    return dict(walk(typer.main.get_command(app), ""))
+
+
+def walk(
+    group: TyperCommand | TyperGroup, prefix: str
+) -> Iterator[tuple[str, TyperCommand | TyperGroup]]:
+    """Commands below `group`, each after the group that holds it."""
+    for name, command in getattr(group, "commands", {}).items():
+        yield prefix + name, command
+        yield from walk(command, f"{prefix}{name} ")
+
+
+def section_keys(section: str) -> str:
+    """Table of one section's keys, each with its option where there is one."""
+    known = {
+        option
+        for command in commands().values()
+        for parameter in command.params
+        for option in parameter.opts
+    }
+    rows = []
+    for name, key in keys_of(SECTIONS[section]).items():
+        option = OPTIONS.get(f"{section}.{name}", f"--{name.replace('_', '-')}")
+        shown = f"`{option}`" if option in known else ""
+        rows.append((f"`{name}`", shown, accepts(key.value), key.summary))
+    return table(("key", "option", "takes", "meaning"), rows)
+
+
+def maneuver_keys(kind: str) -> str:
+    """Table of the keys of one kind of maneuver."""
+    entry = MANEUVER_KINDS[kind]
+    rows = [
+        (f"`{name}`", accepts(value), "yes" if name in entry.required else "no")
+        for name, value in entry.values.items()
+    ]
+    return table(("key", "takes", "required"), rows)
+
+
+def accepts(value: Value[object]) -> str:
+    """What a key takes, in words."""
+    match value:
+        case Quantity():
+            return f"{value.dimension}: {', '.join(UNITS[value.dimension])}"
+        case Quantities():
+            count = " or ".join(map(str, value.counts))
+            return f"{count} of {value.dimension}: {', '.join(UNITS[value.dimension])}"
+        case Choice():
+            return ", ".join(f"`{word}`" for word in value.words)
+        case _:
+            return KIND_NAMES[type(value).__name__]
+
+
+KIND_NAMES = {
+    "Text": "text",
+    "Number": "positive number",
+    "Count": "whole number",
+    "Switch": "`true` or `false`",
+    "JointValues": "table of joint = angle or length",
+}
+
+
+def run(command_line: str) -> str:
+    """The output of a command, both streams in order, in an empty folder with the examples."""
+    environment = {
+        **os.environ,
+        "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+        "COLUMNS": str(WIDTH),
+        "NO_COLOR": "1",
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "examples").symlink_to(ROOT / "examples")
+        done = subprocess.run(
+            ["bash", "-euo", "pipefail", "-c", command_line],
+            cwd=folder,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
+    if done.returncode:
+        raise SystemExit(f"exit {done.returncode}: {command_line}\n{done.stdout}")
+    return fenced(f"$ {command_line}\n{done.stdout}")
+
+
+def fenced(text: str) -> str:
+    """A block of plain text."""
+    lines = [line.rstrip() for line in text.strip("\n").splitlines()]
+    return "\n".join(["```text", *lines, "```\n"])
+
+
+def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
+    """A Markdown table."""
+    lines = [header, tuple("---" for _ in header), *rows]
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+
+
+KINDS: Mapping[str, Callable[[str], str]] = {
+    "help": command_help,
+    "keys": section_keys,
+    "maneuver keys": maneuver_keys,
+    "run": run,
+}
+QUICK = {kind: make for kind, make in KINDS.items() if kind != "run"}
+
+
+def cli_page() -> str:
+    """The command line reference, one section a command, its blocks still empty."""
+    intro = CLI_PAGE.read_text().split("\n## ", 1)[0].rstrip()
+    sections = [
+        f"## `{title}`\n\n<!-- begin help: {name} -->\n<!-- end -->\n"
+        for title, name in [("ocs-design", "ocs-design")]
+        + [(f"ocs-design {name}", name) for name in commands()]
+    ]
+    return "\n\n".join([intro, *(section.rstrip() for section in sections)]) + "\n"
+
+
+def filled(text: str, kinds: Mapping[str, Callable[[str], str]]) -> str:
+    """The page with the blocks of these kinds filled in; others are left as they are."""
+
+    def fill(block: re.Match[str]) -> str:
+        make = kinds.get(block["kind"])
+        body = block["body"] if make is None else make(block["argument"])
+        return f"{block['begin']}{body}{block['end']}"
+
+    return BLOCK.sub(fill, text)
+
+
+def page(path: Path, kinds: Mapping[str, Callable[[str], str]]) -> str:
+    """What a page should hold."""
+    return filled(cli_page() if path == CLI_PAGE else path.read_text(), kinds)
+
+
+def stale_pages() -> list[str]:
+    """Pages whose quick blocks are not what the program says."""
+    return [str(path.relative_to(ROOT)) for path in PAGES if page(path, QUICK) != path.read_text()]
+
+
+def main() -> None:
+    """Write or check."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="leave the `run` blocks as they are")
+    parser.add_argument("--check", action="store_true", help="write nothing, fail on stale pages")
+    arguments = parser.parse_args()
+    if not arguments.check:
+        for path in PAGES:
+            path.write_text(page(path, QUICK if arguments.quick else KINDS))
+    elif stale := stale_pages():
+        raise SystemExit(f"stale: {', '.join(stale)}; run python docs/generate.py")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,189 @@
+"""The command line: parse, call one function, print. No arithmetic.
+
+Heavy modules are imported inside the commands: importing them costs seconds, and `--help` needs none.
+"""
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ocs_design import cli_errors
+from ocs_design import cli_options as opt
+
+if TYPE_CHECKING:
+    from ocs_design.requirement.specification import Specification
+
+app = typer.Typer(
+    name="ocs-design",
+    help="Size, export and prove a flywheel orientation control system for a legged robot.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    add_completion=True,
+)
+
+
+def main() -> None:
+    """Entry point of `ocs-design`."""
+    sys.exit(cli_errors.run(app, sys.argv[1:]))
+
+
+@app.callback(invoke_without_command=True)
+def _version(
+    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
+) -> None:
+    if version:
+        from ocs_design import __version__
+
+        print(f"ocs-design {__version__}")
+        raise typer.Exit
+
+
+@app.command()
+def size(
+    robot: opt.RobotFile = None,
+    mass: opt.Mass = None,
+    inertia: opt.Inertia = None,
+    spec: opt.Spec = None,
+    trunk: opt.Trunk = None,
+    posture: opt.Posture = None,
+    joint: opt.Joints = None,
+    package_path: opt.PackagePaths = None,
+    rate_change: opt.RateChange = None,
+    wheel_speed_max: opt.WheelSpeedMax = None,
+    torque_max: opt.TorqueMax = None,
+    alpha: opt.Alpha = None,
+    alpha_criterion: opt.AlphaCriterion = None,
+    position: opt.Position = None,
+    r_max: opt.RMax = None,
+    r_min: opt.RMin = None,
+    h_max: opt.HMax = None,
+    h_min: opt.HMin = None,
+    wall_min: opt.WallMin = None,
+    wheel_mass_max: opt.WheelMassMax = None,
+    material: opt.MaterialName = None,
+    no_validate: opt.NoValidate = False,
+    seed: opt.Seed = None,
+    out: opt.Out = None,
+    force: opt.Force = False,
+    as_json: opt.AsJson = False,
+    strict: opt.Strict = False,
+    quiet: opt.Quiet = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """Size a device for a robot, export it and prove it in simulation.
+
+    A quantity is SI, or carries its unit: 30mm, 7200rpm, 40deg, 102g. Exit codes: 0 done, 1 a scenario
+    fails, 2 wrong usage, 3 the input cannot be read, 4 no design meets the specification.
+    """
+    from ocs_design.design_file import design_to_json
+    from ocs_design.pipeline import design_ocs
+    from ocs_design.report.console import Steps, make_console
+    from ocs_design.report.terminal import print_design, print_outcome
+
+    specification = _specification(
+        spec,
+        {
+            "robot.file": robot,
+            "robot.mass": mass,
+            "robot.inertia": inertia,
+            "robot.trunk": trunk,
+            "robot.posture": posture,
+            "robot.joints": joint or None,
+            "requirement.rate_change": rate_change,
+            "requirement.wheel_speed_max": wheel_speed_max,
+            "motor.torque_max": torque_max,
+            "ocs.alpha": alpha,
+            "ocs.alpha_criterion": alpha_criterion,
+            "ocs.position": position,
+            "flywheel.r_max": r_max,
+            "flywheel.r_min": r_min,
+            "flywheel.h_max": h_max,
+            "flywheel.h_min": h_min,
+            "flywheel.wall_min": wall_min,
+            "flywheel.wheel_mass_max": wheel_mass_max,
+            "flywheel.material": material,
+            "validation.enabled": False if no_validate else None,
+            "validation.seed": seed,
+        },
+    )
+    console = make_console(color=not no_color)
+    outcome = design_ocs(
+        specification,
+        out=out,
+        package_paths=_package_paths(package_path),
+        force=force,
+        strict=strict,
+        steps=Steps(console, quiet=quiet or as_json),
+    )
+    if as_json:
+        sys.stdout.buffer.write(design_to_json(outcome.design))
+    elif not quiet:
+        print_design(console, outcome.design)
+        print_outcome(console, outcome.design, outcome.folder)
+    raise typer.Exit(outcome.exit_code)
+
+
+@app.command()
+def inspect(
+    robot: opt.RobotFile = None,
+    mass: opt.Mass = None,
+    inertia: opt.Inertia = None,
+    spec: opt.Spec = None,
+    trunk: opt.Trunk = None,
+    posture: opt.Posture = None,
+    joint: opt.Joints = None,
+    package_path: opt.PackagePaths = None,
+    as_json: opt.AsJson = False,
+    strict: opt.Strict = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """Show what is read from a robot: mass, inertia, posture, incidence angles, warnings."""
+    from ocs_design.inspection import inspect_robot, inspection_to_json
+    from ocs_design.report.console import make_console
+    from ocs_design.report.inspection import print_inspection
+
+    specification = _specification(
+        spec,
+        {
+            "robot.file": robot,
+            "robot.mass": mass,
+            "robot.inertia": inertia,
+            "robot.trunk": trunk,
+            "robot.posture": posture,
+            "robot.joints": joint or None,
+        },
+    )
+    inspection = inspect_robot(
+        specification, package_paths=_package_paths(package_path), strict=strict
+    )
+    if as_json:
+        sys.stdout.buffer.write(inspection_to_json(inspection))
+    else:
+        print_inspection(make_console(color=not no_color), inspection)
+
+
+def _specification(file: Path | None, options: Mapping[str, object]) -> "Specification":
+    """The specification file with the options over it."""
+    from ocs_design.requirement.options import specification_from_options
+    from ocs_design.requirement.reading import read_specification
+    from ocs_design.requirement.specification import Specification, merge
+
+    base = Specification() if file is None else read_specification(file)
+    return merge(base, specification_from_options(options))
+
+
+def _package_paths(texts: list[str] | None) -> Mapping[str, Path]:
+    """`NAME=DIR` pairs of `--package-path`."""
+    from ocs_design.exceptions import UsageError
+
+    found = {}
+    for text in texts or []:
+        name, separator, folder = text.partition("=")
+        if not (name and separator and folder):
+            raise UsageError(f"--package-path {text}: is not NAME=DIR")
+        found[name] = Path(folder)
+    return found

@@ -1,0 +1,78 @@
+"""From an exception to one panel, one JSON document and an exit code."""
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+
+import click
+import typer
+
+from ocs_design.exceptions import OcsError, SpecificationError
+
+SCHEMA_VERSION = 1
+INTERRUPTED = 130
+BROKEN_PIPE = 141
+
+
+def run(app: typer.Typer, arguments: Sequence[str]) -> int:
+    """Run the command line and return its exit code; only bugs escape as exceptions."""
+    _never_fail_on_encoding()
+    as_json = "--json" in arguments
+    command = typer.main.get_command(app)
+    try:
+        result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
+        return result if isinstance(result, int) else 0
+    except OcsError as error:
+        return _report(error, as_json=as_json)
+    except click.Abort:
+        print("interrupted; nothing was written", file=sys.stderr)
+        return INTERRUPTED
+    except click.ClickException as error:
+        return _report_usage(error, as_json=as_json)
+    except KeyboardInterrupt:
+        print("interrupted; nothing was written", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader left, as `head` does; Python would complain once more when it flushes at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+
+
+def _never_fail_on_encoding() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+
+
+def _report(error: OcsError, *, as_json: bool) -> int:
+    if as_json:
+        _print_json(error.kind, error.message, error.hint, error.data())
+    else:
+        lines = [error.message]
+        if isinstance(error, SpecificationError):
+            lines += [f"  - {problem}" for problem in error.problems]
+        _print_panel(lines, error.hint)
+    return error.exit_code
+
+
+def _report_usage(error: click.ClickException, *, as_json: bool) -> int:
+    context = error.ctx if isinstance(error, click.UsageError) else None
+    hint = f"see `{context.command_path} --help`" if context else ""
+    if as_json:
+        _print_json("usage", error.format_message(), hint, {})
+    else:
+        _print_panel([error.format_message()], hint)
+    return 2
+
+
+def _print_json(kind: str, message: str, hint: str, data: object) -> None:
+    fields = dict(data) if isinstance(data, dict) else {}
+    document = {"kind": kind, "message": message, "hint": hint, **fields}
+    print(json.dumps({"schema_version": SCHEMA_VERSION, "error": document}, indent=2))
+
+
+def _print_panel(lines: Sequence[str], hint: str) -> None:
+    from ocs_design.report.console import error_panel  # noqa: PLC0415  rich costs 80 ms
+
+    error_panel(lines, hint)

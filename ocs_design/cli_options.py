@@ -1,0 +1,128 @@
+"""Options that commands share, each declared once; texts are read by the specification's table."""
+
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+import typer
+
+Text: TypeAlias = str | None
+
+RobotFile: TypeAlias = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="ROBOT",
+        help="URDF, xacro or MJCF file, may be gzipped; - reads standard input. "
+        "By hand instead: --mass and --inertia.",
+    ),
+]
+Mass: TypeAlias = Annotated[
+    Text, typer.Option("--mass", metavar="MASS", help="Robot by hand: its mass, e.g. 2.5 or 2500g.")
+]
+Inertia: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--inertia",
+        metavar="IXX,IYY,IZZ[,IXY,IXZ,IYZ]",
+        help="Robot by hand: inertia about its centre of mass [kg m2].",
+    ),
+]
+Spec: TypeAlias = Annotated[
+    Path | None, typer.Option("--spec", metavar="FILE", help="Specification file (TOML).")
+]
+Trunk: TypeAlias = Annotated[
+    Text,
+    typer.Option("--trunk", metavar="LINK", help="Link that carries the device. Default: found."),
+]
+Posture: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--posture",
+        metavar="NAME",
+        help="zero, stand, or a keyframe or SRDF state. Default: stand where legs are found.",
+    ),
+]
+Joints: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option("--joint", metavar="NAME=VALUE", help="Value of one joint; repeatable."),
+]
+PackagePaths: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--package-path", metavar="NAME=DIR", help="Where package://NAME lies; repeatable."
+    ),
+]
+RateChange: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--rate-change", metavar="RATE", help="Change of the trunk's rate to be able to make."
+    ),
+]
+WheelSpeedMax: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--wheel-speed-max", metavar="SPEED", help="Highest wheel speed. Default: 7200rpm."
+    ),
+]
+TorqueMax: TypeAlias = Annotated[
+    Text,
+    typer.Option("--torque-max", metavar="TORQUE", help="Torque of a wheel. Default: not limited."),
+]
+Alpha: TypeAlias = Annotated[
+    Text, typer.Option("--alpha", metavar="ANGLE", help="Incidence angle, e.g. 40deg.")
+]
+AlphaCriterion: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--alpha-criterion",
+        metavar="NAME",
+        help="equal-rate (default), weighted, simultaneous, pitch or roll.",
+    ),
+]
+Position: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--position", metavar="X,Y,Z", help="Centre of the left wheel in the trunk's frame."
+    ),
+]
+RMax: TypeAlias = Annotated[
+    Text, typer.Option("--r-max", metavar="LENGTH", help="Largest outer radius, e.g. 30mm.")
+]
+RMin: TypeAlias = Annotated[
+    Text, typer.Option("--r-min", metavar="LENGTH", help="Smallest bore radius.")
+]
+HMax: TypeAlias = Annotated[
+    Text, typer.Option("--h-max", metavar="LENGTH", help="Largest height of the rim.")
+]
+HMin: TypeAlias = Annotated[
+    Text, typer.Option("--h-min", metavar="LENGTH", help="Smallest height of the rim.")
+]
+WallMin: TypeAlias = Annotated[
+    Text, typer.Option("--wall-min", metavar="LENGTH", help="Smallest wall of the rim.")
+]
+WheelMassMax: TypeAlias = Annotated[
+    Text, typer.Option("--wheel-mass-max", metavar="MASS", help="Largest mass of one rim.")
+]
+MaterialName: TypeAlias = Annotated[
+    Text, typer.Option("--material", metavar="NAME", help="See `ocs-design catalogue materials`.")
+]
+NoValidate: TypeAlias = Annotated[
+    bool, typer.Option("--no-validate", help="Do not simulate the maneuvers.")
+]
+Seed: TypeAlias = Annotated[
+    int | None, typer.Option("--seed", metavar="N", help="Seed of all random numbers.")
+]
+Out: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("-o", "--out", metavar="DIR", help="Output folder. Default: <name>-ocs."),
+]
+Force: TypeAlias = Annotated[
+    bool, typer.Option("--force", help="Replace an output folder that exists, once complete.")
+]
+AsJson: TypeAlias = Annotated[
+    bool, typer.Option("--json", help="Print one JSON document on standard output.")
+]
+Strict: TypeAlias = Annotated[
+    bool, typer.Option("--strict", help="Warnings about the robot are errors.")
+]
+Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
+NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]

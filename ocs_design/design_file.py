@@ -1,0 +1,271 @@
+"""`design.json`: the one artefact that other commands and programs read.
+
+Field names and units are the contract of `docs/design-json.md`: SI, radians, the base frame B, full
+double precision. The dataclasses are the schema; a change of meaning needs a new `SCHEMA_VERSION`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from ocs_design.arrays import FloatArray
+from ocs_design.exceptions import OcsError
+from ocs_design.robot.robot import Robot
+
+SCHEMA_VERSION = 1
+
+Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]
+
+
+def vector(values: FloatArray) -> Vector:
+    """Three numbers as a tuple."""
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def matrix(values: FloatArray) -> Matrix:
+    """Three rows as tuples."""
+    first, second, third = (vector(row) for row in values)
+    return first, second, third
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tool:
+    """Who wrote the file."""
+
+    name: str
+    version: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotRecord:
+    """The robot alone, in the frame of its trunk; see `robot.Robot`."""
+
+    name: str
+    source: str
+    sha256: str
+    format: str
+    trunk: str
+    floating_base: str
+    posture_name: str
+    posture: Mapping[str, float]
+    legs: tuple[str, ...]
+    standing_height: float | None
+    mass: float
+    com: Vector
+    inertia: Matrix
+    warnings: tuple[str, ...]
+
+    @classmethod
+    def of(cls, robot: Robot) -> "RobotRecord":
+        """The record of a robot that was read."""
+        return cls(
+            name=robot.name,
+            source=robot.source,
+            sha256=robot.sha256,
+            format=str(robot.format),
+            trunk=robot.trunk,
+            floating_base=robot.floating_base,
+            posture_name=robot.posture_name,
+            posture=dict(robot.posture),
+            legs=tuple(leg.name for leg in robot.legs),
+            standing_height=robot.standing_height,
+            mass=robot.mass,
+            com=vector(robot.com),
+            inertia=matrix(robot.inertia),
+            warnings=robot.warnings,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ManeuverRecord:
+    """A maneuver: its kind, and the fields of that kind (SI)."""
+
+    kind: str
+    name: str
+    gravity: float
+    incidence: float | None
+    parameters: Mapping[str, float | tuple[float, ...]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DemandRecord:
+    """What one source of demand asks of each wheel at its incidence angle."""
+
+    source: str
+    incidence: float
+    roll_momentum: float
+    pitch_momentum: float
+    spin_inertia: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxisInertia:
+    """Inertia of the one-wheel model that the wheels must present on each axis [kg m^2]."""
+
+    pitch: float
+    roll: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RequirementRecord:
+    """What was asked of the device, and everything that was assumed to ask it."""
+
+    maneuvers: tuple[ManeuverRecord, ...]
+    rate_change: float | None
+    wheel_speed_max: float
+    required_inertia: AxisInertia
+    spin_inertia_by_hand: float | None
+    demands: tuple[DemandRecord, ...]
+    assumptions: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModuleRecord:
+    """One module in B."""
+
+    name: Literal["left", "right"]
+    axis: Vector
+    position: Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlywheelRecord:
+    """See `design.Flywheel`."""
+
+    inner_radius: float
+    outer_radius: float
+    height: float
+    material: str
+    density: float
+    mass: float
+    spin_inertia: float
+    transverse_inertia: float
+    hoop_stress: float | None
+    stress_margin: float | None
+    stored_energy: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotorRecord:
+    """See `design.Motor`."""
+
+    name: str
+    mass: float
+    stall_torque: float | None
+    no_load_speed: float
+    torque_limit: float | None
+    rotor_inertia: float
+    source: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsRecord:
+    """The device. `mass_total` is of both modules; `total_...` of robot and braked device."""
+
+    incidence: float
+    incidence_criterion: str
+    incidence_by_criterion: Mapping[str, float]
+    incidence_by_criterion_robot_alone: Mapping[str, float]
+    heading_drift: tuple[float, float]
+    spin_inertia: float
+    mass_total: float
+    total_mass: float
+    total_inertia: Matrix
+    total_com: Vector
+    modules: tuple[ModuleRecord, ModuleRecord]
+    flywheel: FlywheelRecord
+    motor: MotorRecord
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizingRecord:
+    """How the optimum was found. Shadow prices: kg of one rim per SI unit of the limit."""
+
+    status: str
+    method: str
+    objective: float
+    binding: tuple[str, ...]
+    shadow_prices: Mapping[str, float]
+    gap: float
+    residual: float
+    iterations: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class MarginRecord:
+    """Demand against capacity; `margin` is capacity over demand, None where there is no limit."""
+
+    name: str
+    demand: float
+    capacity: float | None
+    unit: str
+    margin: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ValidationRecord:
+    """One simulated run. `passed` is None where it could not be judged; `reason` says why.
+
+    `note` says how the turn was changed to suit the wheels; empty if it was not.
+    """
+
+    scenario: str
+    ocs: bool
+    passed: bool | None
+    reason: str
+    note: str
+    metrics: Mapping[str, float | bool | None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsDesign:
+    """A designed, exported and simulated orientation control system."""
+
+    schema_version: int
+    tool: Tool
+    seed: int
+    robot: RobotRecord
+    requirement: RequirementRecord
+    ocs: OcsRecord
+    sizing: SizingRecord
+    margins: tuple[MarginRecord, ...]
+    validation: tuple[ValidationRecord, ...]
+    files: Mapping[str, str]
+
+
+def design_to_json(design: OcsDesign) -> bytes:
+    """The artefact as indented UTF-8 JSON; numbers that are not finite are null."""
+    return msgspec.json.format(msgspec.json.encode(design), indent=2) + b"\n"
+
+
+def read_design(path: Path) -> OcsDesign:
+    """Read a `design.json`.
+
+    Raises:
+        OcsError: the file cannot be read, or is not a design of this schema version.
+    """
+    try:
+        content = path.read_bytes()
+        version = msgspec.json.decode(content, type=_Version).schema_version
+    except OSError as error:
+        raise OcsError(f"{path}: {error.strerror}", hint="give the path of a design.json") from error
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise OcsError(f"{path}: not a design.json: {error}") from error
+    if version != SCHEMA_VERSION:
+        raise OcsError(
+            f"{path}: schema_version {version}, but this version reads {SCHEMA_VERSION}",
+            hint="run `ocs-design size` again to write it anew",
+        )
+    try:
+        return msgspec.json.decode(content, type=OcsDesign)
+    except msgspec.DecodeError as error:
+        raise OcsError(f"{path}: {error}", hint="run `ocs-design size` again") from error
+
+
+class _Version(msgspec.Struct):
+    schema_version: int

@@ -1,0 +1,40 @@
+"""The whole robot with its device as a MJCF model."""
+
+from pathlib import Path, PurePath
+
+import mujoco
+
+from ocs_design.design import Device
+from ocs_design.export.attach import attach_device
+from ocs_design.export.mjcf_precision import precise_xml
+from ocs_design.export.urdf import WHEEL_MESH
+from ocs_design.robot.mjcf_spec import compiled
+from ocs_design.robot.mujoco_model import build_spec
+from ocs_design.robot.robot import Robot
+
+_MESHES = PurePath(WHEEL_MESH).parent
+
+
+def export_robot_mjcf(robot: Robot, device: Device, path: Path) -> Path:
+    """Write the robot with both flywheels on its trunk, its meshes and textures beside it.
+
+    The model refers to nothing outside its folder, which can be moved. It has no floor.
+
+    Args:
+        robot: that carries the device.
+        device: to add.
+        path: of the model.
+    """
+    spec = build_spec(robot).spec
+    attach_device(spec, robot, device)
+    spec.compiler.saveinertial = True
+    text = precise_xml(spec, compiled(spec), assets=str(_MESHES))
+    path.write_bytes(text.encode("utf-8"))
+    _write_assets(spec, path.parent / _MESHES)
+    return path
+
+
+def _write_assets(spec: mujoco.MjSpec, folder: Path) -> None:
+    for name, content in spec.assets.items():
+        folder.mkdir(exist_ok=True)
+        (folder / name).write_bytes(content)

@@ -1,0 +1,47 @@
+"""Fills the texts in `templates/` with numbers and names."""
+
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from string import Template
+from xml.sax.saxutils import escape
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+
+class _AtTemplate(Template):
+    """`@name` is replaced: dollars and braces belong to xacro."""
+
+    delimiter = "@"
+
+
+def fill(template: str, values: dict[str, str]) -> str:
+    """The text of `templates/<template>` with each `@name` replaced.
+
+    Args:
+        template: file name.
+        values: ready to stand in XML; see `quoted` and `numbers`.
+    """
+    return _AtTemplate((_folder() / template).read_text(encoding="utf-8")).substitute(values)
+
+
+def _folder() -> Traversable:
+    """Inside the package when installed from a wheel, else at the top of the repository."""
+    installed = files("ocs_design") / "templates"
+    return installed if installed.is_dir() else Path(__file__).parents[2] / "templates"
+
+
+def quoted(text: str) -> str:
+    """Text for an XML attribute in double quotes."""
+    return escape(text, {'"': "&quot;", "\n": "&#10;", "\t": "&#9;"})
+
+
+def in_comment(text: str) -> str:
+    """Text for an XML comment, in which two hyphens may not stand together."""
+    return text.replace("--", "- -").removesuffix("-")
+
+
+def numbers(values: ArrayLike) -> str:
+    """Numbers with spaces between them, each in the fewest digits that read back the same."""
+    return " ".join(repr(float(value)) for value in np.ravel(values))

@@ -1,0 +1,21 @@
+"""Time series of a simulated run as CSV, SI units in the heading."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+
+
+def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:
+    """Write named columns of equal length, six significant digits.
+
+    Args:
+        columns: values by heading, shape (k,) each.
+        path: of the CSV.
+    """
+    table = np.column_stack(list(columns.values()))
+    rows = [",".join([f"{value:.6g}" for value in row]) for row in table.tolist()]
+    path.write_text("\n".join([",".join(columns), *rows, ""]), encoding="utf-8")
+    return path

@@ -1,0 +1,48 @@
+"""The whole robot with its device as a URDF."""
+
+from pathlib import Path
+
+from ocs_design.design import Device
+from ocs_design.export.device_urdf import device_urdf
+from ocs_design.export.insertion import insert_before_end
+from ocs_design.export.naming import flywheel_names, joint_names, require_free
+from ocs_design.export.stl import METRES, export_stl
+from ocs_design.export.templates import in_comment
+from ocs_design.export.tree_urdf import tree_urdf
+from ocs_design.robot.remarks import Remarks
+from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.urdf_xml import parse_xml
+
+WHEEL_MESH = "meshes/ocs_flywheel.stl"
+"""Beside every exported robot file."""
+
+
+def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
+    """Write the robot with both flywheels on its trunk, and the wheel's mesh beside it.
+
+    A URDF robot stays as it is byte for byte, its references to meshes too: those relative to the
+    file hold only where the file stood. Other robots are written from what was read.
+
+    Args:
+        robot: that carries the device.
+        device: to add.
+        path: of the URDF.
+    """
+    content = robot.content if robot.format is Format.URDF else tree_urdf(robot.tree).encode()
+    root = parse_xml(content, Remarks())
+    for kind, names in (("link", flywheel_names(device)), ("joint", joint_names(device))):
+        require_free(kind, (each.get("name", "") for each in root.iter(kind)), names)
+    heading = (
+        f"  <!-- Orientation control system on {in_comment(robot.trunk)}, by ocs-design. -->\n"
+    )
+    elements = device_urdf(device, robot.trunk, mesh=WHEEL_MESH)
+    path.write_bytes(insert_before_end(content, heading + elements))
+    export_wheel_mesh(device, path.parent)
+    return path
+
+
+def export_wheel_mesh(device: Device, folder: Path) -> Path:
+    """Write the wheel in metres where the robot files in `folder` look for it."""
+    path = folder / WHEEL_MESH
+    path.parent.mkdir(exist_ok=True)
+    return export_stl(device.flywheel, path, units_per_metre=METRES)

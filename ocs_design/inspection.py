@@ -1,0 +1,76 @@
+"""What `inspect` shows: the robot, its incidence angles, and how they move with its posture."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from ocs_design.design_file import SCHEMA_VERSION, RobotRecord, vector
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.stated_robot import read_stated_robot
+from ocs_design.robot.sensitivity import PostureRow, posture_sensitivity
+from ocs_design.sizing.incidence import Criterion, heading_drift, incidence_by_criterion
+
+
+@dataclass(frozen=True, kw_only=True)
+class PostureLine:
+    """The robot in one posture: principal diagonal of its locked inertia, and alpha* (equal-rate)."""
+
+    posture: str
+    inertia_diagonal: tuple[float, float, float]
+    incidence: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inspection:
+    """Everything that is known of a robot without a device."""
+
+    schema_version: int
+    robot: RobotRecord
+    joints: int
+    links: int
+    incidence_by_criterion: Mapping[str, float]
+    heading_drift: tuple[float, float]
+    incidence_by_posture: tuple[PostureLine, ...]
+
+
+def inspect_robot(
+    specification: Specification,
+    *,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Inspection:
+    """Read the robot of a specification and measure it over plausible postures.
+
+    Raises:
+        OcsError: see `read_stated_robot`.
+    """
+    robot = read_stated_robot(specification, package_paths=package_paths, strict=strict)
+    roll, pitch = heading_drift(robot.inertia)
+    return Inspection(
+        schema_version=SCHEMA_VERSION,
+        robot=RobotRecord.of(robot),
+        joints=len(robot.tree.joints),
+        links=len(robot.tree.body_of_link),
+        incidence_by_criterion={
+            str(name): angle for name, angle in incidence_by_criterion(robot.inertia).items()
+        },
+        heading_drift=(float(roll), float(pitch)),
+        incidence_by_posture=tuple(_line(row) for row in posture_sensitivity(robot)),
+    )
+
+
+def inspection_to_json(inspection: Inspection) -> bytes:
+    """As indented UTF-8 JSON."""
+    return msgspec.json.format(msgspec.json.encode(inspection), indent=2) + b"\n"
+
+
+def _line(row: PostureRow) -> PostureLine:
+    inertia = row.mass_properties.inertia
+    return PostureLine(
+        posture=row.label,
+        inertia_diagonal=vector(np.diag(inertia)),
+        incidence=incidence_by_criterion(inertia)[Criterion.EQUAL_RATE],
+    )

@@ -1,0 +1,172 @@
+"""The whole chain on one page: read, require, size, export, prove, record."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ocs_design.assembly import assemble
+from ocs_design.design import Device
+from ocs_design.design_file import OcsDesign, design_to_json
+from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
+from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.snippets import (
+    export_snippet_mjcf,
+    export_snippet_urdf,
+    export_snippet_xacro,
+)
+from ocs_design.export.stl import MILLIMETRES, export_stl
+from ocs_design.export.time_series import export_time_series
+from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.recording import BY_HAND, record_design
+from ocs_design.report.console import Steps
+from ocs_design.requirement.resolving import Resolved, resolve
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.stated_robot import read_stated_robot
+from ocs_design.robot.bounds import size
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.controller import Allocation, Gains
+from ocs_design.simulation.engine import Progress
+from ocs_design.simulation.scenario import Options, Run, run_scenarios
+from ocs_design.simulation.world import wheel_gains
+from ocs_design.sizing.device_sizing import DeviceSizing, size_device
+from ocs_design.sizing.incidence import Criterion
+from ocs_design.sizing.placement import place_at, place_on_top
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What came out.
+
+    Attributes:
+        design: the artefact.
+        folder: where everything was written.
+        robot, device, runs: the live values behind the artefact.
+    """
+
+    design: OcsDesign
+    folder: Path
+    robot: Robot
+    device: Device
+    runs: tuple[Run, ...]
+
+    @property
+    def exit_code(self) -> int:
+        """0, or 1 if a scenario does not pass with the device."""
+        failed = any(run.ocs and run.passed is not True for run in self.runs)
+        return 1 if failed else 0
+
+
+def design_ocs(
+    specification: Specification,
+    *,
+    out: Path | None = None,
+    package_paths: Mapping[str, Path] | None = None,
+    force: bool = False,
+    strict: bool = False,
+    steps: Steps | None = None,
+) -> Outcome:
+    """Size a device for a robot, write it, fly it, and record all of it in one folder.
+
+    Args:
+        specification: what was stated, from a file, from options or made in Python.
+        out: the folder; None: `<name>-ocs` in the working directory.
+        package_paths: folder of each package that `package://` addresses name.
+        force: replace an existing output folder, once the new one is complete.
+        strict: warnings about the robot are errors.
+        steps: where progress goes; None: nowhere.
+
+    Raises:
+        OcsError: see `exceptions`; nothing is written then.
+    """
+    steps = steps or Steps.silent()
+    with steps.step("read the robot") as step:
+        robot = read_stated_robot(specification, package_paths=package_paths, strict=strict)
+        folder = out or Path(f"{safe_name(robot.name)}-ocs")
+        check_target(folder, force=force)
+        step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
+    with steps.step("size the device"):
+        extent = size(robot.tree, robot.posture, robot.trunk)
+        resolved = resolve(specification, robot, extent)
+        sizing, criterion = _size(specification, robot, resolved)
+        device = assemble(sizing, resolved)
+    with staged_folder(folder, force=force) as staging:
+        with steps.step("export parts and robot files"):
+            _export(robot, device, staging)
+        with steps.step("fly the maneuvers with and without the device") as step:
+            runs = _fly(specification, robot, device, resolved, step.update)
+            _write_runs(runs, staging)
+        design = record_design(
+            robot,
+            resolved,
+            sizing,
+            device,
+            runs,
+            criterion=criterion,
+            seed=specification.validation.seed or 0,
+            files=file_hashes(staging),
+        )
+        (staging / DESIGN_FILE).write_bytes(design_to_json(design))
+    return Outcome(design, folder, robot, device, runs)
+
+
+def safe_name(name: str) -> str:
+    """A robot's name as a file name."""
+    return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
+
+
+def _size(
+    specification: Specification, robot: Robot, resolved: Resolved
+) -> tuple[DeviceSizing, str]:
+    stated = specification.ocs
+    criterion = Criterion(stated.alpha_criterion or Criterion.EQUAL_RATE)
+    sizing = size_device(
+        robot.mass_properties,
+        resolved.requirement,
+        resolved.envelope,
+        resolved.material,
+        place_on_top(robot) if stated.position is None else place_at(stated.position),
+        incidence=stated.alpha,
+        criterion=criterion,
+    )
+    return sizing, BY_HAND if stated.alpha is not None else str(criterion)
+
+
+def _export(robot: Robot, device: Device, folder: Path) -> None:
+    name = safe_name(robot.name)
+    for subfolder in ("cad", "robot", "snippets"):
+        (folder / subfolder).mkdir()
+    export_stl(device.flywheel, folder / "cad" / "flywheel.stl", units_per_metre=MILLIMETRES)
+    export_robot_urdf(robot, device, folder / "robot" / f"{name}_ocs.urdf")
+    export_robot_mjcf(robot, device, folder / "robot" / f"{name}_ocs.xml")
+    export_snippet_urdf(device, robot.trunk, folder / "snippets" / "ocs.urdf")
+    export_snippet_xacro(device, robot.trunk, folder / "snippets" / "ocs.urdf.xacro")
+    export_snippet_mjcf(device, robot.trunk, folder / "snippets" / "ocs.xml")
+
+
+def _fly(
+    specification: Specification,
+    robot: Robot,
+    device: Device,
+    resolved: Resolved,
+    progress: Progress,
+) -> tuple[Run, ...]:
+    stated = specification.validation
+    if stated.enabled is False:
+        return ()
+    default = wheel_gains(robot)
+    options = Options(
+        allocation=Allocation(stated.projection or Allocation.PSEUDO_INVERSE),
+        gains=Gains(stated.kp or default.stiffness, stated.kd or default.damping),
+    )
+    return run_scenarios(
+        robot, device, resolved.requirement.maneuvers, options=options, progress=progress
+    )
+
+
+def _write_runs(runs: Sequence[Run], folder: Path) -> None:
+    if runs:
+        (folder / "validation").mkdir()
+    for run in runs:
+        name = f"{safe_name(run.scenario)}_{'with' if run.ocs else 'without'}_ocs.csv"
+        export_time_series(run.series.columns(), folder / "validation" / name)

@@ -1,0 +1,95 @@
+"""Where people read: standard error, at any width, with or without colour."""
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.panel import Panel
+from rich.progress import (
+    BarColumn,
+    Progress,
+    SpinnerColumn,
+    TaskID,
+    TextColumn,
+    TimeElapsedColumn,
+)
+from rich.text import Text
+
+NARROWEST = 60
+WIDEST = 110
+
+
+def make_console(*, color: bool = True) -> Console:
+    """A console on standard error; NO_COLOR and pipes are respected by rich itself."""
+    console = Console(stderr=True, no_color=True if not color else None, highlight=False)
+    console.width = min(max(console.width, NARROWEST), WIDEST)
+    return console
+
+
+def error_panel(lines: Sequence[str], hint: str) -> None:
+    """One panel with what is wrong and how to mend it."""
+    console = make_console()
+    text = Text("\n".join(lines))
+    if hint:
+        text.append("\n\n" + hint, style="bold")
+    console.print(Panel(text, title="error", title_align="left", border_style="red"))
+
+
+class Steps:
+    """Progress of a command: each step is shown while it runs and kept with its time when done.
+
+    On a terminal a spinner or bar moves; in a pipe each finished step is one plain line.
+    """
+
+    def __init__(self, console: Console, *, quiet: bool = False) -> None:
+        self._console = console
+        self._quiet = quiet
+
+    @classmethod
+    def silent(cls) -> "Steps":
+        """Nothing is printed."""
+        return cls(make_console(), quiet=True)
+
+    @contextmanager
+    def step(self, label: str) -> Iterator["Step"]:
+        """One step; `Step.update` moves its bar."""
+        start = time.perf_counter()
+        if self._quiet or not self._console.is_terminal:
+            current = Step()
+            yield current
+        else:
+            with _bar(self._console) as progress:
+                task = progress.add_task(label, total=None)
+                current = Step(progress, task)
+                yield current
+        if not self._quiet:
+            seconds = time.perf_counter() - start
+            note = f"  {current.note}" if current.note else ""
+            self._console.print(f"[dim]{seconds:6.2f} s[/dim]  {label}{note}", soft_wrap=True)
+
+
+class Step:
+    """Handle of a running step. `note` is appended to its line when it is done."""
+
+    def __init__(self, progress: Progress | None = None, task: TaskID = TaskID(0)) -> None:
+        self.note = ""
+        self._progress = progress
+        self._task = task
+
+    def update(self, fraction: float) -> None:
+        """Move the bar to `fraction` of the step."""
+        if self._progress is not None:
+            self._progress.update(self._task, total=1.0, completed=fraction)
+
+
+def _bar(console: Console) -> Progress:
+    return Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=24),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+    )
+

@@ -1,0 +1,63 @@
+"""What `inspect` prints."""
+
+import numpy as np
+from rich.console import Console
+from rich.text import Text
+
+from ocs_design.inspection import Inspection
+from ocs_design.report.terminal import columns, facts, heading, print_robot, show
+
+PAPER_ANGLE = (
+    "The paper states about 40 deg for Solo12; its own formula gives that only with the legs spread "
+    "by about 0.75 to 1 rad."
+)
+
+
+def print_inspection(console: Console, inspection: Inspection) -> None:
+    """Mass, posture, inertia, incidence angles and how they move with the posture."""
+    robot = inspection.robot
+    print_robot(console, robot)
+    facts(
+        console,
+        [
+            ("read from", f"{robot.source} ({robot.format})"),
+            ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
+            ("legs", ", ".join(robot.legs) or "none found"),
+            (
+                "heading drift",
+                f"{inspection.heading_drift[0]:+.3f} rad of yaw per rad of roll, "
+                f"{inspection.heading_drift[1]:+.3f} per rad of pitch",
+            ),
+        ],
+    )
+    _print_criteria(console, inspection)
+    _print_postures(console, inspection)
+    _print_joints(console, inspection)
+
+
+def _print_criteria(console: Console, inspection: Inspection) -> None:
+    heading(console, "Incidence angle alpha* of the robot alone, by criterion")
+    table = columns("criterion", "deg")
+    for name, angle in inspection.incidence_by_criterion.items():
+        table.add_row(name, f"{np.degrees(angle):.3f}")
+    show(console, table)
+
+
+def _print_postures(console: Console, inspection: Inspection) -> None:
+    heading(console, "Incidence angle (equal-rate) over postures")
+    table = columns("posture", "Ixx\nkg m2", "Iyy\nkg m2", "Izz\nkg m2", "alpha*\ndeg")
+    for line in inspection.incidence_by_posture:
+        moments = (f"{moment:.4g}" for moment in line.inertia_diagonal)
+        table.add_row(Text(line.posture), *moments, f"{np.degrees(line.incidence):.2f}")
+    show(console, table)
+    console.print(Text(f"  {PAPER_ANGLE}", style="dim"))
+
+
+def _print_joints(console: Console, inspection: Inspection) -> None:
+    if not inspection.robot.posture:
+        return
+    heading(console, f"Joints at {inspection.robot.posture_name}")
+    table = columns("joint", "rad or m", "deg")
+    for name, value in inspection.robot.posture.items():
+        table.add_row(Text(name), f"{value:.4f}", f"{np.degrees(value):.1f}")
+    show(console, table)

@@ -1,0 +1,245 @@
+"""The story of a design in the terminal: what was read, asked, found, proved and written."""
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from ocs_design.design_file import OcsDesign, RobotRecord, ValidationRecord
+from ocs_design.report.quantities import degrees, grams, inertia, megapascals, millimetres, rpm
+
+VERDICTS = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not judged", "yellow")}
+
+
+def print_design(console: Console, design: OcsDesign) -> None:
+    """The whole report of `size`."""
+    print_robot(console, design.robot)
+    _print_requirement(console, design)
+    _print_device(console, design)
+    _print_limits(console, design)
+    _print_margins(console, design)
+    _print_validation(console, design)
+
+
+def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
+    """What was written, and the verdict in one line."""
+    heading(console, f"Written to {folder}/")
+    for group in sorted({name.split("/")[0] for name in design.files}):
+        names = [name.partition("/")[2] for name in design.files if name.startswith(f"{group}/")]
+        console.print(Padding(Text(f"{group}/  {'  '.join(names)}"), (0, 0, 0, 2)))
+    console.print(Padding(Text("design.json"), (0, 0, 0, 2)))
+    with_device = [run for run in design.validation if run.ocs]
+    if with_device:
+        passed = sum(run.passed is True for run in with_device)
+        style = "bold green" if passed == len(with_device) else "bold red"
+        console.print()
+        console.print(
+            Text(f"{passed} of {len(with_device)} scenarios pass with the device", style=style)
+        )
+
+
+def print_robot(console: Console, robot: RobotRecord) -> None:
+    """What was read: mass, trunk, posture, locked inertia."""
+    heading(console, f"Robot: {robot.name}")
+    trunk = robot.trunk
+    if robot.floating_base != trunk:
+        trunk += f" (floating base: {robot.floating_base})"
+    posture = robot.posture_name
+    if robot.standing_height is not None:
+        posture += f", trunk {millimetres(robot.standing_height, 0)} over the feet"
+    com = ", ".join(f"{1e3 * value:.1f}" for value in robot.com)
+    diagonal = "  ".join(f"{robot.inertia[i][i]:.4g}" for i in range(3))
+    products = "  ".join(f"{robot.inertia[i][j]:.2g}" for i, j in ((0, 1), (0, 2), (1, 2)))
+    facts(
+        console,
+        [
+            ("mass", f"{robot.mass:.4g} kg"),
+            ("trunk", trunk),
+            ("posture", posture),
+            ("centre of mass", f"{com} mm in the trunk frame"),
+            ("locked inertia", f"{diagonal} kg m2 (xx yy zz, about the centre of mass)"),
+            ("products", f"{products} kg m2 (xy xz yz)"),
+        ],
+    )
+    print_warnings(console, robot.warnings)
+
+
+def print_warnings(console: Console, warnings: Sequence[str]) -> None:
+    """One line each."""
+    for warning in warnings:
+        console.print(Padding(Text(f"warning: {warning}", style="yellow"), (0, 0, 0, 2)))
+
+
+def heading(console: Console, text: str) -> None:
+    """A section of the report."""
+    console.print()
+    console.print(Text(text, style="bold"))
+
+
+def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
+    """Names and values in two columns."""
+    table = Table.grid(padding=(0, 2))
+    table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    for name, value in rows:
+        table.add_row(Text(f"  {name}", style="dim"), Text(value))
+    console.print(table)
+
+
+def columns(*names: str, left: int = 1) -> Table:
+    """An empty table: the first `left` columns are text, the others numbers."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1))
+    for index, name in enumerate(names):
+        table.add_column(name, justify="left" if index < left else "right", overflow="fold")
+    return table
+
+
+def show(console: Console, table: Table) -> None:
+    """A table, indented like everything under a heading."""
+    console.print(Padding(table, (0, 0, 0, 2)))
+
+
+def _print_requirement(console: Console, design: OcsDesign) -> None:
+    requirement = design.requirement
+    heading(console, f"Requirement: wheels of at most {rpm(requirement.wheel_speed_max)}")
+    table = columns("asked by", "alpha\ndeg", "roll\nmN m s", "pitch\nmN m s", "spin inertia\nkg m2")
+    for demand in requirement.demands:
+        table.add_row(
+            Text(demand.source),
+            f"{np.degrees(demand.incidence):.1f}",
+            f"{1e3 * demand.roll_momentum:.1f}",
+            f"{1e3 * demand.pitch_momentum:.1f}",
+            f"{demand.spin_inertia:.3e}",
+        )
+    show(console, table)
+    console.print(
+        Padding(
+            Text(
+                "A necessary bound: torque and control come on top; the simulations below decide.",
+                style="dim",
+            ),
+            (0, 0, 0, 2),
+        )
+    )
+    for assumption in requirement.assumptions:
+        console.print(Padding(Text(f"assumed: {assumption}", style="dim"), (0, 0, 0, 2)))
+
+
+def _print_device(console: Console, design: OcsDesign) -> None:
+    ocs, wheel = design.ocs, design.ocs.flywheel
+    heading(console, "Device: two flywheels")
+    alone = ocs.incidence_by_criterion_robot_alone.get(ocs.incidence_criterion)
+    note = f" ({ocs.incidence_criterion}"
+    note += f"; {degrees(alone)} for the robot alone)" if alone is not None else ")"
+    size = f"R {wheel.outer_radius * 1e3:.2f}  r {wheel.inner_radius * 1e3:.2f}  h {wheel.height * 1e3:.2f} mm"
+    ratio = ocs.mass_total / design.robot.mass
+    position = ", ".join(f"{1e3 * value:.1f}" for value in ocs.modules[0].position)
+    facts(
+        console,
+        [
+            ("incidence alpha*", degrees(ocs.incidence, 2) + note),
+            ("rim", f"{size}, {wheel.material}"),
+            ("mass of one rim", grams(wheel.mass)),
+            ("mass of both", f"{grams(ocs.mass_total)}, {100 * ratio:.1f} % of the robot (no motors yet)"),
+            ("spin inertia", f"{inertia(ocs.spin_inertia)} each"),
+            ("transverse inertia", f"{inertia(wheel.transverse_inertia)} each"),
+            ("left wheel at", f"{position} mm; the right one mirrored in y"),
+            ("motor", f"{design.ocs.motor.name}: {design.ocs.motor.source}"),
+            (
+                "heading drift",
+                f"{ocs.heading_drift[0]:+.3f} rad of yaw per rad of roll, "
+                f"{ocs.heading_drift[1]:+.3f} per rad of pitch (cannot be commanded)",
+            ),
+        ],
+    )
+    table = columns("incidence by criterion", "deg", "robot alone")
+    for name, angle in ocs.incidence_by_criterion.items():
+        before = ocs.incidence_by_criterion_robot_alone.get(name)
+        table.add_row(
+            name, f"{np.degrees(angle):.2f}", "" if before is None else f"{np.degrees(before):.2f}"
+        )
+    show(console, table)
+
+
+def _print_limits(console: Console, design: OcsDesign) -> None:
+    sizing = design.sizing
+    heading(console, "What binds")
+    if not sizing.binding:
+        console.print("  nothing: the rim lies inside all limits")
+        return
+    table = columns("limit", "worth for one rim")
+    for name in sizing.binding:
+        table.add_row(name, _price(name, sizing.shadow_prices.get(name)))
+    show(console, table)
+
+
+def _price(name: str, price: float | None) -> str:
+    """A shadow price per unit that an engineer would change: kg per m is g per mm."""
+    if price is None:
+        return "-"
+    if name in {"r_max", "r_min", "h_max", "h_min", "wall_min"}:
+        return f"{price:+.2f} g per mm more"
+    if name == "hoop_stress":
+        return f"{price * 1e9:+.2f} g per MPa more"
+    return f"{price:+.3g} kg per unit more"
+
+
+def _print_margins(console: Console, design: OcsDesign) -> None:
+    heading(console, "Margins")
+    table = columns("quantity", "demand", "capacity", "factor")
+    for margin in design.margins:
+        table.add_row(
+            margin.name,
+            _with_unit(margin.demand, margin.unit),
+            "not limited" if margin.capacity is None else _with_unit(margin.capacity, margin.unit),
+            "-" if margin.margin is None else f"{margin.margin:.2f}",
+        )
+    show(console, table)
+
+
+def _with_unit(value: float, unit: str) -> str:
+    shown = {"rad/s": rpm, "Pa": megapascals, "m": millimetres, "kg": grams, "rad": degrees}
+    return shown[unit](value) if unit in shown else f"{value:.3g} {unit}"
+
+
+def _print_validation(console: Console, design: OcsDesign) -> None:
+    if not design.validation:
+        return
+    heading(console, "Proof in MuJoCo: the same flights with and without the device")
+    table = columns(
+        "scenario", "device", "verdict", "touchdown\npitch  roll", "turned\ndeg",
+        "wheel\nrpm", "torque\nN m", left=3,
+    )  # fmt: skip
+    for run in design.validation:
+        table.add_row(*_run_row(run))
+    show(console, table)
+    for run in design.validation:
+        if run.reason:
+            label = f"{run.scenario}, {'with' if run.ocs else 'without'}: "
+            console.print(Padding(Text(label + run.reason, style="dim"), (0, 0, 0, 2)))
+
+
+def _run_row(run: ValidationRecord) -> list[Text | str]:
+    word, style = VERDICTS[run.passed]
+    metrics = run.metrics
+    tilt = f"{_deg(metrics, 'touchdown_pitch')} {_deg(metrics, 'touchdown_roll'):>6}"
+    speed, torque = metrics.get("peak_wheel_speed"), metrics.get("peak_wheel_torque")
+    return [
+        Text(run.scenario),
+        "with" if run.ocs else "without",
+        Text(word, style=style),
+        tilt,
+        _deg(metrics, "turned_angle"),
+        "-" if not run.ocs or speed is None else f"{speed * 30 / np.pi:,.0f}",
+        "-" if not run.ocs or torque is None else f"{torque:.2f}",
+    ]
+
+
+def _deg(metrics: object, name: str) -> str:
+    value = metrics.get(name) if hasattr(metrics, "get") else None
+    return "-" if value is None else f"{np.degrees(value) + 0.0:.1f}"

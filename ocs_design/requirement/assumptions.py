@@ -1,0 +1,72 @@
+"""What was assumed where a specification says nothing, in sentences for people."""
+
+from collections.abc import Iterator
+
+from ocs_design.catalogue.materials import Material
+from ocs_design.requirement.envelope import LIMIT_OF_KEY, Envelope
+from ocs_design.requirement.froude import RIM_MASS_SHARE, SOLO12, Scale
+from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.specification import FlywheelSection, Specification
+from ocs_design.robot.robot import Robot
+from ocs_design.units import format_quantity
+
+
+def assumptions(
+    specification: Specification,
+    robot: Robot,
+    requirement: Requirement,
+    envelope: Envelope,
+    chosen: Material,
+) -> tuple[str, ...]:
+    """One sentence for everything that was not stated; the rest has its defaults filled in."""
+    scale = Scale.of(robot)
+    return (
+        *_assumed_task(specification, robot, requirement, scale),
+        *_assumed_room(specification.flywheel, envelope, scale),
+        *_assumed_strength(specification.flywheel, envelope, chosen),
+        *_assumed_drive(specification, requirement),
+    )
+
+
+def _assumed_task(
+    specification: Specification, robot: Robot, requirement: Requirement, scale: Scale
+) -> Iterator[str]:
+    if robot.standing_height is None:
+        height = format_quantity(requirement.standing_height, "mm", 3)
+        yield f"No legs: the trunk stands {height} high, {SOLO12.name}'s scaled by gyration radius."
+    if specification.takes_default_maneuvers:
+        ratio = f"lengths x {scale.length:.3g}"
+        yield f"Maneuvers: the paper's three, scaled from {SOLO12.name} ({ratio})."
+        yield from (f"{item.name}: {item.summary}." for item in requirement.maneuvers)
+
+
+def _assumed_room(flywheel: FlywheelSection, envelope: Envelope, scale: Scale) -> Iterator[str]:
+    lengths = [
+        f"{key} {format_quantity(getattr(envelope, LIMIT_OF_KEY[key]), 'mm', 3)}"
+        for key in ("r_max", "r_min", "h_max", "h_min", "wall_min")
+        if getattr(flywheel, key) is None
+    ]
+    if lengths:
+        yield f"Rim: {', '.join(lengths)} ({SOLO12.name}'s x {scale.length:.3g})."
+    if flywheel.wheel_mass_max is None:
+        mass = format_quantity(envelope.mass_max, "g", 3)
+        yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
+
+
+def _assumed_strength(
+    flywheel: FlywheelSection, envelope: Envelope, chosen: Material
+) -> Iterator[str]:
+    if flywheel.material is None:
+        yield f"Material: {chosen.name}, {chosen.density:g} kg/m3."
+    if chosen.yield_strength is None:
+        yield f"Stress: not checked, for no strength of {chosen.name} is known."
+    elif flywheel.stress_safety is None:
+        yield f"Stress: yield strength over hoop stress at least {envelope.stress_safety:g}."
+
+
+def _assumed_drive(specification: Specification, requirement: Requirement) -> Iterator[str]:
+    if specification.requirement.wheel_speed_max is None:
+        speed = format_quantity(requirement.wheel_speed_max, "rpm")
+        yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
+    if specification.motor.torque_max is None:
+        yield "Motor torque: not limited."

@@ -1,0 +1,182 @@
+"""How much spin inertia a change of rate or of momentum needs at least (Elroy's Beanie).
+
+A wheel that speeds up by `gamma` relative to the trunk takes momentum from it. Necessary, never
+sufficient: torque, angle and time are not asked for here.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ocs_design.arrays import FloatArray, frozen
+from ocs_design.requirement.requirement import Requirement
+
+AXES = ("roll", "pitch")
+"""The axes that the wheels can turn the trunk about, in the order of all (2,) arrays."""
+
+SMALLEST_AUTHORITY = 1e-9
+"""Sine or cosine of an incidence below which an axis counts as out of reach; cos(pi/2) is 6e-17."""
+
+
+@dataclass(frozen=True)
+class SpinBound:
+    """Lower bound on the inertia of the device for one change of rate about one axis.
+
+    Attributes:
+        paper: inertia of the one-wheel model as the paper prints it [kg m^2].
+        required: the same with the sign put right [kg m^2]; the tool goes by this one.
+        spin_inertia: of each of the two wheels, from `required` [kg m^2].
+    """
+
+    paper: float
+    required: float
+    spin_inertia: float
+
+
+@dataclass(frozen=True, eq=False)
+class SpinDemand:
+    """What one part of the requirement asks of each wheel.
+
+    Attributes:
+        source: name of the maneuver, or `rate change, roll` and `rate change, pitch`.
+        incidence: at which it was computed [rad].
+        momentum: roll and pitch momentum that both wheels take together [N m s], shape (2,).
+        spin_inertia: smallest of each wheel [kg m^2]; inf if an axis is out of the wheels' reach.
+    """
+
+    source: str
+    incidence: float
+    momentum: FloatArray
+    spin_inertia: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "momentum", frozen(self.momentum))
+
+    @property
+    def unreachable_axes(self) -> tuple[str, ...]:
+        """Names of the axes that need momentum and get none at this incidence."""
+        blind = (self.momentum != 0.0) & (authority(self.incidence) < SMALLEST_AUTHORITY)
+        return tuple(axis for axis, is_blind in zip(AXES, blind, strict=True) if is_blind)
+
+
+def elroy_beanie_bound(inertia: float, rate_change: float, wheel_speed_max: float) -> float:
+    """The paper's bound as printed, `I_r d / (d + gamma)` [kg m^2] (paper, section 3.1).
+
+    The printed sum comes from a slip of sign: see `corrected_bound`.
+    """
+    return inertia * rate_change / (rate_change + wheel_speed_max)
+
+
+def corrected_bound(inertia: float, rate_change: float, wheel_speed_max: float) -> float:
+    """The bound that follows from the paper's own momentum, `I_r d / (gamma - d)` [kg m^2].
+
+    With `L = (I_r + I_f) theta_dot + I_f gamma_dot` constant and the wheel at rest on the trunk at
+    first, `(I_r + I_f) (theta_dot_0 - theta_dot_1) = I_f gamma_dot`: the trunk loses what the wheel
+    gains, so that `(I_r + I_f) d = I_f gamma`. The printed bound is lower by about `2 d / gamma`.
+
+    Args:
+        inertia: of the robot without the device, about the axis [kg m^2].
+        rate_change: of the trunk, d [rad/s].
+        wheel_speed_max: of the wheel relative to the trunk, gamma [rad/s].
+
+    Returns:
+        inf where `d >= gamma`: not even a wheel of infinite inertia will do.
+    """
+    if rate_change >= wheel_speed_max:
+        return float("inf")
+    return inertia * rate_change / (wheel_speed_max - rate_change)
+
+
+def authority(incidence: float) -> FloatArray:
+    """Share of one wheel's momentum that falls on roll and on pitch, (sin a, cos a), shape (2,)."""
+    return np.array([np.sin(incidence), np.cos(incidence)])
+
+
+def spin_bound(
+    inertia: float, rate_change: float, wheel_speed_max: float, share: float
+) -> SpinBound:
+    """The bound by hand, as printed and as corrected, and per wheel `I_f / (2 share)`.
+
+    Args:
+        inertia: of the robot about the axis [kg m^2].
+        rate_change: of the trunk about the axis [rad/s].
+        wheel_speed_max: relative to the trunk [rad/s].
+        share: `cos alpha` for pitch, `sin alpha` for roll (see `authority`).
+    """
+    required = corrected_bound(inertia, rate_change, wheel_speed_max)
+    per_wheel = required / (2.0 * share) if share >= SMALLEST_AUTHORITY else float("inf")
+    return SpinBound(
+        paper=elroy_beanie_bound(inertia, rate_change, wheel_speed_max),
+        required=required,
+        spin_inertia=float(per_wheel),
+    )
+
+
+def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
+    """Required over robot's inertia, I_f / I_r, one row per wheel speed (paper, figure 2).
+
+    Args:
+        rate_changes: [rad/s], shape (n,).
+        wheel_speeds: [rad/s], shape (m,).
+
+    Returns:
+        Shape (m, n); inf where the wheel is no faster than the change asked for.
+    """
+    change = np.asarray(rate_changes, dtype=np.float64)[np.newaxis, :]
+    headroom = np.asarray(wheel_speeds, dtype=np.float64)[:, np.newaxis] - change
+    ratio = np.full(headroom.shape, np.inf)
+    np.divide(change, headroom, out=ratio, where=headroom > 0.0)
+    return ratio
+
+
+def spin_inertia_for(momentum: FloatArray, incidence: float, wheel_speed_max: float) -> float:
+    """Smallest spin inertia of each wheel that takes roll and pitch momentum at once [kg m^2].
+
+    The reachable momenta form the rhombus `|L_x| / sin a + |L_y| / cos a <= 2 I_w gamma`
+    (THEORY, section 4). An axis that needs nothing costs nothing, whatever the incidence.
+
+    Args:
+        momentum: of roll and pitch [N m s], shape (2,).
+        incidence: [rad].
+        wheel_speed_max: relative to the trunk [rad/s].
+    """
+    asked = np.abs(momentum)
+    share = authority(incidence)
+    if np.any((asked > 0.0) & (share < SMALLEST_AUTHORITY)):
+        return float("inf")
+    per_axis = np.divide(asked, share, out=np.zeros(2), where=asked > 0.0)
+    return float(per_axis.sum() / (2.0 * wheel_speed_max))
+
+
+def spin_demands(
+    requirement: Requirement, total_inertia: FloatArray, incidence: float
+) -> tuple[SpinDemand, ...]:
+    """What each maneuver, and the rate change about each axis, asks of a wheel.
+
+    From the gyrostat's momentum `H = I_tot w + A I_w W`: the wheels must take `I_tot d`, which is
+    `corrected_bound` with the device counted in the total (THEORY, section 2).
+
+    Args:
+        requirement: maneuvers, rate change and wheel speed.
+        total_inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+        incidence: of the design; a maneuver's own goes first [rad].
+    """
+
+    def demand(source: str, momentum: FloatArray, at: float) -> SpinDemand:
+        least = spin_inertia_for(momentum, at, requirement.wheel_speed_max)
+        return SpinDemand(source, at, momentum, least)
+
+    found = [
+        demand(
+            maneuver.name,
+            maneuver.momentum(total_inertia, requirement.standing_height),
+            incidence if maneuver.incidence is None else maneuver.incidence,
+        )
+        for maneuver in requirement.maneuvers
+    ]
+    if requirement.rate_change is not None:
+        momenta = np.diag(np.diag(total_inertia)[:2] * requirement.rate_change)
+        for axis, momentum in zip(AXES, momenta, strict=True):
+            found.append(demand(f"rate change, {axis}", momentum, incidence))
+    return tuple(found)

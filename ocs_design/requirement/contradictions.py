@@ -1,0 +1,59 @@
+"""Keys of a specification that do not go together."""
+
+from collections.abc import Iterable, Iterator
+
+from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
+from ocs_design.requirement.specification import (
+    FlywheelSection,
+    RobotSection,
+    Specification,
+)
+
+
+def contradictions(specification: Specification) -> tuple[str, ...]:
+    """What no single key shows: keys that do not go together, one line each."""
+    return (
+        *_room(specification.flywheel),
+        *_robot(specification.robot),
+        *_maneuvers(specification),
+        *_flights(specification.maneuvers),
+    )
+
+
+def _room(flywheel: FlywheelSection) -> Iterator[str]:
+    bore, radius = flywheel.r_min, flywheel.r_max
+    if bore is not None and radius is not None and bore >= radius:
+        yield f"flywheel.r_min: {bore:g} m must be below r_max, {radius:g} m"
+    low, high = flywheel.h_min, flywheel.h_max
+    if low is not None and high is not None and low > high:
+        yield f"flywheel.h_min: {low:g} m must not be above h_max, {high:g} m"
+
+
+def _robot(robot: RobotSection) -> Iterator[str]:
+    if (robot.mass is None) != (robot.inertia is None):
+        yield "robot: mass and inertia come together"
+    if robot.file is not None and robot.mass is not None:
+        yield "robot: state either a file or mass and inertia, not both"
+
+
+def _maneuvers(specification: Specification) -> Iterator[str]:
+    if specification.maneuvers and specification.requirement.maneuvers is not None:
+        yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
+
+
+def _flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
+    """Jumps that end before what they are for."""
+    for maneuver in maneuvers:
+        match maneuver:
+            case Disturbance(onset=needed):
+                what = "its torque starts"
+            case Flip(duration=needed):
+                what = "its turn ends"
+            case _:
+                continue
+        if needed >= maneuver.flight_time:
+            flight = max(maneuver.flight_time, 0.0)
+            yield (
+                f"maneuver.{maneuver.name}: {what} {needed:.3g} s after lift-off, "
+                f"but the flight lasts {flight:.3g} s"
+            )

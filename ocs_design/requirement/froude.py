@@ -1,0 +1,164 @@
+"""Defaults for any robot: the paper's maneuvers and room on Solo12, scaled by the Froude number.
+
+Two legged robots move alike if v^2 / (g L) is the same (Alexander and Jayes, J. Zool. 201, 1983):
+lengths go with the standing height L of the trunk, times with sqrt(L / g), speeds with sqrt(g L),
+and a torque that turns both alike with I / T^2.
+"""
+
+from dataclasses import dataclass
+from math import pi, radians, sqrt
+
+from ocs_design.requirement.envelope import Envelope
+from ocs_design.requirement.maneuver import (
+    STANDARD_GRAVITY,
+    Disturbance,
+    Drop,
+    Flip,
+)
+from ocs_design.robot.robot import Robot
+
+LUNAR_GRAVITY = 1.62
+"""[m/s^2] of the paper's back-flip, which scales with the robot but stays on the Moon."""
+
+WHEEL_SPEED_MAX = 7200.0 * pi / 30.0
+"""[rad/s], where no motor is named: Solo12's own, an Antigravity 4004 KV300, at 24 V."""
+
+RIM_MASS_SHARE = 0.1
+"""Largest mass of one rim over the robot's."""
+
+STRESS_SAFETY = 2.0
+"""Yield strength over hoop stress at the highest speed."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The robot that the paper's maneuvers were made for.
+
+    Attributes:
+        name: of the robot. source: of its figures.
+        standing_height: of the trunk over the soles [m].
+        gyration_radius: sqrt(trace(I) / m) of the standing robot [m].
+        roll_inertia, pitch_inertia: of the standing robot about its centre of mass [kg m^2].
+    """
+
+    name: str
+    source: str
+    standing_height: float
+    gyration_radius: float
+    roll_inertia: float
+    pitch_inertia: float
+
+
+SOLO12 = Reference(
+    name="Solo12",
+    source="examples/solo12.urdf, standing at 80 % of its stretched legs",
+    standing_height=0.272,
+    gyration_radius=0.250384943,
+    roll_inertia=0.0320385239,
+    pitch_inertia=0.0550873600,
+)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How much larger than Solo12 a robot is; all ratios are 1 for Solo12 itself.
+
+    Attributes:
+        length: of the standing heights; of the radii of gyration for a robot without legs.
+        roll_inertia, pitch_inertia: of the robots' inertias.
+    """
+
+    length: float
+    roll_inertia: float
+    pitch_inertia: float
+
+    @classmethod
+    def of(cls, robot: Robot) -> "Scale":
+        """The scale of `robot`."""
+        if robot.standing_height is None:
+            length = _ratio(robot.gyration_radius, SOLO12.gyration_radius)
+        else:
+            length = _ratio(robot.standing_height, SOLO12.standing_height)
+        return cls(
+            length,
+            roll_inertia=_ratio(robot.inertia[0, 0], SOLO12.roll_inertia),
+            pitch_inertia=_ratio(robot.inertia[1, 1], SOLO12.pitch_inertia),
+        )
+
+    def time(self, gravity: float) -> float:
+        """Ratio of times, sqrt(L / g)."""
+        return sqrt(self.length * STANDARD_GRAVITY / gravity)
+
+    def speed(self, gravity: float) -> float:
+        """Ratio of speeds, sqrt(g L)."""
+        return sqrt(self.length * gravity / STANDARD_GRAVITY)
+
+
+def _ratio(figure: float, reference: float) -> float:
+    """`figure` over `reference` to six digits: a posture is solved to nine, and Solo12 is 1."""
+    return float(f"{figure / reference:.6g}")
+
+
+def standing_height(robot: Robot) -> float:
+    """Of the trunk over the ground [m]; scaled from Solo12's for a robot without legs."""
+    if robot.standing_height is not None:
+        return robot.standing_height
+    return SOLO12.standing_height * Scale.of(robot).length
+
+
+def default_maneuvers(
+    robot: Robot, gravity: float = STANDARD_GRAVITY
+) -> tuple[Disturbance, Drop, Flip]:
+    """The paper's three tests, exactly so for Solo12 and scaled for every other robot.
+
+    Args:
+        robot: to scale to.
+        gravity: of the first two [m/s^2]; the back-flip is made on the Moon.
+    """
+    scale = Scale.of(robot)
+    return _disturbance(scale, gravity), _drop(scale, gravity), _back_flip(scale)
+
+
+def default_envelope(robot: Robot) -> Envelope:
+    """Room for a rim: Solo12's 100 mm by 10 mm, its lengths scaled with the robot, not rounded."""
+    length = Scale.of(robot).length
+    return Envelope(
+        outer_radius_max=0.050 * length,
+        inner_radius_min=0.005 * length,
+        height_max=0.010 * length,
+        height_min=0.002 * length,
+        wall_min=0.002 * length,
+        mass_max=RIM_MASS_SHARE * robot.mass,
+        stress_safety=STRESS_SAFETY,
+    )
+
+
+def _disturbance(scale: Scale, gravity: float) -> Disturbance:
+    """A torque that changes the rates by what the paper's changes Solo12's, over T.
+
+    The paper states no lift-off speed; 2.4 m/s up is that of THEORY, section 8.
+    """
+    time, speed = scale.time(gravity), scale.speed(gravity)
+    return Disturbance(
+        name="disturbance",
+        gravity=gravity,
+        takeoff_velocity=(0.5 * speed, 2.4 * speed),
+        torque=(0.2 * scale.roll_inertia / time**2, 0.8 * scale.pitch_inertia / time**2, 0.0),
+        onset=0.1 * time,
+        duration=0.05 * time,
+    )
+
+
+def _drop(scale: Scale, gravity: float) -> Drop:
+    return Drop(name="drop", gravity=gravity, height=1.0 * scale.length, pitch=radians(30.0))
+
+
+def _back_flip(scale: Scale) -> Flip:
+    return Flip(
+        name="back-flip",
+        gravity=LUNAR_GRAVITY,
+        incidence=0.0,
+        jump_height=1.0 * scale.length,
+        angle=-2.0 * pi,
+        duration=2.0 * sqrt(scale.length),
+    )

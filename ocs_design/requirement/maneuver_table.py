@@ -1,0 +1,67 @@
+"""The `[[maneuver]]` tables of a specification: which kinds there are, and their keys."""
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from math import pi
+from types import MappingProxyType
+from typing import Any
+
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver
+from ocs_design.requirement.values import Quantities, Quantity, Sign, Text, Value
+from ocs_design.units import Dimension
+
+
+@dataclass(frozen=True)
+class ManeuverKind:
+    """A kind of maneuver as the file sees it.
+
+    Attributes:
+        maneuver: the class.
+        values: how each of its fields is read.
+    """
+
+    maneuver: type[Maneuver]
+    values: Mapping[str, Value[Any]]
+
+    @property
+    def required(self) -> tuple[str, ...]:
+        """Fields that have no default."""
+        return tuple(item.name for item in fields(self.maneuver) if item.default is MISSING)
+
+
+_COMMON: Mapping[str, Value[Any]] = {
+    "name": Text(),
+    "gravity": Quantity(Dimension.ACCELERATION),
+    "incidence": Quantity(Dimension.ANGLE, Sign.NOT_NEGATIVE, pi / 2),
+}
+_TIME = Quantity(Dimension.TIME)
+_ANGLE = Quantity(Dimension.ANGLE, Sign.ANY)
+
+MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
+    {
+        "disturbance": ManeuverKind(
+            Disturbance,
+            {
+                **_COMMON,
+                "takeoff_velocity": Quantities(Dimension.SPEED, (2,)),
+                "torque": Quantities(Dimension.TORQUE, (3,)),
+                "onset": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE),
+                "duration": _TIME,
+            },
+        ),
+        "drop": ManeuverKind(
+            Drop,
+            {**_COMMON, "height": Quantity(Dimension.LENGTH), "roll": _ANGLE, "pitch": _ANGLE},
+        ),
+        "flip": ManeuverKind(
+            Flip,
+            {
+                **_COMMON,
+                "jump_height": Quantity(Dimension.LENGTH),
+                "angle": _ANGLE,
+                "duration": _TIME,
+            },
+        ),
+    }
+)
+"""Every kind by the word that `kind` takes."""

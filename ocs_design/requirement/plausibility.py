@@ -1,0 +1,85 @@
+"""What a specification asks that cannot be meant, once the robot is known."""
+
+from collections.abc import Iterator
+
+from ocs_design.catalogue.materials import material
+from ocs_design.exceptions import OcsError, SpecificationError
+from ocs_design.requirement.envelope import Envelope
+from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.specification import Specification
+from ocs_design.robot.robot import Robot
+from ocs_design.units import format_quantity
+
+
+def implausible(
+    specification: Specification,
+    robot: Robot,
+    robot_size: float,
+    requirement: Requirement,
+    envelope: Envelope,
+) -> tuple[str, ...]:
+    """Every fault, one line each; `requirement` and `envelope` have their defaults filled in."""
+    return (
+        *_oversized(specification, robot, robot_size),
+        *_empty_room(envelope),
+        *_impossible(requirement, robot),
+        *_unknown_material(specification.flywheel.material),
+    )
+
+
+def _oversized(specification: Specification, robot: Robot, size: float) -> Iterator[str]:
+    """Bare numbers that were meant in another unit: larger than the robot itself."""
+    for key in ("r_max", "r_min", "h_max", "h_min", "wall_min"):
+        length = getattr(specification.flywheel, key)
+        if length is not None and length > size:
+            yield (
+                f"flywheel.{key}: {length:g} m is larger than the robot ({size:.2g} m): "
+                f"did you mean {length:g}mm?"
+            )
+    for axis, coordinate in zip("xyz", specification.ocs.position or (), strict=False):
+        if abs(coordinate) > size:
+            yield (
+                f"ocs.position: {axis} = {coordinate:g} m is off the robot ({size:.2g} m): "
+                f"did you mean {coordinate:g}mm?"
+            )
+    mass = specification.flywheel.wheel_mass_max
+    if mass is not None and mass > robot.mass:
+        yield (
+            f"flywheel.wheel_mass_max: {mass:g} kg is more than the robot ({robot.mass:.3g} kg): "
+            f"did you mean {mass:g}g?"
+        )
+
+
+def _empty_room(envelope: Envelope) -> Iterator[str]:
+    """Stated and assumed limits that leave no room between them."""
+    radius, bore = envelope.outer_radius_max, envelope.inner_radius_min
+    if bore >= radius:
+        yield (
+            f"flywheel: r_max, {format_quantity(radius, 'mm')}, leaves no room over r_min, "
+            f"{format_quantity(bore, 'mm')}"
+        )
+    if envelope.height_min > envelope.height_max:
+        yield (
+            f"flywheel: h_max, {format_quantity(envelope.height_max, 'mm')}, is below h_min, "
+            f"{format_quantity(envelope.height_min, 'mm')}"
+        )
+
+
+def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:
+    """Maneuvers that this robot cannot be asked for, or nothing asked at all."""
+    for maneuver in requirement.maneuvers:
+        try:
+            maneuver.momentum(robot.inertia, requirement.standing_height)
+        except OcsError as error:
+            yield error.message
+    asked = (requirement.maneuvers, requirement.rate_change, requirement.spin_inertia)
+    if not any(asked):
+        yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
+
+
+def _unknown_material(name: str | None) -> Iterator[str]:
+    try:
+        if name is not None:
+            material(name)
+    except SpecificationError as error:
+        yield f"flywheel.material: {error.message}. {error.hint}"

@@ -1,0 +1,152 @@
+"""Reads specification files, strictly: all faults at once, each with its key's path."""
+
+import tomllib
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.contradictions import contradictions
+from ocs_design.requirement.faults import Faults
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
+from ocs_design.requirement.maneuver_table import MANEUVER_KINDS, ManeuverKind
+from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
+
+LARGEST_FILE = 1 << 20
+"""Bytes; a specification takes a few thousand."""
+
+
+def read_specification(path: Path) -> Specification:
+    """The specification in a TOML file; `robot.file` is taken from the file's folder.
+
+    Raises:
+        SpecificationError: it cannot be read, is not TOML, or has faults, all of which are listed.
+    """
+    specification = parse_specification(_text(path), str(path))
+    file = specification.robot.file
+    if file is None or file == "-":
+        return specification
+    return replace(specification, robot=replace(specification.robot, file=str(path.parent / file)))
+
+
+def parse_specification(text: str, name: str) -> Specification:
+    """The specification in `text`; `name` says whose text it is.
+
+    Raises:
+        SpecificationError: see `read_specification`.
+    """
+    content = _toml(text, name)
+    faults = Faults()
+    specification = _specification(content, faults)
+    faults.extend(contradictions(specification))
+    if faults:
+        count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
+        raise SpecificationError(f"{name} has {count}:", problems=faults)
+    return specification
+
+
+def _text(path: Path) -> str:
+    """The file's text, of a bounded size."""
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)
+    except OSError as error:
+        reason = error.strerror or "it cannot be opened"
+        raise SpecificationError(f"cannot read the specification {path}: {reason}") from error
+    if len(content) > LARGEST_FILE:
+        raise SpecificationError(f"{path} is larger than 1 MiB: that is no specification")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise SpecificationError(
+            f"{path}, line {line}: not UTF-8", hint="TOML is UTF-8: save the file so."
+        ) from error
+
+
+def _toml(text: str, name: str) -> Mapping[str, object]:
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise SpecificationError(f"{name} nests its values too deeply") from error
+    except ValueError as error:
+        # TOMLDecodeError, or the plain ValueError of a whole number with thousands of digits.
+        raise SpecificationError(
+            f"{name} is not TOML: {error}", hint="Text stands in quotes, as in r_max = '30mm'."
+        ) from error
+
+
+def _specification(content: Mapping[str, object], faults: Faults) -> Specification:
+    known = (*SECTIONS, "maneuver")
+    for name in content:
+        if name not in known:
+            faults.unknown(name, name, known)
+    sections: dict[str, Any] = {}
+    for name, section in SECTIONS.items():
+        table = faults.table(content.get(name, {}), name)
+        sections[name] = section(**_stated(section, table, name, faults))
+    gravity = sections["requirement"].gravity or STANDARD_GRAVITY
+    maneuvers = _maneuvers(content.get("maneuver", []), gravity, faults)
+    return Specification(**sections, maneuvers=maneuvers)
+
+
+def _stated(
+    section: type, table: Mapping[str, object], where: str, faults: Faults
+) -> dict[str, Any]:
+    """Each field of a section that its table states."""
+    keys = keys_of(section)
+    found: dict[str, Any] = {}
+    for name, raw in table.items():
+        path = f"{where}.{name}"
+        if name in keys:
+            found[name] = faults.read(keys[name].value, raw, path)
+        else:
+            faults.unknown(path, name, tuple(keys))
+    return found
+
+
+def _maneuvers(raw: object, gravity: float, faults: Faults) -> tuple[Maneuver, ...]:
+    if not isinstance(raw, list):
+        faults.append("maneuver: write each maneuver as a [[maneuver]] table")
+        return ()
+    found = [
+        _maneuver(faults.table(entry, f"maneuver[{index}]"), index, gravity, faults)
+        for index, entry in enumerate(raw)
+    ]
+    names = Counter(maneuver.name for maneuver in found if maneuver is not None)
+    faults.extend(f"maneuver: two are named {name!r}" for name, n in names.items() if n > 1)
+    return tuple(maneuver for maneuver in found if maneuver is not None)
+
+
+def _maneuver(
+    table: Mapping[str, object], index: int, gravity: float, faults: Faults
+) -> Maneuver | None:
+    """One maneuver, or None with its faults kept; people know it by its name, if it has one."""
+    where = f"maneuver.{table['name']}" if "name" in table else f"maneuver[{index}]"
+    word = table.get("kind")
+    kind = MANEUVER_KINDS.get(word) if isinstance(word, str) else None
+    if kind is None:
+        what = "is missing" if word is None else f"{word!r:.40} is unknown"
+        faults.append(f"{where}.kind: {what}; one of {', '.join(MANEUVER_KINDS)}")
+        return None
+    before = len(faults)
+    values = _maneuver_values(table, kind, where, faults)
+    values.setdefault("gravity", gravity)
+    return kind.maneuver(**values) if len(faults) == before else None
+
+
+def _maneuver_values(
+    table: Mapping[str, object], kind: ManeuverKind, where: str, faults: Faults
+) -> dict[str, Any]:
+    """Each field that the table states."""
+    found: dict[str, Any] = {}
+    for name, raw in table.items():
+        path = f"{where}.{name}"
+        if name in kind.values:
+            found[name] = faults.read(kind.values[name], raw, path)
+        elif name != "kind":
+            faults.unknown(path, name, ("kind", *kind.values))
+    faults.extend(f"{where}.{name}: is missing" for name in kind.required if name not in table)
+    return found

@@ -1,0 +1,227 @@
+"""The specification: every key of the file and every option of the command line, once.
+
+A field is a key: its name is the TOML key and, with dashes, the option; its annotation says how it
+is read. None means that it was not stated and that a default holds.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from functools import cache
+from math import pi
+from typing import Annotated, Any, TypeVar, get_args, get_type_hints
+
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.values import (
+    Choice,
+    Count,
+    JointValues,
+    Number,
+    Quantities,
+    Quantity,
+    Sign,
+    Switch,
+    Text,
+    Value,
+)
+from ocs_design.units import Dimension
+
+Section = TypeVar("Section")
+
+CRITERIA = ("equal-rate", "weighted", "simultaneous", "pitch-only", "roll-only")
+"""How the incidence may be chosen (THEORY, section 4)."""
+
+PROJECTIONS = ("pseudo-inverse", "transpose")
+"""How a torque on the trunk becomes torques of the wheels (THEORY, section 7)."""
+
+
+@dataclass(frozen=True)
+class Key:
+    """What a field of a section means outside the program.
+
+    Attributes:
+        value: how it is read.
+        summary: what it is, for help and for messages.
+        option: its name on the command line; empty: the key's own, with dashes.
+    """
+
+    value: Value[Any]
+    summary: str
+    option: str = ""
+
+
+_LENGTH = Quantity(Dimension.LENGTH)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotSection:
+    """`[robot]`: which robot and how it stands; mass [kg] and inertia [kg m^2] replace a file."""
+
+    file: Annotated[str | None, Key(Text(), "robot file: URDF, xacro or MJCF")] = None
+    name: Annotated[str | None, Key(Text(), "name of the robot")] = None
+    trunk: Annotated[str | None, Key(Text(), "link that carries the device")] = None
+    posture: Annotated[str | None, Key(Text(), "zero, stand, or a name from the file")] = None
+    joints: Annotated[
+        Mapping[str, float] | None,
+        Key(JointValues(), "joint values on top of the posture", option="joint"),
+    ] = None
+    mass: Annotated[float | None, Key(Quantity(Dimension.MASS), "mass of the robot")] = None
+    inertia: Annotated[
+        tuple[float, ...] | None,
+        Key(
+            Quantities(Dimension.INERTIA, (3, 6)),
+            "inertia about the centre of mass: Ixx, Iyy, Izz[, Ixy, Ixz, Iyz]",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RequirementSection:
+    """`[requirement]`: what the wheels must do [rad/s, rad/s, kg m^2, m/s^2]."""
+
+    rate_change: Annotated[
+        float | None, Key(Quantity(Dimension.ANGULAR_SPEED), "change of the trunk's rate")
+    ] = None
+    wheel_speed_max: Annotated[
+        float | None, Key(Quantity(Dimension.ANGULAR_SPEED), "highest speed of a wheel")
+    ] = None
+    spin_inertia: Annotated[
+        float | None, Key(Quantity(Dimension.INERTIA), "spin inertia of one wheel, asked directly")
+    ] = None
+    gravity: Annotated[
+        float | None, Key(Quantity(Dimension.ACCELERATION), "where maneuvers state none")
+    ] = None
+    maneuvers: Annotated[
+        str | None, Key(Choice(("paper", "none")), "the paper's three, or none at all")
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsSection:
+    """`[ocs]`: how the device sits on the trunk [rad, m]."""
+
+    alpha: Annotated[
+        float | None,
+        Key(Quantity(Dimension.ANGLE, Sign.NOT_NEGATIVE, pi / 2), "incidence of the wheel axes"),
+    ] = None
+    alpha_criterion: Annotated[str | None, Key(Choice(CRITERIA), "how the incidence is chosen")] = (
+        None
+    )
+    position: Annotated[
+        tuple[float, ...] | None,
+        Key(Quantities(Dimension.LENGTH, (3,)), "centre of the left wheel on the trunk: x, y, z"),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlywheelSection:
+    """`[flywheel]`: the room for a rim and what it is made of [m, kg]."""
+
+    r_max: Annotated[float | None, Key(_LENGTH, "largest outer radius of a rim")] = None
+    r_min: Annotated[float | None, Key(_LENGTH, "smallest bore radius of a rim")] = None
+    h_max: Annotated[float | None, Key(_LENGTH, "largest height of a rim")] = None
+    h_min: Annotated[float | None, Key(_LENGTH, "smallest height of a rim")] = None
+    wall_min: Annotated[float | None, Key(_LENGTH, "smallest wall, outer less bore radius")] = None
+    wheel_mass_max: Annotated[
+        float | None, Key(Quantity(Dimension.MASS), "largest mass of a rim")
+    ] = None
+    material: Annotated[str | None, Key(Text(), "material of a rim, from the catalogue")] = None
+    stress_safety: Annotated[
+        float | None, Key(Number(), "yield strength over hoop stress at the highest speed")
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotorSection:
+    """`[motor]`: what drives a wheel [N m]."""
+
+    torque_max: Annotated[
+        float | None, Key(Quantity(Dimension.TORQUE), "largest torque on a wheel")
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ValidationSection:
+    """`[validation]`: the proof by simulation; gains [1/s^2, 1/s]."""
+
+    enabled: Annotated[
+        bool | None, Key(Switch(), "whether to simulate at all", option="validate")
+    ] = None
+    projection: Annotated[
+        str | None, Key(Choice(PROJECTIONS), "how the law's torque falls to the wheels")
+    ] = None
+    kp: Annotated[float | None, Key(Number(), "gain on the attitude error")] = None
+    kd: Annotated[float | None, Key(Number(), "gain on the rate error")] = None
+    seed: Annotated[int | None, Key(Count(), "seed of all random numbers")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Specification:
+    """Everything that a user stated; see the sections.
+
+    Attributes:
+        maneuvers: the `[[maneuver]]` tables; empty if there are none.
+    """
+
+    robot: RobotSection = field(default_factory=RobotSection)
+    requirement: RequirementSection = field(default_factory=RequirementSection)
+    ocs: OcsSection = field(default_factory=OcsSection)
+    flywheel: FlywheelSection = field(default_factory=FlywheelSection)
+    motor: MotorSection = field(default_factory=MotorSection)
+    validation: ValidationSection = field(default_factory=ValidationSection)
+    maneuvers: tuple[Maneuver, ...] = ()
+
+    @property
+    def takes_default_maneuvers(self) -> bool:
+        """Whether the paper's three hold, for none is stated and they are not declined."""
+        return not self.maneuvers and self.requirement.maneuvers != "none"
+
+
+SECTIONS: Mapping[str, type] = {
+    name: kind for name, kind in get_type_hints(Specification).items() if name != "maneuvers"
+}
+"""Class of each section of the file, by its name in brackets."""
+
+
+@cache
+def keys_of(section: type) -> Mapping[str, Key]:
+    """Every key of a section by name, in order."""
+    hints = get_type_hints(section, include_extras=True)
+    return {item.name: get_args(hints[item.name])[1] for item in fields(section)}
+
+
+@cache
+def all_keys() -> Mapping[str, Key]:
+    """Every key by its path, as in `flywheel.r_max`, in the order of the file."""
+    return {
+        f"{name}.{key}": found
+        for name, section in SECTIONS.items()
+        for key, found in keys_of(section).items()
+    }
+
+
+def merge(base: Specification, override: Specification) -> Specification:
+    """`base`, with everything that `override` states in its place; joints are merged one by one.
+
+    A robot by file replaces one by hand, and the other way round.
+    """
+    if override.robot.file is not None:
+        base = replace(base, robot=replace(base.robot, mass=None, inertia=None))
+    elif override.robot.mass is not None or override.robot.inertia is not None:
+        base = replace(base, robot=replace(base.robot, file=None))
+    sections = {
+        name: _merge_section(getattr(base, name), getattr(override, name)) for name in SECTIONS
+    }
+    return Specification(**sections, maneuvers=override.maneuvers or base.maneuvers)
+
+
+def _merge_section(base: Section, override: Section) -> Section:
+    changes = {
+        name: _merge_value(getattr(base, name), getattr(override, name)) for name in vars(base)
+    }
+    return type(base)(**changes)
+
+
+def _merge_value(base: object, override: object) -> object:
+    if isinstance(base, Mapping) and isinstance(override, Mapping):
+        return {**base, **override}
+    return base if override is None else override

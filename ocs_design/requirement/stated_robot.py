@@ -1,0 +1,45 @@
+"""The robot that a specification names, or gives by hand."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from ocs_design.exceptions import RobotError, UsageError
+from ocs_design.requirement.specification import Specification
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.robot import Robot
+
+
+def read_stated_robot(
+    specification: Specification,
+    *,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Robot:
+    """Read it.
+
+    Raises:
+        UsageError: neither or both are stated.
+        RobotError: it cannot be read; with `strict`, also if there is any warning.
+    """
+    stated = specification.robot
+    if stated.file is not None and (stated.mass is not None or stated.inertia is not None):
+        raise UsageError("a robot file and --mass/--inertia exclude each other", hint="give one")
+    if stated.file is not None:
+        robot = read_robot(
+            stated.file,
+            trunk=stated.trunk,
+            posture=stated.posture,
+            joints=stated.joints or {},
+            package_paths=package_paths,
+        )
+    elif stated.mass is not None and stated.inertia is not None:
+        robot = robot_by_hand(stated.mass, stated.inertia, name=stated.name or "robot")
+    else:
+        raise UsageError(
+            "no robot is given",
+            hint="give a robot file, or --mass and --inertia, or [robot] in the specification",
+        )
+    if strict and robot.warnings:
+        raise RobotError("--strict: " + "; ".join(robot.warnings), hint="mend the robot's file")
+    return robot

@@ -1,0 +1,196 @@
+"""How one value of the specification is read, from TOML or from the command line's text.
+
+One class per kind of value; each reads or raises an `OcsError` that names the place.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from enum import Enum
+from typing import Generic, TypeVar
+
+from ocs_design.exceptions import QuantityError, SpecificationError
+from ocs_design.units import Dimension, parse_quantity, si_unit
+
+T = TypeVar("T")
+
+
+class Sign(Enum):
+    """Which numbers make sense; the value completes 'must be ...'."""
+
+    ANY = "a number"
+    NOT_NEGATIVE = "zero or positive"
+    POSITIVE = "positive"
+
+    def allows(self, number: float) -> bool:
+        """Whether `number` has this sign."""
+        if self is Sign.POSITIVE:
+            return number > 0.0
+        return self is Sign.ANY or number >= 0.0
+
+
+class Value(ABC, Generic[T]):
+    """A kind of value."""
+
+    @abstractmethod
+    def read(self, raw: object, where: str) -> T:
+        """The value that `raw` stands for.
+
+        Args:
+            raw: as TOML gives it, or text from the command line.
+            where: key or option, for the message.
+
+        Raises:
+            OcsError: `raw` is nothing of this kind.
+        """
+
+
+@dataclass(frozen=True)
+class Quantity(Value[float]):
+    """A number with or without its unit, in SI once read.
+
+    Attributes:
+        dimension: what it measures.
+        sign: which numbers make sense.
+        most: largest that makes sense (SI).
+    """
+
+    dimension: Dimension
+    sign: Sign = Sign.POSITIVE
+    most: float = math.inf
+
+    def read(self, raw: object, where: str) -> float:
+        """See `Value.read`."""
+        number = parse_quantity(raw, self.dimension, where)
+        if not self.sign.allows(number):
+            raise QuantityError(f"{where}: {raw} must be {self.sign.value}")
+        if number > self.most:
+            limit = f"{self.most:.4g} {si_unit(self.dimension)}"
+            raise QuantityError(f"{where}: {raw} is above {limit}", hint=self._hint(raw))
+        return number
+
+    def _hint(self, raw: object) -> str:
+        """The cure where degrees were given as a bare number."""
+        bare = str(raw).strip()[-1].isdigit()
+        return f"Did you mean {raw}deg?" if bare and self.dimension is Dimension.ANGLE else ""
+
+
+@dataclass(frozen=True)
+class Quantities(Value[tuple[float, ...]]):
+    """A row of quantities of one dimension: a TOML array, or text with commas.
+
+    Attributes:
+        dimension: of each.
+        counts: how many there may be.
+    """
+
+    dimension: Dimension
+    counts: tuple[int, ...]
+
+    def read(self, raw: object, where: str) -> tuple[float, ...]:
+        """See `Value.read`."""
+        entries = raw.split(",") if isinstance(raw, str) else raw
+        if not isinstance(entries, (list, tuple)) or len(entries) not in self.counts:
+            wanted = " or ".join(map(str, self.counts))
+            raise QuantityError(f"{where}: needs {wanted} values, as in [0.1, 0, 0]")
+        return tuple(
+            parse_quantity(entry, self.dimension, f"{where}[{index}]")
+            for index, entry in enumerate(entries)
+        )
+
+
+@dataclass(frozen=True)
+class Number(Value[float]):
+    """A bare positive number."""
+
+    def read(self, raw: object, where: str) -> float:
+        """See `Value.read`."""
+        return Quantity(Dimension.RATIO).read(raw, where)
+
+
+@dataclass(frozen=True)
+class Count(Value[int]):
+    """A whole number, zero or positive."""
+
+    def read(self, raw: object, where: str) -> int:
+        """See `Value.read`."""
+        text = str(raw).strip() if isinstance(raw, (str, int)) else ""
+        if isinstance(raw, bool) or not text.isascii() or not text.isdigit():
+            raise QuantityError(f"{where}: {raw!r:.40} is not a whole number, zero or positive")
+        return int(text)
+
+
+@dataclass(frozen=True)
+class Text(Value[str]):
+    """Any text but an empty one."""
+
+    def read(self, raw: object, where: str) -> str:
+        """See `Value.read`."""
+        # A zero character ends a path for the operating system.
+        if not isinstance(raw, str) or not raw.strip() or "\0" in raw:
+            raise SpecificationError(f"{where}: {raw!r:.40} is not a text in quotes")
+        return raw
+
+
+@dataclass(frozen=True)
+class Choice(Value[str]):
+    """One of a few words."""
+
+    words: tuple[str, ...]
+
+    def read(self, raw: object, where: str) -> str:
+        """See `Value.read`."""
+        if raw in self.words:
+            return str(raw)
+        raise SpecificationError(
+            f"{where}: {raw!r:.40} is none of {', '.join(self.words)}",
+            hint=did_you_mean(str(raw), self.words),
+        )
+
+
+@dataclass(frozen=True)
+class Switch(Value[bool]):
+    """True or false."""
+
+    def read(self, raw: object, where: str) -> bool:
+        """See `Value.read`."""
+        if isinstance(raw, bool):
+            return raw
+        raise SpecificationError(f"{where}: {raw!r:.40} is neither true nor false")
+
+
+@dataclass(frozen=True)
+class JointValues(Value[Mapping[str, float]]):
+    """Values of joints by name: angles, or lengths where a unit of length says so.
+
+    A table, or texts `NAME=VALUE` from the command line.
+    """
+
+    def read(self, raw: object, where: str) -> Mapping[str, float]:
+        """See `Value.read`."""
+        table = dict(self._pair(text, where) for text in raw) if isinstance(raw, list) else raw
+        if not isinstance(table, Mapping):
+            raise SpecificationError(
+                f"{where}: {raw!r:.40} is not a table, as in {{ hip = '10deg' }}"
+            )
+        return {name: self._value(value, f"{where}.{name}") for name, value in table.items()}
+
+    def _pair(self, text: object, where: str) -> tuple[str, str]:
+        name, separator, value = str(text).partition("=")
+        if not (name and separator):
+            raise SpecificationError(f"{where}: {text!r:.40} is not NAME=VALUE")
+        return name, value
+
+    def _value(self, raw: object, where: str) -> float:
+        try:
+            return parse_quantity(raw, Dimension.LENGTH, where)
+        except QuantityError:
+            return parse_quantity(raw, Dimension.ANGLE, where)
+
+
+def did_you_mean(word: str, known: tuple[str, ...]) -> str:
+    """A question that offers the closest of `known`; empty if none is close."""
+    close = get_close_matches(word, known, n=1)
+    return f"Did you mean {close[0]!r}?" if close else ""

@@ -1,0 +1,104 @@
+"""A robot known only by its mass and inertia, given by hand."""
+
+from collections.abc import Sequence
+from itertools import permutations
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.exceptions import RobotError, UsageError
+from ocs_design.robot.mass_properties import MassProperties, physical_defect
+from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.tree import Body, Placement, Shape, ShapeKind, Tree
+
+TRUNK = "base"
+"""The only link of a robot given by hand."""
+
+
+def robot_by_hand(
+    mass: float,
+    inertia: Sequence[float],
+    com: Sequence[float] = (0.0, 0.0, 0.0),
+    name: str = "robot",
+) -> Robot:
+    """A robot of one body, shaped as the homogeneous box that has its mass and inertia.
+
+    Args:
+        mass: [kg].
+        inertia: about the centre of mass, in B: IXX, IYY, IZZ or IXX, IYY, IZZ, IXY, IXZ, IYZ
+            [kg m^2].
+        com: centre of mass in B [m].
+        name: of the robot.
+    """
+    weighed = MassProperties(mass, np.array(com, dtype=np.float64), _matrix(inertia))
+    _check_physical(weighed)
+    links = {TRUNK: Placement.identity()}
+    body = Body(
+        TRUNK, -1, Placement.identity(), None, weighed, links, {TRUNK: mass}, (equal_box(weighed),)
+    )
+    return Robot(
+        name=name,
+        source="by hand",
+        sha256="",
+        format=Format.MANUAL,
+        content=b"",
+        tree=Tree(name, (body,)),
+        trunk=TRUNK,
+        floating_base=TRUNK,
+        posture={},
+        posture_name="zero",
+        mass_properties=weighed,
+        legs=(),
+        standing_height=None,
+        warnings=(),
+    )
+
+
+def equal_box(weighed: MassProperties) -> Shape:
+    """The homogeneous box with the same mass, centre of mass and inertia.
+
+    A box of sides a, b, c has I_a = m (b^2 + c^2) / 12 and so on, hence
+    a^2 = 6 (I_b + I_c - I_a) / m.
+    """
+    moments, axes = _principal(weighed.inertia)
+    squares = 6.0 * (moments.sum() - 2.0 * moments) / weighed.mass
+    half = 0.5 * np.sqrt(np.maximum(squares, 0.0))
+    size = (float(half[0]), float(half[1]), float(half[2]))
+    return Shape(ShapeKind.BOX, size, weighed.com, axes, TRUNK, collides=True)
+
+
+def _principal(inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Principal moments (3,) and right-handed axes as columns (3, 3), as near to B's as can be."""
+    moments, axes = np.linalg.eigh(inertia)
+    orders = [list(order) for order in permutations(range(3))]
+    order = max(orders, key=lambda each: float(np.abs(np.diag(axes[:, each])).sum()))
+    moments, axes = moments[order], axes[:, order]
+    axes = axes * np.where(np.diag(axes) < 0.0, -1.0, 1.0)
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 2] *= -1.0
+    return moments, axes
+
+
+def _matrix(inertia: Sequence[float]) -> FloatArray:
+    if len(inertia) not in {3, 6}:
+        raise UsageError(
+            f"an inertia has 3 or 6 numbers, not {len(inertia)}",
+            hint="give IXX,IYY,IZZ or IXX,IYY,IZZ,IXY,IXZ,IYZ in kg m^2",
+        )
+    xx, yy, zz, xy, xz, yz = (*inertia, 0.0, 0.0, 0.0)[:6]
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], dtype=np.float64)
+
+
+def _check_physical(weighed: MassProperties) -> None:
+    """Refuse what no body can have, naming the condition and the numbers."""
+    hint = "the inertia is about the centre of mass, in kg m^2; the mass is in kg"
+    defect = physical_defect(weighed)
+    if defect is not None:
+        raise RobotError(f"the robot given by hand {defect}", hint=hint)
+    if weighed.mass == 0.0:
+        raise RobotError("the robot given by hand has the mass 0 kg", hint=hint)
+    smallest = np.linalg.eigvalsh(weighed.inertia)[0]
+    if smallest <= 0.0:
+        raise RobotError(
+            f"the robot given by hand has the principal moment {smallest:.3g} kg m^2", hint=hint
+        )

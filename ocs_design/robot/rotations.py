@@ -1,0 +1,44 @@
+"""Rotation matrices from what robot files write.
+
+By hand rather than with scipy.spatial, whose import alone takes a third of a second.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ocs_design.arrays import FloatArray
+
+
+def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
+    """Rotation by `angle` [rad] about the unit vector `axis` (Rodrigues), shape (3, 3)."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    rotation: FloatArray = (
+        np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    )
+    return rotation
+
+
+def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> FloatArray:
+    """Roll, pitch, yaw [rad] about the fixed axes x, y, z in turn, as in URDF, shape (3, 3)."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def rotation_from_quaternion(wxyz: ArrayLike) -> FloatArray:
+    """Rotation of the quaternion (w, x, y, z), of any length but zero, shape (3, 3)."""
+    quaternion = np.asarray(wxyz, dtype=np.float64)
+    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )

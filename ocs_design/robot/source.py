@@ -1,0 +1,127 @@
+"""Where a robot file comes from: a path or standard input, gzipped or not."""
+
+import gzip
+import hashlib
+import io
+import sys
+import zlib
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import BinaryIO
+
+from ocs_design.exceptions import RobotError
+
+STANDARD_INPUT = "-"
+MAX_BYTES = 64 * 2**20
+"""Largest robot file, zipped and unzipped; a thousand links take about one megabyte."""
+
+_GZIP_MAGIC = b"\x1f\x8b"
+
+
+@dataclass(frozen=True)
+class Source:
+    """A robot file's bytes.
+
+    Attributes:
+        path_text: as the user wrote it; `-` for standard input.
+        folder: that the file lies in; None for standard input.
+        content: unzipped.
+        sha256: hexadecimal, of the bytes as they were read, before unzipping.
+    """
+
+    path_text: str
+    folder: Path | None
+    content: bytes
+    sha256: str
+
+
+def read_source(source: str | Path) -> Source:
+    """Read a path, or standard input for `-`."""
+    path_text = str(source)
+    if path_text == STANDARD_INPUT:
+        folder, raw = None, _read_standard_input()
+    else:
+        path = Path(source)
+        folder, raw = path.absolute().parent, _read_file(path)
+    content = _unzipped(raw, path_text) if raw.startswith(_GZIP_MAGIC) else raw
+    if not content.strip():
+        raise RobotError(f"{_shown(path_text)} is empty", hint="give a URDF or MJCF file")
+    return Source(path_text, folder, content, hashlib.sha256(raw).hexdigest())
+
+
+def _read_file(path: Path) -> bytes:
+    try:
+        with path.open("rb") as stream:
+            return _read_bounded(stream, str(path))
+    except FileNotFoundError as error:
+        raise RobotError(f"{path} does not exist", hint=_missing_hint(path)) from error
+    except IsADirectoryError as error:
+        raise RobotError(f"{path} is a folder", hint=_folder_hint(path)) from error
+    except PermissionError as error:
+        raise RobotError(
+            f"{path} may not be read: permission denied", hint=f"try: chmod u+r {path}"
+        ) from error
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise RobotError(
+            f"{str(path)!r} cannot be read: {reason}", hint="check the path"
+        ) from error
+
+
+def _read_standard_input() -> bytes:
+    if sys.stdin is None or sys.stdin.isatty():
+        raise RobotError(
+            "standard input holds no robot", hint="pipe a file into it: cat robot.urdf | ..."
+        )
+    return _read_bounded(sys.stdin.buffer, STANDARD_INPUT)
+
+
+def _read_bounded(stream: BinaryIO, path_text: str) -> bytes:
+    raw = stream.read(MAX_BYTES + 1)
+    return _checked_size(raw, path_text, "")
+
+
+def _unzipped(raw: bytes, path_text: str) -> bytes:
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(raw)) as stream:
+            content = stream.read(MAX_BYTES + 1)
+    except EOFError as error:
+        raise RobotError(
+            f"{_shown(path_text)} is a gzip file that ends too early",
+            hint="it was cut off in copying or downloading: fetch it again",
+        ) from error
+    except (OSError, zlib.error) as error:
+        raise RobotError(
+            f"{_shown(path_text)} is a broken gzip file: {error}",
+            hint="fetch it again, or unzip it to see what is in it",
+        ) from error
+    return _checked_size(content, path_text, " unzipped")
+
+
+def _checked_size(content: bytes, path_text: str, state: str) -> bytes:
+    if len(content) > MAX_BYTES:
+        raise RobotError(
+            f"{_shown(path_text)} is larger than {MAX_BYTES // 2**20} MiB{state}",
+            hint="a robot file holds text only; its meshes stay in files of their own",
+        )
+    return content
+
+
+def _shown(path_text: str) -> str:
+    return "standard input" if path_text == STANDARD_INPUT else path_text
+
+
+def _missing_hint(path: Path) -> str:
+    try:
+        names = [each.name for each in path.absolute().parent.iterdir()]
+    except OSError:
+        return f"the folder {path.parent} does not exist either"
+    close = get_close_matches(path.name, names, n=1)
+    return f"did you mean {path.with_name(close[0])}?" if close else "check the path"
+
+
+def _folder_hint(path: Path) -> str:
+    suffixes = {".urdf", ".xacro", ".xml", ".gz"}
+    found = sorted(each for each in path.iterdir() if each.suffix in suffixes)
+    return f"give a file, such as {found[0]}" if found else "give the URDF or MJCF file itself"

@@ -1,0 +1,138 @@
+"""From bytes to XML elements, and from their attributes to numbers.
+
+Everything that a robot file can get wrong below the level of links and joints ends here in a
+`RobotError` that names the place.
+"""
+
+from collections.abc import Sequence
+from xml.etree import ElementTree as ET
+from xml.parsers.expat import ErrorString, errors
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.exceptions import RobotError
+from ocs_design.robot.remarks import Remarks
+
+
+def parse_xml(content: bytes, remarks: Remarks) -> ET.Element:
+    """The root element of a robot file, its tags without namespaces other than xacro's.
+
+    Bytes that are not what the file declares are read as Windows-1252, with a remark.
+    """
+    try:
+        root = ET.fromstring(content)
+    except ET.ParseError as error:
+        root = _parse_as_cp1252(content, error, remarks)
+    except (ValueError, LookupError) as error:
+        raise RobotError(
+            f"the file declares a text encoding that cannot be read: {error}",
+            hint="save it as UTF-8",
+        ) from error
+    for element in root.iter():
+        if "}" in element.tag and "xacro" not in element.tag:
+            element.tag = element.tag.rpartition("}")[2]
+    return root
+
+
+def _parse_as_cp1252(content: bytes, error: ET.ParseError, remarks: Remarks) -> ET.Element:
+    try:
+        content.decode("utf-8")
+    except UnicodeDecodeError:
+        pass
+    else:
+        raise _explained(content, error) from error
+    try:
+        # A str is parsed as it is, whatever encoding its first line declares.
+        root = ET.fromstring(content.decode("cp1252", errors="replace"))
+    except ET.ParseError:
+        raise _explained(content, error) from error
+    remarks.add(
+        "the file is not UTF-8 and declares no other encoding: read as Windows-1252 (Latin-1)"
+    )
+    return root
+
+
+def _explained(content: bytes, error: ET.ParseError) -> RobotError:
+    line, column = error.position
+    reason = ErrorString(error.code) or str(error)
+    if b"<" not in content.replace(b"\0", b"")[:4096]:
+        return RobotError(
+            "the file is not XML", hint="give a URDF, xacro or MJCF file; a mesh is not enough"
+        )
+    if reason == errors.XML_ERROR_UNBOUND_PREFIX and b"xacro:" in content:
+        return unexpanded_xacro()
+    if "amplification" in reason:
+        return RobotError(
+            f"the XML's entities expand without bound (line {line}); refused",
+            hint="write the values out in place of nested <!ENTITY> definitions",
+        )
+    return RobotError(
+        f"line {line}, column {column + 1}: the XML is broken: {reason}",
+        hint="check that the file is complete and that every tag is closed",
+    )
+
+
+def unexpanded_xacro() -> RobotError:
+    """The error for a xacro file where a URDF is needed."""
+    return RobotError(
+        "the file is a xacro that has not been expanded",
+        hint="expand it first: xacro robot.urdf.xacro > robot.urdf; "
+        "or: pip install 'ocs-design[xacro]', and it is expanded on reading",
+    )
+
+
+def required(parent: ET.Element, tag: str, where: str) -> ET.Element:
+    """The first child `tag`."""
+    child = parent.find(tag)
+    if child is None:
+        raise RobotError(f"{where}: <{parent.tag}> has no <{tag}>", hint=f"add a <{tag}> element")
+    return child
+
+
+def text(element: ET.Element, attribute: str, where: str) -> str:
+    """An attribute that must be there."""
+    value = element.get(attribute)
+    if value is None:
+        raise RobotError(
+            f"{where}: <{element.tag}> has no {attribute}", hint=f'add {attribute}="..."'
+        )
+    return value
+
+
+def number(
+    element: ET.Element, attribute: str, where: str, *, default: float | None = None
+) -> float:
+    """A finite number; `default` where the attribute is missing, an error without one."""
+    if default is not None and element.get(attribute) is None:
+        return default
+    return _finite(text(element, attribute, where), element, attribute, where)
+
+
+def numbers(
+    element: ET.Element | None, attribute: str, where: str, default: Sequence[float]
+) -> FloatArray:
+    """Finite numbers, as many as in `default`, which stands in where the attribute is missing."""
+    value = None if element is None else element.get(attribute)
+    if element is None or value is None:
+        return np.array(default, dtype=np.float64)
+    found = [_finite(word, element, attribute, where) for word in value.split()]
+    if len(found) != len(default):
+        raise RobotError(
+            f'{where}: {attribute}="{value}" of <{element.tag}> has {len(found)} numbers',
+            hint=f"give {len(default)} numbers with spaces between them",
+        )
+    return np.array(found, dtype=np.float64)
+
+
+def _finite(word: str, element: ET.Element, attribute: str, where: str) -> float:
+    try:
+        value = float(word)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value) or "_" in word:
+        raise RobotError(
+            f'{where}: {attribute}="{word}" of <{element.tag}> is not a finite number',
+            hint="write a plain number with a decimal point, such as 0.25",
+        )
+    return value

@@ -1,0 +1,113 @@
+"""Joint drives: proportional-derivative control inside the model, with gains from physics.
+
+Legs carry the robot, so their stiffness comes from its weight and their damping from its Froude
+time: `kp = m g L / 2`, `kd = kp sqrt(L / g) / 2` with the length L of the leg. Its joints then give
+way by about a fifth of a radian where it stands. Stiffer or less damped legs throw most quadrupeds
+over after a level landing, softer ones let the heavy ones sink. Every other joint only has to hold
+its own link: `kp = I w^2`, `kd = 2 I w` with the inertia `I = 1 / (M^-1)_jj` that the joint feels and
+`w = 10 sqrt(g / L)`, critically damped.
+"""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.tree import Joint
+
+DRIVE = "ocs_drive_"
+"""Prefix of the names of the joint drives."""
+
+LEG_STIFFNESS = 0.5
+LEG_DAMPING = 0.5
+HOLDING_FREQUENCY = 10.0
+STABLE_SHARE = 0.5
+"""Of the explicit Runge-Kutta limit: largest `eigenvalue(M^-1 K_d) dt`."""
+
+
+@dataclass(frozen=True, eq=False)
+class DriveGains:
+    """Of every driven joint, in model order: `stiffness` [N m/rad], `damping` [N m s/rad]."""
+
+    stiffness: FloatArray
+    damping: FloatArray
+
+
+def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
+    """One drive for each joint, limited to the joint's effort; gains follow after compiling."""
+    for name, joint in robot.tree.joints.items():
+        limit = effort_limit(joint)
+        drive = spec.add_actuator(
+            name=DRIVE + name,
+            target=name,
+            trntype=mujoco.mjtTrn.mjTRN_JOINT,
+            gaintype=mujoco.mjtGain.mjGAIN_FIXED,
+            biastype=mujoco.mjtBias.mjBIAS_AFFINE,
+        )
+        if np.isfinite(limit):
+            drive.forcelimited = 1
+            drive.forcerange = [-limit, limit]
+
+
+def effort_limit(joint: Joint) -> float:
+    """[N m or N]; files write 0 where the author left it open."""
+    return joint.effort if joint.effort > 0.0 else np.inf
+
+
+def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
+    """Give the drives of a compiled model their gains, for the posture that `data` is in."""
+    names = list(robot.tree.joints)
+    if not names:
+        return
+    actuators = [model.actuator(DRIVE + name).id for name in names]
+    gains = drive_gains(model, data, robot)
+    model.actuator_gainprm[actuators, 0] = gains.stiffness
+    model.actuator_biasprm[actuators, 1] = -gains.stiffness
+    model.actuator_biasprm[actuators, 2] = -gains.damping
+
+
+def drive_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> DriveGains:
+    """Gains from physics, then lowered where the step could not follow them."""
+    names = list(robot.tree.joints)
+    dofs = [int(model.joint(name).dofadr[0]) for name in names]
+    mobility = _mobility(model, data)[np.ix_(dofs, dofs)]
+    lengths = _leg_lengths(robot)
+    typical = max(lengths.values(), default=robot.gyration_radius)
+    felt = 1.0 / np.diag(mobility)
+    frequency = HOLDING_FREQUENCY * np.sqrt(STANDARD_GRAVITY / typical)
+    stiffness, damping = felt * frequency**2, 2.0 * felt * frequency
+    for place, name in enumerate(names):
+        if name in lengths:
+            length = lengths[name]
+            stiffness[place] = LEG_STIFFNESS * robot.mass * STANDARD_GRAVITY * length
+            damping[place] = LEG_DAMPING * stiffness[place] * np.sqrt(length / STANDARD_GRAVITY)
+    return _stable(DriveGains(stiffness, damping), mobility, felt, model.opt.timestep)
+
+
+def _stable(gains: DriveGains, mobility: FloatArray, felt: FloatArray, step: float) -> DriveGains:
+    """Gains that the explicit step can follow: first each joint alone, then all together.
+
+    Runge-Kutta of order four is stable for `|lambda| dt < 2.78` on the real axis and 2.82 on the
+    imaginary one (Hairer and Wanner, Solving ODEs II, section IV.2).
+    """
+    damping = np.minimum(gains.damping, STABLE_SHARE * felt / step)
+    stiffness = np.minimum(gains.stiffness, (STABLE_SHARE / step) ** 2 * felt)
+    root = np.sqrt(damping)
+    fastest = np.linalg.eigvalsh(root[:, None] * mobility * root).max() * step
+    relax = min(1.0, 2.0 * STABLE_SHARE / fastest) if fastest > 0.0 else 1.0
+    return DriveGains(stiffness * relax, damping * relax)
+
+
+def _leg_lengths(robot: Robot) -> dict[str, float]:
+    """Length of the leg that each leg joint belongs to [m]."""
+    return {joint: leg.length for leg in robot.legs for joint in leg.joints}
+
+
+def _mobility(model: mujoco.MjModel, data: mujoco.MjData) -> FloatArray:
+    """Inverse of the joint-space inertia matrix, shape (nv, nv)."""
+    inverse = np.empty((model.nv, model.nv))
+    mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
+    return inverse

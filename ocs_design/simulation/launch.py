@@ -1,0 +1,114 @@
+"""How a maneuver starts, what it asks of the trunk and what hits it on the way."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver
+from ocs_design.robot.rotations import rotation_about
+from ocs_design.simulation.reference import LEVEL, Profile, Quintic, Turn
+
+PITCH = np.array([0.0, 1.0, 0.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Push:
+    """A torque on the trunk in B [N m], shape (3,), from `onset` for `duration` [s]."""
+
+    torque: FloatArray
+    onset: float
+    duration: float
+
+    def share(self, starts: FloatArray, period: float) -> FloatArray:
+        """Part of each control step, from `starts`, in which it acts: its impulse is exact."""
+        begin = np.maximum(starts, self.onset)
+        end = np.minimum(starts + period, self.onset + self.duration)
+        share: FloatArray = np.clip(end - begin, 0.0, None) / period
+        return share
+
+
+NO_PUSH = Push(np.zeros(3), 0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Launch:
+    """The start of a ballistic flight.
+
+    Attributes:
+        rotation: of the trunk in the world, shape (3, 3).
+        height: of the trunk frame's origin [m]; None: the feet just clear of the ground.
+        velocity: of the whole robot, which does not turn [m/s], shape (3,).
+        turn: what the trunk should do.
+        push: what hits it.
+    """
+
+    rotation: FloatArray
+    height: float | None
+    velocity: FloatArray
+    turn: Turn
+    push: Push
+
+
+def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Launch:
+    """The start that a maneuver asks for.
+
+    Args:
+        maneuver: see `Maneuver`.
+        standing_height: of the trunk over the ground with the feet on it [m].
+        profile: of a turn to level during a drop.
+    """
+    match maneuver:
+        case Disturbance():
+            forward, up = maneuver.takeoff_velocity
+            push = Push(np.array(maneuver.torque), maneuver.onset, maneuver.duration)
+            return Launch(np.eye(3), None, np.array([forward, 0.0, up]), LEVEL, push)
+        case Drop():
+            return _dropped(maneuver, standing_height, profile)
+        case Flip():
+            up = np.sqrt(2.0 * maneuver.gravity * maneuver.jump_height)
+            turn = Turn(PITCH, 0.0, maneuver.angle, maneuver.duration, Quintic())
+            return Launch(np.eye(3), None, np.array([0.0, 0.0, up]), turn, NO_PUSH)
+        case _:
+            raise TypeError(f"no launch is known for a {type(maneuver).__name__}")
+
+
+def level_launch(maneuver: Maneuver, standing_height: float) -> Launch:
+    """The same flight, level and undisturbed: it shows what the legs can bear."""
+    start = launch(maneuver, standing_height, Quintic())
+    return Launch(np.eye(3), start.height, start.velocity, LEVEL, NO_PUSH)
+
+
+def flight_time(start: Launch, standing_height: float, gravity: float) -> float:
+    """Until the feet of the levelled robot meet the ground [s]."""
+    drop = 0.0 if start.height is None else start.height - standing_height
+    up = start.velocity[2]
+    return float((up + np.sqrt(up**2 + 2.0 * gravity * drop)) / gravity)
+
+
+def _dropped(maneuver: Drop, standing_height: float, profile: Profile) -> Launch:
+    if maneuver.height <= standing_height:
+        raise SpecificationError(
+            f"maneuver {maneuver.name!r}: the trunk is released at {maneuver.height:.3g} m, but "
+            f"the robot stands {standing_height:.3g} m high",
+            hint="raise `height` of the drop",
+        )
+    rotation = rotation_about(PITCH, maneuver.pitch) @ rotation_about(
+        np.array([1.0, 0.0, 0.0]), maneuver.roll
+    )
+    vector = _rotation_vector(rotation)
+    angle = float(np.linalg.norm(vector))
+    axis = vector / angle if angle > 0.0 else PITCH
+    fall = maneuver.duration(standing_height)
+    turn = Turn(axis, angle, 0.0, fall, profile, extendable=False)
+    return Launch(rotation, maneuver.height, np.zeros(3), turn, NO_PUSH)
+
+
+def _rotation_vector(rotation: FloatArray) -> FloatArray:
+    """Axis times angle of a rotation by less than half a turn, shape (3,)."""
+    skew = 0.5 * (rotation - rotation.T)
+    vector = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
+    sine = float(np.linalg.norm(vector))
+    angle = np.arctan2(sine, 0.5 * (np.trace(rotation) - 1.0))
+    return vector * (angle / sine if sine > 0.0 else 1.0)

@@ -1,0 +1,168 @@
+"""What a run is measured by."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.simulation import quaternions
+from ocs_design.simulation.engine import Recording
+from ocs_design.simulation.world import World
+
+UPRIGHT_TILT = np.radians(45.0)
+"""Largest angle between the trunk's z axis and the vertical of a robot that stands [rad]."""
+
+UPRIGHT_HEIGHT = 0.5
+"""Smallest height of the trunk of a robot that stands, over its standing height."""
+
+_SLOW = np.radians(1.0)
+"""Rate below which a flight counts as one without any turning [rad/s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """Time series of one run; every array has the instants first.
+
+    Attributes:
+        time: [s], shape (k,).
+        com: centre of mass in the world [m], (k, 3).
+        roll, pitch, yaw: of the trunk [rad], pitch and yaw unwrapped, (k,).
+        rate: of the trunk in B [rad/s], (k, 3).
+        wheel_speed: relative to the trunk [rad/s], (k, 2).
+        wheel_torque: of the motors [N m], (k, 2).
+        contact: whether anything touches the floor, (k,).
+    """
+
+    time: FloatArray
+    com: FloatArray
+    roll: FloatArray
+    pitch: FloatArray
+    yaw: FloatArray
+    rate: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    contact: FloatArray
+
+    def columns(self) -> Mapping[str, FloatArray]:
+        """Each scalar by name and unit, as in a CSV file."""
+        axes, wheels = "xyz", ("left", "right")
+        return {
+            "time_s": self.time,
+            **{f"com_{axis}_m": self.com[:, i] for i, axis in enumerate(axes)},
+            "roll_rad": self.roll,
+            "pitch_rad": self.pitch,
+            "yaw_rad": self.yaw,
+            **{f"rate_{axis}_rad_s": self.rate[:, i] for i, axis in enumerate(axes)},
+            **{f"wheel_speed_{side}_rad_s": self.wheel_speed[:, i] for i, side in enumerate(wheels)},
+            **{f"wheel_torque_{side}_nm": self.wheel_torque[:, i] for i, side in enumerate(wheels)},
+            "contact": self.contact,
+        }
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """Figures of one run; None where there is nothing to measure.
+
+    Attributes:
+        touchdown_time: of the last instant in free flight [s]; None: it never touches the floor.
+        touchdown_roll, touchdown_pitch: of the trunk against level at that instant, within half a
+            turn [rad].
+        touchdown_rate: of roll and pitch together at that instant [rad/s].
+        turned_angle: of pitch since lift-off, whole turns counted [rad].
+        heading_drift: about the vertical since lift-off [rad].
+        peak_wheel_speed: in flight [rad/s]. peak_wheel_torque: in flight [N m].
+        momentum_error: largest change of angular momentum in flight that no outer torque explains,
+            over the largest momentum of wheels and trunk in that flight.
+        upright_at_end: trunk within 45 deg of upright and above half its standing height.
+        final_roll, final_pitch: at the end, within half a turn [rad].
+    """
+
+    touchdown_time: float | None
+    touchdown_roll: float
+    touchdown_pitch: float
+    touchdown_rate: float
+    turned_angle: float
+    heading_drift: float
+    peak_wheel_speed: float
+    peak_wheel_torque: float
+    momentum_error: float
+    upright_at_end: bool
+    final_roll: float
+    final_pitch: float
+
+
+def series_of(recording: Recording, index: int) -> Series:
+    """Time series of one world of a recording."""
+    ran = slice(recording.lengths[index])
+    attitude = recording.attitude[ran, index]
+    roll, pitch = quaternions.tilt(attitude)
+    return Series(
+        time=recording.time[ran],
+        com=recording.com[ran, index],
+        roll=roll,
+        pitch=np.unwrap(pitch),
+        yaw=np.unwrap(quaternions.heading(attitude)),
+        rate=recording.rate[ran, index],
+        wheel_speed=recording.wheel_speed[ran, index],
+        wheel_torque=recording.wheel_torque[ran, index],
+        contact=recording.contact[ran, index].astype(np.float64),
+    )
+
+
+def measure(recording: Recording, index: int, world: World) -> Metrics | None:
+    """Figures of one world of a recording; None if its states did not stay finite."""
+    series = series_of(recording, index)
+    if not _finite(series):
+        return None
+    touching = np.flatnonzero(series.contact)
+    last = int(touching[0]) if touching.size else len(series.time) - 1
+    flight = slice(last + 1)
+    return Metrics(
+        touchdown_time=float(series.time[last]) if touching.size else None,
+        touchdown_roll=float(series.roll[last]),
+        touchdown_pitch=_within_half_turn(series.pitch[last]),
+        touchdown_rate=float(np.hypot(*series.rate[last, :2])),
+        turned_angle=float(series.pitch[last] - series.pitch[0]),
+        heading_drift=_within_half_turn(series.yaw[last] - series.yaw[0]),
+        peak_wheel_speed=float(np.abs(series.wheel_speed[flight]).max()),
+        peak_wheel_torque=float(np.abs(series.wheel_torque[flight]).max()),
+        momentum_error=_momentum_error(recording, index, last, world),
+        upright_at_end=_is_upright(recording, index, world),
+        final_roll=float(series.roll[-1]),
+        final_pitch=_within_half_turn(series.pitch[-1]),
+    )
+
+
+def _momentum_error(recording: Recording, index: int, last: int, world: World) -> float:
+    """`|H(t) - H(0) - impulse|` over the momentum that was moved about (THEORY, section 9).
+
+    H itself is near zero in most of these flights, as trunk and wheels turn against each other, so
+    the scale is the largest momentum of the wheels plus that of the trunk and its legs. Gravity has
+    no moment about the centre of mass.
+    """
+    # A stage of the step before touchdown may have felt the floor: the last instant is left out.
+    flight = slice(max(last, 1))
+    momentum = recording.momentum[flight, index]
+    unexplained = momentum - momentum[0] - recording.impulse[flight, index]
+    wheels = world.body.spin_inertia * np.abs(recording.wheel_speed[flight, index]).max()
+    turning = recording.rate[flight, index] @ world.body.inertia
+    moved = wheels + np.linalg.norm(turning, axis=1).max()
+    still = _SLOW * np.trace(world.body.inertia) / 3.0
+    return float(np.linalg.norm(unexplained, axis=1).max() / max(moved, still))
+
+
+def _is_upright(recording: Recording, index: int, world: World) -> bool:
+    last = recording.lengths[index] - 1
+    _, x, y, _ = recording.attitude[last, index]
+    rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
+    above = recording.height[last, index] > UPRIGHT_HEIGHT * world.standing_height
+    return bool(rises and above)
+
+
+def _finite(series: Series) -> bool:
+    return bool(np.isfinite(series.rate).all() and np.isfinite(series.com).all())
+
+
+def _within_half_turn(angle: float) -> float:
+    return float((angle + np.pi) % (2.0 * np.pi) - np.pi)

@@ -1,0 +1,211 @@
+"""Attitude references: a turn about a fixed axis on a smooth profile that the wheels can follow."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.simulation.controller import Gyrostat
+from ocs_design.simulation.motor_limits import MotorLimits
+
+HEADROOM = 0.95
+"""Share of voltage and current that a reference may take; the rest is left to the feedback."""
+
+
+_FLATTENED = (
+    f"the turn follows a trapezoid of rate in place of the quintic, which would take more than "
+    f"{HEADROOM:.0%} of the motors' voltage or current"
+)
+_STEPPED = (
+    "the turn is commanded as a step, as in the paper: no smooth profile that the motors can "
+    "follow ends before touchdown"
+)
+
+
+class Profile(ABC):
+    """How a turn runs from 0 to 1 over the unit time s = 0..1."""
+
+    @abstractmethod
+    def position(self, s: FloatArray) -> FloatArray:
+        """Part of the turn done at `s`."""
+
+    @abstractmethod
+    def rate(self, s: FloatArray) -> FloatArray:
+        """Its first derivative."""
+
+    @abstractmethod
+    def acceleration(self, s: FloatArray) -> FloatArray:
+        """Its second derivative."""
+
+
+class Step(Profile):
+    """The whole turn at once: the paper's command."""
+
+    def position(self, s: FloatArray) -> FloatArray:
+        """1 throughout."""
+        return np.ones_like(s)
+
+    def rate(self, s: FloatArray) -> FloatArray:
+        """0: the jump itself is left to the feedback."""
+        return np.zeros_like(s)
+
+    def acceleration(self, s: FloatArray) -> FloatArray:
+        """0, as for the rate."""
+        return np.zeros_like(s)
+
+
+class Quintic(Profile):
+    """`10 s^3 - 15 s^4 + 6 s^5`: rest to rest, peak rate 1.875, peak acceleration 5.77."""
+
+    def position(self, s: FloatArray) -> FloatArray:
+        """The polynomial."""
+        return s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+
+    def rate(self, s: FloatArray) -> FloatArray:
+        """Its first derivative."""
+        return 30.0 * (s * (1.0 - s)) ** 2
+
+    def acceleration(self, s: FloatArray) -> FloatArray:
+        """Its second derivative."""
+        return 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)
+
+
+@dataclass(frozen=True)
+class SmoothTrapezoid(Profile):
+    """Constant rate between two ramps without jumps of acceleration.
+
+    Attributes:
+        ramp: part of the time for each ramp, 0..0.5; the peak rate is 1 / (1 - ramp), the peak
+            acceleration 1.5 / (ramp (1 - ramp)).
+    """
+
+    ramp: float
+
+    def position(self, s: FloatArray) -> FloatArray:
+        """The integral of the rate; its second half mirrors the first."""
+        early = np.minimum(s, 1.0 - s)
+        x = np.minimum(early / self.ramp, 1.0)
+        ramped = self.ramp * (x**3 - 0.5 * x**4) + np.maximum(early - self.ramp, 0.0)
+        half = ramped / (1.0 - self.ramp)
+        return np.where(s <= 0.5, half, 1.0 - half)
+
+    def rate(self, s: FloatArray) -> FloatArray:
+        """Cubic ramps, `3 x^2 - 2 x^3`."""
+        x = np.minimum(np.minimum(s, 1.0 - s) / self.ramp, 1.0)
+        return x**2 * (3.0 - 2.0 * x) / (1.0 - self.ramp)
+
+    def acceleration(self, s: FloatArray) -> FloatArray:
+        """The ramps' slope."""
+        x = np.minimum(np.minimum(s, 1.0 - s) / self.ramp, 1.0)
+        slope = 6.0 * x * (1.0 - x) / (self.ramp * (1.0 - self.ramp))
+        return np.where(s <= 0.5, slope, -slope)
+
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """A turn of the trunk about an axis that is fixed in B and in the world.
+
+    Attributes:
+        axis: unit vector, shape (3,).
+        start, end: angle about it from level [rad].
+        duration: [s], from lift-off.
+        profile: see `Profile`.
+        extendable: whether it may take longer where the wheels need it; a fall does not wait.
+    """
+
+    axis: FloatArray
+    start: float
+    end: float
+    duration: float
+    profile: Profile
+    extendable: bool = True
+
+    def angle(self, time: FloatArray) -> FloatArray:
+        """At `time` from lift-off [rad]."""
+        return self.start + self.span * self.profile.position(self._unit(time))
+
+    def rate(self, time: FloatArray) -> FloatArray:
+        """[rad/s]."""
+        return self.span / self.duration * self.profile.rate(self._unit(time))
+
+    @property
+    def span(self) -> float:
+        """The whole angle [rad]."""
+        return self.end - self.start
+
+    def _unit(self, time: FloatArray) -> FloatArray:
+        return np.clip(np.asarray(time) / self.duration, 0.0, 1.0)
+
+
+LEVEL = Turn(np.array([0.0, 1.0, 0.0]), 0.0, 0.0, 1.0, Step())
+
+
+@dataclass(frozen=True, eq=False)
+class FittedTurn:
+    """A turn that the wheels can follow, and what had to be changed for that.
+
+    Attributes:
+        turn: see `Turn`.
+        note: one sentence; empty where the turn is as asked.
+    """
+
+    turn: Turn
+    note: str
+
+
+def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
+    """The turn with the first profile that leaves the feedback its headroom.
+
+    The profile asked for comes first, then trapezoids from gentle to short ramps, which trade wheel
+    speed for torque. If none will do in the time asked, the turn takes longer; where it may not, it
+    is commanded as the paper's step, which lets the feedback take all that the motors have.
+    """
+    if turn.span == 0.0 or utilisation(turn, body, limits) <= HEADROOM:
+        return FittedTurn(turn, "")
+    ramps = np.linspace(0.45, 0.1, 15)
+    options = [replace(turn, profile=SmoothTrapezoid(float(ramp))) for ramp in ramps]
+    for option in options:
+        if utilisation(option, body, limits) <= HEADROOM:
+            return FittedTurn(option, _FLATTENED)
+    if not turn.extendable:
+        return FittedTurn(replace(turn, profile=Step()), _STEPPED)
+    stretched = [_stretched(option, body, limits) for option in (turn, *options)]
+    shortest = min(stretched, key=lambda option: option.duration)
+    return FittedTurn(shortest, _lengthened(turn, shortest))
+
+
+def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
+    """Largest share of voltage or current that both wheels need along the turn, from zero momentum.
+
+    Of a gyrostat with no momentum, `I_tot w + A I_w W = 0` and `J w_dot = -A tau` (THEORY,
+    section 2). The pseudo-inverse leaves out an axis that the wheels do not reach.
+    """
+    s = np.linspace(0.0, 1.0, 401)
+    rate = turn.span / turn.duration * turn.profile.rate(s)
+    acceleration = turn.span / turn.duration**2 * turn.profile.acceleration(s)
+    share = np.linalg.pinv(body.axes, rcond=1e-6)
+    speed = np.outer(share @ body.inertia @ turn.axis, rate) / body.spin_inertia
+    torque = np.outer(share @ body.actuated_inertia @ turn.axis, acceleration)
+    return limits.utilisation(speed, torque)
+
+
+def _stretched(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
+    """The same profile over the shortest time that keeps the headroom, by bisection."""
+    too_short, enough = turn.duration, 2.0 * turn.duration
+    while utilisation(replace(turn, duration=enough), body, limits) > HEADROOM:
+        too_short, enough = enough, 2.0 * enough
+    for _ in range(30):
+        middle = 0.5 * (too_short + enough)
+        if utilisation(replace(turn, duration=middle), body, limits) > HEADROOM:
+            too_short = middle
+        else:
+            enough = middle
+    return replace(turn, duration=enough)
+
+
+def _lengthened(asked: Turn, turn: Turn) -> str:
+    return (
+        f"the turn takes {turn.duration:.3g} s in place of the {asked.duration:.3g} s asked for: "
+        f"the wheels cannot turn the trunk faster"
+    )

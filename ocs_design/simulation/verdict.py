@@ -1,0 +1,108 @@
+"""When a run counts as passed, in one place."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.requirement.maneuver import Flip, Maneuver
+from ocs_design.simulation.metrics import UPRIGHT_TILT, Metrics
+
+LANDING_TOLERANCE = np.radians(5.0)
+"""Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
+
+MOMENTUM_GATE = 1e-6
+"""Largest relative momentum error of a flight that is judged at all."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether a run passed, None where it cannot be judged, and why in one sentence."""
+
+    passed: bool | None
+    reason: str
+
+
+def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None) -> Verdict:
+    """The pass rule: a sound flight, the turn done, a level touchdown, upright at the end.
+
+    Args:
+        metrics: of the run; None if it did not stay finite.
+        maneuver: that was flown.
+        can_stand: whether the robot stays up on its joint drives after the same flight, level and
+            undisturbed; None for a robot without legs. Where it does not, "upright at the end" says
+            nothing about the device and is not judged.
+    """
+    unsound = _unsound(metrics)
+    if metrics is None or unsound:
+        return Verdict(None, unsound)
+    failure = _turn_failure(metrics, maneuver) or _landing_failure(metrics)
+    if failure:
+        return Verdict(False, failure)
+    landing = f"touches down at {_tilt(metrics)}"
+    if can_stand is None:
+        return Verdict(True, f"{landing}; without legs there is nothing to stand on")
+    if not can_stand:
+        return Verdict(
+            True,
+            f"{landing}; standing is not judged: the legs do not bear this landing even when level",
+        )
+    if not metrics.upright_at_end:
+        return Verdict(False, f"{landing} but does not stay up: ends at {_final_tilt(metrics)}")
+    return Verdict(True, f"{landing} and stands")
+
+
+def stands(level_landing: Metrics | None) -> bool:
+    """Whether a level, undisturbed landing ends on the feet, with half the tilt still to spare.
+
+    A robot that is slowly toppling over passes 45 deg some time after it was last looked at.
+    """
+    if level_landing is None or not level_landing.upright_at_end:
+        return False
+    tilt = max(abs(level_landing.final_roll), abs(level_landing.final_pitch))
+    return bool(tilt <= 0.5 * UPRIGHT_TILT)
+
+
+def _unsound(metrics: Metrics | None) -> str:
+    """Why a run says nothing; empty if it is sound."""
+    if metrics is None:
+        return "not judged: the simulation did not stay finite"
+    if metrics.momentum_error > MOMENTUM_GATE:
+        return (
+            f"not judged: angular momentum in flight is off by {metrics.momentum_error:.1e}, "
+            f"more than {MOMENTUM_GATE:.0e}"
+        )
+    if metrics.touchdown_time is None:
+        return "not judged: nothing of the robot touched the floor"
+    return ""
+
+
+def _turn_failure(metrics: Metrics, maneuver: Maneuver) -> str:
+    if not isinstance(maneuver, Flip):
+        return ""
+    if abs(metrics.turned_angle - maneuver.angle) <= LANDING_TOLERANCE:
+        return ""
+    turned, asked = np.degrees([metrics.turned_angle, maneuver.angle])
+    return f"turns {_degrees(turned)} of {asked:.0f} deg before touchdown"
+
+
+def _landing_failure(metrics: Metrics) -> str:
+    tilt = max(abs(metrics.touchdown_roll), abs(metrics.touchdown_pitch))
+    if tilt <= LANDING_TOLERANCE:
+        return ""
+    allowed = np.degrees(LANDING_TOLERANCE)
+    return f"touches down at {_tilt(metrics)}, more than {allowed:.0f} deg off level"
+
+
+def _tilt(metrics: Metrics) -> str:
+    pitch, roll = np.degrees([metrics.touchdown_pitch, metrics.touchdown_roll])
+    return f"pitch {_degrees(pitch)}, roll {_degrees(roll)} deg"
+
+
+def _final_tilt(metrics: Metrics) -> str:
+    pitch, roll = np.degrees([metrics.final_pitch, metrics.final_roll])
+    return f"pitch {_degrees(pitch)}, roll {_degrees(roll)} deg"
+
+
+def _degrees(value: float) -> str:
+    """One digit, and no minus in front of zero."""
+    return f"{value:.1f}".replace("-0.0", "0.0") if abs(value) < 0.05 else f"{value:.1f}"

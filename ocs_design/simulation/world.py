@@ -1,0 +1,244 @@
+"""One simulated world: a model, where it starts, what its wheels and its surroundings do."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.design import Device
+from ocs_design.requirement.froude import Scale
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
+from ocs_design.robot.mujoco_frames import quaternion
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.controller import Allocation, Gains, Gyrostat, WheelLaw
+from ocs_design.simulation.drives import DRIVE, set_gains
+from ocs_design.simulation.ground import lowest_point
+from ocs_design.simulation.launch import Launch, Push, flight_time, launch, level_launch
+from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, Turn, fit_turn
+from ocs_design.simulation.scene import (
+    WHEEL_JOINTS,
+    Sensor,
+    Wheels,
+    compile_scene,
+    locked_inertia,
+    robot_scene,
+)
+from ocs_design.simulation.trunk import TrunkChain
+
+PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
+"""K_p and K_d that THEORY, section 8, was measured with, for Solo12."""
+
+_CLEARANCE = 1e-3
+"""Gap under the feet at lift-off, over the standing height."""
+
+
+@dataclass(frozen=True)
+class Addresses:
+    """Where things are in the vectors of a model; equal for all worlds of a batch.
+
+    Attributes:
+        wheels: of the wheel joints in qvel. motors: of the wheel motors in ctrl.
+        trunk: index of the trunk's body.
+        contact, com, momentum, height: in the sensor data.
+    """
+
+    wheels: tuple[int, int]
+    motors: tuple[int, int]
+    trunk: int
+    contact: int
+    com: int
+    momentum: int
+    height: int
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """Everything that a run needs; a batch takes any number with models of equal sizes.
+
+    Attributes:
+        model: compiled.
+        qpos, qvel: at the start, shapes (nq,) and (nv,).
+        ctrl: of the joint drives, which hold the nominal posture, shape (nu,).
+        addresses: see `Addresses`. chain: see `TrunkChain`.
+        body: what the law believes in, measured on the model at the start.
+        law: of the wheels. turn: what the trunk should do. push: what hits it.
+        standing_height: of the trunk frame's origin when level with the feet on the ground [m].
+        flight_time: expected [s]. duration: of the run [s].
+        note: how the turn was changed to suit the wheels; empty if it was not.
+    """
+
+    model: mujoco.MjModel
+    qpos: FloatArray
+    qvel: FloatArray
+    ctrl: FloatArray
+    addresses: Addresses
+    chain: TrunkChain
+    body: Gyrostat
+    law: WheelLaw
+    turn: Turn
+    push: Push
+    standing_height: float
+    flight_time: float
+    duration: float
+    note: str
+
+
+class WorldBuilder:
+    """Builds the worlds of one robot; its scene is made once."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        device: Device,
+        *,
+        allocation: Allocation = Allocation.PSEUDO_INVERSE,
+        gains: Gains | None = None,
+        drop_profile: Profile | None = None,
+    ) -> None:
+        self._robot = robot
+        self._device = device
+        self._allocation = allocation
+        self._gains = wheel_gains(robot) if gains is None else gains
+        self._drop_profile = Quintic() if drop_profile is None else drop_profile
+        self._scene = robot_scene(robot)
+
+    def flight(self, maneuver: Maneuver, wheels: Wheels) -> World:
+        """The maneuver with the wheels active, braked or absent."""
+        return self._build(maneuver, wheels, level=False)
+
+    def level_landing(self, maneuver: Maneuver) -> World:
+        """The same flight, level and undisturbed with braked wheels: what the legs can bear."""
+        return self._build(maneuver, Wheels.BRAKED, level=True)
+
+    def _build(self, maneuver: Maneuver, wheels: Wheels, *, level: bool) -> World:
+        device = self._device
+        if maneuver.incidence is not None:
+            device = device.at_incidence(maneuver.incidence)
+        model = compile_scene(self._scene, self._robot, device, wheels, maneuver.gravity)
+        data = mujoco.MjData(model)
+        standing = _stand(self._robot, model, data)
+        set_gains(model, data, self._robot)
+        body = Gyrostat(
+            locked_inertia(model, data, np.eye(3)), device.axes, device.flywheel.spin_inertia
+        )
+        start = (
+            level_launch(maneuver, standing)
+            if level
+            else launch(maneuver, standing, self._drop_profile)
+        )
+        flight = flight_time(start, standing, maneuver.gravity)
+        fitted = self._fit(start.turn, body, wheels)
+        _place(self._robot, model, data, start, standing)
+        return World(
+            model=model,
+            qpos=data.qpos.copy(),
+            qvel=data.qvel.copy(),
+            ctrl=_posture_control(self._robot, model),
+            addresses=addresses(model),
+            chain=TrunkChain.of(self._robot, model),
+            body=body,
+            law=self._law(body, wheels),
+            turn=fitted.turn,
+            push=start.push,
+            standing_height=standing,
+            flight_time=flight,
+            duration=flight + settling_time(self._robot, maneuver.gravity),
+            note=fitted.note,
+        )
+
+    def _fit(self, turn: Turn, body: Gyrostat, wheels: Wheels) -> FittedTurn:
+        if wheels is Wheels.ACTIVE:
+            return fit_turn(turn, body, MotorLimits.of(self._device.motor))
+        return FittedTurn(turn, "")
+
+    def _law(self, body: Gyrostat, wheels: Wheels) -> WheelLaw:
+        if wheels is not Wheels.ACTIVE:
+            return WheelLaw.off()
+        limits = MotorLimits.of(self._device.motor)
+        return WheelLaw.of(body, self._gains, limits, self._allocation)
+
+
+def wheel_gains(robot: Robot) -> Gains:
+    """The gains of Solo12 with times scaled by the Froude number: `K_p ~ 1/T^2`, `K_d ~ 1/T`."""
+    time = Scale.of(robot).time(STANDARD_GRAVITY)
+    return Gains(PAPER_GAINS.stiffness / time**2, PAPER_GAINS.damping / time)
+
+
+def settling_time(robot: Robot, gravity: float) -> float:
+    """How long a robot is watched after touchdown [s]: one second for Solo12 on Earth."""
+    return Scale.of(robot).time(gravity)
+
+
+def addresses(model: mujoco.MjModel) -> Addresses:
+    """Looks everything up by name."""
+    left, right = WHEEL_JOINTS
+    at = {sensor: int(model.sensor(sensor.value).adr[0]) for sensor in Sensor}
+    return Addresses(
+        wheels=(int(model.joint(left).dofadr[0]), int(model.joint(right).dofadr[0])),
+        motors=(model.actuator(left).id, model.actuator(right).id),
+        trunk=int(model.sensor(Sensor.TRUNK.value).objid[0]),
+        contact=at[Sensor.CONTACT],
+        com=at[Sensor.COM],
+        momentum=at[Sensor.MOMENTUM],
+        height=at[Sensor.TRUNK] + 2,
+    )
+
+
+def _stand(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> float:
+    """Put the level trunk at the origin in the nominal posture; its height over its feet [m]."""
+    _set_posture(robot, model, data)
+    _set_trunk(robot, model, data, np.eye(3), 0.0)
+    mujoco.mj_forward(model, data)
+    return -lowest_point(model, data)
+
+
+def _place(
+    robot: Robot, model: mujoco.MjModel, data: mujoco.MjData, start: Launch, standing: float
+) -> None:
+    """Write the start of a flight into `data`."""
+    height = standing * (1.0 + _CLEARANCE) if start.height is None else start.height
+    _set_trunk(robot, model, data, start.rotation, height)
+    free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
+    first = int(model.jnt_dofadr[free])
+    data.qvel[first : first + 3] = start.velocity
+
+
+def _set_posture(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    for name, value in robot.posture.items():
+        data.qpos[model.joint(name).qposadr[0]] = value
+
+
+def _set_trunk(
+    robot: Robot, model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatArray, height: float
+) -> None:
+    """Move the floating base so that the trunk's frame stands over the origin as told."""
+    index = robot.tree.body_of_link[robot.trunk]
+    in_body = robot.tree.bodies[index].links[robot.trunk]
+    in_root = robot.tree.placements(robot.posture)[index] @ in_body
+    base = rotation @ in_root.rotation.T
+    free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
+    first = int(model.jnt_qposadr[free])
+    data.qpos[first : first + 3] = np.array([0.0, 0.0, height]) - base @ in_root.position
+    data.qpos[first + 3 : first + 7] = quaternion(base)
+
+
+def _posture_control(robot: Robot, model: mujoco.MjModel) -> FloatArray:
+    """Every joint drive at the nominal posture, the motors at zero, shape (nu,)."""
+    ctrl = np.zeros(model.nu)
+    for name, value in robot.posture.items():
+        ctrl[model.actuator(DRIVE + name).id] = value
+    return ctrl
+
+
+def start_states(worlds: Sequence[World]) -> FloatArray:
+    """Full physics states of all worlds at the start, shape (n, nstate)."""
+    kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
+    states = np.empty((len(worlds), mujoco.mj_stateSize(worlds[0].model, kind)))
+    for state, world in zip(states, worlds, strict=True):
+        data = mujoco.MjData(world.model)
+        data.qpos[:], data.qvel[:] = world.qpos, world.qvel
+        mujoco.mj_getState(world.model, data, state, kind)
+    return states

@@ -1,0 +1,124 @@
+"""What is to be sized, and what a given rim on it is up to."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.catalogue.materials import Material
+from ocs_design.requirement.bound import SpinDemand, spin_demands
+from ocs_design.requirement.envelope import Envelope
+from ocs_design.requirement.requirement import Requirement
+from ocs_design.robot.mass_properties import MassProperties, combine
+from ocs_design.sizing.cylinder import cylinder_spin_inertia, cylinder_transverse_inertia
+from ocs_design.sizing.incidence import Criterion, incidence_by_criterion, module_axes
+from ocs_design.sizing.rim_closed_form import RimShape
+from ocs_design.sizing.rim_problem import RimProblem
+
+
+@dataclass(frozen=True, eq=False)
+class DeviceProblem:
+    """Find the lightest pair of wheels that meets the requirement on the robot that carries it.
+
+    Attributes:
+        robot: without the wheels, in B.
+        requirement: what the wheels must do.
+        envelope: room for one rim. material: of the rim.
+        place: centres of the left and the right wheel in B [m], shape (2, 3), for an outer radius
+            and a height [m].
+        incidence: of the wheel axes [rad]; None: by `criterion`.
+        criterion: for the incidence.
+    """
+
+    robot: MassProperties
+    requirement: Requirement
+    envelope: Envelope
+    material: Material
+    place: Callable[[float, float], FloatArray]
+    incidence: float | None
+    criterion: Criterion
+
+    def rim_problem(self, spin_inertia: float) -> RimProblem:
+        """Of one wheel with this spin inertia [kg m^2]."""
+        speed = self.requirement.wheel_speed_max
+        return RimProblem(spin_inertia, self.envelope, self.material, speed)
+
+
+def wheel_mass_properties(
+    shape: RimShape, density: float, center: FloatArray, axis: FloatArray
+) -> MassProperties:
+    """Of one rim in B, spinning about `axis` through `center`, braked.
+
+    Args:
+        shape: of one rim.
+        density: [kg/m^3].
+        center: in B [m], shape (3,).
+        axis: unit vector in B, shape (3,).
+    """
+    inner, outer, height, mass = (float(value) for value in shape)
+    spin = cylinder_spin_inertia(inner, outer, height, density)
+    transverse = cylinder_transverse_inertia(inner, outer, height, density)
+    inertia = transverse * np.eye(3) + (spin - transverse) * np.outer(axis, axis)
+    return MassProperties(mass, center, inertia)
+
+
+def braked_total(
+    problem: DeviceProblem, shape: RimShape | None, incidence: float
+) -> MassProperties:
+    """Robot and both wheels as one rigid body in B; the robot alone if there is no rim yet."""
+    if shape is None:
+        return problem.robot
+    centers = problem.place(float(shape.outer_radius), float(shape.height))
+    density, axes = problem.material.density, module_axes(incidence)
+    wheels = [
+        wheel_mass_properties(shape, density, center, axis)
+        for center, axis in zip(centers, axes.T, strict=True)
+    ]
+    return combine([problem.robot, *wheels])
+
+
+def device_demands(
+    problem: DeviceProblem, shape: RimShape | None, incidence: float
+) -> tuple[SpinDemand, ...]:
+    """What each part of the requirement asks of a wheel, with the inertia at its own incidence.
+
+    A maneuver with an incidence of its own turns the wheels, and with them their inertia.
+
+    Args:
+        problem: requirement and robot.
+        shape: of both rims; None: of the robot alone.
+        incidence: of the design [rad].
+    """
+    found: list[SpinDemand] = []
+    for part in _parts(problem.requirement):
+        own = part.maneuvers[0].incidence if part.maneuvers else None
+        at = incidence if own is None else own
+        found.extend(spin_demands(part, braked_total(problem, shape, at).inertia, at))
+    return tuple(found)
+
+
+def design_momenta(requirement: Requirement, demands: Sequence[SpinDemand]) -> FloatArray:
+    """Largest roll and largest pitch momentum asked for at the design's incidence, shape (2,).
+
+    Maneuvers for which the device is turned by hand have no say in the design's incidence.
+    """
+    turned = {maneuver.name for maneuver in requirement.maneuvers if maneuver.incidence is not None}
+    momenta = [np.abs(demand.momentum) for demand in demands if demand.source not in turned]
+    largest: FloatArray = np.max([np.zeros(2), *momenta], axis=0)
+    return largest
+
+
+def best_incidences(
+    problem: DeviceProblem, shape: RimShape | None, incidence: float
+) -> Mapping[Criterion, float]:
+    """The best incidence under each criterion [rad], with the wheels standing at `incidence`."""
+    momenta = design_momenta(problem.requirement, device_demands(problem, shape, incidence))
+    return incidence_by_criterion(braked_total(problem, shape, incidence).inertia, momenta)
+
+
+def _parts(requirement: Requirement) -> Iterator[Requirement]:
+    """Each maneuver and the rate change by itself."""
+    for maneuver in requirement.maneuvers:
+        yield replace(requirement, maneuvers=(maneuver,), rate_change=None)
+    yield replace(requirement, maneuvers=())

@@ -1,0 +1,105 @@
+"""What a person sees in each robot of example-robot-data: its trunk, and how many legs it has."""
+
+from functools import cache
+
+from robots import ROBOTS
+
+from ocs_design.robot.legs import find_legs
+from ocs_design.robot.loader import load
+from ocs_design.robot.robot import Leg
+from ocs_design.robot.stand import Stand, stand
+from ocs_design.robot.tree import Tree
+
+ANATOMY = {
+    "a1_description/urdf/a1": ("base", 4),
+    "alex_description/urdf/alex_nub_hands": ("Torso", 0),
+    "alex_description/urdf/alex_psyonic_hands": ("Torso", 0),
+    "alex_description/urdf/alex_sake_hands": ("Torso", 0),
+    "alexander_description/urdf/alexander_v1.lowerBodyOnly": ("PELVIS_LINK", 2),
+    "allegro_hand_description/urdf/allegro_left_hand": ("palm_link", 0),
+    "allegro_hand_description/urdf/allegro_right_hand": ("palm_link", 0),
+    "anymal_b_simple_description/robots/anymal-kinova": ("base", 4),
+    "anymal_b_simple_description/robots/anymal": ("base", 4),
+    "anymal_c_simple_description/urdf/anymal": ("base", 4),
+    "asr_twodof_description/urdf/TwoDofs": ("world", 0),
+    "b1_description/urdf/b1-z1": ("base", 4),
+    "b1_description/urdf/b1": ("base", 4),
+    "baxter_description/urdf/baxter": ("base", 0),
+    "bolt_description/robots/bolt": ("base_link", 2),
+    "borinot_description/urdf/borinot_flying_arm_2": ("borinot__base_link", 0),
+    "centauro_description/urdf/centauro": ("pelvis", 4),
+    "double_pendulum_description/urdf/double_pendulum": ("link2", 0),
+    "double_pendulum_description/urdf/double_pendulum_continuous": ("link2", 0),
+    "double_pendulum_description/urdf/double_pendulum_simple": ("link2", 0),
+    "finger_edu_description/robots/finger_edu": ("base_link", 0),
+    "g1_description/urdf/g1_29dof_rev_1_0": ("pelvis", 2),
+    "g1_description/urdf/g1_29dof_with_hand_rev_1_0": ("pelvis", 2),
+    "go1_description/urdf/go1": ("base", 4),
+    "go2_description/urdf/go2": ("base", 4),
+    "hector_description/robots/quadrotor_base": ("base_link", 0),
+    "hextilt_description/urdf/hextilt_flying_arm_5": ("hextilt__base_link", 0),
+    "human_description/robots/human": ("middle_pelvis", 2),
+    "hyq_description/robots/hyq_no_sensors": ("base_link", 4),
+    "icub_description/robots/icub": ("base_link", 2),
+    "icub_description/robots/icub_reduced": ("base_link", 2),
+    "iris_description/robots/iris": ("iris__base_link", 0),
+    "iris_description/robots/iris_simple": ("iris__base_link", 0),
+    "kinova_description/robots/kinova": ("j2s6s200_link_6", 0),
+    "laikago_description/urdf/laikago": ("trunk", 4),
+    "panda_description/urdf/panda": ("panda_link1", 0),
+    "panda_description/urdf/panda_collision": ("panda_link1", 0),
+    "pr2_description/urdf/pr2": ("base_footprint", 0),
+    "quadruped_description/urdf/quadruped": ("base_link", 4),
+    "romeo_description/urdf/romeo": ("base_link", 2),
+    "romeo_description/urdf/romeo_laas_small": ("base_link", 2),
+    "romeo_description/urdf/romeo_small": ("base_link", 2),
+    "simple_humanoid_description/urdf/simple_humanoid": ("base_link", 2),
+    "simple_humanoid_description/urdf/simple_humanoid_classical": ("base_link", 2),
+    "so_arm_description/urdf/so100": ("base", 0),
+    "so_arm_description/urdf/so101": ("base_link", 0),
+    "solo_description/robots/solo": ("base_link", 4),
+    "solo_description/robots/solo12": ("base_link", 4),
+    "talos_data/robots/talos_full_v2": ("base_link", 2),
+    "talos_data/robots/talos_full_v2_box": ("base_link", 2),
+    "talos_data/robots/talos_left_arm": ("arm_left_5_link", 0),
+    "talos_data/robots/talos_reduced": ("base_link", 2),
+    "talos_data/robots/talos_reduced_box": ("base_link", 2),
+    "talos_data/robots/talos_reduced_corrected": ("base_link", 2),
+    "tiago_description/robots/tiago": ("base_footprint", 0),
+    "tiago_description/robots/tiago_dual": ("base_footprint", 0),
+    "tiago_description/robots/tiago_no_hand": ("base_footprint", 0),
+    "tiago_pro_description/robots/tiago_pro": ("base_footprint", 0),
+    "ur_description/urdf/ur10_joint_limited_robot": ("upper_arm_link", 0),
+    "ur_description/urdf/ur10_robot": ("upper_arm_link", 0),
+    "ur_description/urdf/ur3_gripper": ("upper_arm_link", 0),
+    "ur_description/urdf/ur3_joint_limited_robot": ("upper_arm_link", 0),
+    "ur_description/urdf/ur3_robot": ("upper_arm_link", 0),
+    "ur_description/urdf/ur5_gripper": ("upper_arm_link", 0),
+    "ur_description/urdf/ur5_joint_limited_robot": ("upper_arm_link", 0),
+    "ur_description/urdf/ur5_robot": ("upper_arm_link", 0),
+    "xarm_description/urdf/xarm7": ("link1", 0),
+    "z1_description/urdf/z1": ("link02", 0),
+}
+"""Trunk link and number of legs; a robot without legs has its heaviest body for a trunk."""
+
+LEGGED = [name for name, (_, legs) in ANATOMY.items() if legs]
+
+
+@cache
+def tree_of(name: str) -> Tree:
+    """A robot of `ANATOMY`, read once in each process."""
+    return load(ROBOTS / f"{name}.urdf").tree
+
+
+@cache
+def legs_of(name: str) -> tuple[Leg, ...]:
+    """Its legs, found once in each process."""
+    return find_legs(tree_of(name))
+
+
+@cache
+def stand_of(name: str) -> Stand:
+    """How it stands, computed once in each process."""
+    found = stand(tree_of(name), ANATOMY[name][0], legs_of(name))
+    assert found is not None
+    return found

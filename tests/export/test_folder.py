@@ -1,0 +1,108 @@
+"""The output folder appears complete or not at all."""
+
+import errno
+import hashlib
+
+import pytest
+
+from ocs_design.exceptions import OutputError
+from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
+
+
+def make_output(folder, text="old"):
+    folder.mkdir()
+    (folder / DESIGN_FILE).write_text(text)
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_finished_block_puts_the_folder_in_place_and_leaves_nothing_else(tmp_path):
+    target = tmp_path / "robot-ocs"
+    with staged_folder(target, force=False) as folder:
+        (folder / DESIGN_FILE).write_text("new")
+        assert not target.exists()
+    assert (target / DESIGN_FILE).read_text() == "new"
+    assert names(tmp_path) == ["robot-ocs"]
+
+
+def test_a_failed_block_leaves_nothing(tmp_path):
+    with pytest.raises(RuntimeError), staged_folder(tmp_path / "x", force=False) as folder:
+        (folder / DESIGN_FILE).write_text("half")
+        raise RuntimeError
+    assert names(tmp_path) == []
+
+
+def test_an_existing_folder_is_kept_without_force(tmp_path):
+    target = tmp_path / "robot-ocs"
+    make_output(target)
+    with (
+        pytest.raises(OutputError, match="exists already") as caught,
+        staged_folder(target, force=False),
+    ):
+        pass
+    assert "--force" in caught.value.hint
+    assert (target / DESIGN_FILE).read_text() == "old"
+
+
+def test_force_replaces_all_of_an_old_output(tmp_path):
+    target = tmp_path / "robot-ocs"
+    make_output(target)
+    (target / "stale.stl").write_text("stale")
+    with staged_folder(target, force=True) as folder:
+        (folder / DESIGN_FILE).write_text("new")
+    assert names(target) == [DESIGN_FILE]
+    assert (target / DESIGN_FILE).read_text() == "new"
+    assert names(tmp_path) == ["robot-ocs"]
+
+
+def test_force_keeps_the_old_output_if_the_block_fails(tmp_path):
+    target = tmp_path / "robot-ocs"
+    make_output(target)
+    with pytest.raises(RuntimeError), staged_folder(target, force=True):
+        raise RuntimeError
+    assert (target / DESIGN_FILE).read_text() == "old"
+    assert names(tmp_path) == ["robot-ocs"]
+
+
+def test_force_never_replaces_a_folder_that_is_no_output(tmp_path):
+    target = tmp_path / "photographs"
+    target.mkdir()
+    (target / "one.png").write_text("precious")
+    with pytest.raises(OutputError, match=r"holds no design\.json"):
+        check_target(target, force=True)
+    assert (target / "one.png").read_text() == "precious"
+
+
+@pytest.mark.parametrize("make", ["file", "link"])
+def test_force_never_replaces_what_is_no_folder(tmp_path, make):
+    target = tmp_path / "target"
+    if make == "file":
+        target.write_text("a file")
+    else:
+        make_output(tmp_path / "real")
+        target.symlink_to(tmp_path / "real")
+    with pytest.raises(OutputError, match="not a folder"):
+        check_target(target, force=True)
+
+
+def test_a_missing_parent_is_named(tmp_path):
+    with pytest.raises(OutputError, match="no such folder") as caught:
+        check_target(tmp_path / "nowhere" / "robot-ocs", force=False)
+    assert str(tmp_path / "nowhere") in caught.value.message
+
+
+def test_a_full_disk_is_an_error_with_a_cure_and_leaves_nothing(tmp_path):
+    full = OSError(errno.ENOSPC, "No space left on device", "flywheel.stl")
+    with pytest.raises(OutputError, match="No space left") as caught:
+        with staged_folder(tmp_path / "x", force=False):
+            raise full
+    assert "free some space" in caught.value.hint
+    assert names(tmp_path) == []
+
+
+def test_hashes_cover_every_file_by_relative_path(tmp_path):
+    (tmp_path / "cad").mkdir()
+    (tmp_path / "cad" / "a.stl").write_bytes(b"solid")
+    assert file_hashes(tmp_path) == {"cad/a.stl": hashlib.sha256(b"solid").hexdigest()}

@@ -1,0 +1,129 @@
+"""Free flight of trunk and wheels against the gyrostat's equations (THEORY, sections 2, 6 and 9)."""
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from wheels import motor, paper_device
+
+from ocs_design.requirement.maneuver import Drop
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.simulation.controller import Allocation, Gains, WheelLaw
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.simulation.reference import Step
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import World, WorldBuilder
+
+INERTIA = (0.030, 0.0535, 0.068, 0.001, 0.003, -0.002)
+
+
+def floating(inertia=INERTIA, wheels=Wheels.ACTIVE, device=None, duration=1.0) -> World:
+    """A body by hand, without gravity and far from the floor, its law off."""
+    builder = WorldBuilder(robot_by_hand(2.5, inertia), device or paper_device())
+    world = builder.flight(Drop(name="drop", height=100.0, pitch=0.0), wheels)
+    world.model.opt.gravity[:] = 0.0
+    return replace(world, law=WheelLaw.off(), duration=duration)
+
+
+def spinning(world: World, rate, wheel_speed) -> World:
+    qvel = world.qvel.copy()
+    qvel[3:6], qvel[6:8] = rate, wheel_speed
+    return replace(world, qvel=qvel)
+
+
+def gyrostat_motion(world: World, rate, wheel_speed, torque, times):
+    """Rate and wheel speeds from `J w' = -A tau - w x H`, `W' = tau / I_w - A^T w'`."""
+    body = world.body
+    J, A = body.actuated_inertia, body.axes
+
+    def slope(_, state):
+        w, W = state[:3], state[3:]
+        momentum = body.inertia @ w + body.spin_inertia * A @ W
+        w_dot = np.linalg.solve(J, -A @ torque - np.cross(w, momentum))
+        return np.concatenate([w_dot, torque / body.spin_inertia - A.T @ w_dot])
+
+    start = np.concatenate([rate, wheel_speed])
+    answer = solve_ivp(
+        slope, (0.0, times[-1]), start, method="DOP853", t_eval=times, rtol=1e-12, atol=1e-12
+    )
+    return answer.y[:3].T, answer.y[3:].T
+
+
+@pytest.mark.parametrize(
+    ("rate", "wheel_speed"),
+    [((1.0, -2.0, 0.5), (500.0, -300.0)), ((3.0, 6.0, -4.0), (1690.0, 1500.0)), ((0.1, 0, 0), (0, 0))],
+)
+def test_fast_wheels_follow_the_gyrostat_and_keep_momentum(rate, wheel_speed):
+    world = spinning(floating(), rate, wheel_speed)
+    recording = simulate([world], hold=5)
+    w, W = gyrostat_motion(world, rate, wheel_speed, np.zeros(2), recording.time)
+    np.testing.assert_allclose(recording.rate[:, 0], w, rtol=0, atol=1e-6)
+    np.testing.assert_allclose(recording.wheel_speed[:, 0], W, rtol=0, atol=1e-5)
+    momentum = recording.momentum[:, 0]
+    change = np.linalg.norm(momentum - momentum[0], axis=1).max()
+    assert change < 1e-9 * np.linalg.norm(momentum[0])
+
+
+def test_a_symmetric_top_precesses_as_euler_says():
+    """w_x = w_0 cos(l t), w_y = w_0 sin(l t), l = (I_zz - I_xx) / I_xx w_z."""
+    world = spinning(
+        floating(inertia=(0.05, 0.05, 0.08), wheels=Wheels.ABSENT), (1.0, 0.0, 7.0), (0.0, 0.0)
+    )
+    recording = simulate([world])
+    phase = (0.08 - 0.05) / 0.05 * 7.0 * recording.time
+    expected = np.column_stack([np.cos(phase), np.sin(phase), np.full_like(phase, 7.0)])
+    np.testing.assert_allclose(recording.rate[:, 0], expected, rtol=0, atol=1e-7)
+
+
+def test_full_torque_there_and_back_turns_the_trunk_as_the_closed_form_says():
+    """t = 2 sqrt(I_b theta / tau), peak wheel speed 2 theta / (xi t) (THEORY, section 6)."""
+    world = floating(inertia=(0.03, 0.0535, 0.068))
+    model, data = world.model, mujoco.MjData(world.model)
+    data.qpos[:] = world.qpos
+    half, torque = 200, 0.2
+    time = 2 * half * model.opt.timestep
+    lumped = 2.0 * np.cos(np.radians(40.0))
+    inertia = world.body.actuated_inertia[1, 1]
+    theta = lumped * torque * (time / 2.0) ** 2 / inertia
+    wheel = lumped**2 * world.body.spin_inertia
+    ratio = wheel / (wheel + inertia)
+    motors = list(world.addresses.motors)
+    data.ctrl[motors] = -torque
+    mujoco.mj_step(model, data, half)
+    peak = data.qvel[6]
+    data.ctrl[motors] = torque
+    mujoco.mj_step(model, data, half)
+    angle = 2.0 * np.arctan2(data.qpos[5], data.qpos[3])
+    assert angle == pytest.approx(theta, rel=1e-7)
+    assert np.abs(data.qvel[3:8]).max() < 1e-8
+    # The lumped wheel of THEORY turns by cos(alpha) * 2 for one of each real wheel's turns.
+    assert -peak == pytest.approx(2.0 * theta / (ratio * time) * lumped, rel=1e-7)
+
+
+def test_a_saturated_motor_follows_its_voltage_line():
+    """W = w_0 (1 - exp(-t / T)), T = I_red w_0 / tau_s (THEORY, section 6)."""
+    drive = motor(no_load_speed=650.4, stall_torque=1.4566)
+    world = floating(device=paper_device(incidence=0.0, drive=drive), duration=0.1)
+    far = replace(world.turn, start=0.0, end=3.0, profile=Step())
+    law = WheelLaw.of(
+        world.body, Gains(1e5, 0.0), MotorLimits.of(drive), Allocation.PSEUDO_INVERSE
+    )
+    recording = simulate([replace(world, law=law, turn=far)], hold=1)
+    speed = -recording.wheel_speed[:, 0, 0]
+    constant = 650.4 / 1.4566 / world.body.wheel_response
+    continuous = 650.4 * (1.0 - np.exp(-recording.time / constant))
+    held = 650.4 * (1.0 - (1.0 + 1e-3 / constant) ** -np.arange(len(speed)))
+    np.testing.assert_allclose(speed, held, rtol=1e-5)
+    np.testing.assert_allclose(speed, continuous, rtol=0, atol=0.01 * 650.4)
+
+
+def test_an_outer_torque_changes_momentum_by_its_impulse():
+    world = floating()
+    push = replace(world.push, torque=np.array([0.2, 0.8, -0.1]), onset=0.1003, duration=0.0501)
+    recording = simulate([replace(world, push=push)])
+    gained = recording.momentum[-1, 0] - recording.momentum[0, 0]
+    np.testing.assert_allclose(gained, recording.impulse[-1, 0], rtol=1e-9)
+    assert np.linalg.norm(gained) == pytest.approx(np.linalg.norm(push.torque) * 0.0501, rel=1e-3)

@@ -1,0 +1,133 @@
+"""The paper's maneuvers on Solo12 itself, and alike on every other robot."""
+
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from robots import SOLO12 as ROBOTS_SOLO12
+
+from ocs_design.requirement.bound import spin_inertia_for
+from ocs_design.requirement.froude import (
+    SOLO12,
+    WHEEL_SPEED_MAX,
+    Scale,
+    default_envelope,
+    default_maneuvers,
+    standing_height,
+)
+from ocs_design.robot.legs import find_legs
+from ocs_design.robot.loader import load
+from ocs_design.robot.stand import stand
+from ocs_design.robot.trunk import find_trunk
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
+RATIOS = st.floats(0.2, 20.0)
+
+
+def test_wheel_speed_is_that_of_solo12s_motor_at_24_volts():
+    assert pytest.approx(300 * 24 * 2 * np.pi / 60, rel=1e-15) == WHEEL_SPEED_MAX
+
+
+def test_solo12_does_exactly_what_the_paper_says(solo12):
+    push, drop, flip = default_maneuvers(solo12)
+    assert push.torque == (0.2, 0.8, 0.0)
+    assert (push.onset, push.duration) == (0.1, 0.05)
+    assert push.takeoff_velocity == (0.5, 2.4)
+    assert (drop.height, drop.roll, drop.pitch) == (1.0, 0.0, np.radians(30.0))
+    assert (push.gravity, drop.gravity, flip.gravity) == (9.81, 9.81, 1.62)
+    assert (flip.jump_height, flip.angle, flip.duration) == (1.0, -2 * np.pi, 2.0)
+    assert (push.incidence, drop.incidence, flip.incidence) == (None, None, 0.0)
+
+
+def test_solo12_has_exactly_its_own_room(solo12):
+    room = default_envelope(solo12)
+    assert (room.outer_radius_max, room.inner_radius_min) == (0.05, 0.005)
+    assert (room.height_max, room.height_min, room.wall_min) == (0.01, 0.002, 0.002)
+    assert (room.mass_max, room.stress_safety) == (0.25, 2.0)
+
+
+def test_the_back_flip_asks_most_of_solo12_and_fits_its_room(solo12):
+    maneuvers = default_maneuvers(solo12)
+    demands = {
+        item.name: spin_inertia_for(
+            item.momentum(solo12.inertia, SOLO12.standing_height),
+            np.radians(30.0) if item.incidence is None else item.incidence,
+            WHEEL_SPEED_MAX,
+        )
+        for item in maneuvers
+    }
+    assert max(demands, key=demands.get) == "back-flip"
+    assert 2.1e-4 < demands["back-flip"] < 2.4e-4
+    room = default_envelope(solo12)
+    solid = np.pi * 8000.0 * room.height_max * room.outer_radius_max**4 / 2
+    assert demands["back-flip"] < solid
+
+
+@given(length=RATIOS, mass=RATIOS)
+def test_a_larger_robot_moves_alike(length, mass):
+    """Equal Froude numbers, equal angles turned per own time, whatever the size and mass."""
+    inertia = length**2 * mass
+    small, large = Scale(1.0, 1.0, 1.0), Scale(length, inertia, inertia)
+    tests = zip(maneuvers_of(small), maneuvers_of(large), strict=True)
+    for one, other in tests:
+        height, room = SOLO12.standing_height, SOLO12.standing_height * length
+        rates = one.momentum(np.diag([0.03, 0.05, 0.07]), height) / [0.03, 0.05]
+        scaled = other.momentum(inertia * np.diag([0.03, 0.05, 0.07]), room) / [
+            0.03 * inertia,
+            0.05 * inertia,
+        ]
+        np.testing.assert_allclose(scaled * np.sqrt(length), rates, rtol=1e-9)
+
+
+@given(length=RATIOS, gravity=st.floats(1.0, 25.0))
+def test_the_jump_keeps_its_froude_number(length, gravity):
+    scale = Scale(length, 1.0, 1.0)
+    push = maneuvers_of(scale, gravity)[0]
+    forward, upward = push.takeoff_velocity
+    height = SOLO12.standing_height
+    assert upward**2 / (gravity * length * height) == pytest.approx(2.4**2 / (9.81 * height))
+    assert forward / upward == pytest.approx(0.5 / 2.4)
+    assert push.onset * upward / length == pytest.approx(0.24)
+
+
+def test_without_legs_the_radius_of_gyration_scales(make_robot):
+    robot = make_robot(2.5, (0.03, 0.05, 0.064), None)
+    ratio = np.sqrt(0.144 / 2.5) / SOLO12.gyration_radius
+    assert Scale.of(robot).length == pytest.approx(ratio)
+    assert standing_height(robot) == pytest.approx(ratio * SOLO12.standing_height)
+
+
+def maneuvers_of(scale: Scale, gravity: float = 9.81):
+    """The default maneuvers of a robot of this scale."""
+    with patch.object(Scale, "of", return_value=scale):
+        return default_maneuvers(None, gravity)
+
+
+def standing(path):
+    """Height and mass properties of a robot file at its standing posture."""
+    tree = load(path).tree
+    legs = find_legs(tree)
+    trunk = find_trunk(tree, legs)
+    found = stand(tree, trunk, legs)
+    return found.standing_height, tree.locked_mass_properties(found.posture, trunk)
+
+
+def test_the_reference_is_solo12_as_the_tool_reads_it(make_robot):
+    height, properties = standing(EXAMPLE)
+    assert height == pytest.approx(SOLO12.standing_height, rel=1e-8)
+    assert properties.inertia[0, 0] == pytest.approx(SOLO12.roll_inertia, rel=1e-8)
+    assert properties.inertia[1, 1] == pytest.approx(SOLO12.pitch_inertia, rel=1e-8)
+    robot = make_robot(properties.mass, tuple(np.diag(properties.inertia)), height)
+    assert robot.gyration_radius == pytest.approx(SOLO12.gyration_radius, rel=1e-8)
+    assert Scale.of(robot) == Scale(1.0, 1.0, 1.0)
+
+
+def test_the_public_solo12_is_the_same_but_for_its_soles():
+    """Its feet are meshes whose soles lie 0.4 mm lower than our spheres'."""
+    height, properties = standing(ROBOTS_SOLO12)
+    assert height - SOLO12.standing_height == pytest.approx(0.0, abs=5e-4)
+    assert properties.inertia[0, 0] == pytest.approx(SOLO12.roll_inertia, rel=1e-8)
+    assert properties.inertia[1, 1] == pytest.approx(SOLO12.pitch_inertia, rel=1e-8)

@@ -1,0 +1,54 @@
+"""What each maneuver asks for, with figures worked by hand."""
+
+import numpy as np
+import pytest
+
+from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+
+INERTIA = np.diag([0.03, 0.0515, 0.068])
+
+
+def test_a_disturbance_leaves_its_impulse():
+    push = Disturbance(
+        name="push", takeoff_velocity=(0, 2), torque=(-0.2, 0.8, 9.0), onset=0.1, duration=0.05
+    )
+    np.testing.assert_allclose(push.momentum(INERTIA, 0.25), [0.01, 0.04], rtol=1e-15)
+
+
+def test_a_drop_takes_the_time_of_its_fall():
+    drop = Drop(name="drop", height=1.0, roll=np.radians(-10.0), pitch=np.radians(30.0))
+    fall = drop.duration(0.25)
+    assert 0.25 + 9.81 * fall**2 / 2 == pytest.approx(1.0, rel=1e-15)
+    expected = [0.03 * 2 * np.radians(10.0) / fall, 0.0515 * 2 * np.radians(30.0) / fall]
+    np.testing.assert_allclose(drop.momentum(INERTIA, 0.25), expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("height", [0.1, 0.25])
+def test_a_drop_needs_room_to_fall(height):
+    with pytest.raises(SpecificationError, match=r"'low'.*stands at 0.25 m"):
+        Drop(name="low", height=height, pitch=0.5).momentum(INERTIA, 0.25)
+
+
+def test_a_flip_peaks_at_twice_its_mean_rate():
+    """A triangle of rates over 2 s covers the whole turn."""
+    flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
+    roll, pitch = flip.momentum(INERTIA, 0.25)
+    assert roll == 0.0
+    rate = pitch / INERTIA[1, 1]
+    times = np.linspace(0.0, 2.0, 2001)
+    rates = rate * (1.0 - np.abs(times - 1.0))
+    assert np.trapezoid(rates, times) == pytest.approx(2 * np.pi, rel=1e-6)
+
+
+def test_summaries_carry_units():
+    flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
+    assert flip.summary == (
+        "turns -360 deg of pitch in 2 s, in a vertical jump of 1 m at 1.62 m/s2"
+    )
+    drop = Drop(name="drop", height=1.0, pitch=np.radians(30.0))
+    assert drop.summary == "falls from 1 m at roll 0 deg and pitch 30 deg"
+    push = Disturbance(
+        name="push", takeoff_velocity=(0.5, 2.4), torque=(0.2, 0.8, 0), onset=0.1, duration=0.05
+    )
+    assert "(0.2, 0.8, 0) N m on the trunk for 0.05 s, 0.1 s after" in push.summary

@@ -1,0 +1,272 @@
+"""Specification files, right and wrong."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ocs_design.exceptions import OcsError, SpecificationError, UsageError
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.options import specification_from_options
+from ocs_design.requirement.reading import parse_specification, read_specification
+from ocs_design.requirement.specification import Specification
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+DROP = "[[maneuver]]\nkind = 'drop'\nname = 'fall'\nheight = '1m'\npitch = '30deg'\n"
+PUSH = (
+    "[[maneuver]]\nkind='disturbance'\nname='push'\ntakeoff_velocity=[0, 2.4]\n"
+    "torque=[0, 1, 0]\nonset=0.1\nduration=0.05\n"
+)
+FLIP = "[[maneuver]]\nkind='flip'\nname='f'\njump_height=1\nangle='1rev'\nduration=0.9\n"
+
+
+def test_an_empty_file_states_nothing():
+    assert parse_specification("", "x") == Specification()
+
+
+def test_every_kind_of_value():
+    specification = parse_specification(
+        """
+        [robot]
+        joints = { hip = "10deg", slide = "5mm", knee = -1.6 }
+        mass = "2500g"
+        inertia = ["300 kg cm^2", 0.05, 0.07]
+        [requirement]
+        rate_change = 2
+        wheel_speed_max = "7200rpm"
+        maneuvers = "none"
+        [ocs]
+        alpha = "40deg"
+        position = ["-5cm", "100mm", 0]
+        [flywheel]
+        r_max = "30mm"
+        stress_safety = 1.5
+        [validation]
+        enabled = false
+        seed = 7
+        """,
+        "x",
+    )
+    assert specification.robot.joints == {
+        "hip": pytest.approx(np.radians(10.0)),
+        "slide": 0.005,
+        "knee": -1.6,
+    }
+    assert specification.robot.mass == 2.5
+    assert specification.robot.inertia == (0.03, 0.05, 0.07)
+    assert specification.ocs.position == (-0.05, 0.1, 0.0)
+    assert specification.flywheel.r_max == 0.03
+    assert specification.validation.enabled is False
+    assert specification.validation.seed == 7
+    assert not specification.takes_default_maneuvers
+
+
+def test_maneuvers_fill_their_own_defaults_and_the_files_gravity():
+    text = f"[requirement]\ngravity = 3.71\n{DROP}{FLIP}gravity = 1.62\n"
+    drop, flip = parse_specification(text, "x").maneuvers
+    assert (drop.gravity, drop.roll, drop.incidence) == (3.71, 0.0, None)
+    assert flip.gravity == 1.62
+    assert parse_specification(DROP, "x").maneuvers[0].gravity == 9.81
+
+
+def test_all_faults_are_told_at_once_each_with_its_key():
+    with pytest.raises(SpecificationError) as caught:
+        parse_specification(
+            """
+            fly = 1
+            [flywheel]
+            rmax = "30mm"
+            r_min = "30furlong"
+            h_max = "24V"
+            wall_min = "-2mm"
+            wheel_mass_max = true
+            material = 304
+            [ocs]
+            alpha = 40
+            alpha_criterion = "simultanous"
+            position = [0, 1]
+            [validation]
+            enabled = "yes"
+            seed = -1
+            [robot]
+            joints = 3
+            [[maneuver]]
+            kind = "drop"
+            name = "fall"
+            heigth = 1
+            pitch = "30deg"
+            [[maneuver]]
+            kind = "leap"
+            [[maneuver]]
+            name = "nothing"
+            """,
+            "my.toml",
+        )
+    problems = caught.value.problems
+    for start, word in (
+        ("fly: ", "unknown key"),
+        ("flywheel.rmax: ", "Did you mean 'r_max'?"),
+        ("flywheel.r_min: ", "unknown unit 'furlong'"),
+        ("flywheel.h_max: ", "voltage"),
+        ("flywheel.wall_min: ", "must be positive"),
+        ("flywheel.wheel_mass_max: ", "not a number"),
+        ("flywheel.material: ", "not a text"),
+        ("ocs.alpha: ", "Did you mean 40deg?"),
+        ("ocs.alpha_criterion: ", "Did you mean 'simultaneous'?"),
+        ("ocs.position: ", "3 values"),
+        ("validation.enabled: ", "neither true nor false"),
+        ("validation.seed: ", "whole number"),
+        ("robot.joints: ", "table"),
+        ("maneuver.fall.heigth: ", "Did you mean 'height'?"),
+        ("maneuver.fall.height: ", "missing"),
+        ("maneuver[1].kind: ", "'leap' is unknown; one of disturbance, drop, flip"),
+        ("maneuver.nothing.kind: ", "missing"),
+    ):
+        assert [line for line in problems if line.startswith(start) and word in line], (start, word)
+    assert len(problems) == 17
+    assert str(caught.value).startswith("my.toml has 17 faults:\n  ")
+    assert caught.value.exit_code == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("[flywheel]\nr_min='30mm'\nr_max='20mm'", "flywheel.r_min: 0.03 m must be below r_max"),
+        ("[flywheel]\nr_min='30mm'\nr_max='30mm'", "flywheel.r_min: 0.03 m must be below r_max"),
+        ("[flywheel]\nh_min='3mm'\nh_max='2mm'", "flywheel.h_min"),
+        ("[robot]\nmass = 3", "mass and inertia come together"),
+        ("[robot]\nfile='a'\nmass=3\ninertia=[1,1,1]", "not both"),
+        (f"[requirement]\nmaneuvers='none'\n{DROP}", "contradicts"),
+        (DROP + DROP, "two are named 'fall'"),
+        (FLIP.replace("duration=0.9", "duration='1.1s'"), "its turn ends 1.1 s .* lasts 0.903 s"),
+        (PUSH.replace("2.4", "0.4"), "torque starts 0.1 s .* lasts 0.0815 s"),
+        (PUSH.replace("2.4", "-2.4"), "lasts 0 s"),
+        ("[robot]\nfile = 'a\\u0000b'".replace("'", '"'), "not a text"),
+        ("maneuver = 3", r"\[\[maneuver\]\]"),
+        ("maneuver = [3]", r"maneuver\[0\]: must be a table"),
+        ("flywheel = 3", "flywheel: must be a table"),
+        ("[requirement]\nrate_change = nan", "not finite"),
+        ("[robot]\nfile = ' '", "not a text"),
+        ("[validation]\nkp = 1979-05-27", "not a number"),
+        ("[ocs]\nalpha_criterion = ['equal-rate']", "is none of"),
+        ("[[maneuver]]\nkind = ['drop']", "unknown"),
+    ],
+)
+def test_faults_one_by_one(text, problem):
+    with pytest.raises(SpecificationError, match=problem) as caught:
+        parse_specification(text, "x")
+    assert caught.value.problems
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"[flywheel]\nr_max = 30mm\n", "line 2"),
+        (b"a = 1\na = 2\n", "line 2"),
+        (b"x = 1\n# caf\xe9\n", "line 2: not UTF-8"),
+        (b"a = " + b"[" * 100_000, "deep"),
+        (b"a = " + b"9" * 5000, "not TOML"),
+        (b"#" * (1 << 20) + b"#", "1 MiB"),
+        (b"\xff\xfe[\x00", "not UTF-8"),
+        (b"\x00", "not TOML"),
+    ],
+)
+def test_files_that_are_no_specification(tmp_path, content, message):
+    path = tmp_path / "x.toml"
+    path.write_bytes(content)
+    with pytest.raises(SpecificationError, match=message) as caught:
+        read_specification(path)
+    assert "x.toml" in str(caught.value)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(SpecificationError, match="No such file"):
+        read_specification(tmp_path / "none.toml")
+    with pytest.raises(SpecificationError, match="directory"):
+        read_specification(tmp_path)
+
+
+def test_a_byte_order_mark_does_no_harm(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_bytes(b"\xef\xbb\xbf[flywheel]\nr_max = '30mm'\n")
+    assert read_specification(path).flywheel.r_max == 0.03
+
+
+def test_the_robots_file_is_taken_from_the_files_folder(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text("[robot]\nfile = 'sub/robot.urdf'\n")
+    assert read_specification(path).robot.file == str(tmp_path / "sub" / "robot.urdf")
+    path.write_text("[robot]\nfile = '-'\n")
+    assert read_specification(path).robot.file == "-"
+    path.write_text("[robot]\nfile = '/a/robot.urdf'\n")
+    assert read_specification(path).robot.file == "/a/robot.urdf"
+
+
+@given(text=st.text(alphabet="[]=\"'{}.,#\n abr_max0123-", max_size=120))
+def test_no_text_does_worse_than_an_error_of_ours(text):
+    try:
+        parse_specification(text, "x")
+    except OcsError as error:
+        assert isinstance(error, SpecificationError)
+
+
+def test_options_read_as_the_files_keys_do():
+    options = {
+        "robot.inertia": "0.03, 0.05, 0.07",
+        "robot.mass": "2.5kg",
+        "robot.joints": ["hip=10deg", "slide=5mm"],
+        "flywheel.r_max": "30mm",
+        "flywheel.h_max": None,
+        "validation.enabled": False,
+        "validation.seed": "3",
+    }
+    specification = specification_from_options(options)
+    assert specification.robot.inertia == (0.03, 0.05, 0.07)
+    assert specification.robot.joints == {"hip": pytest.approx(np.radians(10.0)), "slide": 0.005}
+    assert specification.flywheel.r_max == 0.03
+    assert specification.flywheel.h_max is None
+    assert specification.validation.enabled is False
+    assert specification.validation.seed == 3
+
+
+def test_options_that_are_wrong_are_named_as_typed():
+    with pytest.raises(UsageError) as caught:
+        specification_from_options(
+            {"flywheel.r_max": "30V", "robot.joints": ["hip=x"], "ocs.alpha": "40"}
+        )
+    lines = str(caught.value).splitlines()
+    assert [line.split(":")[0] for line in lines] == ["--r-max", "--joint.hip", "--alpha"]
+    assert "Did you mean 40deg?" in lines[2]
+    assert caught.value.exit_code == 2
+    with pytest.raises(UsageError, match="--joint: 'hip' is not NAME=VALUE"):
+        specification_from_options({"robot.joints": ["hip"]})
+
+
+def test_example_of_solo12_states_the_paper():
+    specification = read_specification(EXAMPLES / "solo12.toml")
+    push, drop, flip = specification.maneuvers
+    assert isinstance(push, Disturbance)
+    assert isinstance(drop, Drop)
+    assert isinstance(flip, Flip)
+    assert Path(specification.robot.file).name == "solo12.urdf"
+    assert specification.requirement.spin_inertia == 7.11e-5
+    assert (specification.flywheel.r_max, specification.flywheel.h_max) == (0.03, 0.01)
+    assert specification.ocs.alpha == pytest.approx(np.radians(40.0))
+
+
+def test_example_of_solo12_states_the_default_maneuvers(solo12):
+    from ocs_design.requirement.froude import default_maneuvers
+
+    stated = read_specification(EXAMPLES / "solo12.toml").maneuvers
+    for one, other in zip(stated, default_maneuvers(solo12), strict=True):
+        assert type(one) is type(other)
+        assert vars(one) == vars(other)
+
+
+def test_example_by_hand_reads():
+    specification = read_specification(EXAMPLES / "by_hand.toml")
+    assert specification.robot.mass == 12.0
+    assert specification.takes_default_maneuvers

@@ -1,0 +1,114 @@
+"""Defaults filled in and told, and faults that only the robot shows."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.bound import spin_demands
+from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
+from ocs_design.requirement.reading import parse_specification, read_specification
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.specification import Specification
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SIZE = 0.45
+
+
+def stated(text: str) -> Specification:
+    return parse_specification(text, "x")
+
+
+def test_nothing_stated_is_everything_assumed(solo12):
+    resolved = resolve(Specification(), solo12, SIZE)
+    assert resolved.envelope == default_envelope(solo12)
+    assert resolved.material.name == "stainless-304"
+    assert resolved.requirement.wheel_speed_max == WHEEL_SPEED_MAX
+    assert resolved.requirement.rate_change is None
+    assert [item.name for item in resolved.requirement.maneuvers] == [
+        "disturbance",
+        "drop",
+        "back-flip",
+    ]
+    assert resolved.torque_max is None
+    told = "\n".join(resolved.assumptions)
+    for words in (
+        "the paper's three",
+        "lengths x 1)",
+        "falls from 1 m at roll 0 deg and pitch 30 deg",
+        "7200 rpm",
+        "r_max 50 mm, r_min 5 mm, h_max 10 mm, h_min 2 mm, wall_min 2 mm",
+        "at most 250 g, 10% of the robot's",
+        "stainless-304, 8000 kg/m3",
+        "at least 2.",
+        "torque: not limited",
+    ):
+        assert words in told
+    assert all(sentence.endswith(".") for sentence in resolved.assumptions)
+
+
+def test_what_is_stated_is_not_assumed(solo12):
+    resolved = resolve(read_specification(EXAMPLES / "solo12.toml"), solo12, SIZE)
+    assert resolved.envelope.outer_radius_max == 0.03
+    assert resolved.requirement.spin_inertia == 7.11e-5
+    told = "\n".join(resolved.assumptions)
+    assert "rpm" not in told
+    assert "r_max" not in told
+    assert "h_min 2 mm" in told
+    assert "not checked, for no strength of stainless-paper is known" in told
+
+
+def test_the_papers_wheel_needs_the_speed_that_the_example_allows(solo12):
+    """The back-flip at alpha 0 takes 7.11e-5 kg m^2 to some 23,000 rpm (THEORY, section 8)."""
+    requirement = resolve(read_specification(EXAMPLES / "solo12.toml"), solo12, SIZE).requirement
+    total = solo12.inertia + np.diag([1e-3, 2e-3, 2e-3])
+    demands = spin_demands(requirement, total, np.radians(40.0))
+    assert max(demand.spin_inertia for demand in demands) < requirement.spin_inertia
+
+
+def test_a_robot_without_legs_is_told_its_height(make_robot):
+    robot = make_robot(12.0, (0.19, 0.33, 0.42), None)
+    resolved = resolve(read_specification(EXAMPLES / "by_hand.toml"), robot, 0.8)
+    assert "No legs" in resolved.assumptions[0]
+    assert resolved.torque_max == 4.0
+    assert len(resolved.requirement.maneuvers) == 3
+
+
+def test_gravity_goes_to_the_default_maneuvers(solo12):
+    push, drop, flip = resolve(
+        stated("[requirement]\ngravity = 3.71"), solo12, SIZE
+    ).requirement.maneuvers
+    assert (push.gravity, drop.gravity, flip.gravity) == (3.71, 3.71, 1.62)
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("[flywheel]\nr_max = 30", "flywheel.r_max: 30 m is larger than the robot (0.45 m): "
+         "did you mean 30mm?"),
+        ("[flywheel]\nh_max = 10", "flywheel.h_max: 10 m is larger"),
+        ("[flywheel]\nwheel_mass_max = 102", "did you mean 102g?"),
+        ("[ocs]\nposition = [0, 100, 0]", "y = 100 m is off the robot"),
+        ("[flywheel]\nr_max = '4mm'", "r_max, 4 mm, leaves no room over r_min, 5 mm"),
+        ("[flywheel]\nh_max = '1mm'", "h_max, 1 mm, is below h_min, 2 mm"),
+        ("[requirement]\nmaneuvers = 'none'", "nothing is asked for"),
+        ("[flywheel]\nmaterial = 'stainless'", "flywheel.material: there is no material"),
+        ("[[maneuver]]\nkind='drop'\nname='d'\nheight='10cm'\npitch=1", "there is no fall"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):
+    with pytest.raises(SpecificationError) as caught:
+        resolve(stated(text), solo12, SIZE)
+    assert any(problem in line for line in caught.value.problems)
+
+
+def test_faults_come_together(solo12):
+    with pytest.raises(SpecificationError) as caught:
+        resolve(stated("[flywheel]\nr_max = 30\nh_max = 10\nmaterial = 'x'"), solo12, SIZE)
+    assert len(caught.value.problems) == 3
+
+
+def test_a_rate_change_alone_is_enough(solo12):
+    text = "[requirement]\nmaneuvers = 'none'\nrate_change = 2"
+    assert resolve(stated(text), solo12, SIZE).requirement.rate_change == 2.0

@@ -1,0 +1,84 @@
+"""Rim problems for tests: the paper's, and random ones in which every limit gets to bind."""
+
+from hypothesis import strategies as st
+from numpy import pi
+
+from ocs_design.catalogue.materials import Material
+from ocs_design.requirement.envelope import Envelope
+from ocs_design.sizing.rim_problem import RimProblem
+
+PAPER_STEEL = Material("stainless-paper", 7860.0, None, None, None, "Roscia 2023, Table 2")
+STEEL = Material("steel", 7850.0, 250e6, 400e6, 0.3, "for tests")
+UNLIMITED = float("inf")
+
+
+def room(outer_radius_max, height_max, **others):
+    """An envelope without any other limits than those named."""
+    limits = {
+        "inner_radius_min": 0.0,
+        "height_min": 0.0,
+        "wall_min": 0.0,
+        "mass_max": UNLIMITED,
+        "stress_safety": 1.0,
+    }
+    return Envelope(outer_radius_max, height_max=height_max, **(limits | others))
+
+
+def paper_problem(spin_inertia, outer_radius_max, height_max):
+    """One of the cases of THEORY, section 5."""
+    return RimProblem(spin_inertia, room(outer_radius_max, height_max), PAPER_STEEL, 754.0)
+
+
+def scaled_problem(*, size, slim, fill, bore, flat, wall, mass, stress):
+    """A problem from figures of order one, so that each of its limits may bind or not.
+
+    `size` is r_max, `slim` h_max over it, `fill` the spin inertia over that of a solid disc; `bore`,
+    `flat` and `wall` are the lower limits over the upper ones; `mass` and `stress` are limits over
+    those of thin rings.
+    """
+    height, speed = slim * size, 900.0
+    spin = fill * pi * STEEL.density * height * size**4 / 2.0
+    ring_stress = STEEL.density * (speed * size) ** 2
+    envelope = Envelope(
+        outer_radius_max=size,
+        inner_radius_min=bore * size,
+        height_max=height,
+        height_min=flat * height,
+        wall_min=wall * size,
+        mass_max=mass * spin / size**2,
+        stress_safety=STEEL.yield_strength / (stress * ring_stress),
+    )
+    return RimProblem(spin, envelope, STEEL, speed)
+
+
+def random_problem(rng):
+    """One `scaled_problem`; every limit is absent in some."""
+    return scaled_problem(
+        size=rng.uniform(0.02, 0.2),
+        slim=rng.uniform(0.1, 0.6),
+        fill=10.0 ** rng.uniform(-2.0, 0.05),
+        bore=rng.choice([0.0, rng.uniform(0.1, 0.7)]),
+        flat=rng.choice([0.0, rng.uniform(0.1, 0.9)]),
+        wall=rng.choice([0.0, rng.uniform(0.02, 0.5)]),
+        mass=rng.choice([UNLIMITED, rng.uniform(1.0, 2.5)]),
+        stress=rng.choice([100.0, rng.uniform(0.3, 1.5)]),
+    )
+
+
+def _absent_or(low, high):
+    return st.one_of(st.just(0.0), st.floats(low, high))
+
+
+def rim_problems():
+    """The same for Hypothesis."""
+    return st.builds(
+        scaled_problem,
+        size=st.floats(0.02, 0.2),
+        slim=st.floats(0.1, 0.6),
+        fill=st.floats(-2.0, 0.05).map(lambda power: 10.0**power),
+        bore=_absent_or(0.1, 0.7),
+        flat=_absent_or(0.1, 0.9),
+        wall=_absent_or(0.02, 0.5),
+        mass=st.one_of(st.just(UNLIMITED), st.floats(1.0, 2.5)),
+        stress=st.one_of(st.just(100.0), st.floats(0.3, 1.5)),
+    )

@@ -1,0 +1,90 @@
+"""A robot given by hand; MuJoCo weighs the box that stands for it."""
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ocs_design.exceptions import RobotError, UsageError
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.rotations import rotation_from_rpy
+
+SOLO12 = (0.0300029, 0.0514912, 0.0680453)
+
+
+def boxed_by_mujoco(robot):
+    """Mass, centre of mass and inertia of the robot's box, by MuJoCo from shape and mass alone."""
+    (shape,) = robot.tree.bodies[0].shapes
+    spec = mujoco.MjSpec()
+    body = spec.worldbody.add_body(name="box")
+    body.add_freejoint()
+    quaternion = np.zeros(4)
+    mujoco.mju_mat2Quat(quaternion, shape.rotation.flatten())
+    body.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        size=shape.size,
+        pos=shape.position,
+        quat=quaternion,
+        mass=robot.mass,
+    )
+    model = spec.compile()
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, model.body_iquat[1])
+    axes = turn.reshape(3, 3)
+    return model.body_mass[1], model.body_ipos[1], axes @ np.diag(model.body_inertia[1]) @ axes.T
+
+
+def test_the_box_of_solo12():
+    robot = robot_by_hand(2.5, SOLO12)
+    (shape,) = robot.tree.bodies[0].shapes
+    assert shape.rotation == pytest.approx(np.eye(3), abs=0.0)
+    assert (robot.trunk, robot.floating_base, robot.source) == ("base", "base", "by hand")
+    assert (robot.legs, robot.standing_height, dict(robot.posture)) == ((), None, {})
+    assert robot.inertia == pytest.approx(np.diag(SOLO12))
+
+
+@given(
+    mass=st.floats(0.1, 100.0),
+    sides=st.tuples(*[st.floats(0.05, 2.0)] * 3),
+    angles=st.tuples(*[st.floats(-3.0, 3.0)] * 3),
+)
+def test_the_box_has_the_mass_properties_that_were_given(mass, sides, angles):
+    a, b, c = (side * side for side in sides)
+    turn = rotation_from_rpy(*angles)
+    inertia = turn @ np.diag([b + c, a + c, a + b]) @ turn.T * mass / 12.0
+    upper = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    robot = robot_by_hand(mass, upper, com=(0.1, -0.2, 0.3))
+    found_mass, found_com, found_inertia = boxed_by_mujoco(robot)
+    scale = np.abs(inertia).max()
+    assert found_mass == pytest.approx(mass)
+    assert found_com == pytest.approx([0.1, -0.2, 0.3])
+    assert found_inertia == pytest.approx(inertia, abs=1e-9 * scale)
+    assert sorted(robot.tree.bodies[0].shapes[0].size) == pytest.approx(
+        np.sort(sides) / 2, rel=1e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("mass", "inertia", "said"),
+    [
+        (2.5, (0.03, 0.05, 0.09), "triangle inequality (0.03 + 0.05 < 0.09"),
+        (2.5, (-0.03, 0.05, 0.05), "negative principal moment -0.03"),
+        (2.5, (0.03, 0.03, 0.03, 0.05, 0.0, 0.0), "negative principal moment -0.02"),
+        (-1.0, SOLO12, "negative mass -1 kg"),
+        (0.0, SOLO12, "mass 0 kg"),
+        (2.5, (0.0, 0.05, 0.05), "principal moment 0"),
+        (float("nan"), SOLO12, "not finite"),
+        (2.5, (float("inf"), 0.05, 0.05), "not finite"),
+    ],
+)
+def test_what_no_body_can_have_is_refused_with_its_numbers(mass, inertia, said):
+    with pytest.raises(RobotError) as caught:
+        robot_by_hand(mass, inertia)
+    assert said in caught.value.message
+    assert caught.value.hint
+
+
+def test_an_inertia_has_three_or_six_numbers():
+    with pytest.raises(UsageError, match="not 4"):
+        robot_by_hand(2.5, (1.0, 1.0, 1.0, 0.0))

@@ -1,0 +1,144 @@
+import numpy as np
+import pinocchio as pin
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ocs_design.robot.mass_properties import MassProperties, combine, physical_defect
+from ocs_design.robot.rotations import rotation_about, rotation_from_quaternion, rotation_from_rpy
+
+seeds = st.integers(min_value=0, max_value=2**32 - 1)
+
+
+def random_cloud(rng: np.random.Generator, count: int = 8) -> MassProperties:
+    """Of point masses, which makes it physical by construction."""
+    return combine(
+        MassProperties(rng.uniform(0.1, 2.0), rng.uniform(-1, 1, 3), np.zeros((3, 3)))
+        for _ in range(count)
+    )
+
+
+def random_rotation(rng: np.random.Generator) -> np.ndarray:
+    return rotation_from_quaternion(rng.normal(size=4))
+
+
+def assert_same(a: MassProperties, b: MassProperties) -> None:
+    assert a.mass == pytest.approx(b.mass, rel=1e-13)
+    np.testing.assert_allclose(a.com, b.com, atol=1e-13)
+    np.testing.assert_allclose(a.inertia, b.inertia, atol=1e-12)
+
+
+@given(seeds)
+def test_parallel_axes_are_the_sum_over_points(seed):
+    rng = np.random.default_rng(seed)
+    masses, points, about = rng.uniform(0.1, 2, 6), rng.uniform(-1, 1, (6, 3)), rng.normal(size=3)
+    whole = combine(
+        MassProperties(m, p, np.zeros((3, 3))) for m, p in zip(masses, points, strict=True)
+    )
+    arms = points - about
+    by_definition = sum(
+        m * (r @ r * np.eye(3) - np.outer(r, r)) for m, r in zip(masses, arms, strict=True)
+    )
+    np.testing.assert_allclose(whole.inertia_about(about), by_definition, atol=1e-12)
+
+
+@given(seeds)
+def test_the_whole_does_not_depend_on_how_it_is_cut(seed):
+    rng = np.random.default_rng(seed)
+    parts = [random_cloud(rng) for _ in range(5)]
+    cut = int(rng.integers(1, 5))
+    assert_same(combine(parts), combine([combine(parts[:cut]), combine(parts[cut:])]))
+    assert_same(combine(parts), combine(reversed(parts)))
+
+
+@given(seeds)
+def test_moving_and_moving_back_closes(seed):
+    rng = np.random.default_rng(seed)
+    body, turn, shift = random_cloud(rng), random_rotation(rng), rng.normal(size=3)
+    assert_same(body, body.moved(turn, shift).moved(turn.T, -turn.T @ shift))
+
+
+@given(seeds)
+def test_moving_the_parts_moves_the_whole(seed):
+    rng = np.random.default_rng(seed)
+    parts, turn, shift = (
+        [random_cloud(rng) for _ in range(3)],
+        random_rotation(rng),
+        rng.normal(size=3),
+    )
+    assert_same(combine(parts).moved(turn, shift), combine(p.moved(turn, shift) for p in parts))
+
+
+@given(seeds)
+def test_principal_moments_do_not_depend_on_the_frame(seed):
+    rng = np.random.default_rng(seed)
+    body = random_cloud(rng)
+    moved = body.moved(random_rotation(rng), rng.normal(size=3))
+    np.testing.assert_allclose(
+        np.linalg.eigvalsh(moved.inertia), np.linalg.eigvalsh(body.inertia), atol=1e-12
+    )
+
+
+@given(seeds)
+def test_transport_and_sum_agree_with_pinocchio(seed):
+    rng = np.random.default_rng(seed)
+    first, second = random_cloud(rng), random_cloud(rng)
+    turn, shift = random_rotation(rng), rng.normal(size=3)
+    ours = combine([first, second.moved(turn, shift)])
+    theirs = pin.Inertia(first.mass, first.com, first.inertia) + pin.SE3(turn, shift).act(
+        pin.Inertia(second.mass, second.com, second.inertia)
+    )
+    assert_same(ours, MassProperties(theirs.mass, theirs.lever, theirs.inertia))
+
+
+@given(seeds)
+def test_clouds_of_points_have_no_defect(seed):
+    assert physical_defect(random_cloud(np.random.default_rng(seed))) is None
+
+
+def test_a_point_mass_and_nothing_are_no_defect():
+    assert physical_defect(MassProperties(1.0, np.ones(3), np.zeros((3, 3)))) is None
+    assert physical_defect(MassProperties.zero()) is None
+    assert combine([]).mass == 0.0
+
+
+@pytest.mark.parametrize(
+    ("mass", "moments", "named"),
+    [
+        (-1.0, (1.0, 1.0, 1.0), "negative mass"),
+        (1.0, (-0.1, 1.0, 1.0), "negative principal moment"),
+        (1.0, (0.1, 0.2, 0.4), "triangle inequality"),
+        (np.nan, (1.0, 1.0, 1.0), "not finite"),
+        (1.0, (np.inf, 1.0, 1.0), "not finite"),
+    ],
+)
+def test_defects_are_named(mass, moments, named):
+    defect = physical_defect(MassProperties(mass, np.zeros(3), np.diag(moments)))
+    assert defect is not None
+    assert named in defect
+
+
+def test_rounding_is_no_defect():
+    lamina = MassProperties(1.0, np.zeros(3), np.diag([0.1, 0.2, 0.3 + 1e-11]))
+    dust = MassProperties(0.5, np.zeros(3), np.diag([-5e-20, 0.0, 1e-19]))
+    assert physical_defect(lamina) is None
+    assert physical_defect(dust) is None
+
+
+def test_arrays_cannot_be_written_to():
+    with pytest.raises(ValueError, match="read-only"):
+        MassProperties.zero().com[0] = 1.0
+
+
+@given(seeds)
+def test_rotations_agree_with_pinocchio(seed):
+    rng = np.random.default_rng(seed)
+    rpy, angle, xyzw = rng.uniform(-4, 4, 3), rng.uniform(-7, 7), rng.normal(size=4)
+    axis = rng.normal(size=3)
+    axis /= np.linalg.norm(axis)
+    np.testing.assert_allclose(rotation_from_rpy(*rpy), pin.rpy.rpyToMatrix(*rpy), atol=1e-14)
+    np.testing.assert_allclose(
+        rotation_about(axis, angle), pin.AngleAxis(angle, axis).matrix(), atol=1e-13
+    )
+    theirs = pin.Quaternion(xyzw / np.linalg.norm(xyzw)).matrix()
+    np.testing.assert_allclose(rotation_from_quaternion(np.roll(xyzw, 1)), theirs, atol=1e-14)

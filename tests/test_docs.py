@@ -1,0 +1,113 @@
+"""The docs say what the program says."""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *DOCS.glob("*.md")]
+
+LINK = re.compile(r"(?<!\!)\[[^\]]*\]\((?P<target>[^)\s]+)\)")
+HEADING = re.compile(r"^#{1,6} +(.+?) *$", re.MULTILINE)
+FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def generate():
+    spec = importlib.util.spec_from_file_location("docs_generate", DOCS / "generate.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_generated_pages_are_up_to_date(generate):
+    assert generate.stale_pages() == []
+
+
+def test_a_stale_block_is_seen(generate):
+    stale = "<!-- begin keys: motor -->\nold\n<!-- end -->"
+    fresh = generate.filled(stale, generate.QUICK)
+    assert "old" not in fresh
+    assert "torque_max" in fresh
+    assert generate.filled(fresh, generate.QUICK) == fresh
+
+
+def test_every_command_has_its_section(generate):
+    text = (DOCS / "cli.md").read_text()
+    assert generate.commands()
+    for command in generate.commands():
+        assert f"## `ocs-design {command}`" in text
+
+
+def test_every_section_of_the_specification_has_its_table(generate):
+    text = (DOCS / "specification.md").read_text()
+    for section in generate.SECTIONS:
+        assert f"<!-- begin keys: {section} -->" in text
+    for kind in generate.MANEUVER_KINDS:
+        assert f"<!-- begin maneuver keys: {kind} -->" in text
+
+
+def anchors(page):
+    """Anchors of a page's headings, as GitHub and Sphinx make them."""
+    titles = HEADING.findall(FENCE.sub("", page.read_text()))
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_within_the_repository_lead_somewhere(page):
+    for target in LINK.findall(FENCE.sub("", page.read_text())):
+        if target.startswith(("http://", "https://")):
+            continue
+        file, _, anchor = target.partition("#")
+        found = page.parent / file if file else page
+        assert found.exists(), target
+        assert not anchor or anchor in anchors(found), target
+
+
+def test_every_citation_of_the_code_is_explained():
+    """`paper` and `THEORY` in docstrings are the two sources that the docs explain."""
+    headings = anchors(DOCS / "references.md")
+    cited = set(re.findall(r"references\.md#([a-z0-9]+)", (DOCS / "theory.md").read_text()))
+    assert cited <= headings
+    assert len(cited) > 10
+
+
+@pytest.mark.slow
+def test_the_commands_that_the_docs_show_still_print_that(generate):
+    """All but the seconds that each step took."""
+    for path in generate.PAGES:
+        for block in generate.BLOCK.finditer(path.read_text()):
+            if block["kind"] == "run":
+                assert untimed(generate.run(block["argument"])) == untimed(block["body"])
+
+
+def untimed(text):
+    return [line for line in text.splitlines() if not re.match(r" *\d+\.\d+ s ", line)]
+
+
+@pytest.mark.slow
+def test_the_docs_build_without_a_warning(tmp_path):
+    pytest.importorskip("sphinx", reason="the docs extra is not installed")
+    command = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-n",
+        "-W",
+        "--keep-going",
+        "-q",
+        str(DOCS),
+        str(tmp_path),
+    ]
+    environment = {**os.environ, "PYTHONWARNINGS": "default"}
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+    assert done.returncode == 0, done.stderr
+    page = (tmp_path / "theory.html").read_text()
+    assert "<math" in page
+    assert not re.search(r'(src|href)="https?://[^"]+\.(js|css|woff2?)"', page)

@@ -1,0 +1,46 @@
+"""The paper's device, and variants of it, for tests."""
+
+import numpy as np
+
+from ocs_design.design import Device, Flywheel, Module, Motor
+from ocs_design.sizing.incidence import module_axes
+
+# Table 2 of the paper; its h of 10.2 mm contradicts its own mass and inertia.
+PAPER_WHEEL = Flywheel(
+    inner_radius=0.022,
+    outer_radius=0.03,
+    height=0.01,
+    material="steel",
+    density=7860.0,
+    mass=7860.0 * np.pi * 0.01 * (0.03**2 - 0.022**2),
+    spin_inertia=7860.0 * np.pi * 0.01 * (0.03**4 - 0.022**4) / 2.0,
+    transverse_inertia=7860.0
+    * np.pi
+    * 0.01
+    * (3.0 * (0.03**4 - 0.022**4) + 0.01**2 * (0.03**2 - 0.022**2))
+    / 12.0,
+    hoop_stress=None,
+    stress_margin=None,
+    stored_energy=0.0,
+)
+
+
+def motor(
+    no_load_speed: float = np.inf,
+    stall_torque: float | None = None,
+    torque_limit: float | None = None,
+) -> Motor:
+    return Motor("test", 0.0, stall_torque, no_load_speed, torque_limit, 0.0, "made up")
+
+
+def paper_device(incidence: float = np.radians(40.0), drive: Motor | None = None) -> Device:
+    axes = module_axes(incidence)
+    return Device(
+        incidence,
+        (
+            Module("left", axes[:, 0], np.array([0.0, 0.04, 0.05])),
+            Module("right", axes[:, 1], np.array([0.0, -0.04, 0.05])),
+        ),
+        PAPER_WHEEL,
+        drive or motor(),
+    )
