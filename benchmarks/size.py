@@ -55,7 +55,7 @@ def simulated_steps(out: Path) -> int:
 def duration(path: Path) -> float:
     """Last time in a time series [s]; it starts at zero."""
     with path.open(newline="") as file:
-        return max(float(row["time"]) for row in csv.DictReader(file))
+        return max(float(row["time_s"]) for row in csv.DictReader(file))
 
 
 if __name__ == "__main__":

@@ -10,11 +10,13 @@ A block stands between `<!-- begin KIND: ARGUMENT -->` and `<!-- end -->` in a M
     keys: SECTION          table of the keys of one section of the specification file
     maneuver keys: KIND    table of the keys of one kind of [[maneuver]]
     run: COMMAND LINE      what the command prints, run in an empty folder that holds `examples/`
+    refused: COMMAND LINE  the same for one that no design can satisfy, which is exit code 4
 """
 
 import argparse
 import os
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -120,7 +122,7 @@ KIND_NAMES = {
 }
 
 
-def run(command_line: str) -> str:
+def run(command_line: str, exit_code: int = 0) -> str:
     """The output of a command, both streams in order, in an empty folder with the examples."""
     environment = {
         **os.environ,
@@ -131,7 +133,7 @@ def run(command_line: str) -> str:
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "examples").symlink_to(ROOT / "examples")
         done = subprocess.run(
-            ["bash", "-euo", "pipefail", "-c", command_line],
+            shlex.split(command_line),
             cwd=folder,
             env=environment,
             stdout=subprocess.PIPE,
@@ -139,7 +141,7 @@ def run(command_line: str) -> str:
             text=True,
             check=False,
         )
-    if done.returncode:
+    if done.returncode != exit_code:
         raise SystemExit(f"exit {done.returncode}: {command_line}\n{done.stdout}")
     return fenced(f"$ {command_line}\n{done.stdout}")
 
@@ -161,8 +163,10 @@ KINDS: Mapping[str, Callable[[str], str]] = {
     "keys": section_keys,
     "maneuver keys": maneuver_keys,
     "run": run,
+    "refused": lambda command_line: run(command_line, exit_code=4),
 }
-QUICK = {kind: make for kind, make in KINDS.items() if kind != "run"}
+SLOW = ("run", "refused")
+QUICK = {kind: make for kind, make in KINDS.items() if kind not in SLOW}
 
 
 def cli_page() -> str:
@@ -200,7 +204,7 @@ def stale_pages() -> list[str]:
 def main() -> None:
     """Write or check."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="leave the `run` blocks as they are")
+    parser.add_argument("--quick", action="store_true", help="leave what must be run as it is")
     parser.add_argument("--check", action="store_true", help="write nothing, fail on stale pages")
     arguments = parser.parse_args()
     if not arguments.check:

@@ -1,6 +1,6 @@
 """The command line: parse, call one function, print. No arithmetic.
 
-Heavy modules are imported inside the commands: importing them costs seconds, and `--help` needs none.
+Heavy modules are imported inside the commands: that costs seconds, and `--help` needs none.
 """
 
 import sys
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 app = typer.Typer(
     name="ocs-design",
     help="Size, export and prove a flywheel orientation control system for a legged robot.",
-    no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     add_completion=True,
@@ -32,14 +31,16 @@ def main() -> None:
 
 
 @app.callback(invoke_without_command=True)
-def _version(
+def _no_command(
+    context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
 ) -> None:
     if version:
         from ocs_design import __version__
 
         print(f"ocs-design {__version__}")
-        raise typer.Exit
+    elif context.invoked_subcommand is None:
+        print(context.get_help())
 
 
 @app.command()
@@ -76,8 +77,9 @@ def size(
 ) -> None:
     """Size a device for a robot, export it and prove it in simulation.
 
-    A quantity is SI, or carries its unit: 30mm, 7200rpm, 40deg, 102g. Exit codes: 0 done, 1 a scenario
-    fails, 2 wrong usage, 3 the input cannot be read, 4 no design meets the specification.
+    A quantity is SI, or carries its unit: 30mm, 7200rpm, 40deg, 102g. Exit codes: 0 done, 1 a
+    scenario fails, 2 wrong usage, 3 the input cannot be read, 4 no design meets the specification,
+    5 an optional tool is missing.
     """
     from ocs_design.design_file import design_to_json
     from ocs_design.pipeline import design_ocs
@@ -164,6 +166,63 @@ def inspect(
         sys.stdout.buffer.write(inspection_to_json(inspection))
     else:
         print_inspection(make_console(color=not no_color), inspection)
+
+
+@app.command()
+def bound(
+    inertia: Annotated[
+        str,
+        typer.Option(metavar="INERTIA", help="Of the robot about the axis, e.g. '0.0515 kg m2'."),
+    ],
+    rate_change: Annotated[
+        str, typer.Option(metavar="RATE", help="Change of the trunk's rate, e.g. 2rad/s.")
+    ],
+    wheel_speed_max: Annotated[
+        str, typer.Option(metavar="SPEED", help="Highest speed of a wheel, relative to the trunk.")
+    ] = "7200rpm",
+    alpha: Annotated[
+        str, typer.Option(metavar="ANGLE", help="Incidence of the wheel axes.")
+    ] = "0deg",
+    axis: Annotated[str, typer.Option(metavar="AXIS", help="pitch or roll.")] = "pitch",
+    as_json: opt.AsJson = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """The paper's lower bound on the wheels' inertia by hand, and its curve."""
+    from ocs_design.bounding import bound_by_hand, bound_to_json
+    from ocs_design.report.bound import print_bound
+    from ocs_design.report.console import make_console
+
+    answer = bound_by_hand(
+        inertia=inertia,
+        rate_change=rate_change,
+        wheel_speed_max=wheel_speed_max,
+        alpha=alpha,
+        axis=axis,
+    )
+    if as_json:
+        sys.stdout.buffer.write(bound_to_json(answer))
+    else:
+        print_bound(make_console(color=not no_color), answer)
+
+
+@app.command()
+def catalogue(
+    what: Annotated[str, typer.Argument(metavar="materials", help="What to list.")],
+    as_json: opt.AsJson = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """What can be chosen, with sources."""
+    from ocs_design.catalogue.materials import materials, materials_to_json
+    from ocs_design.exceptions import UsageError
+    from ocs_design.report.catalogue import print_materials
+    from ocs_design.report.console import make_console
+
+    if what != "materials":
+        raise UsageError(f"there is no catalogue of {what}", hint="try: catalogue materials")
+    if as_json:
+        sys.stdout.buffer.write(materials_to_json())
+    else:
+        print_materials(make_console(color=not no_color), list(materials().values()))
 
 
 def _specification(file: Path | None, options: Mapping[str, object]) -> "Specification":

@@ -5,7 +5,6 @@ import os
 import sys
 from collections.abc import Sequence
 
-import click
 import typer
 
 from ocs_design.exceptions import OcsError, SpecificationError
@@ -25,12 +24,9 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         return result if isinstance(result, int) else 0
     except OcsError as error:
         return _report(error, as_json=as_json)
-    except click.Abort:
-        print("interrupted; nothing was written", file=sys.stderr)
-        return INTERRUPTED
-    except click.ClickException as error:
+    except typer.TyperException as error:
         return _report_usage(error, as_json=as_json)
-    except KeyboardInterrupt:
+    except (typer.Abort, KeyboardInterrupt):
         print("interrupted; nothing was written", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
@@ -56,8 +52,8 @@ def _report(error: OcsError, *, as_json: bool) -> int:
     return error.exit_code
 
 
-def _report_usage(error: click.ClickException, *, as_json: bool) -> int:
-    context = error.ctx if isinstance(error, click.UsageError) else None
+def _report_usage(error: typer.TyperException, *, as_json: bool) -> int:
+    context = getattr(error, "ctx", None)
     hint = f"see `{context.command_path} --help`" if context else ""
     if as_json:
         _print_json("usage", error.format_message(), hint, {})

@@ -75,7 +75,7 @@ AlphaCriterion: TypeAlias = Annotated[
     typer.Option(
         "--alpha-criterion",
         metavar="NAME",
-        help="equal-rate (default), weighted, simultaneous, pitch or roll.",
+        help="equal-rate (default), weighted, simultaneous, pitch-only, roll-only.",
     ),
 ]
 Position: TypeAlias = Annotated[

@@ -19,7 +19,7 @@ class Flywheel:
         spin_inertia: about the spin axis, motor rotor included [kg m^2].
         transverse_inertia: about any axis across it through its centre of mass [kg m^2].
         hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
-        stress_margin: allowed over actual hoop stress; None if the material's strength is not known.
+        stress_margin: yield strength over hoop stress; None if the strength is not known.
         stored_energy: at the highest wheel speed [J].
     """
 
@@ -98,5 +98,7 @@ class Device:
     def at_incidence(self, incidence: float) -> "Device":
         """The same device with its modules turned by hand, as the paper does for its back-flip."""
         axes = module_axes(incidence)
-        turned = [replace(module, axis=axis) for module, axis in zip(self.modules, axes.T, strict=True)]
+        turned = [
+            replace(module, axis=axis) for module, axis in zip(self.modules, axes.T, strict=True)
+        ]
         return replace(self, incidence=incidence, modules=(turned[0], turned[1]))

@@ -253,7 +253,9 @@ def read_design(path: Path) -> OcsDesign:
         content = path.read_bytes()
         version = msgspec.json.decode(content, type=_Version).schema_version
     except OSError as error:
-        raise OcsError(f"{path}: {error.strerror}", hint="give the path of a design.json") from error
+        raise OcsError(
+            f"{path}: {error.strerror}", hint="give the path of a design.json"
+        ) from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise OcsError(f"{path}: not a design.json: {error}") from error
     if version != SCHEMA_VERSION:

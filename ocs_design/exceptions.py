@@ -53,7 +53,7 @@ class RobotError(OcsError):
 
 
 class SpecificationError(OcsError):
-    """The specification file is wrong; `problems` lists every fault found, each with its key's path."""
+    """The specification is wrong; `problems` lists every fault, each with its key's path."""
 
     kind = "specification"
 

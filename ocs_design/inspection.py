@@ -16,7 +16,7 @@ from ocs_design.sizing.incidence import Criterion, heading_drift, incidence_by_c
 
 @dataclass(frozen=True, kw_only=True)
 class PostureLine:
-    """The robot in one posture: principal diagonal of its locked inertia, and alpha* (equal-rate)."""
+    """The robot in one posture: diagonal of its locked inertia, and alpha* (equal-rate)."""
 
     posture: str
     inertia_diagonal: tuple[float, float, float]

@@ -67,7 +67,9 @@ def record_design(
 def _requirement(resolved: Resolved, sizing: DeviceSizing) -> RequirementRecord:
     requirement = resolved.requirement
     speed = requirement.wheel_speed_max
-    roll, pitch = np.max([demand.momentum for demand in sizing.demands], axis=0, initial=0.0) / speed
+    roll, pitch = (
+        np.max([demand.momentum for demand in sizing.demands], axis=0, initial=0.0) / speed
+    )
     return RequirementRecord(
         maneuvers=tuple(_maneuver(maneuver) for maneuver in requirement.maneuvers),
         rate_change=requirement.rate_change,

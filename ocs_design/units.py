@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterator
 from enum import StrEnum
 from fractions import Fraction
+from reprlib import repr as shortened
 
 from ocs_design.exceptions import QuantityError
 
@@ -119,7 +120,7 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
         return _parse_text(value, dimension, where)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise QuantityError(
-            f"{where}: {value!r:.40} is not a number", hint=f"Write {_example(dimension)}."
+            f"{where}: {shortened(value)} is not a number", hint=f"Write {_example(dimension)}."
         )
     return _finite(value, "the number", where)
 

@@ -1,8 +1,12 @@
 """The paper's device, and variants of it, for tests."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ocs_design.design import Device, Flywheel, Module, Motor
+from ocs_design.requirement.froude import Scale
+from ocs_design.robot.robot import Robot
 from ocs_design.sizing.incidence import module_axes
 
 # Table 2 of the paper; its h of 10.2 mm contradicts its own mass and inertia.
@@ -44,3 +48,21 @@ def paper_device(incidence: float = np.radians(40.0), drive: Motor | None = None
         PAPER_WHEEL,
         drive or motor(),
     )
+
+
+def scaled_device(robot: Robot) -> Device:
+    """The paper's wheel for another robot: lengths by its Froude scale, inertia by its own."""
+    scale, device = Scale.of(robot), paper_device()
+    inertia = PAPER_WHEEL.spin_inertia * scale.pitch_inertia
+    wheel = replace(
+        PAPER_WHEEL,
+        outer_radius=PAPER_WHEEL.outer_radius * scale.length,
+        height=PAPER_WHEEL.height * scale.length,
+        mass=PAPER_WHEEL.mass * scale.pitch_inertia / scale.length**2,
+        spin_inertia=inertia,
+        transverse_inertia=0.55 * inertia,
+    )
+    left, right = (
+        replace(module, position=module.position * scale.length) for module in device.modules
+    )
+    return replace(device, modules=(left, right), flywheel=wheel)

@@ -9,6 +9,8 @@ from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
 
+import msgspec
+
 from ocs_design.exceptions import OcsError, SpecificationError
 
 DEFAULT_MATERIAL = "stainless-304"
@@ -88,3 +90,9 @@ def _material(row: Mapping[str, str]) -> Material:
         poisson_ratio=figure("poisson_ratio"),
         source=row["source"],
     )
+
+
+def materials_to_json() -> bytes:
+    """The catalogue as indented UTF-8 JSON, SI."""
+    document = {"schema_version": 1, "materials": list(materials().values())}
+    return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"

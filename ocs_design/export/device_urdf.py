@@ -6,6 +6,9 @@ from ocs_design.export.naming import flywheel_name, joint_name
 from ocs_design.export.templates import fill, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_rpy
 
+UNLIMITED = 1e6
+"""Where URDF asks for a limit of torque or speed and there is none [SI]."""
+
 
 def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
     """Both flywheels as URDF elements, each line indented by two spaces.
@@ -57,5 +60,5 @@ def limit_urdf(device: Device) -> str:
     torque = largest_torque(device.motor)
     if torque is None:
         return "<!-- the motor's torque is not limited -->"
-    velocity = numbers(device.motor.no_load_speed)
+    velocity = numbers(min(device.motor.no_load_speed, UNLIMITED))
     return f'<limit effort="{numbers(torque)}" velocity="{velocity}"/>'

@@ -43,6 +43,7 @@ def _pairs(root: ET.Element, spec: mujoco.MjSpec) -> Iterator[tuple[ET.Element, 
     """Each element that holds measures, with the object of the spec that it was printed from."""
     for section, tags, objects in (
         ("worldbody", ("body",), spec.bodies[1:]),
+        ("worldbody", ("frame",), spec.frames),
         ("worldbody", ("joint",), spec.joints),
         ("worldbody", ("geom",), spec.geoms),
         ("worldbody", ("site",), spec.sites),

@@ -6,13 +6,11 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.export.device_urdf import UNLIMITED
 from ocs_design.export.templates import numbers
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.robot.tree import Body, Joint, JointKind, Placement, Shape, ShapeKind, Tree
 from ocs_design.robot.unused_name import unused_name
-
-_UNLIMITED = 1e6
-"""URDF asks for torque and speed limits of every joint with a range; these stand for none."""
 
 
 def tree_urdf(tree: Tree) -> str:
@@ -109,7 +107,7 @@ def _type(joint: Joint) -> str:
 
 def _limits(joint: Joint) -> dict[str, str]:
     bounds = np.clip(
-        [joint.lower, joint.upper, joint.effort, joint.velocity], -_UNLIMITED, _UNLIMITED
+        [joint.lower, joint.upper, joint.effort, joint.velocity], -UNLIMITED, UNLIMITED
     )
     names = ("lower", "upper", "effort", "velocity")
     return {name: numbers(bound) for name, bound in zip(names, bounds, strict=True)}

@@ -72,14 +72,14 @@ class Steps:
 class Step:
     """Handle of a running step. `note` is appended to its line when it is done."""
 
-    def __init__(self, progress: Progress | None = None, task: TaskID = TaskID(0)) -> None:
+    def __init__(self, progress: Progress | None = None, task: TaskID | None = None) -> None:
         self.note = ""
         self._progress = progress
         self._task = task
 
     def update(self, fraction: float) -> None:
         """Move the bar to `fraction` of the step."""
-        if self._progress is not None:
+        if self._progress is not None and self._task is not None:
             self._progress.update(self._task, total=1.0, completed=fraction)
 
 
@@ -92,4 +92,3 @@ def _bar(console: Console) -> Progress:
         console=console,
         transient=True,
     )
-

@@ -5,11 +5,13 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.inspection import Inspection
-from ocs_design.report.terminal import columns, facts, heading, print_robot, show
+from ocs_design.report.layout import columns, facts, heading, note, show
+from ocs_design.report.quantities import signed
+from ocs_design.report.terminal import print_robot
 
 PAPER_ANGLE = (
-    "The paper states about 40 deg for Solo12; its own formula gives that only with the legs spread "
-    "by about 0.75 to 1 rad."
+    "The paper states about 40 deg for Solo12; its own formula gives that only with the legs "
+    "spread by about 0.75 to 1 rad."
 )
 
 
@@ -25,8 +27,8 @@ def print_inspection(console: Console, inspection: Inspection) -> None:
             ("legs", ", ".join(robot.legs) or "none found"),
             (
                 "heading drift",
-                f"{inspection.heading_drift[0]:+.3f} rad of yaw per rad of roll, "
-                f"{inspection.heading_drift[1]:+.3f} per rad of pitch",
+                f"{signed(inspection.heading_drift[0])} rad of yaw per rad of roll, "
+                f"{signed(inspection.heading_drift[1])} per rad of pitch",
             ),
         ],
     )
@@ -50,7 +52,7 @@ def _print_postures(console: Console, inspection: Inspection) -> None:
         moments = (f"{moment:.4g}" for moment in line.inertia_diagonal)
         table.add_row(Text(line.posture), *moments, f"{np.degrees(line.incidence):.2f}")
     show(console, table)
-    console.print(Text(f"  {PAPER_ANGLE}", style="dim"))
+    note(console, PAPER_ANGLE)
 
 
 def _print_joints(console: Console, inspection: Inspection) -> None:

@@ -20,8 +20,22 @@ def rpm(speed: float) -> str:
 
 def degrees(angle: float, digits: int = 1) -> str:
     """Angle [rad] in degrees."""
-    # Adding zero turns a rounded -0.0 into 0.0.
-    return f"{round(float(np.degrees(angle)), digits) + 0.0:.{digits}f} deg"
+    return f"{_rounded(float(np.degrees(angle)), digits):.{digits}f} deg"
+
+
+def tenths(length: float) -> str:
+    """Length [m] in tenths of a mm, without its unit."""
+    return f"{_rounded(1e3 * length, 1):.1f}"
+
+
+def signed(ratio: float) -> str:
+    """A ratio with its sign and three digits."""
+    return f"{_rounded(ratio, 3):+.3f}"
+
+
+def _rounded(value: float, digits: int) -> float:
+    """Adding zero turns a rounded -0.0 into 0.0."""
+    return round(value, digits) + 0.0
 
 
 def inertia(value: float) -> str:
@@ -32,8 +46,3 @@ def inertia(value: float) -> str:
 def megapascals(stress: float) -> str:
     """Stress [Pa] in MPa."""
     return f"{stress / 1e6:.1f} MPa"
-
-
-def newton_metres(torque: float) -> str:
-    """Torque [N m]."""
-    return f"{torque:.3g} N m"

@@ -1,17 +1,32 @@
 """The story of a design in the terminal: what was read, asked, found, proved and written."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from rich import box
 from rich.console import Console
-from rich.padding import Padding
-from rich.table import Table
 from rich.text import Text
 
 from ocs_design.design_file import OcsDesign, RobotRecord, ValidationRecord
-from ocs_design.report.quantities import degrees, grams, inertia, megapascals, millimetres, rpm
+from ocs_design.report.layout import (
+    columns,
+    facts,
+    heading,
+    items,
+    note,
+    print_warnings,
+    show,
+)
+from ocs_design.report.quantities import (
+    degrees,
+    grams,
+    inertia,
+    megapascals,
+    millimetres,
+    rpm,
+    signed,
+    tenths,
+)
 
 VERDICTS = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not judged", "yellow")}
 
@@ -29,10 +44,11 @@ def print_design(console: Console, design: OcsDesign) -> None:
 def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
     """What was written, and the verdict in one line."""
     heading(console, f"Written to {folder}/")
+    rows = [("design.json", "everything in this report, and the hashes of the other files")]
     for group in sorted({name.split("/")[0] for name in design.files}):
         names = [name.partition("/")[2] for name in design.files if name.startswith(f"{group}/")]
-        console.print(Padding(Text(f"{group}/  {'  '.join(names)}"), (0, 0, 0, 2)))
-    console.print(Padding(Text("design.json"), (0, 0, 0, 2)))
+        rows.append((f"{group}/", "  ".join(names)))
+    facts(console, rows)
     with_device = [run for run in design.validation if run.ocs]
     if with_device:
         passed = sum(run.passed is True for run in with_device)
@@ -52,7 +68,7 @@ def print_robot(console: Console, robot: RobotRecord) -> None:
     posture = robot.posture_name
     if robot.standing_height is not None:
         posture += f", trunk {millimetres(robot.standing_height, 0)} over the feet"
-    com = ", ".join(f"{1e3 * value:.1f}" for value in robot.com)
+    com = ", ".join(map(tenths, robot.com))
     diagonal = "  ".join(f"{robot.inertia[i][i]:.4g}" for i in range(3))
     products = "  ".join(f"{robot.inertia[i][j]:.2g}" for i, j in ((0, 1), (0, 2), (1, 2)))
     facts(
@@ -69,45 +85,12 @@ def print_robot(console: Console, robot: RobotRecord) -> None:
     print_warnings(console, robot.warnings)
 
 
-def print_warnings(console: Console, warnings: Sequence[str]) -> None:
-    """One line each."""
-    for warning in warnings:
-        console.print(Padding(Text(f"warning: {warning}", style="yellow"), (0, 0, 0, 2)))
-
-
-def heading(console: Console, text: str) -> None:
-    """A section of the report."""
-    console.print()
-    console.print(Text(text, style="bold"))
-
-
-def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
-    """Names and values in two columns."""
-    table = Table.grid(padding=(0, 2))
-    table.add_column(no_wrap=True)
-    table.add_column(overflow="fold")
-    for name, value in rows:
-        table.add_row(Text(f"  {name}", style="dim"), Text(value))
-    console.print(table)
-
-
-def columns(*names: str, left: int = 1) -> Table:
-    """An empty table: the first `left` columns are text, the others numbers."""
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1))
-    for index, name in enumerate(names):
-        table.add_column(name, justify="left" if index < left else "right", overflow="fold")
-    return table
-
-
-def show(console: Console, table: Table) -> None:
-    """A table, indented like everything under a heading."""
-    console.print(Padding(table, (0, 0, 0, 2)))
-
-
 def _print_requirement(console: Console, design: OcsDesign) -> None:
     requirement = design.requirement
     heading(console, f"Requirement: wheels of at most {rpm(requirement.wheel_speed_max)}")
-    table = columns("asked by", "alpha\ndeg", "roll\nmN m s", "pitch\nmN m s", "spin inertia\nkg m2")
+    table = columns(
+        "asked by", "alpha\ndeg", "roll\nmN m s", "pitch\nmN m s", "spin inertia\nkg m2"
+    )
     for demand in requirement.demands:
         table.add_row(
             Text(demand.source),
@@ -117,43 +100,42 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
             f"{demand.spin_inertia:.3e}",
         )
     show(console, table)
-    console.print(
-        Padding(
-            Text(
-                "A necessary bound: torque and control come on top; the simulations below decide.",
-                style="dim",
-            ),
-            (0, 0, 0, 2),
-        )
-    )
-    for assumption in requirement.assumptions:
-        console.print(Padding(Text(f"assumed: {assumption}", style="dim"), (0, 0, 0, 2)))
+    note(console, "A necessary bound: torque and control come on top; the flights below decide.")
+    if requirement.assumptions:
+        heading(console, "Assumed, because nothing else was stated")
+        items(console, requirement.assumptions)
 
 
 def _print_device(console: Console, design: OcsDesign) -> None:
     ocs, wheel = design.ocs, design.ocs.flywheel
     heading(console, "Device: two flywheels")
     alone = ocs.incidence_by_criterion_robot_alone.get(ocs.incidence_criterion)
-    note = f" ({ocs.incidence_criterion}"
-    note += f"; {degrees(alone)} for the robot alone)" if alone is not None else ")"
-    size = f"R {wheel.outer_radius * 1e3:.2f}  r {wheel.inner_radius * 1e3:.2f}  h {wheel.height * 1e3:.2f} mm"
-    ratio = ocs.mass_total / design.robot.mass
-    position = ", ".join(f"{1e3 * value:.1f}" for value in ocs.modules[0].position)
+    chosen = ocs.incidence_criterion
+    if alone is not None:
+        chosen += f"; {degrees(alone)} for the robot alone"
+    outer, inner, height = (
+        f"{1e3 * length:.2f}" for length in (wheel.outer_radius, wheel.inner_radius, wheel.height)
+    )
+    share = f"{ocs.mass_total / design.robot.mass:.1%} of the robot; no motors yet"
+    position = ", ".join(map(tenths, ocs.modules[0].position))
     facts(
         console,
         [
-            ("incidence alpha*", degrees(ocs.incidence, 2) + note),
-            ("rim", f"{size}, {wheel.material}"),
+            ("incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"),
+            ("rim", f"R {outer}  r {inner}  h {height} mm, {wheel.material}"),
             ("mass of one rim", grams(wheel.mass)),
-            ("mass of both", f"{grams(ocs.mass_total)}, {100 * ratio:.1f} % of the robot (no motors yet)"),
+            (
+                "mass of both",
+                f"{grams(ocs.mass_total)} ({share})",
+            ),
             ("spin inertia", f"{inertia(ocs.spin_inertia)} each"),
             ("transverse inertia", f"{inertia(wheel.transverse_inertia)} each"),
             ("left wheel at", f"{position} mm; the right one mirrored in y"),
             ("motor", f"{design.ocs.motor.name}: {design.ocs.motor.source}"),
             (
                 "heading drift",
-                f"{ocs.heading_drift[0]:+.3f} rad of yaw per rad of roll, "
-                f"{ocs.heading_drift[1]:+.3f} per rad of pitch (cannot be commanded)",
+                f"{signed(ocs.heading_drift[0])} rad of yaw per rad of roll, "
+                f"{signed(ocs.heading_drift[1])} per rad of pitch (cannot be commanded)",
             ),
         ],
     )
@@ -170,7 +152,7 @@ def _print_limits(console: Console, design: OcsDesign) -> None:
     sizing = design.sizing
     heading(console, "What binds")
     if not sizing.binding:
-        console.print("  nothing: the rim lies inside all limits")
+        note(console, "Nothing: the rim lies inside all limits.")
         return
     table = columns("limit", "worth for one rim")
     for name in sizing.binding:
@@ -218,10 +200,7 @@ def _print_validation(console: Console, design: OcsDesign) -> None:
     for run in design.validation:
         table.add_row(*_run_row(run))
     show(console, table)
-    for run in design.validation:
-        if run.reason:
-            label = f"{run.scenario}, {'with' if run.ocs else 'without'}: "
-            console.print(Padding(Text(label + run.reason, style="dim"), (0, 0, 0, 2)))
+    items(console, (_run_story(run) for run in design.validation))
 
 
 def _run_row(run: ValidationRecord) -> list[Text | str]:
@@ -240,6 +219,12 @@ def _run_row(run: ValidationRecord) -> list[Text | str]:
     ]
 
 
-def _deg(metrics: object, name: str) -> str:
-    value = metrics.get(name) if hasattr(metrics, "get") else None
-    return "-" if value is None else f"{np.degrees(value) + 0.0:.1f}"
+def _run_story(run: ValidationRecord) -> str:
+    """The verdict in words, with what was changed about the turn."""
+    device = "with" if run.ocs else "without"
+    return f"{run.scenario}, {device}: " + "; ".join(filter(None, (run.reason, run.note)))
+
+
+def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:
+    value = metrics.get(name)
+    return "-" if value is None else degrees(value).removesuffix(" deg")

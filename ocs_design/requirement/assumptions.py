@@ -47,7 +47,7 @@ def _assumed_room(flywheel: FlywheelSection, envelope: Envelope, scale: Scale) -
         if getattr(flywheel, key) is None
     ]
     if lengths:
-        yield f"Rim: {', '.join(lengths)} ({SOLO12.name}'s x {scale.length:.3g})."
+        yield f"Rim: {', '.join(lengths)} ({SOLO12.name}'s x {scale.rim:.3g})."
     if flywheel.wheel_mass_max is None:
         mass = format_quantity(envelope.mass_max, "g", 3)
         yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."

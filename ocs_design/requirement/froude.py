@@ -93,6 +93,16 @@ class Scale:
         """Ratio of speeds, sqrt(g L)."""
         return sqrt(self.length * gravity / STANDARD_GRAVITY)
 
+    @property
+    def rim(self) -> float:
+        """Ratio of a rim's lengths that gives its spin inertia the ratio of the back-flip's demand.
+
+        At the same wheel speed the demand goes with I_yy / T, and a rim of similar shape has a spin
+        inertia that goes with the fifth power of its lengths. Robots of one height differ tenfold
+        in mass: scaled by height alone, the rim of a heavy one would be out of reach by default.
+        """
+        return float(f"{(self.pitch_inertia / sqrt(self.length)) ** 0.2:.6g}")
+
 
 def _ratio(figure: float, reference: float) -> float:
     """`figure` over `reference` to six digits: a posture is solved to nine, and Solo12 is 1."""
@@ -120,8 +130,8 @@ def default_maneuvers(
 
 
 def default_envelope(robot: Robot) -> Envelope:
-    """Room for a rim: Solo12's 100 mm by 10 mm, its lengths scaled with the robot, not rounded."""
-    length = Scale.of(robot).length
+    """Room for a rim: Solo12's 100 mm by 10 mm, its lengths scaled with the demand, not rounded."""
+    length = Scale.of(robot).rim
     return Envelope(
         outer_radius_max=0.050 * length,
         inner_radius_min=0.005 * length,

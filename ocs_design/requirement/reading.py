@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from reprlib import repr as shortened
 from typing import Any
 
 from ocs_design.exceptions import SpecificationError
@@ -14,8 +15,11 @@ from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
 from ocs_design.requirement.maneuver_table import MANEUVER_KINDS, ManeuverKind
 from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
 
-LARGEST_FILE = 1 << 20
+LARGEST_FILE = 1 << 16
 """Bytes; a specification takes a few thousand."""
+
+LONGEST_LINE = 1000
+"""Characters; the TOML reader takes minutes for a key of ten thousand dots."""
 
 
 def read_specification(path: Path) -> Specification:
@@ -56,7 +60,7 @@ def _text(path: Path) -> str:
         reason = error.strerror or "it cannot be opened"
         raise SpecificationError(f"cannot read the specification {path}: {reason}") from error
     if len(content) > LARGEST_FILE:
-        raise SpecificationError(f"{path} is larger than 1 MiB: that is no specification")
+        raise SpecificationError(f"{path} is larger than 64 KiB: that is no specification")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -67,6 +71,9 @@ def _text(path: Path) -> str:
 
 
 def _toml(text: str, name: str) -> Mapping[str, object]:
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > LONGEST_LINE:
+            raise SpecificationError(f"{name}, line {number}: over {LONGEST_LINE} characters long")
     try:
         return tomllib.loads(text)
     except RecursionError as error:
@@ -124,11 +131,12 @@ def _maneuver(
     table: Mapping[str, object], index: int, gravity: float, faults: Faults
 ) -> Maneuver | None:
     """One maneuver, or None with its faults kept; people know it by its name, if it has one."""
-    where = f"maneuver.{table['name']}" if "name" in table else f"maneuver[{index}]"
+    name = table.get("name")
+    where = f"maneuver.{name}" if isinstance(name, str) else f"maneuver[{index}]"
     word = table.get("kind")
     kind = MANEUVER_KINDS.get(word) if isinstance(word, str) else None
     if kind is None:
-        what = "is missing" if word is None else f"{word!r:.40} is unknown"
+        what = "is missing" if word is None else f"{shortened(word)} is unknown"
         faults.append(f"{where}.kind: {what}; one of {', '.join(MANEUVER_KINDS)}")
         return None
     before = len(faults)

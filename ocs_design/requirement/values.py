@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import Enum
+from reprlib import repr as shortened
 from typing import Generic, TypeVar
 
 from ocs_design.exceptions import QuantityError, SpecificationError
@@ -118,7 +119,9 @@ class Count(Value[int]):
         """See `Value.read`."""
         text = str(raw).strip() if isinstance(raw, (str, int)) else ""
         if isinstance(raw, bool) or not text.isascii() or not text.isdigit():
-            raise QuantityError(f"{where}: {raw!r:.40} is not a whole number, zero or positive")
+            raise QuantityError(
+                f"{where}: {shortened(raw)} is not a whole number, zero or positive"
+            )
         return int(text)
 
 
@@ -130,7 +133,7 @@ class Text(Value[str]):
         """See `Value.read`."""
         # A zero character ends a path for the operating system.
         if not isinstance(raw, str) or not raw.strip() or "\0" in raw:
-            raise SpecificationError(f"{where}: {raw!r:.40} is not a text in quotes")
+            raise SpecificationError(f"{where}: {shortened(raw)} is not a text in quotes")
         return raw
 
 
@@ -142,11 +145,11 @@ class Choice(Value[str]):
 
     def read(self, raw: object, where: str) -> str:
         """See `Value.read`."""
-        if raw in self.words:
-            return str(raw)
+        if isinstance(raw, str) and raw in self.words:
+            return raw
         raise SpecificationError(
-            f"{where}: {raw!r:.40} is none of {', '.join(self.words)}",
-            hint=did_you_mean(str(raw), self.words),
+            f"{where}: {shortened(raw)} is none of {', '.join(self.words)}",
+            hint=did_you_mean(raw, self.words),
         )
 
 
@@ -158,7 +161,7 @@ class Switch(Value[bool]):
         """See `Value.read`."""
         if isinstance(raw, bool):
             return raw
-        raise SpecificationError(f"{where}: {raw!r:.40} is neither true nor false")
+        raise SpecificationError(f"{where}: {shortened(raw)} is neither true nor false")
 
 
 @dataclass(frozen=True)
@@ -173,14 +176,14 @@ class JointValues(Value[Mapping[str, float]]):
         table = dict(self._pair(text, where) for text in raw) if isinstance(raw, list) else raw
         if not isinstance(table, Mapping):
             raise SpecificationError(
-                f"{where}: {raw!r:.40} is not a table, as in {{ hip = '10deg' }}"
+                f"{where}: {shortened(raw)} is not a table, as in {{ hip = '10deg' }}"
             )
         return {name: self._value(value, f"{where}.{name}") for name, value in table.items()}
 
     def _pair(self, text: object, where: str) -> tuple[str, str]:
         name, separator, value = str(text).partition("=")
         if not (name and separator):
-            raise SpecificationError(f"{where}: {text!r:.40} is not NAME=VALUE")
+            raise SpecificationError(f"{where}: {shortened(text)} is not NAME=VALUE")
         return name, value
 
     def _value(self, raw: object, where: str) -> float:
@@ -190,7 +193,7 @@ class JointValues(Value[Mapping[str, float]]):
             return parse_quantity(raw, Dimension.ANGLE, where)
 
 
-def did_you_mean(word: str, known: tuple[str, ...]) -> str:
+def did_you_mean(word: object, known: tuple[str, ...]) -> str:
     """A question that offers the closest of `known`; empty if none is close."""
-    close = get_close_matches(word, known, n=1)
+    close = get_close_matches(word, known, n=1) if isinstance(word, str) else ()
     return f"Did you mean {close[0]!r}?" if close else ""

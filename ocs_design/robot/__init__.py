@@ -1,0 +1,1 @@
+"""From a file or numbers to one frozen `Robot`."""

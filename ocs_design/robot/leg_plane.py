@@ -25,7 +25,7 @@ class LegPlane:
         forward: unit vector in the plane, level, with its largest component positive, shape (3,).
         columns: columns of the driven joints that place the foot: all but a wheel's.
         flat: whether the leg has ankles that can keep its sole level.
-        length: of the stretched leg within its limits, hip to foot [m].
+        length: of the stretched leg within its limits, hip to foot [m]; 0 for slides alone.
     """
 
     pitch: tuple[int, ...]
@@ -92,6 +92,8 @@ def _forward(axis: FloatArray, up: FloatArray) -> FloatArray:
 def _stretched_length(
     chain: Chain, foot: FloatArray, hip: FloatArray, up: FloatArray, pitch: Sequence[int]
 ) -> float:
-    """How far below the hip the foot can be brought within the limits [m]."""
+    """How far below the hip the foot can be brought within the limits [m]; 0 if nothing bends."""
+    if chain.joints[chain.driven[pitch[0]]].kind is JointKind.PRISMATIC:
+        return 0.0
     stretched = chain.pose(chain.stretched(foot, -up, pitch))
     return float(up @ (hip - stretched.point(foot)))

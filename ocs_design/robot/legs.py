@@ -93,50 +93,52 @@ def _legs_along(
     tree: Tree, placements: Sequence[Placement], masses: Sequence[MassProperties], up: FloatArray
 ) -> tuple[Leg, ...]:
     best: list[_Limb] = []
-    children = _children(tree)
     robot = combine(masses)
-    for trunk in range(len(tree.bodies)):
+    for trunk, ends in _alike(tree):
+        limbs = [_limb(chain_of(tree, *each, placements), each[1], up) for each in ends]
+        hanging = [limb for limb in limbs if limb is not None]
         carriers = [masses[i] for i in _ancestors(tree, trunk) if masses[i].mass > 0.0]
-        for ends in _alike(tree, children, trunk):
-            limbs = [_limb(chain_of(tree, *each, placements), each[1], up) for each in ends]
-            hanging = [limb for limb in limbs if limb is not None]
-            legs = _standing(hanging, robot, carriers, up)
-            if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
-                best = legs
-    return tuple(_leg(limb, up) for limb in best)
+        legs = _standing(hanging, robot, carriers, up)
+        if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
+            best = legs
+    found = tuple(_leg(limb, up) for limb in best)
+    # Slides alone, as of a gantry, do not make a leg: nothing bends between hip and foot.
+    return found if all(leg.length > 0.0 for leg in found) else ()
 
 
-def _children(tree: Tree) -> list[list[int]]:
-    children: list[list[int]] = [[] for _ in tree.bodies]
-    for index, body in enumerate(tree.bodies):
-        if body.parent >= 0:
-            children[body.parent].append(index)
-    return children
+def _alike(tree: Tree) -> Iterator[tuple[int, list[tuple[int, int]]]]:
+    """Trunks, each with limbs of the same number of joints, as first and last body."""
+    ends, driven = _far_ends(tree), _driven_joints(tree)
+    sets: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for first, body in enumerate(tree.bodies[1:], start=1):
+        last = ends[first]
+        hinges = driven[last] - driven[body.parent] - is_wheel(tree.bodies[last])
+        sets.setdefault((body.parent, hinges), []).append((first, last))
+    for (trunk, hinges), limbs in sets.items():
+        if hinges >= 2 and len(limbs) >= 2:
+            yield trunk, limbs
 
 
-def _alike(
-    tree: Tree, children: Sequence[Sequence[int]], trunk: int
-) -> Iterator[list[tuple[int, int]]]:
-    """Sets of limbs of one body with the same number of joints, as first and last body."""
-    sets: dict[int, list[tuple[int, int]]] = {}
-    for first in children[trunk]:
-        last, _ = _far_end(tree, children, first)
-        sets.setdefault(_hinges(tree, last, trunk), []).append((first, last))
-    yield from (ends for hinges, ends in sets.items() if hinges >= 2 and len(ends) >= 2)
+def _far_ends(tree: Tree) -> list[int]:
+    """For each body the descendant at the end of the longest path below it, or itself."""
+    ends = list(range(len(tree.bodies)))
+    lengths = [0.0] * len(tree.bodies)
+    for index in range(len(tree.bodies) - 1, 0, -1):
+        body = tree.bodies[index]
+        length = lengths[index] + float(np.linalg.norm(body.placement.position))
+        # At equal lengths the first in the file, which is met last, as a reader would expect.
+        if length >= lengths[body.parent]:
+            lengths[body.parent], ends[body.parent] = length, ends[index]
+    return ends
 
 
-def _far_end(tree: Tree, children: Sequence[Sequence[int]], body: int) -> tuple[int, float]:
-    """The descendant at the end of the longest path below a body, and that path's length [m]."""
-    ends = [_far_end(tree, children, child) for child in children[body]]
-    end, length = max(ends, key=lambda each: each[1], default=(body, 0.0))
-    return end, length + float(np.linalg.norm(tree.bodies[body].placement.position))
-
-
-def _hinges(tree: Tree, last: int, trunk: int) -> int:
-    """Driven joints between a trunk and a limb's last body, a wheel's left out."""
-    bodies = [tree.bodies[i] for i in _ancestors(tree, last) if i > trunk]
-    driven = sum(body.joint is not None and body.joint.mimic is None for body in bodies)
-    return driven - is_wheel(tree.bodies[last])
+def _driven_joints(tree: Tree) -> list[int]:
+    """Joints that move by themselves, from the root to each body."""
+    counts = [0]
+    for body in tree.bodies[1:]:
+        moves = body.joint is not None and body.joint.mimic is None
+        counts.append(counts[body.parent] + moves)
+    return counts
 
 
 def _limb(chain: Chain, last: int, up: FloatArray) -> _Limb | None:

@@ -9,6 +9,7 @@ import mujoco
 
 from ocs_design.exceptions import RobotError
 from ocs_design.robot.mjcf_assets import embed_assets
+from ocs_design.robot.mujoco_warnings import mujoco_warnings_to
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.unused_name import unused_name
 from ocs_design.robot.urdf_xml import parse_xml
@@ -24,7 +25,9 @@ def parse_mjcf(content: bytes, folder: Path, remarks: Remarks) -> mujoco.MjSpec:
     """
     root = parse_xml(content, remarks)
     _expand_includes(root, folder, seen=set())
-    spec = _parse(ET.tostring(root, encoding="unicode"))
+    spec = _parse(ET.tostring(root, encoding="unicode"), remarks)
+    # Bodies that are fused lose their names, and the trunk may be one of them.
+    spec.compiler.fusestatic = False
     embed_assets(spec, folder, remarks)
     _name(spec.bodies, "body")
     _name(spec.joints, "joint")
@@ -40,9 +43,10 @@ def _name(elements: Sequence["mujoco.MjsBody | mujoco.MjsJoint"], kind: str) -> 
             element.name = unused_name(f"{kind}{number}", "", taken)
 
 
-def _parse(text: str) -> mujoco.MjSpec:
+def _parse(text: str, remarks: Remarks) -> mujoco.MjSpec:
     try:
-        return mujoco.MjSpec.from_string(text)
+        with mujoco_warnings_to(remarks):
+            return mujoco.MjSpec.from_string(text)
     except ValueError as error:
         raise mujoco_refusal(error) from error
 
@@ -50,7 +54,9 @@ def _parse(text: str) -> mujoco.MjSpec:
 def compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:
     """The compiled model; what MuJoCo will not compile is an error of the robot's file."""
     try:
-        return spec.compile()
+        # The reader compiles the user's model first, and has told what there is to tell.
+        with mujoco_warnings_to(Remarks()):
+            return spec.compile()
     except ValueError as error:
         raise mujoco_refusal(error) from error
 

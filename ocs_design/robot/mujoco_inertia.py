@@ -17,8 +17,6 @@ NEGLIGIBLE_MASS = 1e-9
 """What a massless moving body weighs in MuJoCo [kg]; its limit is 1e-15."""
 NEGLIGIBLE_INERTIA = 1e-12
 """The smallest principal moment in MuJoCo [kg m^2]; its limit is 1e-15."""
-_TRIANGLE_GUARD = 1e-14
-"""Relative distance from the triangle inequality, so that rounding cannot break it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,9 +87,10 @@ def _with_active(moments: FloatArray, floor: float, floored: int, triangle: bool
     found[:floored] = floor
     free = 3 - floored
     if triangle and free:
-        excess = found[2] - (found[0] + found[1]) * (1.0 - _TRIANGLE_GUARD)
-        found[2] -= excess / free
+        excess = found[2] - found[0] - found[1]
         found[floored:2] += excess / free
+        # MuJoCo compares to the last bit.
+        found[2] = min(found[2] - excess / free, found[0] + found[1])
     return found
 
 

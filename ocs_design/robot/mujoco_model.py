@@ -11,6 +11,7 @@ from ocs_design.robot.mujoco_contacts import add_missing_feet, exclude_neighbour
 from ocs_design.robot.mujoco_free_base import free_base
 from ocs_design.robot.mujoco_meshes import drop_refused_meshes
 from ocs_design.robot.mujoco_tree import body_names, spec_from_tree
+from ocs_design.robot.mujoco_written_out import write_out_inertials, write_out_orientations
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.source import STANDARD_INPUT
@@ -64,7 +65,10 @@ def _compiled(spec: mujoco.MjSpec, robot: Robot, remarks: Remarks) -> mujoco.MjM
 
 def _spec_from_mjcf(robot: Robot, remarks: Remarks) -> mujoco.MjSpec:
     folder = Path.cwd() if robot.source == STANDARD_INPUT else Path(robot.source).absolute().parent
-    spec = parse_mjcf(robot.content, folder, remarks)
+    # What is odd in the file itself has been told by the reader.
+    spec = parse_mjcf(robot.content, folder, Remarks())
+    write_out_orientations(spec)
+    write_out_inertials(spec)
     free_base(spec, robot.floating_base, remarks)
     return spec
 

@@ -54,11 +54,12 @@ class Robot:
         trunk: link that carries the device; its frame is the base frame B.
         floating_base: link of the tree's root.
         posture: value of every moving joint [rad or m].
-        posture_name: `zero`, `stand`, the name of a keyframe or SRDF state, with ` + joints` if some
-            were set one by one.
+        posture_name: `zero`, `stand`, the name of a keyframe or SRDF state, with ` + joints` if
+            some were set one by one.
         mass_properties: of the whole robot with its joints held at `posture`, in B.
         legs: found legs, in file order; empty if none.
-        standing_height: of the trunk frame's origin over the feet at `posture` [m]; None without legs.
+        standing_height: of the trunk frame's origin over the feet at `posture` [m]; None without
+            legs.
         warnings: one sentence each, naming the link or joint.
     """
 

@@ -3,9 +3,10 @@
 Legs carry the robot, so their stiffness comes from its weight and their damping from its Froude
 time: `kp = m g L / 2`, `kd = kp sqrt(L / g) / 2` with the length L of the leg. Its joints then give
 way by about a fifth of a radian where it stands. Stiffer or less damped legs throw most quadrupeds
-over after a level landing, softer ones let the heavy ones sink. Every other joint only has to hold
-its own link: `kp = I w^2`, `kd = 2 I w` with the inertia `I = 1 / (M^-1)_jj` that the joint feels and
-`w = 10 sqrt(g / L)`, critically damped.
+over after a level landing, softer ones let the heavy ones sink.
+
+Every other joint only has to hold its own link, critically damped: `kp = I w^2`, `kd = 2 I w` with
+the inertia `I = 1 / (M^-1)_jj` that the joint feels and `w = 10 sqrt(g / L)`.
 """
 
 from dataclasses import dataclass

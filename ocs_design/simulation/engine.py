@@ -6,54 +6,24 @@ outer torque stay as they are.
 """
 
 import os
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 import mujoco
 import numpy as np
 from mujoco.rollout import Rollout
-from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.controller import Target, WheelLaw
+from ocs_design.simulation.controller import WheelLaw
+from ocs_design.simulation.recording import Recording, empty_recording, reordered
+from ocs_design.simulation.schedule import References, push_torques
 from ocs_design.simulation.world import World, start_states
 
 Progress = Callable[[float], None]
 
 _CONTROL = mujoco.mjtState.mjSTATE_CTRL.value
 _PUSHED = _CONTROL | mujoco.mjtState.mjSTATE_XFRC_APPLIED.value
-
-
-@dataclass(frozen=True, eq=False)
-class Recording:
-    """What happened in n worlds at k control instants; a world that has ended holds NaN.
-
-    Attributes:
-        time: [s], shape (k,).
-        attitude: of the trunk, quaternions (k, n, 4).
-        rate: of the trunk in B [rad/s], (k, n, 3).
-        wheel_speed: relative to the trunk [rad/s], (k, n, 2).
-        wheel_torque: of the motors on the wheels, held until the next instant [N m], (k, n, 2).
-        com: centre of mass in the world [m], (k, n, 3).
-        momentum: angular, about the centre of mass, in the world [N m s], (k, n, 3).
-        impulse: of the outer torque since the start, in the world [N m s], (k, n, 3).
-        height: of the trunk's body over the floor [m], (k, n).
-        contact: whether anything touches the floor before the next instant, (k, n).
-        lengths: number of instants of each world, (n,).
-    """
-
-    time: FloatArray
-    attitude: FloatArray
-    rate: FloatArray
-    wheel_speed: FloatArray
-    wheel_torque: FloatArray
-    com: FloatArray
-    momentum: FloatArray
-    impulse: FloatArray
-    height: FloatArray
-    contact: NDArray[np.bool_]
-    lengths: NDArray[np.int64]
 
 
 def simulate(
@@ -74,9 +44,9 @@ def simulate(
     # Longest first: the worlds still running are then a leading slice, a view without copies.
     order = np.argsort([-world.duration for world in worlds], kind="stable")
     batch = _Batch([worlds[index] for index in order], hold)
-    with Rollout(nthread=_pool_size(threads, len(worlds))) as pool:
+    with _no_warnings(), Rollout(nthread=_pool_size(threads, len(worlds))) as pool:
         recording = batch.run(pool, progress)
-    return _reordered(recording, np.argsort(order))
+    return reordered(recording, np.argsort(order))
 
 
 class _Batch:
@@ -104,9 +74,9 @@ class _Batch:
     def run(self, pool: Rollout, progress: Progress | None) -> Recording:
         count = int(self.lengths[0])
         times = self.period * np.arange(count)
-        record = _empty_recording(times, self.lengths)
-        references = _References(self.worlds, times, self.period)
-        pushes = _push_torques(self.worlds, times, self.period)
+        record = empty_recording(times, self.lengths)
+        references = References(self.worlds, times, self.period)
+        pushes = push_torques(self.worlds, times, self.period)
         law = WheelLaw.stack([world.law for world in self.worlds])
         data = [mujoco.MjData(self.models[0]) for _ in range(max(1, pool.nthread))]
         running = len(self.worlds)
@@ -132,6 +102,7 @@ class _Batch:
                 progress(float(np.minimum(self.lengths, k).sum() / self.lengths.sum()))
         if progress is not None:
             progress(1.0)
+        record.stable[:] = np.abs(self.state[:, 0] - self.lengths * self.period) < 0.5 * self.period
         return record
 
     def _observe(self, record: Recording, k: int, running: int) -> None:
@@ -199,42 +170,15 @@ class _Batch:
             record.contact[k - 1, :running] |= touches[:, 0]
 
 
-class _References:
-    """What every trunk should do at each control instant, tabulated before the run."""
-
-    def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
-        self._axis = np.stack([world.turn.axis for world in worlds])
-        later = np.append(times, times[-1] + period)
-        self._angle = np.stack([world.turn.angle(times) for world in worlds], axis=1)
-        rates = np.stack([world.turn.rate(later) for world in worlds], axis=1)
-        self._rate = rates[:-1]
-        # The mean over the step that the torque is held for brings the rate to where it should be.
-        self._acceleration = np.diff(rates, axis=0) / period
-
-    def keep(self, running: int) -> None:
-        """Forget worlds that have ended."""
-        self._axis = self._axis[:running]
-        self._angle = self._angle[:, :running]
-        self._rate = self._rate[:, :running]
-        self._acceleration = self._acceleration[:, :running]
-
-    def at(self, k: int) -> Target:
-        """At control instant `k`."""
-        tilt_axis = self._axis[:, :2]
-        return Target(
-            quaternions.from_axis_angle(self._axis, self._angle[k]),
-            self._rate[k][:, None] * tilt_axis,
-            self._acceleration[k][:, None] * tilt_axis,
-        )
-
-
-def _push_torques(
-    worlds: Sequence[World], times: FloatArray, period: float
-) -> dict[int, FloatArray]:
-    """Outer torques in B [N m], shape (n, 3), by control step; steps without any are left out."""
-    shares = np.stack([world.push.share(times, period) for world in worlds], axis=1)
-    torques = np.stack([world.push.torque for world in worlds])
-    return {int(k): shares[k][:, None] * torques for k in np.flatnonzero(shares.any(axis=1))}
+@contextmanager
+def _no_warnings() -> Iterator[None]:
+    """Keeps MuJoCo from writing MUJOCO_LOG.TXT where the user stands; `Recording.stable` tells."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda _message: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 def _control_steps(world: World, period: float) -> int:
@@ -250,36 +194,3 @@ def _pool_size(threads: int | None, worlds: int) -> int:
     """Threads beside the calling one; a single thread runs without a pool."""
     wanted = min(threads or len(os.sched_getaffinity(0)), worlds)
     return wanted if wanted > 1 else 0
-
-
-def _empty_recording(times: FloatArray, lengths: NDArray[np.int64]) -> Recording:
-    k, n = len(times), len(lengths)
-
-    def unknown(*shape: int) -> FloatArray:
-        return np.full((k, n, *shape), np.nan)
-
-    impulse = unknown(3)
-    impulse[0] = 0.0
-    return Recording(
-        time=times,
-        attitude=unknown(4),
-        rate=unknown(3),
-        wheel_speed=unknown(2),
-        wheel_torque=unknown(2),
-        com=unknown(3),
-        momentum=unknown(3),
-        impulse=impulse,
-        height=unknown(),
-        contact=np.zeros((k, n), dtype=bool),
-        lengths=lengths,
-    )
-
-
-def _reordered(recording: Recording, order: NDArray[np.intp]) -> Recording:
-    """The worlds back in the caller's order."""
-    series = {
-        field.name: getattr(recording, field.name)[:, order]
-        for field in fields(Recording)
-        if field.name not in {"time", "lengths"}
-    }
-    return Recording(time=recording.time, lengths=recording.lengths[order], **series)

@@ -25,7 +25,7 @@ def add_floor(spec: mujoco.MjSpec) -> None:
 
 def lowest_point(model: mujoco.MjModel, data: mujoco.MjData) -> float:
     """Height of the lowest point of everything that can touch the floor [m]; inf if nothing can."""
-    touching = np.flatnonzero(model.geom_conaffinity & 1)
+    touching = np.flatnonzero((model.geom_conaffinity & 1) & (model.geom_bodyid > 0))
     return min((_lowest_of(model, data, int(geom)) for geom in touching), default=np.inf)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.engine import Recording
+from ocs_design.simulation.recording import Recording
 from ocs_design.simulation.world import World
 
 UPRIGHT_TILT = np.radians(45.0)
@@ -54,7 +54,9 @@ class Series:
             "pitch_rad": self.pitch,
             "yaw_rad": self.yaw,
             **{f"rate_{axis}_rad_s": self.rate[:, i] for i, axis in enumerate(axes)},
-            **{f"wheel_speed_{side}_rad_s": self.wheel_speed[:, i] for i, side in enumerate(wheels)},
+            **{
+                f"wheel_speed_{side}_rad_s": self.wheel_speed[:, i] for i, side in enumerate(wheels)
+            },
             **{f"wheel_torque_{side}_nm": self.wheel_torque[:, i] for i, side in enumerate(wheels)},
             "contact": self.contact,
         }
@@ -111,10 +113,10 @@ def series_of(recording: Recording, index: int) -> Series:
 
 
 def measure(recording: Recording, index: int, world: World) -> Metrics | None:
-    """Figures of one world of a recording; None if its states did not stay finite."""
-    series = series_of(recording, index)
-    if not _finite(series):
+    """Figures of one world of a recording; None if it did not reach its end."""
+    if not recording.stable[index]:
         return None
+    series = series_of(recording, index)
     touching = np.flatnonzero(series.contact)
     last = int(touching[0]) if touching.size else len(series.time) - 1
     flight = slice(last + 1)
@@ -158,10 +160,6 @@ def _is_upright(recording: Recording, index: int, world: World) -> bool:
     rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
     above = recording.height[last, index] > UPRIGHT_HEIGHT * world.standing_height
     return bool(rises and above)
-
-
-def _finite(series: Series) -> bool:
-    return bool(np.isfinite(series.rate).all() and np.isfinite(series.com).all())
 
 
 def _within_half_turn(angle: float) -> float:

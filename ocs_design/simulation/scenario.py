@@ -7,8 +7,9 @@ from ocs_design.design import Device
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.controller import Allocation, Gains
-from ocs_design.simulation.engine import Progress, Recording, simulate
+from ocs_design.simulation.engine import Progress, simulate
 from ocs_design.simulation.metrics import Metrics, Series, measure, series_of
+from ocs_design.simulation.recording import Recording
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import judge, stands
@@ -41,7 +42,7 @@ class Run:
     Attributes:
         scenario: name of the maneuver. ocs: with the device, or the bare robot.
         passed: True, False, or None where it cannot be judged. reason: one sentence.
-        metrics: None if the simulation did not stay finite.
+        metrics: None if the simulation became unstable.
         series: of time. note: how the turn was changed to suit the wheels; empty if it was not.
     """
 

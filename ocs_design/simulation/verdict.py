@@ -26,7 +26,7 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
     """The pass rule: a sound flight, the turn done, a level touchdown, upright at the end.
 
     Args:
-        metrics: of the run; None if it did not stay finite.
+        metrics: of the run; None if it became unstable.
         maneuver: that was flown.
         can_stand: whether the robot stays up on its joint drives after the same flight, level and
             undisturbed; None for a robot without legs. Where it does not, "upright at the end" says
@@ -65,7 +65,7 @@ def stands(level_landing: Metrics | None) -> bool:
 def _unsound(metrics: Metrics | None) -> str:
     """Why a run says nothing; empty if it is sound."""
     if metrics is None:
-        return "not judged: the simulation did not stay finite"
+        return "not judged: the simulation became unstable"
     if metrics.momentum_error > MOMENTUM_GATE:
         return (
             f"not judged: angular momentum in flight is off by {metrics.momentum_error:.1e}, "

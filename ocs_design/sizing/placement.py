@@ -12,7 +12,7 @@ CLEARANCE = 1.1
 """Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
 
 Place = Callable[[float, float], FloatArray]
-"""Centres of the left and the right wheel in B [m], shape (2, 3), for an outer radius and a height [m]."""
+"""Centres of both wheels in B, left first, shape (2, 3), for an outer radius and a height; all [m]."""
 
 
 def place_on_top(robot: Robot) -> Place:

@@ -24,7 +24,7 @@ meets Q at 4 t c^3 + t^3 c = Q, c = R - t / 2 (a cubic with one real root). So
     R = min(R_max, max(crossings), h_min on the wall),   r = min(h_max, wall at R),
 
 a vertex where two limits meet: r_max or hoop_stress with h_max or wall_min, or h_min with wall_min.
-If this r is below r_min, no other R mends it: a smaller one lowers r(R), a larger one is forbidden
+If this r is below r_min (or 1 % of R, so that it is a bore), no other R mends it: a smaller one lowers r(R), a larger one is forbidden
 or lowers it too. If the mass is above m_max, no rim is lighter. The vertex decides feasibility.
 """
 
@@ -38,8 +38,9 @@ from ocs_design.sizing.rim_problem import RimLimits
 
 # Limits that meet in one point stay compatible when their figures are rounded.
 _ROUNDING = 1e-12
-# (r / R)^4 of a rim that still has a hole; as it closes, the shadow prices grow without limit.
-_BORE = 1e-10
+# (r / R)^4 at the least: a rim is no disc, its bore is 1 % of its outer radius or more. As a bore
+# closes, the shadow prices grow without limit, and no solver tells them.
+_BORE = 1e-8
 
 
 class RimShape(NamedTuple):
@@ -113,13 +114,15 @@ def _flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
 def _fits(
     inner: FloatArray, outer: FloatArray, tall: FloatArray, mass: FloatArray, limits: RimLimits
 ) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    """Whether the vertex meets the limits that did not shape it."""
+    """Whether the vertex meets the limits that did not shape it.
+
+    Of the hoop stress it is enough that it leaves any bore: up to the crossing r(R) is below its
+    line, and a crossing that lies beyond S = (3 + nu) R^2 is one with the negative root.
+    """
     slack = 1.0 + _ROUNDING
-    nu = limits.poisson_ratio
-    stretch = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
     return np.asarray(
         (inner * slack >= limits.inner_radius_min)
         & (outer**4 * (1.0 - _BORE) >= tall)
         & (mass <= limits.mass_max * slack)
-        & (stretch <= limits.stretch_max * slack)
+        & ((3.0 + limits.poisson_ratio) * outer**2 <= limits.stretch_max * slack)
     )

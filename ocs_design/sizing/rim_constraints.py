@@ -25,11 +25,13 @@ class Constraint(NamedTuple):
 
     Attributes:
         convex: the CVXPY constraint.
+        value: of g itself, without tangents.
         gradient: of g by a and b.
         derivative: of g by the limit where it binds, at (a, b) [1 / SI unit of the limit].
     """
 
     convex: "CvxpyConstraint"
+    value: Callable[[float, float], float]
     gradient: Callable[[float, float], tuple[float, float]]
     derivative: Callable[[float, float], float]
 
@@ -103,6 +105,7 @@ class RimConstraints:
         largest = (radius / self._scale) ** 2
         return Constraint(
             convex=self.a / largest <= 1.0,
+            value=lambda a, _b: a / largest - 1.0,
             gradient=lambda _a, _b: (1.0 / largest, 0.0),
             derivative=lambda _a, _b: -2.0 / radius,
         )
@@ -111,6 +114,7 @@ class RimConstraints:
         inner = self._room.inner_radius_min / self._scale
         return Constraint(
             convex=self.b >= inner**2,
+            value=lambda _a, b: inner**2 - b,
             gradient=lambda _a, _b: (0.0, -1.0),
             derivative=lambda _a, _b: 2.0 * inner / self._scale,
         )
@@ -126,6 +130,7 @@ class RimConstraints:
         norm = self._cvxpy.norm(self._cvxpy.hstack([self.b, np.sqrt(least)]))
         return Constraint(
             convex=norm <= self.a,
+            value=lambda a, b: np.hypot(b, np.sqrt(least)) - a,
             gradient=lambda _a, b: (-1.0, b / np.hypot(b, np.sqrt(least))),
             derivative=lambda _a, b: -least / (2.0 * height * np.hypot(b, np.sqrt(least))),
         )
@@ -136,6 +141,7 @@ class RimConstraints:
         largest = self._spread(height)
         return Constraint(
             convex=self.a <= self._tangent(self.b, self._widest_rim),
+            value=lambda a, b: a - self._widest_rim(b)[0],
             gradient=lambda _a, b: (1.0, -self._widest_rim(b)[1]),
             derivative=lambda _a, b: largest / (2.0 * height * self._widest_rim(b)[0]),
         )
@@ -145,6 +151,7 @@ class RimConstraints:
         wall = self._room.wall_min / self._scale
         return Constraint(
             convex=self.b <= self._tangent(self.a, self._widest_bore),
+            value=lambda a, b: b - self._widest_bore(a)[0],
             gradient=lambda a, _b: (-self._widest_bore(a)[1], 1.0),
             derivative=lambda a, _b: 2.0 * (np.sqrt(a) - wall) / self._scale,
         )
@@ -154,6 +161,7 @@ class RimConstraints:
         least = 2.0 * self._problem.spin_inertia / (mass * self._scale**2)
         return Constraint(
             convex=(self.a + self.b) / least >= 1.0,
+            value=lambda a, b: 1.0 - (a + b) / least,
             gradient=lambda _a, _b: (-1.0 / least, -1.0 / least),
             derivative=lambda _a, _b: -1.0 / mass,
         )
@@ -165,6 +173,7 @@ class RimConstraints:
         outer, inner = (3.0 + nu) / stretch, (1.0 - nu) / stretch
         return Constraint(
             convex=self.a * outer + self.b * inner <= 1.0,
+            value=lambda a, b: a * outer + b * inner - 1.0,
             gradient=lambda _a, _b: (outer, inner),
             derivative=lambda _a, _b: -1.0 / self._problem.hoop_stress_max,
         )

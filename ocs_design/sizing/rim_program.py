@@ -12,14 +12,15 @@ the solutions stop moving, the multipliers of the last convex program are those 
 """
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ocs_design.sizing.rim_constraints import RimConstraints
+from ocs_design.arrays import FloatArray
+from ocs_design.sizing.rim_constraints import Constraint, RimConstraints
 from ocs_design.sizing.rim_problem import RimProblem
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ _STEP_TOLERANCE = 1e-8
 _ITERATIONS_MAX = 50
 # A multiplier below this belongs to a limit that does not bind; those that do are of order one.
 _IDLE = 1e-6
+_NEWTON_STEPS = 3
+# Newton goes to the vertex that Clarabel means, or nowhere.
+_POLISH_MAX = 1e-5
 
 
 @dataclass(frozen=True)
@@ -72,16 +76,18 @@ def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) 
         gap = _solve(program)
         point = constraints.point()
         step, iterations = np.abs(point - last).max(), iterations + 1
+    point, multipliers = _polished(constraints)
     outer, inner = scale * np.sqrt(point)
     mass_scale = 2.0 * problem.spin_inertia / scale**2
     return RimOptimum(
         outer_radius=float(outer),
         inner_radius=float(inner),
-        mass=mass_scale * np.asarray(program.value).item(),
+        mass=float(mass_scale / point.sum()),
         prices={
             # Plus zero: an idle limit has the price 0, not -0.
-            name: mass_scale * multiplier * float(constraints.by_name[name].derivative(*point)) + 0.0
-            for name, multiplier in _multipliers(constraints).items()
+            name: mass_scale * multiplier * float(constraints.by_name[name].derivative(*point))
+            + 0.0
+            for name, multiplier in multipliers.items()
         },
         gap=gap,
         iterations=iterations,
@@ -89,23 +95,39 @@ def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) 
     )
 
 
-def _multipliers(constraints: RimConstraints) -> dict[str, float]:
-    """Clarabel's, those of idle limits put to zero and those of a vertex with full digits.
+def _polished(constraints: RimConstraints) -> tuple[FloatArray, dict[str, float]]:
+    """The point and the multipliers with full digits, where Clarabel leaves about nine.
 
-    Where exactly two limits bind, the Lagrange condition is two linear equations. Where more than
-    two meet in the vertex, it has no unique solution and Clarabel's stands.
+    Two limits that bind are two equations for the vertex (Newton), and the Lagrange condition two
+    linear ones for their multipliers. Where more limits meet, the multipliers are not unique and
+    Clarabel's stand. Idle limits have none.
     """
     found = {
         name: np.asarray(limit.convex.dual_value).item()
         for name, limit in constraints.by_name.items()
     }
     binding = [name for name, multiplier in found.items() if multiplier > _IDLE]
+    point = constraints.point()
     if len(binding) == 2:
-        a, b = constraints.point()
-        gradients = np.array([constraints.by_name[name].gradient(a, b) for name in binding])
-        exact = np.linalg.solve(gradients.T, np.full(2, (a + b) ** -2.0))
+        limits = [constraints.by_name[name] for name in binding]
+        vertex = _vertex(limits, point)
+        if np.abs(vertex - point).max() < _POLISH_MAX:
+            point = vertex
+        exact = np.linalg.solve(_gradients(limits, point).T, np.full(2, point.sum() ** -2.0))
         found.update(zip(binding, map(float, exact), strict=True))
-    return {name: found[name] if name in binding else 0.0 for name in found}
+    return point, {name: found[name] if name in binding else 0.0 for name in found}
+
+
+def _vertex(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
+    """The point next to this one where both limits bind."""
+    for _ in range(_NEWTON_STEPS):
+        values = np.array([limit.value(*point) for limit in limits])
+        point = point - np.linalg.solve(_gradients(limits, point), values)
+    return point
+
+
+def _gradients(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
+    return np.array([limit.gradient(*point) for limit in limits])
 
 
 def _program(constraints: RimConstraints) -> "Problem":

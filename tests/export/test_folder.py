@@ -95,9 +95,11 @@ def test_a_missing_parent_is_named(tmp_path):
 
 def test_a_full_disk_is_an_error_with_a_cure_and_leaves_nothing(tmp_path):
     full = OSError(errno.ENOSPC, "No space left on device", "flywheel.stl")
-    with pytest.raises(OutputError, match="No space left") as caught:
-        with staged_folder(tmp_path / "x", force=False):
-            raise full
+    with (
+        pytest.raises(OutputError, match="No space left") as caught,
+        staged_folder(tmp_path / "x", force=False),
+    ):
+        raise full
     assert "free some space" in caught.value.hint
     assert names(tmp_path) == []
 

@@ -153,6 +153,8 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ("[validation]\nkp = 1979-05-27", "not a number"),
         ("[ocs]\nalpha_criterion = ['equal-rate']", "is none of"),
         ("[[maneuver]]\nkind = ['drop']", "unknown"),
+        ("[[maneuver]]\nname = " + "[\n" * 300 + "]" * 300, r"maneuver\[0\].kind: is missing"),
+        ("[flywheel]\n" + "r_max." * 100 + "a = 1", "flywheel.r_max: {'r_max': .* is not a number"),
     ],
 )
 def test_faults_one_by_one(text, problem):
@@ -167,9 +169,9 @@ def test_faults_one_by_one(text, problem):
         (b"[flywheel]\nr_max = 30mm\n", "line 2"),
         (b"a = 1\na = 2\n", "line 2"),
         (b"x = 1\n# caf\xe9\n", "line 2: not UTF-8"),
-        (b"a = " + b"[" * 100_000, "deep"),
-        (b"a = " + b"9" * 5000, "not TOML"),
-        (b"#" * (1 << 20) + b"#", "1 MiB"),
+        (b"a = " + b"[\n" * 20_000, "deep"),
+        (b"\na = " + b"9" * 5000, "line 2: over 1000 characters"),
+        (b"#\n" * (1 << 15) + b"#", "64 KiB"),
         (b"\xff\xfe[\x00", "not UTF-8"),
         (b"\x00", "not TOML"),
     ],

@@ -8,6 +8,7 @@ from robots import ALL_URDFS, ROBOTS
 from urdf_text import inertial, joint, link, robot
 
 from ocs_design.robot.legs import find_legs
+from ocs_design.robot.reader import read_robot
 from ocs_design.robot.urdf import read_urdf
 
 LIMIT = '<limit lower="-2" upper="2" effort="3" velocity="4"/>'
@@ -138,8 +139,83 @@ def test_limbs_high_above_the_centre_of_mass_are_no_legs():
     assert feet_of(*limbs) == []
 
 
+def test_slides_alone_are_no_legs():
+    def slides(name: str, y: float) -> list[str]:
+        at = f'<origin xyz="0 {y} 0"/><axis xyz="0 0 1"/>'
+        down = '<origin xyz="0 0 -0.3"/><axis xyz="0 0 1"/>'
+        return [
+            link(f"{name}_upper", inertial(0.1)),
+            link(f"{name}_lower", inertial(0.1, xyz="0 0 -0.3")),
+            joint(f"{name}_one", "trunk", f"{name}_upper", at, LIMIT, kind="prismatic"),
+            joint(f"{name}_two", f"{name}_upper", f"{name}_lower", down, LIMIT, kind="prismatic"),
+        ]
+
+    assert feet_of(*slides("a", 0.1), *slides("b", -0.1)) == []
+
+
 def test_a_second_pair_on_a_torso_is_arms():
     torso = [link("torso", inertial(3.0)), hinge("waist", "trunk", "torso", "0 0 0.1")]
     arms = [*limb("l", "0 0.2 0.3", 0.2, "torso"), *limb("r", "0 -0.2 0.3", 0.2, "torso")]
     limbs = [*limb("a", "0 0.1 0", 0.2), *limb("b", "0 -0.1 0", 0.2)]
     assert feet_of(*torso, *arms, *limbs) == ["a_foot", "b_foot"]
+
+
+def mjcf_leg(side: str, y: float) -> str:
+    """Hip with three hinges in one body, knee, ankle with two, and two bars for a foot."""
+    bars = "".join(
+        f'<geom type="capsule" fromto="-0.05 {b} -0.06 0.15 {b} -0.06" size="0.02"/>'
+        for b in (-0.03, 0.03)
+    )
+    return f"""
+    <body name="{side}_thigh" pos="0 {y} -0.05">
+      <joint name="{side}_roll" axis="1 0 0" range="-0.5 0.5"/>
+      <joint name="{side}_yaw" axis="0 0 1" range="-1 1"/>
+      <joint name="{side}_pitch" axis="0 1 0" range="-2 0.5"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.05"/>
+      <body name="{side}_shank" pos="0 0 -0.4">
+        <joint name="{side}_knee" axis="0 1 0" range="0 2.5"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.04"/>
+        <body name="{side}_foot" pos="0 0 -0.4">
+          <joint name="{side}_flex" axis="0 1 0" range="-1 1"/>
+          <joint name="{side}_tilt" axis="1 0 0" range="-1 1"/>
+          {bars}
+        </body>
+      </body>
+    </body>"""
+
+
+def mjcf_arm(side: str, y: float) -> str:
+    return f"""
+    <body name="{side}_arm" pos="0 {y} 0.2">
+      <joint name="{side}_shoulder" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/>
+      <body name="{side}_hand" pos="0 0 -0.3">
+        <joint name="{side}_elbow" axis="0 1 0" range="-2 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/>
+      </body>
+    </body>"""
+
+
+def test_a_humanoid_whose_root_is_its_chest(tmp_path):
+    """MJCF humanoids start at the torso: the pelvis and the legs hang below it."""
+    path = tmp_path / "humanoid.xml"
+    path.write_text(
+        f"""<mujoco model="humanoid"><compiler angle="radian"/><worldbody>
+        <body name="torso" pos="0 0 1.3"><freejoint/>
+          <geom type="box" size="0.1 0.2 0.2"/>
+          {mjcf_arm("left", 0.25)}{mjcf_arm("right", -0.25)}
+          <body name="pelvis" pos="0 0 -0.3"><joint name="waist" axis="0 0 1"/>
+            <geom type="box" size="0.1 0.15 0.05"/>
+            {mjcf_leg("left", 0.1)}{mjcf_leg("right", -0.1)}
+          </body>
+        </body></worldbody></mujoco>"""
+    )
+    found = read_robot(path)
+    assert (found.trunk, found.floating_base) == ("pelvis", "torso")
+    assert [leg.name for leg in found.legs] == ["left_foot", "right_foot"]
+    hinges = ("roll", "yaw", "pitch", "knee", "flex", "tilt")
+    assert found.legs[0].joints == tuple(f"left_{hinge}" for hinge in hinges)
+    # The middle of the soles: 0.05 m ahead of the ankle, 0.06 + 0.02 m below it.
+    assert found.legs[0].foot == pytest.approx([0.05, 0.0, -0.08], abs=1e-9)
+    assert found.standing_height == pytest.approx(0.05 + 0.8 * found.legs[0].length, abs=1e-4)
+    assert found.posture["left_knee"] > 0.5

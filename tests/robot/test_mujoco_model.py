@@ -25,26 +25,34 @@ MJCF = """<mujoco model="walker">
   <asset><mesh name="gone" file="gone.stl"/></asset>
   <worldbody>
     <geom name="floor" type="plane" size="1 1 1"/>
-    <body name="ball" pos="2 0 1"><freejoint/><geom size="0.1" mass="1"/></body>
+    {stranger}
     <body name="trunk" pos="0 0 0.5">
       {root_joint}
       <inertial pos="0 0 0" mass="3" diaginertia="0.02 0.03 0.04"/>
-      <geom type="box" size="0.2 0.1 0.05"/><geom type="mesh" mesh="gone"/>
+      <geom name="chest" type="box" size="0.2 0.1 0.05"/><geom type="mesh" mesh="gone"/>
       <body name="left" pos="0 0.1 0"><joint name="left_hip" axis="0 1 0" range="-50 60"/>
         <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="0.3"/></body>
       <body name="right" pos="0 -0.1 0"><joint name="right_hip" axis="0 1 0"/>
         <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="0.3"/></body>
     </body>
   </worldbody>
-  <contact><pair geom1="floor" geom2="floor_twin"/></contact>
+  <contact><pair geom1="floor" geom2="chest"/></contact>
+  <sensor><distance geom1="floor" geom2="chest" cutoff="1"/></sensor>
   <actuator><position name="left_hip" joint="left_hip" kp="20"/>
     <position name="right_hip" joint="right_hip" kp="20"/></actuator>
-  <keyframe><key name="home" qpos="2 0 1 1 0 0 0 {root_qpos} 0.123456789012 0.2" ctrl="0.3 0.4"/>
+  <keyframe><key name="home" qpos="{root_qpos} 0.123456789012 0.2" ctrl="0.3 0.4"/>
   </keyframe>
-</mujoco>""".replace('<contact><pair geom1="floor" geom2="floor_twin"/></contact>', "")
-FREE = {"root_joint": "<freejoint/>", "root_qpos": "0 0 0.6 1 0 0 0"}
-FIXED = {"root_joint": "", "root_qpos": ""}
-SLIDING = {"root_joint": '<joint name="rail" type="slide" axis="1 0 0"/>', "root_qpos": "0.7"}
+</mujoco>"""
+FREE = {"stranger": "", "root_joint": "<freejoint/>", "root_qpos": "0 0 0.6 1 0 0 0"}
+FIXED = {"stranger": "", "root_joint": "", "root_qpos": ""}
+SLIDING = FIXED | {
+    "root_joint": '<joint name="rail" type="slide" axis="1 0 0"/>',
+    "root_qpos": "0.7",
+}
+WITH_A_BALL = FREE | {
+    "stranger": '<body name="ball" pos="2 0 1"><freejoint/><geom size="0.1" mass="1"/></body>',
+    "root_qpos": "2 0 1 1 0 0 0 " + FREE["root_qpos"],
+}
 
 
 def unposed_robot(path: Path) -> Robot:
@@ -134,7 +142,7 @@ def test_a_void_limit_is_no_limit():
 
 
 def test_a_mimic_joint_follows_its_leader():
-    robot = unposed_robot(ROBOTS / "ur_description/urdf/ur3_gripper.urdf")
+    robot = unposed_robot(ROBOTS / "panda_description/urdf/panda.urdf")
     leaders = {name: j.mimic for name, j in robot.tree.joints.items() if j.mimic is not None}
     assert leaders
     model = build_spec(robot, visuals=False).spec.compile()
@@ -231,7 +239,7 @@ def test_a_robot_by_hand_is_one_free_box():
     np.testing.assert_allclose(inertia, robot.inertia, atol=1e-15)
 
 
-@pytest.mark.parametrize("root", [FREE, FIXED, SLIDING], ids=["free", "fixed", "sliding"])
+@pytest.mark.parametrize("root", [FREE, FIXED, SLIDING, WITH_A_BALL])
 def test_an_mjcf_robot_stands_alone_and_free_with_its_keyframe(tmp_path, root):
     robot = read_robot(write(tmp_path, MJCF.format(**root)), posture="zero")
     built = build_spec(robot)
@@ -247,8 +255,9 @@ def test_an_mjcf_robot_stands_alone_and_free_with_its_keyframe(tmp_path, root):
     assert data.joint("right_hip").qpos[0] == 0.2
     assert data.actuator("left_hip").ctrl[0] == 0.3
     assert data.actuator("right_hip").ctrl[0] == 0.4
-    assert data.qpos[2] == (0.6 if root is FREE else 0.5)
+    assert data.qpos[2] == (0.6 if "freejoint" in root["root_joint"] else 0.5)
     assert any("floor" in warning for warning in built.warnings)
+    assert any("ball" in warning for warning in built.warnings) == bool(root["stranger"])
 
 
 def test_an_mjcf_robot_brings_its_includes(tmp_path):

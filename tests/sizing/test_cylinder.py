@@ -61,7 +61,7 @@ def test_arrays():
 
 
 def test_stresses_against_the_equation_of_elasticity():
-    """Solve (r s_r)' - s_t + rho w^2 r^2 = 0 in plane stress by displacements, free at both edges."""
+    """Solve (r s_r)' - s_t + rho w^2 r^2 = 0 in plane stress, free at both edges."""
     inner, outer, nu = 0.02, 0.05, SPINNING["poisson_ratio"]
     load = SPINNING["density"] * SPINNING["wheel_speed"] ** 2
     modulus = 200e9

@@ -20,7 +20,10 @@ def shape_of(problem):
 
 @pytest.mark.parametrize(
     ("spin_inertia", "outer_radius_max", "expected"),
-    [(7.11e-5, 0.03, (0.021997, 0.030, 0.01, 0.10276)), (7.11e-5, 0.04, (0.037531, 0.040, 0.01, 0.04726))],
+    [
+        (7.11e-5, 0.03, (0.021997, 0.030, 0.01, 0.10276)),
+        (7.11e-5, 0.04, (0.037531, 0.040, 0.01, 0.04726)),
+    ],
 )
 def test_theory_cases(spin_inertia, outer_radius_max, expected):
     shape = shape_of(paper_problem(spin_inertia, outer_radius_max, 0.01))
@@ -148,7 +151,7 @@ def test_many_at_once_equal_one_by_one():
         ),
     )
     one_by_one = np.array([shape_of(problem) for problem in problems])
-    assert np.array(together).T == pytest.approx(one_by_one, rel=1e-14, nan_ok=True)
+    assert pytest.approx(one_by_one, rel=1e-14, nan_ok=True) == np.array(together).T
 
 
 def test_shapes_broadcast():

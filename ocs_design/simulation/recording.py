@@ -1,0 +1,79 @@
+"""What happened in a batch of worlds."""
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What happened in n worlds at k control instants; a world that has ended holds NaN.
+
+    Attributes:
+        time: [s], shape (k,).
+        attitude: of the trunk, quaternions (k, n, 4).
+        rate: of the trunk in B [rad/s], (k, n, 3).
+        wheel_speed: relative to the trunk [rad/s], (k, n, 2).
+        wheel_torque: of the motors on the wheels, held until the next instant [N m], (k, n, 2).
+        com: centre of mass in the world [m], (k, n, 3).
+        momentum: angular, about the centre of mass, in the world [N m s], (k, n, 3).
+        impulse: of the outer torque since the start, in the world [N m s], (k, n, 3).
+        height: of the trunk's body over the floor [m], (k, n).
+        contact: whether anything touches the floor before the next instant, (k, n).
+        lengths: number of instants of each world, (n,).
+        stable: whether MuJoCo got each world to its end, (n,); it stops one whose state is huge or
+            not finite, and its last state then stands still.
+    """
+
+    time: FloatArray
+    attitude: FloatArray
+    rate: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    com: FloatArray
+    momentum: FloatArray
+    impulse: FloatArray
+    height: FloatArray
+    contact: NDArray[np.bool_]
+    lengths: NDArray[np.int64]
+    stable: NDArray[np.bool_]
+
+
+def empty_recording(times: FloatArray, lengths: NDArray[np.int64]) -> Recording:
+    """Nothing known yet, no impulse at the start."""
+    k, n = len(times), len(lengths)
+
+    def unknown(*shape: int) -> FloatArray:
+        return np.full((k, n, *shape), np.nan)
+
+    impulse = unknown(3)
+    impulse[0] = 0.0
+    return Recording(
+        time=times,
+        attitude=unknown(4),
+        rate=unknown(3),
+        wheel_speed=unknown(2),
+        wheel_torque=unknown(2),
+        com=unknown(3),
+        momentum=unknown(3),
+        impulse=impulse,
+        height=unknown(),
+        contact=np.zeros((k, n), dtype=bool),
+        lengths=lengths,
+        stable=np.zeros(n, dtype=bool),
+    )
+
+
+def reordered(recording: Recording, order: NDArray[np.intp]) -> Recording:
+    """The same recording with its worlds in another order."""
+    series = {
+        field.name: getattr(recording, field.name)[:, order]
+        for field in fields(Recording)
+        if field.name not in {"time", "lengths", "stable"}
+    }
+    return replace(
+        recording, lengths=recording.lengths[order], stable=recording.stable[order], **series
+    )

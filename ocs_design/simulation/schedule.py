@@ -1,0 +1,48 @@
+"""What is known of a run before it starts: references and outer torques at each control instant."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.simulation import quaternions
+from ocs_design.simulation.controller import Target
+from ocs_design.simulation.world import World
+
+
+class References:
+    """What every trunk should do at each control instant, tabulated before the run."""
+
+    def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
+        self._axis = np.stack([world.turn.axis for world in worlds])
+        later = np.append(times, times[-1] + period)
+        self._angle = np.stack([world.turn.angle(times) for world in worlds], axis=1)
+        rates = np.stack([world.turn.rate(later) for world in worlds], axis=1)
+        self._rate = rates[:-1]
+        # The mean over the step that the torque is held for brings the rate to where it should be.
+        self._acceleration = np.diff(rates, axis=0) / period
+
+    def keep(self, running: int) -> None:
+        """Forget worlds that have ended."""
+        self._axis = self._axis[:running]
+        self._angle = self._angle[:, :running]
+        self._rate = self._rate[:, :running]
+        self._acceleration = self._acceleration[:, :running]
+
+    def at(self, k: int) -> Target:
+        """At control instant `k`."""
+        tilt_axis = self._axis[:, :2]
+        return Target(
+            quaternions.from_axis_angle(self._axis, self._angle[k]),
+            self._rate[k][:, None] * tilt_axis,
+            self._acceleration[k][:, None] * tilt_axis,
+        )
+
+
+def push_torques(
+    worlds: Sequence[World], times: FloatArray, period: float
+) -> dict[int, FloatArray]:
+    """Outer torques in B [N m], shape (n, 3), by control step; steps without any are left out."""
+    shares = np.stack([world.push.share(times, period) for world in worlds], axis=1)
+    torques = np.stack([world.push.torque for world in worlds])
+    return {int(k): shares[k][:, None] * torques for k in np.flatnonzero(shares.any(axis=1))}

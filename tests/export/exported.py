@@ -1,0 +1,77 @@
+"""What the tests of exported robots share: robots of every kind, and Pinocchio's view of a URDF."""
+
+import numpy as np
+import pinocchio as pin
+from robots import ROBOTS
+
+LEGGED = [
+    "solo_description/robots/solo12",
+    "a1_description/urdf/a1",
+    "anymal_c_simple_description/urdf/anymal",
+    "go2_description/urdf/go2",
+    "hyq_description/robots/hyq_no_sensors",
+    "bolt_description/robots/bolt",
+    "talos_data/robots/talos_reduced",
+    "romeo_description/urdf/romeo",
+]
+LEGGED_PATHS = [ROBOTS / f"{name}.urdf" for name in LEGGED]
+
+MJCF = """<mujoco model="walker">
+  <compiler angle="degree"/>
+  <default><joint damping="0.2" armature="0.01"/></default>
+  <worldbody>
+    <geom name="floor" type="plane" size="1 1 1"/>
+    <body name="trunk" pos="0 0 0.512345678901">
+      <freejoint/>
+      <geom type="box" size="0.2123456789 0.1 0.05" density="512.3456789"/>
+      <frame pos="0.1111111111 0 0" euler="10 0 0">
+        <body name="front" pos="0.01 0.1234567891 0" euler="0 12.3456789 0">
+          <joint name="abduct" axis="1 0 0" range="-50.123456789 60"/>
+          <joint name="swing" axis="0 1 1" pos="0 0 0.0123456789" range="-33.3333333 44"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3123456789" size="0.02"/>
+          <site name="tip" pos="0 0 -0.3123456789"/>
+        </body>
+      </frame>
+      <body name="rear" pos="-0.2 0 0">
+        <inertial pos="0.0123456789 0 0" mass="0.3123456789"
+          fullinertia="0.00212345678 0.0031234567 0.0041234567 1.234567e-4 2e-4 -3e-4"/>
+        <joint name="slide" type="slide" axis="0 0 1" range="-0.0123456789 0.1"/>
+        <geom type="sphere" size="0.03"/>
+      </body>
+    </body>
+  </worldbody>
+  <equality><joint joint1="slide" joint2="swing" polycoef="0.0123456789 0.2 0 0 0" active="false"/>
+  </equality>
+  <actuator><position name="swing" joint="swing" kp="12.3456789" ctrlrange="-30 30"/></actuator>
+  <keyframe><key name="home" qpos="0 0 0.6123456789 1 0 0 0 0.1123456789 0.2123456789 0.012"
+    ctrl="0.3123456789"/></keyframe>
+</mujoco>"""
+
+
+def pinocchio_model(text):
+    """The URDF with a free base."""
+    return pin.buildModelFromXML(text, pin.JointModelFreeFlyer())
+
+
+def check_wheels_in_pinocchio(model, device, trunk, prefix=""):
+    """Mass, inertia, axis and position of each wheel in the trunk link's frame, to 1e-9."""
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, pin.neutral(model))
+    base = data.oMf[model.getFrameId(trunk, pin.FrameType.BODY)]
+    for module in device.modules:
+        index = model.getJointId(f"{prefix}ocs_{module.name}")
+        assert model.joints[index].shortname() == "JointModelRUBZ"
+        place = base.actInv(data.oMi[index])
+        np.testing.assert_allclose(place.rotation[:, 2], module.axis, rtol=0.0, atol=1e-9)
+        wheel = model.inertias[index]
+        centre = place.act(wheel.lever)
+        np.testing.assert_allclose(centre, module.position, rtol=0.0, atol=1e-9)
+        check_moments(wheel.inertia, device)
+        assert abs(wheel.mass / device.flywheel.mass - 1.0) < 1e-12
+
+
+def check_moments(inertia, device):
+    """Of a wheel in its own frame, z along its spin axis."""
+    wheel = device.flywheel
+    expected = np.diag([wheel.transverse_inertia] * 2 + [wheel.spin_inertia])
+    np.testing.assert_allclose(inertia, expected, rtol=0.0, atol=1e-12 * wheel.spin_inertia)

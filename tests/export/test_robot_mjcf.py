@@ -1,0 +1,186 @@
+"""Whole robots with their device as MJCF, read again by MuJoCo."""
+
+import shutil
+
+import mujoco
+import numpy as np
+import pytest
+from exported import LEGGED, LEGGED_PATHS, MJCF, check_moments
+from robots import SOLO12
+from wheels import paper_device
+
+from ocs_design.export.attach import attach_device
+from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.mujoco_model import build_spec
+from ocs_design.robot.reader import read_robot
+
+
+def read_again(robot, device, folder):
+    return mujoco.MjModel.from_xml_path(str(export_robot_mjcf(robot, device, folder / "robot.xml")))
+
+
+def check_wheels(model, device, trunk):
+    """Mass, inertia, axis and position of each wheel in the trunk body's frame."""
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    rotation = data.body(trunk).xmat.reshape(3, 3)
+    for module in device.modules:
+        name = f"ocs_{module.name}_flywheel"
+        check_moments(np.diag(model.body(name).inertia), device)
+        assert model.body(name).mass[0] == device.flywheel.mass
+        axis = rotation.T @ data.joint(f"ocs_{module.name}").xaxis
+        np.testing.assert_allclose(axis, module.axis, rtol=0.0, atol=1e-12)
+        position = rotation.T @ (data.body(name).xipos - data.body(trunk).xpos)
+        np.testing.assert_allclose(position, module.position, rtol=0.0, atol=1e-12)
+
+
+def check_same(model, original, fields):
+    """Numbers are those of the model that was written, not rounded ones."""
+    for field in fields:
+        np.testing.assert_allclose(
+            getattr(model, field), getattr(original, field), rtol=1e-12, atol=1e-15, err_msg=field
+        )
+
+
+EXACT = (
+    "body_mass",
+    "body_inertia",
+    "body_ipos",
+    "body_pos",
+    "jnt_axis",
+    "jnt_pos",
+    "jnt_range",
+    "dof_damping",
+    "dof_armature",
+    "dof_frictionloss",
+    "actuator_ctrlrange",
+    "eq_data",
+    "key_qpos",
+    "key_ctrl",
+)
+
+
+def compiled(robot, device):
+    spec = build_spec(robot).spec
+    attach_device(spec, robot, device)
+    return spec.compile()
+
+
+@pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
+def test_mujoco_reads_the_robot_and_its_wheels(path, tmp_path):
+    robot, device = read_robot(path), paper_device()
+    model = read_again(robot, device, tmp_path)
+    total = robot.mass + 2.0 * device.flywheel.mass
+    # Romeo's fingers have no mass; MuJoCo needs some.
+    tolerance = 1e-8 if "romeo" in path.name else 1e-12
+    assert model.body_subtreemass[1] == pytest.approx(total, rel=tolerance)
+    check_wheels(model, device, robot.trunk)
+
+
+def test_every_number_is_exact_for_a_urdf_robot(tmp_path):
+    robot, device = read_robot(SOLO12), paper_device()
+    model = read_again(robot, device, tmp_path)
+    check_same(model, compiled(robot, device), (*EXACT, "body_quat", "body_iquat", "geom_size"))
+    np.testing.assert_array_equal(model.body_inertia, compiled(robot, device).body_inertia)
+
+
+def test_every_number_is_exact_for_an_mjcf_robot(tmp_path):
+    (tmp_path / "in.xml").write_text(MJCF)
+    robot, device = read_robot(tmp_path / "in.xml", posture="zero"), paper_device()
+    model = read_again(robot, device, tmp_path)
+    original = compiled(robot, device)
+    check_same(model, original, (*EXACT, "body_quat", "body_iquat", "geom_size", "site_pos"))
+    np.testing.assert_allclose(model.actuator_gainprm, original.actuator_gainprm, rtol=1e-15)
+    check_wheels(model, device, "trunk")
+
+
+def test_keyframes_keep_the_robots_values(tmp_path):
+    (tmp_path / "in.xml").write_text(MJCF)
+    model = read_again(read_robot(tmp_path / "in.xml", posture="zero"), paper_device(), tmp_path)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)
+    values = {"abduct": 0.1123456789, "swing": 0.2123456789, "slide": 0.012, "ocs_left": 0.0}
+    assert {name: float(data.joint(name).qpos[0]) for name in values} == values
+    assert data.qpos[2] == 0.6123456789
+    assert data.actuator("swing").ctrl[0] == 0.3123456789
+
+
+def test_an_mjcf_robot_has_the_inertia_that_was_read(tmp_path):
+    (tmp_path / "in.xml").write_text(MJCF)
+    robot = read_robot(tmp_path / "in.xml", joints={"swing": 0.3, "slide": 0.05})
+    export_robot_mjcf(robot, paper_device(), tmp_path / "out.xml")
+    again = read_robot(
+        tmp_path / "out.xml", trunk=robot.trunk, posture="zero", joints=robot.posture
+    )
+    wheels = [
+        body.mass_properties
+        for body in again.tree.bodies
+        if body.name.startswith("ocs_") and body.name.endswith("_flywheel")
+    ]
+    assert len(wheels) == 2
+    for ours, theirs in zip(robot.tree.bodies, again.tree.bodies, strict=False):
+        assert ours.name == theirs.name
+        np.testing.assert_allclose(
+            theirs.mass_properties.inertia, ours.mass_properties.inertia, rtol=1e-12, atol=1e-18
+        )
+
+
+def test_a_robot_by_hand_has_its_inertia_to_the_last_digits(tmp_path):
+    robot = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003))
+    model = read_again(robot, paper_device(), tmp_path)
+    axes = np.empty(9)
+    mujoco.mju_quat2Mat(axes, model.body_iquat[1])
+    axes = axes.reshape(3, 3)
+    inertia = axes @ np.diag(model.body_inertia[1]) @ axes.T
+    np.testing.assert_allclose(inertia, robot.inertia, rtol=0.0, atol=1e-12 * 0.07)
+
+
+def test_the_folder_can_be_moved(tmp_path):
+    (tmp_path / "here").mkdir()
+    read_again(read_robot(SOLO12), paper_device(), tmp_path / "here")
+    shutil.move(tmp_path / "here", tmp_path / "there")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "there" / "robot.xml"))
+    assert model.nmesh == len(list((tmp_path / "there" / "meshes").iterdir()))
+    text = (tmp_path / "there" / "robot.xml").read_text()
+    assert str(tmp_path) not in text
+    assert str(SOLO12.parent) not in text
+
+
+def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
+    (tmp_path / "in" / "a").mkdir(parents=True)
+    (tmp_path / "in" / "b").mkdir()
+    cube = "\n".join(f"v {x} {y} {z}" for x in (0, 1) for y in (0, 1) for z in (0, 1))
+    for folder, size in (("a", 1), ("b", 2)):
+        text = cube.replace("1", str(size)) + "\nf 1 2 4\nf 5 6 8\nf 1 3 7\n"
+        (tmp_path / "in" / folder / "part.obj").write_text(text)
+    (tmp_path / "in" / "robot.xml").write_text(
+        '<mujoco><asset><mesh name="a" file="a/part.obj" inertia="shell"/>'
+        '<mesh name="b" file="b/part.obj" inertia="shell"/></asset><worldbody>'
+        '<body name="trunk"><freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>'
+        '<geom type="mesh" mesh="a"/><geom type="mesh" mesh="b"/></body></worldbody></mujoco>'
+    )
+    (tmp_path / "out").mkdir()
+    robot = read_robot(tmp_path / "in" / "robot.xml", posture="zero")
+    export_robot_mjcf(robot, paper_device(), tmp_path / "out" / "robot.xml")
+    shutil.rmtree(tmp_path / "in")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "robot.xml"))
+    assert model.nmesh == 2
+    sizes = model.geom_aabb[:2, 3:].max(axis=1)
+    assert sizes[1] == pytest.approx(2.0 * sizes[0])
+
+
+def test_it_simulates_as_it_stands(tmp_path):
+    model = read_again(read_robot(SOLO12), paper_device(), tmp_path)
+    model.opt.gravity[:] = 0.0
+    data = mujoco.MjData(model)
+    data.ctrl[:] = 0.01
+    mujoco.mj_step(model, data, 100)
+    assert np.isfinite(data.qpos).all()
+    assert data.joint("ocs_left").qvel[0] > 10.0
+
+
+def test_bytes_are_the_same_every_time(tmp_path):
+    robot, device = read_robot(SOLO12), paper_device()
+    first = export_robot_mjcf(robot, device, tmp_path / "a.xml").read_bytes()
+    assert export_robot_mjcf(robot, device, tmp_path / "b.xml").read_bytes() == first

@@ -1,0 +1,145 @@
+"""Whole robots with their device as URDF, read again by Pinocchio and by our own reader."""
+
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+import trimesh
+from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pinocchio_model
+from robots import SOLO12
+from wheels import motor, paper_device
+
+from ocs_design.exceptions import RobotError
+from ocs_design.export.urdf import WHEEL_MESH, export_robot_urdf
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.robot import Robot
+
+HAND = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0.0, -0.02))
+
+
+def exported_text(robot: Robot, folder: Path, device=None) -> str:
+    return export_robot_urdf(robot, device or paper_device(), folder / "robot.urdf").read_text()
+
+
+@pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
+def test_pinocchio_reads_the_robot_and_its_wheels(path, tmp_path):
+    robot, device = read_robot(path), paper_device()
+    model = pinocchio_model(exported_text(robot, tmp_path, device))
+    total = robot.mass + 2.0 * device.flywheel.mass
+    assert pin.computeTotalMass(model) == pytest.approx(total, rel=1e-12)
+    check_wheels_in_pinocchio(model, device, robot.trunk)
+
+
+@pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
+def test_the_users_file_stays_byte_for_byte(path, tmp_path):
+    robot = read_robot(path)
+    content = robot.content
+    result = export_robot_urdf(robot, paper_device(), tmp_path / "robot.urdf").read_bytes()
+    place = content.rindex(b"</robot>")
+    assert result[:place].rstrip() == content[:place].rstrip()
+    assert result[:place] == content[:place]
+    assert result.endswith(content[place:])
+    assert content == path.read_bytes()
+
+
+def test_a_windows_file_in_latin_1_stays_byte_for_byte(tmp_path):
+    text = SOLO12.read_text().replace("\n", "\r\n")
+    text = text.split("?>", 1)[1] if text.startswith("<?xml") else text
+    content = f'<?xml version="1.0" encoding="iso-8859-1"?><!-- é -->{text}'.encode("latin-1")
+    (tmp_path / "in.urdf").write_bytes(content)
+    robot = read_robot(tmp_path / "in.urdf")
+    result = export_robot_urdf(robot, paper_device(), tmp_path / "out.urdf").read_bytes()
+    place = content.rindex(b"</robot>")
+    assert result[:place] == content[:place]
+    assert result.endswith(content[place:])
+    assert result.count(b"\n") == result.count(b"\r\n")
+    again = read_robot(tmp_path / "out.urdf")
+    assert again.mass == pytest.approx(robot.mass + 2.0 * paper_device().flywheel.mass, rel=1e-12)
+
+
+def test_a_robot_by_hand_is_written_in_full(tmp_path):
+    device = paper_device()
+    model = pinocchio_model(exported_text(HAND, tmp_path, device))
+    check_wheels_in_pinocchio(model, device, HAND.trunk)
+    body = model.inertias[model.getJointId("root_joint")]
+    assert body.mass == HAND.mass
+    np.testing.assert_allclose(body.lever, HAND.com, atol=1e-15)
+    np.testing.assert_allclose(body.inertia, HAND.inertia, atol=1e-15)
+
+
+def test_an_mjcf_robot_becomes_the_same_robot_in_urdf(tmp_path):
+    (tmp_path / "robot.xml").write_text(MJCF)
+    robot, device = read_robot(tmp_path / "robot.xml", posture="zero"), paper_device()
+    text = exported_text(robot, tmp_path, device)
+    check_wheels_in_pinocchio(pinocchio_model(text), device, robot.trunk)
+    again = read_robot(tmp_path / "robot.urdf", trunk=robot.trunk, posture="zero")
+    rng = np.random.default_rng(0)
+    for _ in range(10):
+        posture = {name: rng.uniform(-1.0, 1.0) for name in robot.tree.joints}
+        ours = robot.tree.locked_mass_properties(posture, "rear")
+        theirs = again.tree.locked_mass_properties(posture, "rear")
+        ocs = again.tree.bodies[again.tree.body_of_link["ocs_left_flywheel"]]
+        assert theirs.mass - 2.0 * ocs.mass_properties.mass == pytest.approx(ours.mass, rel=1e-12)
+    assert set(again.tree.joints) == {*robot.tree.joints, "ocs_left", "ocs_right"}
+    for name, joint in robot.tree.joints.items():
+        limits = (again.tree.joints[name].lower, again.tree.joints[name].upper)
+        assert limits == (joint.lower, joint.upper)
+
+
+@pytest.mark.parametrize("element", ["link", "joint"])
+def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element):
+    name = {"link": "ocs_left_flywheel", "joint": "ocs_right"}[element]
+    link, joint = (name, "weld") if element == "link" else ("other", name)
+    extra = (
+        f'<link name="{link}"/><joint name="{joint}" type="fixed">'
+        f'<parent link="base_link"/><child link="{link}"/></joint>'
+    )
+    (tmp_path / "in.urdf").write_text(SOLO12.read_text().replace("</robot>", extra + "</robot>"))
+    with pytest.raises(RobotError, match=rf"{element} named '{name}'"):
+        export_robot_urdf(read_robot(tmp_path / "in.urdf"), paper_device(), tmp_path / "out.urdf")
+
+
+def test_exporting_twice_is_a_clash(tmp_path):
+    export_robot_urdf(read_robot(SOLO12), paper_device(), tmp_path / "once.urdf")
+    with pytest.raises(RobotError, match="ocs_left_flywheel"):
+        export_robot_urdf(
+            read_robot(tmp_path / "once.urdf"), paper_device(), tmp_path / "twice.urdf"
+        )
+
+
+def test_the_wheels_mesh_lies_beside_the_file_in_metres(tmp_path):
+    text = exported_text(read_robot(SOLO12), tmp_path)
+    assert text.count(f'filename="{WHEEL_MESH}"') == 2
+    np.testing.assert_allclose(
+        trimesh.load_mesh(tmp_path / WHEEL_MESH).extents, [0.06, 0.06, 0.01], rtol=1e-4
+    )
+
+
+@pytest.mark.parametrize(
+    ("drive", "effort", "velocity"),
+    [(motor(754.0, torque_limit=1.5), 1.5, 754.0), (motor(754.0, stall_torque=0.5), 0.5, 754.0)],
+)
+def test_limits_of_the_motor_are_in_the_file(tmp_path, drive, effort, velocity):
+    model = pinocchio_model(exported_text(HAND, tmp_path, paper_device(drive=drive)))
+    for name in ("ocs_left", "ocs_right"):
+        index = model.idx_vs[model.getJointId(name)]
+        assert model.upperEffortLimit[index] == effort
+        assert model.upperVelocityLimit[index] == velocity
+
+
+def test_bytes_are_the_same_every_time(tmp_path):
+    robot, device = read_robot(SOLO12), paper_device()
+    first = export_robot_urdf(robot, device, tmp_path / "a.urdf").read_bytes()
+    assert export_robot_urdf(robot, device, tmp_path / "b.urdf").read_bytes() == first
+
+
+def test_names_that_need_escaping_are_escaped(tmp_path):
+    text = SOLO12.read_text().replace('"base_link"', '"a&amp;&quot;b--"')
+    (tmp_path / "in.urdf").write_text(text)
+    robot = read_robot(tmp_path / "in.urdf")
+    assert robot.trunk == 'a&"b--'
+    export_robot_urdf(robot, paper_device(), tmp_path / "out.urdf")
+    again = read_robot(tmp_path / "out.urdf", trunk=robot.trunk)
+    assert "ocs_left" in again.tree.joints

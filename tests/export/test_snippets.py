@@ -1,0 +1,117 @@
+"""The device alone, put into robots the way that each snippet's own comment says."""
+
+import re
+
+import mujoco
+import numpy as np
+import pytest
+import xacro
+from exported import check_moments, check_wheels_in_pinocchio, pinocchio_model
+from robots import SOLO12
+from wheels import motor, paper_device
+
+from ocs_design.export.snippets import (
+    export_snippet_mjcf,
+    export_snippet_urdf,
+    export_snippet_xacro,
+)
+
+TRUNK = "base_link"
+ROBOT = f"""<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="ocs.urdf.xacro"/>
+  <link name="{TRUNK}"><inertial><mass value="1"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  CALL
+</robot>"""
+MJCF = """<mujoco><asset><model name="ocs" file="ocs.xml"/></asset><worldbody>
+  <body name="trunk"><freejoint/><geom size="0.1" mass="2"/>
+    <body name="leg"><joint name="hip" axis="0 1 0"/><geom size="0.05" mass="1"/></body>
+    <attach model="ocs" body="mount" prefix="ocs_"/>
+  </body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize("drive", [motor(), motor(754.0, torque_limit=1.0)])
+def test_the_urdf_snippet_is_a_urdf(tmp_path, drive):
+    device = paper_device(drive=drive)
+    text = export_snippet_urdf(device, TRUNK, tmp_path / "ocs.urdf").read_text()
+    check_wheels_in_pinocchio(pinocchio_model(text), device, TRUNK)
+
+
+def test_the_urdf_snippet_can_be_pasted(tmp_path):
+    device = paper_device()
+    text = export_snippet_urdf(device, TRUNK, tmp_path / "ocs.urdf").read_text()
+    part = text.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
+    model = pinocchio_model(SOLO12.read_text().replace("</robot>", part + "</robot>"))
+    check_wheels_in_pinocchio(model, device, TRUNK)
+
+
+def expand(folder, call):
+    (folder / "robot.urdf.xacro").write_text(ROBOT.replace("CALL", call))
+    return xacro.process_file(str(folder / "robot.urdf.xacro")).toxml()
+
+
+def test_the_macro_gives_the_device(tmp_path):
+    device = paper_device()
+    export_snippet_xacro(device, TRUNK, tmp_path / "ocs.urdf.xacro")
+    text = expand(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>')
+    check_wheels_in_pinocchio(pinocchio_model(text), device, TRUNK)
+
+
+def test_the_macro_takes_another_angle_and_a_prefix(tmp_path):
+    export_snippet_xacro(paper_device(), TRUNK, tmp_path / "ocs.urdf.xacro")
+    call = f'<xacro:ocs parent="{TRUNK}" prefix="front_" incidence="0.25"/>'
+    model = pinocchio_model(expand(tmp_path, call))
+    check_wheels_in_pinocchio(model, paper_device(0.25), TRUNK, prefix="front_")
+
+
+def test_the_call_in_the_macros_comment_works(tmp_path):
+    text = export_snippet_xacro(paper_device(), TRUNK, tmp_path / "ocs.urdf.xacro").read_text()
+    calls = re.findall(r"<xacro:ocs .*/>", text)
+    assert calls
+    check_wheels_in_pinocchio(pinocchio_model(expand(tmp_path, calls[0])), paper_device(), TRUNK)
+
+
+def test_the_mjcf_snippet_can_be_attached(tmp_path):
+    device = paper_device(drive=motor(754.0, torque_limit=1.0))
+    text = export_snippet_mjcf(device, "trunk", tmp_path / "ocs.xml").read_text()
+    assert all(line.strip() in text for line in re.findall(r"<(?:model|attach) .*/>", MJCF))
+    (tmp_path / "robot.xml").write_text(MJCF)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for module in device.modules:
+        name = f"ocs_{module.name}"
+        check_moments(np.diag(model.body(f"{name}_flywheel").inertia), device)
+        np.testing.assert_allclose(data.joint(name).xaxis, module.axis, atol=1e-9)
+        np.testing.assert_allclose(data.joint(name).xanchor, module.position, atol=1e-9)
+        np.testing.assert_array_equal(model.actuator(name).ctrlrange, [-1.0, 1.0])
+
+
+def test_the_mjcf_snippet_stands_alone(tmp_path):
+    path = export_snippet_mjcf(paper_device(), "trunk", tmp_path / "ocs.xml")
+    assert mujoco.MjModel.from_xml_path(str(path)).nu == 2
+
+
+@pytest.mark.parametrize("export", [export_snippet_urdf, export_snippet_xacro, export_snippet_mjcf])
+def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path, export):
+    path = export(paper_device(), 'a&"<b>--c--', tmp_path / "ocs")
+    if export is export_snippet_mjcf:
+        mujoco.MjModel.from_xml_path(str(path.rename(tmp_path / "ocs.xml")))
+    else:
+        xacro.process_file(str(path))
+
+
+def test_keyframes_of_an_attaching_robot_are_as_the_snippet_says(tmp_path):
+    export_snippet_mjcf(paper_device(), "trunk", tmp_path / "ocs.xml")
+    values = "0 0 1 1 0 0 0 0.5 0 0 0.7"
+    text = MJCF.replace(
+        "</worldbody>",
+        '<body><joint name="last"/><geom size="0.1"/></body></worldbody>'
+        f'<keyframe><key name="home" qpos="{values}"/></keyframe>',
+    )
+    (tmp_path / "robot.xml").write_text(text)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    asked = {"hip": 0.5, "ocs_left": 0.0, "ocs_right": 0.0, "last": 0.7}
+    assert {name: float(data.joint(name).qpos[0]) for name in asked} == asked

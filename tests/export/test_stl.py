@@ -1,0 +1,60 @@
+"""The wheel's mesh, read again by trimesh, against the closed form."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from wheels import PAPER_WHEEL
+
+from ocs_design.export.stl import METRES, MILLIMETRES, export_stl
+
+# 32-bit coordinates of binary STL, and the polygon's error of fourth order.
+RELATIVE = 1e-7
+
+
+@pytest.mark.parametrize("unit", [METRES, MILLIMETRES])
+def test_mesh_weighs_what_the_rim_weighs(tmp_path, unit, record_property):
+    mesh = trimesh.load_mesh(export_stl(PAPER_WHEEL, tmp_path / "w.stl", units_per_metre=unit))
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    mesh.density = PAPER_WHEEL.density / unit**3
+    moments = np.array(
+        [PAPER_WHEEL.transverse_inertia, PAPER_WHEEL.transverse_inertia, PAPER_WHEEL.spin_inertia]
+    )
+    error = np.abs(np.diag(mesh.moment_inertia) / unit**2 / moments - 1.0).max()
+    record_property("inertia_error", error)
+    assert error < RELATIVE
+    assert mesh.mass == pytest.approx(PAPER_WHEEL.mass, rel=RELATIVE)
+    np.testing.assert_allclose(mesh.center_mass, 0.0, atol=1e-9 * unit)
+
+
+def test_outline_is_the_rims_in_the_asked_unit(tmp_path):
+    mesh = trimesh.load_mesh(
+        export_stl(PAPER_WHEEL, tmp_path / "w.stl", units_per_metre=MILLIMETRES)
+    )
+    # Radii are larger by 5e-5 so that the polygon has the circle's area.
+    np.testing.assert_allclose(mesh.extents, [60.0, 60.0, 10.0], rtol=1e-4)
+
+
+def test_normals_point_outwards(tmp_path):
+    mesh = trimesh.load_mesh(export_stl(PAPER_WHEEL, tmp_path / "w.stl", units_per_metre=METRES))
+    assert mesh.volume > 0.0
+    written = np.frombuffer((tmp_path / "w.stl").read_bytes()[84:], "<f4,<f4,<f4,(9,)<f4,<u2")
+    for axis, name in enumerate(("f0", "f1", "f2")):
+        np.testing.assert_allclose(written[name], mesh.face_normals[:, axis], atol=1e-4)
+
+
+def test_a_disc_has_no_degenerate_triangles(tmp_path):
+    disc = replace(PAPER_WHEEL, inner_radius=0.0)
+    mesh = trimesh.load_mesh(export_stl(disc, tmp_path / "w.stl", units_per_metre=METRES))
+    assert mesh.is_watertight
+    assert mesh.area_faces.min() > 0.0
+    assert mesh.volume == pytest.approx(np.pi * 0.03**2 * 0.01, rel=RELATIVE)
+
+
+def test_bytes_are_the_same_every_time(tmp_path):
+    first = export_stl(PAPER_WHEEL, tmp_path / "a.stl", units_per_metre=METRES)
+    second = export_stl(PAPER_WHEEL, tmp_path / "b.stl", units_per_metre=METRES)
+    assert first.read_bytes() == second.read_bytes()
+    assert not first.read_bytes().startswith(b"solid")

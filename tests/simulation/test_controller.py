@@ -1,0 +1,155 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+from wheels import motor
+
+from ocs_design.simulation.controller import (
+    Allocation,
+    Gains,
+    Gyrostat,
+    Target,
+    WheelLaw,
+    tilt_error,
+)
+from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.sizing.incidence import module_axes
+
+INERTIA = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])
+UNLIMITED = MotorLimits(np.inf, 0.0, np.inf)
+angles = st.floats(-1.2, 1.2)
+vectors = st.tuples(angles, angles, angles)
+
+
+FORTY_DEGREES = np.radians(40.0)
+
+
+def gyrostat(incidence=FORTY_DEGREES):
+    return Gyrostat(INERTIA, module_axes(incidence), 7.1e-5)
+
+
+def wxyz(rotation):
+    return rotation.as_quat(scalar_first=True)[None]
+
+
+def level(rate=(0.0, 0.0), acceleration=(0.0, 0.0)):
+    upright = np.array([[1.0, 0.0, 0.0, 0.0]])
+    return Target(upright, np.array([rate]), np.array([acceleration]))
+
+
+def acceleration(body, torque, rate, wheel_speed):
+    """The gyrostat's own equation (THEORY, section 2)."""
+    momentum = body.inertia @ rate + body.spin_inertia * body.axes @ wheel_speed
+    return np.linalg.solve(body.actuated_inertia, -body.axes @ torque - np.cross(rate, momentum))
+
+
+def nearest_target(attitude, target):
+    """The target turned to the heading in which it is nearest to the attitude, by brute force."""
+    headings = Rotation.from_rotvec(np.outer(np.linspace(-np.pi, np.pi, 20_001), [0.0, 0.0, 1.0]))
+    turned = headings * target
+    return turned[int(np.argmin((attitude.inv() * turned).magnitude()))]
+
+
+@settings(max_examples=25, deadline=None)
+@given(vectors, vectors)
+def test_the_error_is_the_smallest_turn_over_all_headings(now, wanted):
+    attitude, target = Rotation.from_rotvec(now), Rotation.from_rotvec(wanted)
+    shortest = (attitude.inv() * nearest_target(attitude, target)).as_rotvec()
+    error = tilt_error(wxyz(attitude), wxyz(target))[0]
+    np.testing.assert_allclose(error, shortest[:2], atol=1e-3)
+
+
+@given(angles, angles, st.floats(-3.0, 3.0))
+def test_a_heading_that_drifts_changes_nothing(roll, pitch, yaw):
+    tilted = Rotation.from_rotvec([roll, pitch, 0.0])
+    turned = Rotation.from_rotvec([0.0, 0.0, yaw]) * tilted
+    upright = wxyz(Rotation.identity())
+    np.testing.assert_allclose(
+        tilt_error(wxyz(turned), upright), tilt_error(wxyz(tilted), upright), atol=1e-9
+    )
+    np.testing.assert_allclose(tilt_error(wxyz(tilted), upright)[0], [-roll, -pitch], atol=1e-9)
+
+
+@given(vectors, vectors, st.tuples(st.floats(-800, 800), st.floats(-800, 800)))
+def test_the_trunk_gets_the_roll_and_pitch_acceleration_that_the_law_asks_for(now, rate, spin):
+    """Whatever the rates, the wheel speeds and the products of inertia."""
+    body, w, W = gyrostat(), np.array(rate), np.array(spin)
+    attitude = wxyz(Rotation.from_rotvec(now))
+    law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
+    target = level(rate=(0.3, -0.2), acceleration=(1.0, -4.0))
+    torque = law.torque(attitude, w[None], W[None], target, 1e-3)[0]
+    error = tilt_error(attitude, target.attitude)[0]
+    wanted = 60.0 * error + 12.0 * (np.array([0.3, -0.2]) - w[:2]) + np.array([1.0, -4.0])
+    np.testing.assert_allclose(acceleration(body, torque, w, W)[:2], wanted, rtol=0, atol=1e-8)
+
+
+def test_the_transpose_scales_the_torque_by_C_times_its_transpose():
+    """C C^T = diag(2 sin^2 a, 2 cos^2 a, 0) (THEORY, section 7)."""
+    body = Gyrostat(np.diag([0.03, 0.05, 0.07]), module_axes(np.radians(30.0)), 7e-5)
+    tilted = wxyz(Rotation.from_rotvec([0.1, -0.2, 0.0]))
+    torques = {
+        how: -body.axes
+        @ WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, how).torque(
+            tilted, np.zeros((1, 3)), np.zeros((1, 2)), level(), 1e-3
+        )[0]
+        for how in Allocation
+    }
+    scaled = torques[Allocation.PSEUDO_INVERSE] * [2 * 0.25, 2 * 0.75, 0.0]
+    np.testing.assert_allclose(torques[Allocation.TRANSPOSE], scaled, atol=1e-12)
+
+
+def test_wheels_across_the_trunk_leave_roll_alone():
+    body = gyrostat(incidence=0.0)
+    law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
+    rolled = wxyz(Rotation.from_rotvec([0.3, 0.0, 0.0]))
+    torque = law.torque(rolled, np.zeros((1, 3)), np.zeros((1, 2)), level(), 1e-3)
+    assert np.abs(torque).max() < 0.05
+
+
+@given(
+    st.floats(-700.0, 700.0),
+    st.floats(-700.0, 700.0),
+    st.floats(-3.0, 3.0),
+    st.one_of(st.none(), st.floats(0.2, 5.0)),
+    st.floats(1e-4, 5e-3),
+)
+def test_no_wheel_passes_its_no_load_speed_and_no_motor_its_current(
+    left, right, tilt, stall, period
+):
+    body, W = gyrostat(), np.array([left, right])
+    limits = MotorLimits.of(motor(no_load_speed=700.0, stall_torque=stall, torque_limit=1.0))
+    law = WheelLaw.of(body, Gains(600.0, 12.0), limits, Allocation.PSEUDO_INVERSE)
+    attitude = wxyz(Rotation.from_rotvec([0.0, tilt, 0.0]))
+    torque = law.torque(attitude, np.zeros((1, 3)), W[None], level(), period)[0]
+    w_dot = acceleration(body, torque, np.zeros(3), W)
+    later = W + period * (torque / body.spin_inertia - body.axes.T @ w_dot)
+    assert np.abs(torque).max() <= 1.0
+    assert np.abs(later).max() <= 700.0 * (1.0 + 1e-9)
+    if stall is not None:
+        driving = np.abs(torque[torque * W > 0.0])
+        assert np.all(driving <= stall * (1.0 - np.abs(W[torque * W > 0.0]) / 700.0) + 1e-12)
+
+
+def test_braking_at_full_speed_is_not_cut():
+    """The voltage line lets a motor brake with up to twice its stall torque at no-load speed."""
+    limits = MotorLimits.of(motor(no_load_speed=700.0, stall_torque=1.0))
+    law = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), limits, Allocation.PSEUDO_INVERSE)
+    pitched = wxyz(Rotation.from_rotvec([0.0, 0.1, 0.0]))
+    free = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
+    arguments = (pitched, np.zeros((1, 3)), np.full((1, 2), -700.0), level(), 1e-3)
+    assert free.torque(*arguments)[0, 0] > 0.0
+    np.testing.assert_array_equal(law.torque(*arguments), free.torque(*arguments))
+
+
+def test_a_law_that_is_off_gives_no_torque_whatever_happens():
+    torque = WheelLaw.off().torque(
+        wxyz(Rotation.from_rotvec([1.0, 1.0, 1.0])), np.ones((1, 3)), np.ones((1, 2)), level(), 1e-3
+    )
+    np.testing.assert_array_equal(torque, np.zeros((1, 2)))
+
+
+def test_unlimited_motors_have_no_line():
+    assert MotorLimits.of(motor()) == MotorLimits(np.inf, 0.0, np.inf)
+    assert MotorLimits.of(motor(stall_torque=2.0, torque_limit=3.0)).torque_limit == 2.0
+    assert MotorLimits.of(motor(700.0, 2.0)).line_slope == pytest.approx(350.0)

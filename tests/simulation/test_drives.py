@@ -1,0 +1,66 @@
+import mujoco
+import numpy as np
+import pytest
+from robots import ROBOTS, SOLO12
+from wheels import paper_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.drives import DRIVE
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import World, WorldBuilder
+
+SOME = [
+    SOLO12,
+    ROBOTS / "a1_description" / "urdf" / "a1.urdf",
+    ROBOTS / "hyq_description" / "robots" / "hyq_no_sensors.urdf",
+    ROBOTS / "bolt_description" / "robots" / "bolt.urdf",
+    ROBOTS / "icub_description" / "robots" / "icub.urdf",
+]
+
+
+def drop_of(robot: Robot) -> World:
+    _, drop, _ = default_maneuvers(robot)
+    return WorldBuilder(robot, paper_device()).flight(drop, Wheels.BRAKED)
+
+
+@pytest.mark.parametrize("path", SOME, ids=lambda path: path.stem)
+def test_no_drive_is_faster_than_the_step(path):
+    """Eigenvalues of the joints' own second-order system, against Runge-Kutta's limit of 2.78."""
+    robot = read_robot(path)
+    world = drop_of(robot)
+    model, data = world.model, mujoco.MjData(world.model)
+    data.qpos[:] = world.qpos
+    mujoco.mj_forward(model, data)
+    inverse = np.empty((model.nv, model.nv))
+    mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
+    drives = [model.actuator(DRIVE + name).id for name in robot.tree.joints]
+    dofs = [int(model.joint(name).dofadr[0]) for name in robot.tree.joints]
+    inverse = inverse[np.ix_(dofs, dofs)]
+    zero, one = np.zeros_like(inverse), np.eye(len(dofs))
+    stiffness = inverse @ np.diag(model.actuator_gainprm[drives, 0])
+    damping = inverse @ np.diag(-model.actuator_biasprm[drives, 2])
+    poles = np.linalg.eigvals(np.block([[zero, one], [-stiffness, -damping]]))
+    assert np.all(poles.real < 0.0)
+    assert np.abs(poles).max() * model.opt.timestep < 1.5
+
+
+def test_a_standing_robot_gives_way_by_less_than_half_a_radian(solo12):
+    world = drop_of(solo12)
+    model, data = world.model, mujoco.MjData(world.model)
+    data.qpos[:], data.ctrl[:] = world.qpos, world.ctrl
+    data.qpos[2], data.qpos[3:7] = world.standing_height, (1.0, 0.0, 0.0, 0.0)
+    mujoco.mj_step(model, data, 2000)
+    sag = np.abs(data.qpos[7:19] - world.qpos[7:19]).max()
+    assert 0.01 < sag < 0.5
+    assert np.abs(data.qvel).max() < 0.05
+
+
+def test_drives_do_not_exceed_the_joint_effort():
+    robot = read_robot(ROBOTS / "a1_description" / "urdf" / "a1.urdf")
+    model = drop_of(robot).model
+    for name, joint in robot.tree.joints.items():
+        np.testing.assert_allclose(
+            model.actuator(DRIVE + name).forcerange, (-joint.effort, joint.effort)
+        )

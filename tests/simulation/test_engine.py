@@ -1,0 +1,84 @@
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from wheels import paper_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.launch import Push
+from ocs_design.simulation.recording import Recording
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder
+
+
+@pytest.fixture(scope="module")
+def worlds(solo12):
+    builder = WorldBuilder(solo12, paper_device())
+    jump, drop, flip = default_maneuvers(solo12)
+    flights = [
+        builder.flight(drop, Wheels.ACTIVE),
+        builder.flight(jump, Wheels.ABSENT),
+        builder.flight(flip, Wheels.ACTIVE),
+        builder.level_landing(drop),
+        builder.flight(jump, Wheels.ACTIVE),
+    ]
+    durations = (0.5, 0.62, 0.31, 0.45, 0.62)
+    return [replace(world, duration=t) for world, t in zip(flights, durations, strict=True)]
+
+
+def assert_same(one: Recording, other: Recording):
+    for field in fields(Recording):
+        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
+
+
+def test_numbers_do_not_depend_on_the_threads(worlds):
+    alone = simulate(worlds, threads=1)
+    assert_same(alone, simulate(worlds, threads=2))
+    assert_same(alone, simulate(worlds, threads=3))
+
+
+def test_a_world_does_not_feel_the_others(worlds):
+    together = simulate(worlds)
+    for index, world in enumerate(worlds):
+        alone = simulate([world])
+        steps = alone.lengths[0]
+        assert together.lengths[index] == steps
+        np.testing.assert_array_equal(together.com[:steps, index], alone.com[:, 0])
+        np.testing.assert_array_equal(
+            together.wheel_torque[:steps, index], alone.wheel_torque[:, 0]
+        )
+        assert np.isnan(together.com[steps:, index]).all()
+
+
+def test_centre_of_mass_falls_freely(worlds):
+    recording = simulate(worlds[:2])
+    flying = recording.time < 0.3
+    t = recording.time[flying]
+    for index, world in enumerate(worlds[:2]):
+        com = recording.com[flying, index]
+        expected = com[0] + np.outer(t, world.qvel[:3]) - np.outer(4.905 * t**2, [0.0, 0.0, 1.0])
+        np.testing.assert_allclose(com, expected, atol=1e-9)
+
+
+def test_holding_the_torque_changes_little(worlds):
+    fine, coarse = simulate(worlds[:1], hold=1), simulate(worlds[:1], hold=5)
+    np.testing.assert_allclose(coarse.time, fine.time[::5], atol=1e-12)
+    before = coarse.time < 0.35
+    tilt = [run.attitude[::step, 0, 2][: before.sum()] for run, step in ((fine, 5), (coarse, 1))]
+    np.testing.assert_allclose(tilt[0], tilt[1], atol=np.radians(0.2))
+
+
+def test_progress_rises_to_one(worlds):
+    told: list[float] = []
+    simulate(worlds, progress=told.append)
+    assert told == sorted(told)
+    assert told[0] == 0.0
+    assert told[-1] == 1.0
+
+
+@pytest.mark.parametrize("period", [1e-3, 5e-3, 7e-3])
+def test_a_push_keeps_its_impulse_at_any_control_rate(period):
+    push = Push(np.ones(3), onset=0.1003, duration=0.0504)
+    starts = np.arange(0.0, 0.3, period)
+    assert push.share(starts, period).sum() * period == pytest.approx(0.0504)

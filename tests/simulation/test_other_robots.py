@@ -1,0 +1,48 @@
+"""The paper's experiments, scaled, on robots from 1.3 kg to 93 kg, with two legs and with four."""
+
+import numpy as np
+import pytest
+from robots import ROBOTS
+from wheels import scaled_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.robot.reader import read_robot
+from ocs_design.simulation.scenario import run_scenarios
+
+QUADRUPEDS = [
+    "a1_description/urdf/a1",
+    "anymal_c_simple_description/urdf/anymal",
+    "hyq_description/robots/hyq_no_sensors",
+]
+BIPEDS = ["bolt_description/robots/bolt", "talos_data/robots/talos_full_v2"]
+
+
+def fly(path):
+    robot = read_robot(ROBOTS / f"{path}.urdf")
+    return run_scenarios(robot, scaled_device(robot), default_maneuvers(robot))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", [*QUADRUPEDS, *BIPEDS])
+def test_flights_keep_their_momentum_and_land_level_with_the_device(path):
+    for run in fly(path):
+        assert run.metrics.momentum_error < 1e-7
+        tilt = max(abs(run.metrics.touchdown_roll), abs(run.metrics.touchdown_pitch))
+        flipped = abs(run.metrics.turned_angle) > np.radians(355.0)
+        if run.ocs:
+            assert tilt < np.radians(5.0), run.reason
+            assert flipped == (run.scenario == "back-flip")
+        else:
+            assert run.passed is False
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", QUADRUPEDS)
+def test_quadrupeds_pass_with_the_device(path):
+    assert [run.passed for run in fly(path)] == [True, False] * 3
+
+
+def test_a_biped_without_balance_is_judged_on_touchdown_alone():
+    runs = fly("bolt_description/robots/bolt")
+    assert [run.passed for run in runs] == [True, False] * 3
+    assert all("standing is not judged" in run.reason for run in runs if run.ocs)

@@ -1,0 +1,99 @@
+"""The paper's three experiments on Solo12 with its own wheel (THEORY, section 8)."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from wheels import motor, paper_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.simulation.controller import Allocation
+from ocs_design.simulation.reference import Step
+from ocs_design.simulation.scenario import Options, run_scenarios
+
+RPM = np.pi / 30.0
+
+
+@pytest.fixture(scope="module")
+def maneuvers(solo12):
+    """The paper's own numbers: Solo12 is 0.1 % off the height that they are scaled by."""
+    jump, drop, flip = default_maneuvers(solo12)
+    jump = replace(jump, torque=(0.2, 0.8, 0.0), onset=0.1, duration=0.05)
+    high = replace(jump, name="high jump", takeoff_velocity=(jump.takeoff_velocity[0], 4.5))
+    return jump, replace(drop, height=1.0), replace(flip, jump_height=1.0, duration=2.0), high
+
+
+@pytest.fixture(scope="module")
+def runs(solo12, maneuvers):
+    flown = run_scenarios(solo12, paper_device(), maneuvers)
+    return {(run.scenario, run.ocs): run for run in flown}
+
+
+@pytest.mark.parametrize("name", ["disturbance", "drop", "back-flip", "high jump"])
+def test_with_the_device_every_maneuver_passes(runs, name):
+    run = runs[name, True]
+    assert run.passed is True, run.reason
+    assert run.metrics.upright_at_end
+    assert abs(run.metrics.touchdown_pitch) < np.radians(5.0)
+    assert abs(run.metrics.touchdown_roll) < np.radians(5.0)
+
+
+@pytest.mark.parametrize("name", ["disturbance", "drop", "back-flip", "high jump"])
+def test_without_it_none_does(runs, name):
+    assert runs[name, False].passed is False
+
+
+def test_momentum_is_kept_in_every_flight(runs):
+    assert max(run.metrics.momentum_error for run in runs.values()) < 1e-8
+
+
+def test_the_disturbed_jump_lands_off_without_the_device(runs):
+    metrics = runs["disturbance", False].metrics
+    assert np.degrees(metrics.touchdown_pitch) == pytest.approx(14.0, abs=1.0)
+    assert np.degrees(metrics.touchdown_roll) == pytest.approx(6.0, abs=1.0)
+
+
+def test_from_4_5_metres_per_second_the_bare_robot_turns_over(runs):
+    assert not runs["high jump", False].metrics.upright_at_end
+
+
+def test_the_drop_lands_as_tilted_as_it_started_without_the_device(runs):
+    assert np.degrees(runs["drop", False].metrics.touchdown_pitch) == pytest.approx(30.0, abs=0.1)
+
+
+def test_the_back_flip_turns_fully_with_the_device_and_not_at_all_without(runs):
+    assert np.degrees(runs["back-flip", True].metrics.turned_angle) == pytest.approx(-360.0, abs=5)
+    assert abs(runs["back-flip", False].metrics.turned_angle) < np.radians(0.1)
+    assert runs["back-flip", True].metrics.peak_wheel_speed / RPM == pytest.approx(23_600, rel=0.05)
+
+
+def test_the_papers_step_asks_for_the_torque_that_theory_names(solo12, maneuvers):
+    options = Options(drop_profile=Step())
+    run, _ = run_scenarios(solo12, paper_device(), maneuvers[1:2], options=options)
+    assert run.passed is True, run.reason
+    assert run.metrics.peak_wheel_torque == pytest.approx(1.06, rel=0.1)
+    assert run.metrics.peak_wheel_speed / RPM == pytest.approx(8200, rel=0.1)
+
+
+def test_the_papers_transpose_passes_too(solo12, maneuvers):
+    options = Options(allocation=Allocation.TRANSPOSE)
+    runs = run_scenarios(solo12, paper_device(), maneuvers[:3], options=options)
+    assert [run.passed for run in runs] == [True, False] * 3
+
+
+def test_a_motor_that_is_too_weak_fails_and_says_why(solo12, maneuvers):
+    """THEORY, section 6: 0.30 N m cannot do the drop in time with any wheel."""
+    device = paper_device(drive=motor(1000.0, None, 0.2))
+    run, _ = run_scenarios(solo12, device, maneuvers[1:2])
+    assert run.passed is False
+    assert "more than 5 deg off level" in run.reason
+    assert "step" in run.note
+    assert run.metrics.peak_wheel_torque <= 0.2
+
+
+def test_a_simulation_that_breaks_down_is_not_judged(solo12, maneuvers, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    runs = run_scenarios(solo12, paper_device(), [replace(maneuvers[1], gravity=1e200)])
+    assert [run.passed for run in runs] == [None, None]
+    assert all("became unstable" in run.reason for run in runs)
+    assert not list(tmp_path.iterdir()), "MuJoCo left its log behind"

@@ -1,0 +1,57 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ocs_design.requirement.maneuver import Drop, Flip
+from ocs_design.simulation.metrics import Metrics
+from ocs_design.simulation.verdict import judge, stands
+
+GOOD = Metrics(
+    touchdown_time=0.39,
+    touchdown_roll=0.0,
+    touchdown_pitch=np.radians(1.0),
+    touchdown_rate=0.1,
+    turned_angle=np.radians(-29.0),
+    heading_drift=0.0,
+    peak_wheel_speed=800.0,
+    peak_wheel_torque=1.0,
+    momentum_error=1e-9,
+    upright_at_end=True,
+    final_roll=0.0,
+    final_pitch=0.0,
+)
+DROP = Drop(name="drop", height=1.0, pitch=0.5)
+FLIP = Flip(name="flip", jump_height=1.0, angle=-2.0 * np.pi, duration=2.0)
+FALLEN = replace(GOOD, upright_at_end=False, final_pitch=np.pi)
+TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
+
+
+@pytest.mark.parametrize(
+    ("metrics", "maneuver", "can_stand", "passed", "reason"),
+    [
+        (GOOD, DROP, True, True, "pitch 1.0, roll 0.0 deg and stands"),
+        (GOOD, DROP, None, True, "without legs"),
+        (TILTED, DROP, True, False, "roll -5.1 deg, more than 5 deg"),
+        (TILTED, DROP, None, False, "roll -5.1 deg"),
+        (FALLEN, DROP, True, False, "does not stay up: ends at pitch 180.0"),
+        (FALLEN, DROP, False, True, "standing is not judged"),
+        (GOOD, FLIP, True, False, "turns -29.0 of -360 deg"),
+        (replace(GOOD, turned_angle=np.radians(-356.0)), FLIP, True, True, "stands"),
+        (replace(GOOD, turned_angle=np.radians(360.0)), FLIP, True, False, "turns 360.0 of -360"),
+        (replace(GOOD, momentum_error=2e-6), DROP, True, None, "off by 2.0e-06"),
+        (replace(GOOD, touchdown_time=None), DROP, True, None, "nothing of the robot touched"),
+        (None, DROP, True, None, "became unstable"),
+    ],
+)
+def test_pass_rule(metrics, maneuver, can_stand, passed, reason):
+    verdict = judge(metrics, maneuver, can_stand=can_stand)
+    assert verdict.passed is passed
+    assert reason in verdict.reason
+
+
+def test_a_robot_that_topples_slowly_does_not_count_as_standing():
+    assert stands(GOOD)
+    assert not stands(replace(GOOD, final_pitch=np.radians(30.0)))
+    assert not stands(FALLEN)
+    assert not stands(None)

@@ -1,0 +1,77 @@
+"""The search for the smallest change, and figures for people."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ocs_design.requirement.envelope import Envelope
+from ocs_design.sizing.limits import (
+    PRECISION,
+    RIM_LIMITS,
+    WHEEL_SPEED,
+    round_outwards,
+    smallest_change,
+    smallest_changes,
+)
+
+BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED)}
+
+
+@given(st.floats(1e-3, 1e3), st.floats(1.0001, 900.0))
+def test_smallest_change_finds_the_edge(now, factor):
+    upper = smallest_change(BY_NAME["r_max"], now, lambda value: value >= now * factor)
+    assert now * factor <= upper <= now * factor * (1.0 + PRECISION)
+    lower = smallest_change(BY_NAME["r_min"], now, lambda value: value <= now / factor)
+    assert now / factor >= lower >= now / factor * (1.0 - PRECISION)
+
+
+def test_what_a_thousandfold_change_does_not_mend_is_not_mended():
+    assert smallest_change(BY_NAME["h_max"], 0.01, lambda value: value >= 20.0) is None
+
+
+@pytest.mark.parametrize("now", [0.0, float("inf")])
+def test_no_limit_cannot_be_loosened(now):
+    assert smallest_change(BY_NAME["wheel_mass_max"], now, lambda _: True) is None
+
+
+def test_a_change_too_far_may_not_help():
+    """The nearest of two edges is found, though nothing beyond the window mends."""
+    found = smallest_change(BY_NAME["r_max"], 1.0, lambda value: 2.0 <= value <= 3.0)
+    assert found == pytest.approx(2.0, rel=PRECISION)
+
+
+def test_gentlest_change_first():
+    edges = {BY_NAME["r_max"]: 3.0, BY_NAME["wall_min"]: 0.5, BY_NAME["h_max"]: 1e6}
+
+    def mends(limit, value):
+        return value >= edges[limit] if limit.loosens_upwards else value <= edges[limit]
+
+    found = smallest_changes(dict.fromkeys(edges, 1.0), mends)
+    assert [limit.name for limit in found] == ["wall_min", "r_max"]
+
+
+@given(st.floats(1e-6, 1e6))
+def test_rounding_outwards(value):
+    up, down = round_outwards(value, upwards=True), round_outwards(value, upwards=False)
+    assert down * (1.0 - 1e-6) <= value <= up * (1.0 + 1e-6)
+    assert up - down <= 0.0101 * value
+    assert len(f"{up:.6g}".replace(".", "").strip("0").split("e")[0]) <= 3
+
+
+def test_figures_with_few_digits_stay():
+    for upwards in (True, False):
+        assert round_outwards(0.3, upwards=upwards) == pytest.approx(0.3, rel=1e-15)
+        assert round_outwards(20.0, upwards=upwards) == 20.0
+
+
+def test_texts():
+    assert BY_NAME["r_max"].text(0.03) == "r_max 30 mm"
+    assert BY_NAME["r_max"].loose_text(0.04898713) == "r_max 49 mm"
+    assert BY_NAME["r_min"].loose_text(0.0069399) == "r_min 6.93 mm"
+    assert BY_NAME["wheel_mass_max"].loose_text(0.1027556) == "wheel_mass_max 103 g"
+    assert BY_NAME["hoop_stress"].text(2.0) == "stress_safety 2"
+    assert WHEEL_SPEED.text(753.9822368615503) == "wheel_speed_max 7200 rpm"
+
+
+def test_every_limit_of_the_envelope_is_named():
+    assert {limit.field for limit in RIM_LIMITS} == set(Envelope.__dataclass_fields__)
