@@ -32,9 +32,9 @@ def paper_problem(spin_inertia, outer_radius_max, height_max):
 def scaled_problem(*, size, slim, fill, bore, flat, wall, mass, stress):
     """A problem from figures of order one, so that each of its limits may bind or not.
 
-    `size` is r_max, `slim` h_max over it, `fill` the spin inertia over that of a solid disc; `bore`,
-    `flat` and `wall` are the lower limits over the upper ones; `mass` and `stress` are limits over
-    those of thin rings.
+    `size` is r_max, `slim` h_max over it, `fill` the spin inertia over that of a solid disc;
+    `bore`, `flat` and `wall` are the lower limits over the upper ones; `mass` and `stress` are
+    limits over those of thin rings.
     """
     height, speed = slim * size, 900.0
     spin = fill * pi * STEEL.density * height * size**4 / 2.0

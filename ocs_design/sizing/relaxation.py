@@ -119,7 +119,7 @@ def shortfall(problem: RimProblem) -> str:
         return f"no rim at all fits within {room}, whatever its spin inertia"
     if largest > problem.spin_inertia:
         least = float(smallest_spin_inertia(problem.limits))
-        return f"every rim within {room} has more spin inertia than {asked}: {least:.5g} kg m^2 or more"
+        return f"every rim within {room} has more spin inertia than {asked}: at least {least:.5g}"
     return (
         f"no rim of {problem.material.name} within {room} has the spin inertia of {asked}; "
         f"the limits allow {largest:.5g} kg m^2 at most"

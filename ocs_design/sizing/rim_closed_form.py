@@ -24,8 +24,9 @@ meets Q at 4 t c^3 + t^3 c = Q, c = R - t / 2 (a cubic with one real root). So
     R = min(R_max, max(crossings), h_min on the wall),   r = min(h_max, wall at R),
 
 a vertex where two limits meet: r_max or hoop_stress with h_max or wall_min, or h_min with wall_min.
-If this r is below r_min (or 1 % of R, so that it is a bore), no other R mends it: a smaller one lowers r(R), a larger one is forbidden
-or lowers it too. If the mass is above m_max, no rim is lighter. The vertex decides feasibility.
+If this r is below r_min, or below 1 % of R and thus no bore, no other R mends it: a smaller one
+lowers r(R), a larger one is forbidden or lowers it too. If the mass is above m_max, no rim is
+lighter. The vertex decides feasibility.
 """
 
 from typing import NamedTuple

@@ -1,0 +1,241 @@
+"""Both wheels on their robot: the fixed point from scratch, scaling laws, and failures."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pinocchio
+import pytest
+from rims import STEEL, room
+
+from ocs_design.exceptions import Infeasible, UsageError
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.requirement import Requirement
+from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.sizing.device_iteration import DeadEnd, find_fixed_point
+from ocs_design.sizing.device_problem import DeviceProblem
+from ocs_design.sizing.device_relaxation import with_limit
+from ocs_design.sizing.device_sizing import size_device
+from ocs_design.sizing.incidence import Criterion, incidence_by_criterion, module_axes
+from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED
+
+SOLO12 = MassProperties(
+    2.5,
+    [0.002, 0.0, -0.024],
+    [[0.0300, 0.0001, 0.0004], [0.0001, 0.0515, -0.0002], [0.0004, -0.0002, 0.0680]],
+)
+ROOM = room(
+    0.05, 0.01, inner_radius_min=0.005, height_min=0.002, wall_min=0.002, mass_max=0.25,
+    stress_safety=2.0,
+)  # fmt: skip
+SPEED = 754.0
+DISTURBANCE = Disturbance(
+    name="disturbance",
+    takeoff_velocity=(0.5, 2.4),
+    torque=(0.2, 0.8, 0.0),
+    onset=0.1,
+    duration=0.05,
+)
+DROP = Drop(name="drop", height=1.0, pitch=np.radians(30.0))
+BACK_FLIP = Flip(
+    name="back-flip",
+    gravity=1.62,
+    incidence=0.0,
+    jump_height=1.0,
+    angle=-2.0 * np.pi,
+    duration=2.0,
+)
+MANEUVERS = (DISTURBANCE, DROP, BACK_FLIP)
+
+
+def place(outer_radius, height):
+    return np.array([[0.01, 0.07, 0.1 + outer_radius], [0.01, -0.07, 0.1 + outer_radius]])
+
+
+def asks(*maneuvers, rate_change=None, wheel_speed_max=SPEED, spin_inertia=None):
+    return Requirement(maneuvers, rate_change, wheel_speed_max, spin_inertia, 0.25)
+
+
+def size(requirement, envelope=ROOM, **options):
+    return size_device(SOLO12, requirement, envelope, STEEL, place, **options)
+
+
+def by_pinocchio(rim, centers, incidence):
+    """Robot and wheels, each wheel a full cylinder less its bore, joined by Pinocchio."""
+    total = pinocchio.Inertia(SOLO12.mass, SOLO12.com, SOLO12.inertia)
+    for center, axis in zip(centers, module_axes(incidence).T, strict=True):
+        rotation = pinocchio.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis).matrix()
+        mass, spin, across = rim.mass, rim.spin_inertia, rim.transverse_inertia
+        solid = pinocchio.Inertia.FromCylinder(
+            np.pi * STEEL.density * rim.height * rim.outer_radius**2, rim.outer_radius, rim.height
+        )
+        hole = pinocchio.Inertia.FromCylinder(
+            np.pi * STEEL.density * rim.height * rim.inner_radius**2, rim.inner_radius, rim.height
+        )
+        inertia = solid.inertia - hole.inertia
+        assert np.diag(inertia) == pytest.approx([across, across, spin], rel=1e-9)
+        wheel = pinocchio.Inertia(mass, np.zeros(3), inertia)
+        total += pinocchio.SE3(rotation, center).act(wheel)
+    return total
+
+
+@pytest.mark.parametrize("criterion", [Criterion.EQUAL_RATE, Criterion.SIMULTANEOUS])
+def test_fixed_point_from_scratch(criterion):
+    """Recompute total inertia, incidence and every demand from the sized wheels alone."""
+    requirement = asks(*MANEUVERS, rate_change=3.0)
+    found = size(requirement, criterion=criterion)
+    total = by_pinocchio(found.rim, found.centers, found.incidence)
+    assert found.total.mass == pytest.approx(total.mass, rel=1e-12)
+    assert found.total.com == pytest.approx(total.lever, rel=1e-12)
+    assert found.total.inertia == pytest.approx(total.inertia, rel=1e-10, abs=1e-15)
+
+    inertia = total.inertia
+    impulse = np.array([0.2, 0.8]) * 0.05
+    fall = np.sqrt(2.0 * 0.75 / 9.81)
+    drop = inertia[1, 1] * 2.0 * np.radians(30.0) / fall
+    largest = np.maximum(impulse, [0.0, drop])
+    largest = np.maximum(largest, 3.0 * np.diag(inertia)[:2])
+    incidence = incidence_by_criterion(inertia, largest)[criterion]
+    assert found.incidence == pytest.approx(incidence, abs=1e-10)
+
+    sine, cosine = np.sin(incidence), np.cos(incidence)
+    flip = by_pinocchio(found.rim, found.centers, 0.0).inertia[1, 1] * 2.0 * np.pi
+    expected = {
+        "disturbance": impulse[0] / sine + impulse[1] / cosine,
+        "drop": drop / cosine,
+        "back-flip": flip,
+        "rate change, roll": 3.0 * inertia[0, 0] / sine,
+        "rate change, pitch": 3.0 * inertia[1, 1] / cosine,
+    }
+    demands = {demand.source: demand.spin_inertia for demand in found.demands}
+    assert demands == pytest.approx({k: v / (2.0 * SPEED) for k, v in expected.items()}, rel=1e-9)
+    assert found.spin_inertia == pytest.approx(max(demands.values()), rel=1e-9)
+    assert found.rim.spin_inertia == pytest.approx(found.spin_inertia, rel=1e-12)
+    assert found.residual < 1e-9
+    assert found.iterations < 50
+
+
+def test_roll_and_pitch_ask_for_the_same_wheel_at_the_papers_incidence():
+    roll, pitch = size(asks(rate_change=2.0)).demands
+    assert roll.spin_inertia == pytest.approx(pitch.spin_inertia, rel=1e-9)
+
+
+def test_twice_the_rate_asks_for_twice_the_spin_inertia():
+    """To first order: the wheels' own share of the total inertia comes on top."""
+    once, twice = (size(asks(rate_change=rate)) for rate in (1.0, 2.0))
+    share = np.abs(twice.total.inertia[:2, :2] / SOLO12.inertia[:2, :2]).max() - 1.0
+    ratio = twice.spin_inertia / once.spin_inertia
+    assert 2.0 < ratio < 2.0 * (1.0 + share)
+    slow, slower = (size(asks(rate_change=rate), place_free()) for rate in (2e-3, 1e-3))
+    assert slow.spin_inertia / slower.spin_inertia == pytest.approx(2.0, abs=1e-3)
+
+
+def place_free():
+    """Room without lower limits, so that tiny wheels are possible."""
+    return room(0.05, 0.01)
+
+
+def test_twice_the_wheel_speed_halves_the_spin_inertia():
+    slow, fast = (
+        size(asks(rate_change=2e-3, wheel_speed_max=speed), place_free())
+        for speed in (400.0, 800.0)
+    )
+    assert slow.spin_inertia / fast.spin_inertia == pytest.approx(2.0, abs=1e-3)
+
+
+def test_the_device_itself_counts():
+    found = size(asks(rate_change=2.0))
+    alone = 2.0 * SOLO12.inertia[1, 1] / (2.0 * np.cos(found.incidence) * SPEED)
+    assert found.spin_inertia > 1.02 * alone
+    robot = found.incidence_by_criterion_robot[Criterion.EQUAL_RATE]
+    assert robot == pytest.approx(np.arctan2(0.0300, 0.0515), rel=1e-12)
+    assert found.incidence_by_criterion[Criterion.EQUAL_RATE] == pytest.approx(
+        found.incidence, abs=1e-10
+    )
+    assert abs(robot - found.incidence) > 1e-3
+
+
+def test_given_incidence_is_kept():
+    found = size(asks(rate_change=1.0), incidence=0.7)
+    assert found.incidence == 0.7
+    assert {demand.incidence for demand in found.demands} == {0.7}
+
+
+def test_given_spin_inertia_is_kept():
+    found = size(asks(*MANEUVERS, spin_inertia=1.5e-4))
+    assert found.spin_inertia == 1.5e-4
+    assert max(demand.spin_inertia for demand in found.demands) > 1.5e-4
+
+
+def test_a_maneuver_turned_by_hand_has_no_say_in_the_incidence():
+    with_flip = size(asks(DROP, DISTURBANCE, BACK_FLIP, spin_inertia=1e-4), criterion="weighted")
+    without = size(asks(DROP, DISTURBANCE, spin_inertia=1e-4), criterion="weighted")
+    assert with_flip.incidence == without.incidence
+
+
+def test_less_than_the_smallest_rim_gives_the_smallest_rim():
+    found = size(asks(rate_change=1e-4))
+    assert max(demand.spin_inertia for demand in found.demands) < found.spin_inertia
+    assert found.rim.height == pytest.approx(ROOM.height_min, rel=1e-6)
+    assert found.rim.inner_radius == pytest.approx(ROOM.inner_radius_min, rel=1e-6)
+    assert found.rim.outer_radius - found.rim.inner_radius == pytest.approx(ROOM.wall_min, rel=1e-6)
+
+
+def test_nothing_asked():
+    with pytest.raises(UsageError, match="nothing is asked"):
+        size(asks())
+
+
+def test_limits_are_checked():
+    with pytest.raises(UsageError, match="wheel_speed_max"):
+        size(asks(rate_change=1.0, wheel_speed_max=float("nan")))
+
+
+def test_infeasible_by_its_robot():
+    """Each relaxation is verified by sizing anew, and none smaller would do."""
+    envelope = replace(ROOM, outer_radius_max=0.03, mass_max=0.2)
+    requirement = asks(*MANEUVERS)
+    with pytest.raises(Infeasible) as caught:
+        size(requirement, envelope)
+    error = caught.value
+    assert error.message.startswith("Back-flip asks for too much: no rim of steel within")
+    assert error.required_spin_inertia > error.largest_spin_inertia > 0.0
+    assert "wheel_speed_max" in error.relaxations
+    assert "r_max" in error.relaxations
+    problem = DeviceProblem(SOLO12, requirement, envelope, STEEL, place, None, Criterion.EQUAL_RATE)
+    by_name = {limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED)}
+    for name, value in error.relaxations.items():
+        mended = with_limit(problem, by_name[name], value)
+        size_device(SOLO12, mended.requirement, mended.envelope, STEEL, place)
+        tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3e-6))
+        assert isinstance(find_fixed_point(with_limit(problem, by_name[name], tighter)), DeadEnd)
+
+
+def test_a_given_spin_inertia_is_not_mended_by_wheel_speed():
+    with pytest.raises(Infeasible) as caught:
+        size(asks(rate_change=1.0, spin_inertia=1e-2))
+    assert "wheel_speed_max" not in caught.value.relaxations
+    assert caught.value.required_spin_inertia == 1e-2
+    assert caught.value.message.startswith("No rim of steel")
+
+
+@pytest.mark.parametrize(
+    ("criterion", "axis"), [(Criterion.PITCH_ONLY, "roll"), (Criterion.ROLL_ONLY, "pitch")]
+)
+def test_axis_out_of_reach(criterion, axis):
+    with pytest.raises(Infeasible, match=f"{axis} momentum") as caught:
+        size(asks(rate_change=1.0), criterion=criterion)
+    assert caught.value.binding == ("incidence",)
+
+
+def test_pitch_only_suffices_for_pitch():
+    found = size(asks(DROP), criterion=Criterion.PITCH_ONLY)
+    assert found.incidence == 0.0
+
+
+def test_sizing_is_quick():
+    """The fixed point in closed form and one convex program: milliseconds, once CVXPY is there."""
+    size(asks(rate_change=2.0))
+    start = time.process_time()
+    size(asks(*MANEUVERS, rate_change=2.0))
+    assert time.process_time() - start < 0.5
