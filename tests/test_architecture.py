@@ -31,7 +31,7 @@ def test_the_check_for_heavy_modules_sees_them():
 
 
 def test_reading_a_robot_needs_no_simulator_and_no_solver():
-    loaded = modules_loaded_by("import ocs_design.robot.urdf")
+    loaded = modules_loaded_by("import ocs_design.robot.urdf.reading")
     assert loaded.isdisjoint({"mujoco", "cvxpy", "trimesh", "casadi"})
 
 

@@ -13,9 +13,9 @@ from ocs_design.export.naming import (
     require_free,
 )
 from ocs_design.export.wheel_frame import wheel_placement
-from ocs_design.robot.mujoco_frames import quaternion
-from ocs_design.robot.mujoco_model import trunk_body
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.spec.frames import quaternion
+from ocs_design.robot.spec.model import trunk_body
 from ocs_design.robot.tree import Placement
 
 WHEEL_CONTACT_BIT = 1 << 16

@@ -8,9 +8,9 @@ from ocs_design.design import Device
 from ocs_design.export.attach import attach_device
 from ocs_design.export.mjcf_precision import precise_xml
 from ocs_design.export.urdf import WHEEL_MESH
-from ocs_design.robot.mjcf_spec import compiled
-from ocs_design.robot.mujoco_model import build_spec
+from ocs_design.robot.mjcf.spec import compiled
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.spec.model import build_spec
 
 _MESHES = PurePath(WHEEL_MESH).parent
 

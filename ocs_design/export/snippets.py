@@ -9,7 +9,7 @@ from ocs_design.export.motor import largest_torque
 from ocs_design.export.naming import PREFIX, flywheel_name, joint_name
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_placement
-from ocs_design.robot.mujoco_frames import quaternion
+from ocs_design.robot.spec.frames import quaternion
 
 
 def export_snippet_urdf(device: Device, trunk: str, path: Path) -> Path:

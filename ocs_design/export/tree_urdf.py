@@ -9,8 +9,8 @@ from ocs_design.arrays import FloatArray
 from ocs_design.export.device_urdf import UNLIMITED
 from ocs_design.export.templates import numbers
 from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.spec.unused_name import unused_name
 from ocs_design.robot.tree import Body, Joint, JointKind, Placement, Shape, ShapeKind, Tree
-from ocs_design.robot.unused_name import unused_name
 
 
 def tree_urdf(tree: Tree) -> str:

@@ -11,7 +11,7 @@ from ocs_design.export.templates import in_comment
 from ocs_design.export.tree_urdf import tree_urdf
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Format, Robot
-from ocs_design.robot.urdf_xml import parse_xml
+from ocs_design.robot.urdf.xml import parse_xml
 
 WHEEL_MESH = "meshes/ocs_flywheel.stl"
 """Beside every exported robot file."""

@@ -6,14 +6,14 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.exceptions import RobotError
-from ocs_design.robot.leg_geometry import convention_warnings
-from ocs_design.robot.legs import find_legs
-from ocs_design.robot.loader import load
+from ocs_design.robot.files.loader import load
 from ocs_design.robot.mass_properties import MassProperties, physical_defect
-from ocs_design.robot.posture import resolve_posture, unknown_name
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance.leg_geometry import convention_warnings
+from ocs_design.robot.stance.legs import find_legs
+from ocs_design.robot.stance.posture import resolve_posture, unknown_name
+from ocs_design.robot.stance.trunk import find_trunk
 from ocs_design.robot.tree import Tree
-from ocs_design.robot.trunk import find_trunk
 
 
 def read_robot(

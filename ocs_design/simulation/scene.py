@@ -9,8 +9,8 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.design import Device
 from ocs_design.export.attach import attach_device
-from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.spec.model import build_spec, trunk_body
 from ocs_design.simulation.drives import add_drives
 from ocs_design.simulation.ground import FLOOR, add_floor
 

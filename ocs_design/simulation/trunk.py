@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.robot.mujoco_frames import quaternion
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.spec.frames import quaternion
 from ocs_design.robot.tree import Body, JointKind, Tree
 from ocs_design.simulation import quaternions
 

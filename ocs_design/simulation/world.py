@@ -10,8 +10,8 @@ from ocs_design.arrays import FloatArray
 from ocs_design.design import Device
 from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
-from ocs_design.robot.mujoco_frames import quaternion
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.spec.frames import quaternion
 from ocs_design.simulation.controller import Allocation, Gains, Gyrostat, WheelLaw
 from ocs_design.simulation.drives import DRIVE, set_gains
 from ocs_design.simulation.ground import lowest_point

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import degrees, isinf
+from math import degrees, isfinite, isinf
 
 from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.bound import SpinDemand
@@ -94,7 +94,8 @@ def _out_of_reach(problem: DeviceProblem, demands: Sequence[SpinDemand]) -> Infe
         f"{capitalised(blind.source)} asks for {axes} momentum, which wheels at an incidence of "
         f"{degrees(blind.incidence):.4g} deg cannot give.",
         binding=["incidence"],
-        required_spin_inertia=blind.spin_inertia,
+        # The largest of the others: infinity is no number in JSON.
+        required_spin_inertia=max(filter(isfinite, (d.spin_inertia for d in demands)), default=0.0),
         largest_spin_inertia=largest_spin_inertia(rim_problem),
         relaxations={},
         hint="Choose an incidence between 0 and 90 deg, another criterion, "

@@ -12,7 +12,7 @@ CLEARANCE = 1.1
 """Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
 
 Place = Callable[[float, float], FloatArray]
-"""Centres of both wheels in B, left first, shape (2, 3), for an outer radius and a height; all [m]."""
+"""Centres of both wheels in B, left first, shape (2, 3), for R and h; all [m]."""
 
 
 def place_on_top(robot: Robot) -> Place:

@@ -39,9 +39,9 @@ from ocs_design.sizing.rim_problem import RimLimits
 
 # Limits that meet in one point stay compatible when their figures are rounded.
 _ROUNDING = 1e-12
-# (r / R)^4 at the least: a rim is no disc, its bore is 1 % of its outer radius or more. As a bore
-# closes, the shadow prices grow without limit, and no solver tells them.
-_BORE = 1e-8
+# A rim is no disc: its bore is at least this share of its outer radius. As a bore closes, the
+# shadow prices grow without limit, and no solver can tell them.
+_BORE = 0.01
 
 
 class RimShape(NamedTuple):
@@ -76,14 +76,14 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
         )
         height = 2.0 * inertia / (np.pi * limits.density * spread)
         mass = 2.0 * inertia / (outer**2 + inner**2)
-        fits = (tall <= flat * (1.0 + _ROUNDING)) & _fits(inner, outer, tall, mass, limits)
+        fits = (tall <= flat * (1.0 + _ROUNDING)) & _fits(inner, outer, mass, limits)
     values = np.broadcast_arrays(inner, outer, height, mass)
     return RimShape(*(np.where(fits, value, np.nan) for value in values))
 
 
 def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
     """Of the narrowest, thinnest and flattest rim that the lower limits leave [kg m^2]."""
-    bore = np.asarray(limits.inner_radius_min)
+    bore = np.maximum(limits.inner_radius_min, limits.wall_min * _BORE / (1.0 - _BORE))
     spread = (bore + limits.wall_min) ** 4 - bore**4
     return np.asarray(np.pi * limits.density * limits.height_min * spread / 2.0, dtype=np.float64)
 
@@ -113,7 +113,7 @@ def _flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
 
 
 def _fits(
-    inner: FloatArray, outer: FloatArray, tall: FloatArray, mass: FloatArray, limits: RimLimits
+    inner: FloatArray, outer: FloatArray, mass: FloatArray, limits: RimLimits
 ) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
     """Whether the vertex meets the limits that did not shape it.
 
@@ -123,7 +123,7 @@ def _fits(
     slack = 1.0 + _ROUNDING
     return np.asarray(
         (inner * slack >= limits.inner_radius_min)
-        & (outer**4 * (1.0 - _BORE) >= tall)
+        & (inner * slack >= _BORE * outer)
         & (mass <= limits.mass_max * slack)
         & ((3.0 + limits.poisson_ratio) * outer**2 <= limits.stretch_max * slack)
     )

@@ -15,6 +15,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,8 +33,9 @@ _ITERATIONS_MAX = 50
 # A multiplier below this belongs to a limit that does not bind; those that do are of order one.
 _IDLE = 1e-6
 _NEWTON_STEPS = 3
-# Newton goes to the vertex that Clarabel means, or nowhere.
+# Newton goes to a vertex that Clarabel may mean, or nowhere.
 _POLISH_MAX = 1e-5
+_ROUNDING = 1e-11
 
 
 @dataclass(frozen=True)
@@ -107,15 +109,25 @@ def _polished(constraints: RimConstraints) -> tuple[FloatArray, dict[str, float]
         for name, limit in constraints.by_name.items()
     }
     binding = [name for name, multiplier in found.items() if multiplier > _IDLE]
-    point = constraints.point()
+    limits = [constraints.by_name[name] for name in binding]
+    point = _best_vertex(constraints, limits)
     if len(binding) == 2:
-        limits = [constraints.by_name[name] for name in binding]
-        vertex = _vertex(limits, point)
-        if np.abs(vertex - point).max() < _POLISH_MAX:
-            point = vertex
         exact = np.linalg.solve(_gradients(limits, point).T, np.full(2, point.sum() ** -2.0))
         found.update(zip(binding, map(float, exact), strict=True))
     return point, {name: found[name] if name in binding else 0.0 for name in found}
+
+
+def _best_vertex(constraints: RimConstraints, binding: Sequence[Constraint]) -> FloatArray:
+    """The lightest point next to Clarabel's that lies on two binding limits and within all."""
+    point = constraints.point()
+    vertices = [_vertex(pair, point) for pair in combinations(binding, 2)]
+    feasible = [
+        vertex
+        for vertex in vertices
+        if np.abs(vertex - point).max() < _POLISH_MAX
+        and all(limit.value(*vertex) < _ROUNDING for limit in constraints.by_name.values())
+    ]
+    return max(feasible, key=np.sum, default=point)
 
 
 def _vertex(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:

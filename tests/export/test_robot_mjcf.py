@@ -12,8 +12,8 @@ from wheels import paper_device
 from ocs_design.export.attach import attach_device
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
+from ocs_design.robot.spec.model import build_spec
 
 
 def read_again(robot, device, folder):

@@ -23,7 +23,7 @@ def test_mesh_weighs_what_the_rim_weighs(tmp_path, unit, record_property):
         [PAPER_WHEEL.transverse_inertia, PAPER_WHEEL.transverse_inertia, PAPER_WHEEL.spin_inertia]
     )
     error = np.abs(np.diag(mesh.moment_inertia) / unit**2 / moments - 1.0).max()
-    record_property("inertia_error", error)
+    record_property("inertia_error", float(error))
     assert error < RELATIVE
     assert mesh.mass == pytest.approx(PAPER_WHEEL.mass, rel=RELATIVE)
     np.testing.assert_allclose(mesh.center_mass, 0.0, atol=1e-9 * unit)

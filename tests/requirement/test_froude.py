@@ -18,10 +18,10 @@ from ocs_design.requirement.froude import (
     default_maneuvers,
     standing_height,
 )
-from ocs_design.robot.legs import find_legs
-from ocs_design.robot.loader import load
-from ocs_design.robot.stand import stand
-from ocs_design.robot.trunk import find_trunk
+from ocs_design.robot.files.loader import load
+from ocs_design.robot.stance.legs import find_legs
+from ocs_design.robot.stance.stand import stand
+from ocs_design.robot.stance.trunk import find_trunk
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
 RATIOS = st.floats(0.2, 20.0)

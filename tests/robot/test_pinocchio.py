@@ -8,7 +8,7 @@ import pytest
 from robots import ALL_URDFS, ROBOTS
 
 from ocs_design.robot.tree import JointKind, Tree
-from ocs_design.robot.urdf import read_urdf
+from ocs_design.robot.urdf.reading import read_urdf
 
 POSTURES = 10
 RELATIVE = 1e-12

@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 from robots import ROBOTS, SOLO12
 
-from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
+from ocs_design.robot.spec.model import build_spec, trunk_body
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.trunk import TrunkChain
 

@@ -226,6 +226,7 @@ def test_axis_out_of_reach(criterion, axis):
     with pytest.raises(Infeasible, match=f"{axis} momentum") as caught:
         size(asks(rate_change=1.0), criterion=criterion)
     assert caught.value.binding == ("incidence",)
+    assert np.isfinite(caught.value.required_spin_inertia)
 
 
 def test_pitch_only_suffices_for_pitch():

@@ -1,0 +1,1 @@
+"""Trunk, legs and the posture that a robot is measured in."""

@@ -1,0 +1,1 @@
+"""The URDF reader."""

@@ -1,0 +1,160 @@
+"""Problems without solution: what conflicts, what is possible, and what would do."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from rims import PAPER_STEEL, STEEL, paper_problem, rim_problems, room
+
+from ocs_design.exceptions import Infeasible
+from ocs_design.sizing.limits import MOST_CHANGE, RIM_LIMITS
+from ocs_design.sizing.relaxation import (
+    conflicting_limits,
+    is_feasible,
+    largest_spin_inertia,
+    with_limit,
+)
+from ocs_design.sizing.rim import solve_rim
+from ocs_design.sizing.rim_closed_form import lightest_rim
+from ocs_design.sizing.rim_problem import RimProblem
+
+BY_NAME = {limit.name: limit for limit in RIM_LIMITS}
+few = settings(max_examples=1000, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+def failure(problem):
+    with pytest.raises(Infeasible) as caught:
+        solve_rim(problem)
+    return caught.value
+
+
+def as_limit(problem, name, value):
+    """A relaxation as the figure of its limit: a hoop stress as the safety that allows it."""
+    return problem.material.yield_strength / value if name == "hoop_stress" else value
+
+
+def test_theory_case():
+    error = failure(paper_problem(7.11e-4, 0.03, 0.01))
+    assert error.binding == ("r_max", "h_max")
+    assert error.required_spin_inertia == 7.11e-4
+    assert error.largest_spin_inertia == pytest.approx(1.0001e-4, abs=5e-9)
+    assert error.relaxations == pytest.approx({"h_max": 0.0711, "r_max": 0.0490}, abs=5e-5)
+    # h_max in closed form: a disc as high as needed.
+    needed = 2.0 * 7.11e-4 / (np.pi * PAPER_STEEL.density * 0.03**4)
+    assert error.relaxations["h_max"] == pytest.approx(needed, rel=1e-6)
+    assert "r_max 30 mm and h_max 10 mm" in error.message
+    assert "1.0001e-04 kg m^2" in error.message or "0.00010001 kg m^2" in error.message
+    assert error.hint == "Any one of these alone would do: r_max 49 mm; h_max 71.1 mm."
+
+
+def test_mass_limit():
+    """The mass that the lightest rim has without the limit is the limit that would just do."""
+    free = paper_problem(7.11e-5, 0.03, 0.01)
+    lightest = solve_rim(free).mass
+    error = failure(replace(free, envelope=replace(free.envelope, mass_max=0.09)))
+    assert set(error.binding) == {"r_max", "h_max", "wheel_mass_max"}
+    assert error.relaxations["wheel_mass_max"] == pytest.approx(lightest, rel=2e-6)
+    assert set(error.relaxations) == {"r_max", "h_max", "wheel_mass_max"}
+
+
+def test_bore_and_wall_that_leave_no_room():
+    problem = RimProblem(1e-5, room(0.03, 0.01, inner_radius_min=0.029, wall_min=0.002), STEEL, 100)
+    error = failure(problem)
+    assert set(error.binding) == {"r_max", "r_min", "wall_min"}
+    assert error.largest_spin_inertia == 0.0
+    expected = {"r_max": 0.031, "r_min": 0.028, "wall_min": 0.001}
+    assert error.relaxations == pytest.approx(expected, rel=1e-6)
+    assert "no rim at all" in error.message.lower()
+
+
+def test_too_little_asked_for():
+    limits = room(0.03, 0.01, inner_radius_min=0.02, wall_min=0.002, height_min=0.002)
+    error = failure(RimProblem(1e-7, limits, STEEL, 100.0))
+    assert set(error.binding) == {"r_min", "h_min", "wall_min"}
+    smallest = np.pi * STEEL.density * 0.002 * (0.022**4 - 0.020**4) / 2.0
+    assert error.relaxations["h_min"] == pytest.approx(0.002 * 1e-7 / smallest, rel=2e-6)
+    assert f"{smallest:.5g}" in error.message
+
+
+def test_hoop_stress_names_safety_and_strength():
+    limits = room(0.03, 0.01, inner_radius_min=0.005, stress_safety=4.0)
+    error = failure(RimProblem(7.11e-5, limits, STEEL, 4500.0))
+    assert "hoop_stress" in error.binding
+    allowed = error.relaxations["hoop_stress"]
+    assert allowed > STEEL.yield_strength / 4.0
+    safety = STEEL.yield_strength / allowed
+    assert f"stress_safety {np.floor(safety * 100) / 100:g}" in error.hint
+    assert f"yields at {np.ceil(4.0 * allowed / 1e6):g} MPa" in error.hint
+
+
+def test_hoop_stress_beyond_the_material_asks_for_another():
+    error = failure(RimProblem(7.11e-5, room(0.03, 0.01, stress_safety=1.2), STEEL, 9000.0))
+    assert "stress_safety" not in error.hint
+    assert "a material that yields at" in error.hint
+
+
+def test_nothing_alone_would_do():
+    error = failure(RimProblem(1e3, room(0.03, 0.01, mass_max=0.1), STEEL, 100.0))
+    assert error.relaxations == {}
+    assert "No single limit would do" in error.hint
+
+
+def test_data_for_json():
+    data = failure(paper_problem(7.11e-4, 0.03, 0.01)).data()
+    assert set(data) == {
+        "binding",
+        "required_spin_inertia",
+        "largest_spin_inertia",
+        "relaxations",
+    }
+
+
+@few
+@given(rim_problems())
+def test_each_relaxation_is_the_smallest_that_does(problem):
+    assume(not is_feasible(problem))
+    error = failure(problem)
+    for name, relaxed in error.relaxations.items():
+        limit, value = BY_NAME[name], as_limit(problem, name, relaxed)
+        solve_rim(with_limit(problem, limit, value))
+        tighter = limit.loosened(value, 1.0 / (1.0 + 3e-6))
+        assert not is_feasible(with_limit(problem, limit, tighter))
+    for limit in RIM_LIMITS:
+        if limit.name not in error.relaxations:
+            loose = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+            assert not is_feasible(with_limit(problem, limit, loose))
+
+
+@few
+@given(rim_problems())
+def test_conflict_is_minimal(problem):
+    """With all other limits gone no rim fits; with any one of the conflict gone too, one does."""
+    assume(not is_feasible(problem))
+    conflict = conflicting_limits(problem)
+    assert conflict
+    for limit in RIM_LIMITS:
+        if limit not in conflict:
+            problem = with_limit(
+                problem, limit, limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+            )
+    assert not is_feasible(problem)
+    for limit in conflict:
+        loose = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+        assert is_feasible(with_limit(problem, limit, loose))
+
+
+@few
+@given(rim_problems())
+def test_largest_spin_inertia_is_where_feasibility_ends(problem):
+    largest = largest_spin_inertia(problem)
+    spins = np.geomspace(1e-12, 10.0, 2000)
+    feasible = ~np.isnan(lightest_rim(spins, problem.limits).mass)
+    if largest == 0.0:
+        assert not feasible.any()
+        return
+    assert is_feasible(replace(problem, spin_inertia=largest))
+    assert not is_feasible(replace(problem, spin_inertia=largest * (1.0 + 1e-9)))
+    assert spins[feasible].max(initial=0.0) <= largest
+    # One interval, as the docstring says.
+    assert np.count_nonzero(np.diff(feasible.astype(int)) == 1) <= 1

@@ -1,0 +1,166 @@
+"""The convex program: against the closed form, from other starts, and its prices by differences."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+from rims import PAPER_STEEL, paper_problem, random_problem, rim_problems, room
+
+from ocs_design.exceptions import UsageError
+from ocs_design.sizing.limits import RIM_LIMITS
+from ocs_design.sizing.rim import solve_rim
+from ocs_design.sizing.rim_closed_form import lightest_rim
+from ocs_design.sizing.rim_problem import build_rim_problem
+from ocs_design.sizing.rim_program import optimise_rim
+
+STEP = 1e-6
+few = settings(max_examples=1000, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+def mass_of(problem):
+    return float(lightest_rim(problem.spin_inertia, problem.limits).mass)
+
+
+def test_theory_case():
+    solution = solve_rim(paper_problem(7.11e-5, 0.03, 0.01))
+    assert solution.inner_radius == pytest.approx(0.021997, abs=5e-7)
+    assert solution.mass == pytest.approx(0.10276, abs=5e-6)
+    assert solution.transverse_inertia == pytest.approx(3.640e-5, abs=1e-8)
+    assert solution.binding == ("r_max", "h_max")
+    assert solution.shadow_prices["r_max"] == pytest.approx(-12.74, abs=5e-3)
+    assert solution.shadow_prices["r_min"] == 0.0
+    assert solution.status == "optimal"
+    assert solution.gap < 1e-9
+    assert solution.residual < 1e-9
+
+
+def test_random_problems_agree_with_the_closed_form():
+    rng = np.random.default_rng(3)
+    solved = 0
+    while solved < 60:
+        problem = random_problem(rng)
+        if np.isnan(mass_of(problem)):
+            continue
+        solution = solve_rim(problem)
+        assert solution.residual < 1e-8, problem
+        assert solution.gap < 1e-8, problem
+        assert solution.spin_inertia == pytest.approx(problem.spin_inertia, rel=1e-10)
+        assert set(solution.binding) <= set(solution.shadow_prices)
+        solved += 1
+
+
+@few
+@given(rim_problems(), st.floats(0.05, 1.0), st.floats(0.0, 1.0))
+def test_other_starts_lead_to_the_same_rim(problem, share_of_radius, share_of_bore):
+    """From any rim within the limits the procedure comes to what the closed form says."""
+    best = lightest_rim(problem.spin_inertia, problem.limits)
+    assume(not np.isnan(best.mass))
+    narrow = replace(
+        problem.limits, outer_radius_max=share_of_radius * problem.envelope.outer_radius_max
+    )
+    start = lightest_rim(problem.spin_inertia, narrow)
+    assume(not np.isnan(start.mass))
+    bore = share_of_bore * float(start.inner_radius)
+    start = (float(start.outer_radius), max(bore, problem.envelope.inner_radius_min))
+    assume(within_heights(problem, *start))
+    found = optimise_rim(problem, *start)
+    assert found.mass == pytest.approx(float(best.mass), rel=1e-7)
+    assert found.outer_radius == pytest.approx(float(best.outer_radius), rel=1e-6)
+
+
+def within_heights(problem, outer, inner):
+    spread = np.pi * problem.material.density * (outer**4 - inner**4)
+    height, mass = 2.0 * problem.spin_inertia / spread, 2.0 * problem.spin_inertia
+    room = problem.envelope
+    return (
+        room.height_min <= height <= room.height_max
+        and mass / (outer**2 + inner**2) <= room.mass_max
+    )
+
+
+@few
+@given(rim_problems())
+def test_shadow_prices_are_finite_differences(problem):
+    mass = mass_of(problem)
+    assume(not np.isnan(mass))
+    prices = solve_rim(problem).shadow_prices
+    for limit in RIM_LIMITS:
+        value = limit.value(problem.envelope)
+        if limit.name not in prices or value == 0.0:
+            continue
+        below, above = (
+            mass_of(replace(problem, envelope=limit.replaced(problem.envelope, value * factor)))
+            for factor in (1.0 - STEP, 1.0 + STEP)
+        )
+        # At a kink, where a third limit meets the vertex, there is no derivative.
+        assume(abs((above - mass) - (mass - below)) < 1e-3 * abs(above - below) + 1e-13 * mass)
+        difference = (above - below) / (2.0 * STEP)
+        if limit.name == "hoop_stress":  # d(stress) / stress = -d(safety) / safety
+            value = -problem.hoop_stress_max
+        assert prices[limit.name] * value == pytest.approx(difference, rel=1e-4, abs=1e-7 * mass)
+
+
+@few
+@given(rim_problems())
+def test_binding_limits_are_those_that_hold_the_mass_up(problem):
+    """Loosening a limit by 1 % saves mass if it binds, and changes nothing if it does not."""
+    mass = mass_of(problem)
+    assume(not np.isnan(mass))
+    binding = solve_rim(problem).binding
+    assume(len(binding) == 2)
+    for limit in RIM_LIMITS:
+        value = limit.value(problem.envelope)
+        loose = limit.replaced(problem.envelope, limit.loosened(value, 1.01))
+        saved = mass - mass_of(replace(problem, envelope=loose))
+        if limit.name in binding:
+            assert saved > 1e-7 * mass
+        else:
+            assert saved < 1e-5 * mass
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        replace(paper_problem(7.11e-5, 0.03, 0.01), envelope=room(0.03, 0.01, height_min=0.01)),
+        replace(
+            paper_problem(7e-5, 0.03, 0.01),
+            envelope=room(0.03, 0.01, inner_radius_min=0.02, wall_min=0.01, height_min=0.002),
+        ),
+        paper_problem(1.00006e-4, 0.03, 0.01),
+        paper_problem(1e-12, 0.03, 0.01),
+        paper_problem(1e-5, 1e6, 0.01),
+    ],
+    ids=["one height", "one bore", "nearly a disc", "a hair", "room without end"],
+)
+def test_extreme_limits_are_solved(problem):
+    solution = solve_rim(problem)
+    assert solution.residual < 1e-7
+    assert solution.status in ("optimal", "optimal_inaccurate")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"spin_inertia": 0.0}, "spin inertia"),
+        ({"spin_inertia": float("nan")}, "spin inertia"),
+        ({"spin_inertia": float("inf")}, "spin inertia"),
+        ({"wheel_speed": -1.0}, "wheel_speed_max"),
+        ({"envelope": room(0.0, 0.01)}, "outer_radius_max"),
+        ({"envelope": room(0.03, float("nan"))}, "height_max"),
+        ({"envelope": room(0.03, 0.01, wall_min=-1e-3)}, "wall_min"),
+        ({"envelope": room(0.03, 0.01, mass_max=float("nan"))}, "mass_max"),
+        ({"envelope": room(0.03, 0.01, stress_safety=0.0)}, "stress_safety"),
+    ],
+)
+def test_figures_that_are_no_limits_are_refused(change, message):
+    asked = {
+        "spin_inertia": 7e-5,
+        "envelope": room(0.03, 0.01),
+        "material": PAPER_STEEL,
+        "wheel_speed": 754.0,
+    }
+    with pytest.raises(UsageError, match=message):
+        build_rim_problem(**(asked | change))
+    assert build_rim_problem(**asked).hoop_stress_max == float("inf")
