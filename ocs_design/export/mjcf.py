@@ -7,9 +7,12 @@ import mujoco
 from ocs_design.design import Device
 from ocs_design.export.attach import attach_device
 from ocs_design.export.mjcf_precision import precise_xml
+from ocs_design.export.naming import flywheel_names
+from ocs_design.export.stl import METRES, stl_bytes
 from ocs_design.export.urdf import WHEEL_MESH
 from ocs_design.robot.mjcf.spec import compiled
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.spec.bodies import HIDDEN_GROUP, VISUAL_GROUP
 from ocs_design.robot.spec.model import build_spec
 
 _MESHES = PurePath(WHEEL_MESH).parent
@@ -27,11 +30,26 @@ def export_robot_mjcf(robot: Robot, device: Device, path: Path) -> Path:
     """
     spec = build_spec(robot).spec
     attach_device(spec, robot, device)
+    _draw_rims(spec, device)
     spec.compiler.saveinertial = True
     text = precise_xml(spec, compiled(spec), assets=str(_MESHES))
     path.write_bytes(text.encode("utf-8"))
     _write_assets(spec, path.parent / _MESHES)
     return path
+
+
+def _draw_rims(spec: mujoco.MjSpec, device: Device) -> None:
+    """Show the rim as it is; the cylinder that stands for it in contacts is hidden."""
+    mesh = PurePath(WHEEL_MESH)
+    spec.assets[mesh.name] = stl_bytes(device.flywheel, units_per_metre=METRES)
+    spec.add_mesh(name=mesh.stem, file=mesh.name)
+    for name in flywheel_names(device):
+        solid = spec.geom(name)
+        solid.group = HIDDEN_GROUP
+        rim = spec.body(name).add_geom(
+            type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh.stem, rgba=solid.rgba
+        )
+        rim.group, rim.contype, rim.conaffinity = VISUAL_GROUP, 0, 0
 
 
 def _write_assets(spec: mujoco.MjSpec, folder: Path) -> None:

@@ -14,6 +14,8 @@ _PRINTED = 1e-5
 
 _NAMES = {"polycoef": "data"}
 """What attributes of XML are called in MuJoCo's objects, where that differs."""
+_SINGLE_PRECISION = {"rgba"}
+"""What MuJoCo itself keeps with fewer digits than a double prints."""
 _INERTIAL_NAMES = {"pos": "ipos", "quat": "iquat", "diaginertia": "inertia"}
 
 
@@ -82,6 +84,8 @@ def _sharpen(
 ) -> None:
     """Replace printed numbers by those of the first source that agrees with them."""
     for attribute, text in element.attrib.items():
+        if attribute in _SINGLE_PRECISION:
+            continue
         printed = _floats(text.split())
         for source in sources if printed.size else ():
             exact = _floats(getattr(source, names.get(attribute, attribute), ()))[: printed.size]

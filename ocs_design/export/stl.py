@@ -18,11 +18,16 @@ _HEADER = b"ocs-design flywheel".ljust(80)
 
 
 def export_stl(flywheel: Flywheel, path: Path, *, units_per_metre: float) -> Path:
-    """Write the rim, its centre at the origin and its spin axis along z.
+    """Write the rim; see `stl_bytes`."""
+    path.write_bytes(stl_bytes(flywheel, units_per_metre=units_per_metre))
+    return path
+
+
+def stl_bytes(flywheel: Flywheel, *, units_per_metre: float) -> bytes:
+    """The rim, its centre at the origin and its spin axis along z.
 
     Args:
         flywheel: a hollow cylinder; a bore of zero makes it a disc.
-        path: to write to.
         units_per_metre: STL has no unit; `MILLIMETRES` for printing, `METRES` for robot files.
     """
     corners = units_per_metre * rim_triangles(flywheel)
@@ -31,8 +36,7 @@ def export_stl(flywheel: Flywheel, path: Path, *, units_per_metre: float) -> Pat
     facets = np.zeros(len(corners), _FACET)
     facets["normal"] = normals / np.linalg.norm(normals, axis=1, keepdims=True)
     facets["corners"] = corners
-    path.write_bytes(_HEADER + np.uint32(len(facets)).astype("<u4").tobytes() + facets.tobytes())
-    return path
+    return _HEADER + len(facets).to_bytes(4, "little") + facets.tobytes()
 
 
 def rim_triangles(flywheel: Flywheel) -> FloatArray:

@@ -50,6 +50,7 @@ class Shape:
         link: the link that it belongs to.
         collides: whether it is collision geometry (else only to look at).
         mesh: the mesh file if `kind` is MESH and the file was found, else None.
+        color: red, green, blue and opacity, 0..1; None if not stated.
     """
 
     kind: ShapeKind
@@ -59,6 +60,7 @@ class Shape:
     link: str
     collides: bool
     mesh: Path | None = None
+    color: tuple[float, float, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -134,7 +134,8 @@ def _vertex(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
     """The point next to this one where both limits bind."""
     for _ in range(_NEWTON_STEPS):
         values = np.array([limit.value(*point) for limit in limits])
-        point = point - np.linalg.solve(_gradients(limits, point), values)
+        # Not `solve`: equal h_min and h_max are one equation twice.
+        point = point - np.linalg.lstsq(_gradients(limits, point), values)[0]
     return point
 
 

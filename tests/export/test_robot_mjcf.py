@@ -184,3 +184,18 @@ def test_bytes_are_the_same_every_time(tmp_path):
     robot, device = read_robot(SOLO12), paper_device()
     first = export_robot_mjcf(robot, device, tmp_path / "a.xml").read_bytes()
     assert export_robot_mjcf(robot, device, tmp_path / "b.xml").read_bytes() == first
+
+
+def test_wheels_look_like_rims_and_touch_like_cylinders(tmp_path):
+    model = read_again(robot_by_hand(2.5, (0.03, 0.05, 0.07)), paper_device(), tmp_path)
+    rim = model.mesh("ocs_flywheel")
+    vertices = model.mesh_vert[rim.vertadr[0] : rim.vertadr[0] + rim.vertnum[0]]
+    radii = np.linalg.norm(vertices[:, :2], axis=1)
+    wheel = paper_device().flywheel
+    np.testing.assert_allclose(
+        [radii.min(), radii.max()], [wheel.inner_radius, wheel.outer_radius], rtol=1e-4
+    )
+    drawn = [geom for geom in map(model.geom, range(model.ngeom)) if geom.dataid[0] == rim.id]
+    assert len(drawn) == 2
+    assert not any(geom.contype[0] or geom.conaffinity[0] for geom in drawn)
+    assert model.geom("ocs_left_flywheel").type[0] == mujoco.mjtGeom.mjGEOM_CYLINDER

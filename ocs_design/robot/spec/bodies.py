@@ -111,6 +111,8 @@ def _add_geoms(body: mujoco.MjsBody, shapes: Iterable[Shape], meshes: MeshLibrar
             pos=shape.position,
             quat=quaternion(shape.rotation),
         )
+        if shape.color is not None:
+            geom.rgba = shape.color
         if shape.kind is ShapeKind.MESH:
             geom.meshname = meshes.name_of(shape)
         else:

@@ -3,7 +3,7 @@
 Format: http://wiki.ros.org/urdf/XML/link.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -15,19 +15,22 @@ from ocs_design.robot.mass_properties import NEGLIGIBLE_MOMENT, MassProperties
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.rotations import rotation_from_rpy
 from ocs_design.robot.tree import Placement, Shape, ShapeKind
+from ocs_design.robot.urdf.colors import Color, color_of
 from ocs_design.robot.urdf.xml import number, numbers, required, text
 
 FindMesh = Callable[[str], Path | None]
 
 
-def read_link(element: ET.Element, find_mesh: FindMesh, remarks: Remarks) -> Link:
+def read_link(
+    element: ET.Element, find_mesh: FindMesh, palette: Mapping[str, Color], remarks: Remarks
+) -> Link:
     """One `<link>`."""
     name = text(element, "name", "a link")
     inertial = element.find("inertial")
     return Link(
         name,
         None if inertial is None else _read_inertial(inertial, f"link {name!r}"),
-        tuple(_read_shapes(element, name, find_mesh, remarks)),
+        tuple(_read_shapes(element, name, find_mesh, palette, remarks)),
     )
 
 
@@ -59,7 +62,11 @@ def _read_inertial(inertial: ET.Element, where: str) -> MassProperties:
 
 
 def _read_shapes(
-    link: ET.Element, name: str, find_mesh: FindMesh, remarks: Remarks
+    link: ET.Element,
+    name: str,
+    find_mesh: FindMesh,
+    palette: Mapping[str, Color],
+    remarks: Remarks,
 ) -> Iterator[Shape]:
     where = f"link {name!r}"
     for element in (each for each in link if each.tag in {"visual", "collision"}):
@@ -73,7 +80,8 @@ def _read_shapes(
             continue
         place = read_origin(element, where)
         collides = element.tag == "collision"
-        yield Shape(kind, size, place.position, place.rotation, name, collides, mesh)
+        color = None if collides else color_of(element, palette)
+        yield Shape(kind, size, place.position, place.rotation, name, collides, mesh, color)
 
 
 def _has_extent(kind: ShapeKind, size: tuple[float, ...]) -> bool:

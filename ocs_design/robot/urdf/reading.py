@@ -14,6 +14,7 @@ from ocs_design.robot.files.mimics import resolve_mimics
 from ocs_design.robot.files.plausibility import check_plausible
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.tree import Tree
+from ocs_design.robot.urdf.colors import read_palette
 from ocs_design.robot.urdf.graph import children_by_parent, find_root, free_base, unique
 from ocs_design.robot.urdf.joints import read_connection
 from ocs_design.robot.urdf.links import FindMesh, read_link
@@ -40,7 +41,8 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
 
 
 def _read_links(root: ET.Element, find_mesh: FindMesh, remarks: Remarks) -> Mapping[str, Link]:
-    links = [read_link(element, find_mesh, remarks) for element in root.findall("link")]
+    palette = read_palette(root)
+    links = [read_link(element, find_mesh, palette, remarks) for element in root.findall("link")]
     if not links:
         raise RobotError(
             "the <robot> has no <link>",

@@ -1,0 +1,90 @@
+"""Draws the picture of the README: Solo12 with its device, standing.
+
+    MUJOCO_GL=egl python docs/draw.py        or MUJOCO_GL=osmesa; needs OpenGL and Pillow
+"""
+
+import tempfile
+from pathlib import Path
+
+import mujoco
+import numpy as np
+from PIL import Image
+
+from ocs_design import design_ocs
+from ocs_design.design_file import OcsDesign
+from ocs_design.requirement.specification import (
+    RobotSection,
+    Specification,
+    ValidationSection,
+)
+
+ROOT = Path(__file__).resolve().parents[1]
+PICTURE = ROOT / "docs" / "_static" / "solo12-ocs.png"
+WIDTH, HEIGHT, OVERSAMPLING = 900, 560, 2
+
+
+def main() -> None:
+    """Design, pose, light, draw."""
+    specification = Specification(
+        robot=RobotSection(file=str(ROOT / "examples" / "solo12.urdf")),
+        validation=ValidationSection(enabled=False),
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        outcome = design_ocs(specification, out=Path(folder) / "solo12-ocs")
+        spec = mujoco.MjSpec.from_file(str(outcome.folder / "robot" / "solo12_ocs.xml"))
+        light(spec)
+        model = spec.compile()
+    data = mujoco.MjData(model)
+    pose(data, outcome.design)
+    mujoco.mj_forward(model, data)
+    draw(model, data).save(PICTURE, optimize=True)
+    print(f"wrote {PICTURE.relative_to(ROOT)}")
+
+
+def light(spec: mujoco.MjSpec) -> None:
+    """A white studio with a floor that only takes shadows."""
+    view = spec.visual
+    view.global_.offwidth, view.global_.offheight = WIDTH * OVERSAMPLING, HEIGHT * OVERSAMPLING
+    view.headlight.ambient, view.headlight.diffuse = [0.5] * 3, [0.3] * 3
+    view.quality.shadowsize = 8192
+    spec.add_texture(
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT,
+        rgb1=[1.0] * 3,
+        width=64,
+        height=64,
+    )
+    spec.worldbody.add_light(
+        pos=[0.4, 0.7, 3.5],
+        dir=[-0.1, -0.2, -1.0],
+        cutoff=80.0,
+        exponent=1.0,
+        diffuse=[0.4] * 3,
+        specular=[0.1] * 3,
+    )
+    spec.worldbody.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 0.1], rgba=[1.0] * 4
+    )
+
+
+def pose(data: mujoco.MjData, design: OcsDesign) -> None:
+    """The nominal posture, feet on the floor."""
+    for joint, value in design.robot.posture.items():
+        data.joint(joint).qpos[0] = value
+    data.qpos[2] = design.robot.standing_height
+
+
+def draw(model: mujoco.MjModel, data: mujoco.MjData) -> Image.Image:
+    """From the front left and above, drawn larger and reduced so that edges are smooth."""
+    camera = mujoco.MjvCamera()
+    camera.lookat = np.array([0.0, 0.0, 0.175])
+    camera.distance, camera.azimuth, camera.elevation = 0.82, 143.0, -24.0
+    renderer = mujoco.Renderer(model, HEIGHT * OVERSAMPLING, WIDTH * OVERSAMPLING)
+    renderer.update_scene(data, camera)
+    image = Image.fromarray(renderer.render())
+    renderer.close()
+    return image.resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
+
+
+if __name__ == "__main__":
+    main()
