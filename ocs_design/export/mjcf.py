@@ -28,14 +28,20 @@ def export_robot_mjcf(robot: Robot, device: Device, path: Path) -> Path:
         device: to add.
         path: of the model.
     """
-    spec = build_spec(robot).spec
-    attach_device(spec, robot, device)
-    _draw_rims(spec, device)
+    spec = robot_with_device(robot, device)
     spec.compiler.saveinertial = True
     text = precise_xml(spec, compiled(spec), assets=str(_MESHES))
     path.write_bytes(text.encode("utf-8"))
     _write_assets(spec, path.parent / _MESHES)
     return path
+
+
+def robot_with_device(robot: Robot, device: Device) -> mujoco.MjSpec:
+    """The model that is written: robot, wheels with their motors, and the rims to look at."""
+    spec = build_spec(robot).spec
+    attach_device(spec, robot, device)
+    _draw_rims(spec, device)
+    return spec
 
 
 def _draw_rims(spec: mujoco.MjSpec, device: Device) -> None:

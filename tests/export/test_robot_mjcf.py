@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 from exported import LEGGED, LEGGED_PATHS, MJCF, check_moments
 from robots import SOLO12
+from scipy.spatial.transform import Rotation
 from wheels import paper_device
 
-from ocs_design.export.attach import attach_device
-from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.mjcf import export_robot_mjcf, robot_with_device
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.model import build_spec
 
 
 def read_again(robot, device, folder):
@@ -62,9 +61,7 @@ EXACT = (
 
 
 def compiled(robot, device):
-    spec = build_spec(robot).spec
-    attach_device(spec, robot, device)
-    return spec.compile()
+    return robot_with_device(robot, device).compile()
 
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
@@ -165,7 +162,7 @@ def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
     export_robot_mjcf(robot, paper_device(), tmp_path / "out" / "robot.xml")
     shutil.rmtree(tmp_path / "in")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "robot.xml"))
-    assert model.nmesh == 2
+    assert model.nmesh == 3
     sizes = model.geom_aabb[:2, 3:].max(axis=1)
     assert sizes[1] == pytest.approx(2.0 * sizes[0])
 
@@ -189,8 +186,10 @@ def test_bytes_are_the_same_every_time(tmp_path):
 def test_wheels_look_like_rims_and_touch_like_cylinders(tmp_path):
     model = read_again(robot_by_hand(2.5, (0.03, 0.05, 0.07)), paper_device(), tmp_path)
     rim = model.mesh("ocs_flywheel")
-    vertices = model.mesh_vert[rim.vertadr[0] : rim.vertadr[0] + rim.vertnum[0]]
-    radii = np.linalg.norm(vertices[:, :2], axis=1)
+    vertices = model.mesh_vert[rim.vertadr[0] : rim.vertadr[0] + rim.vertnum[0]].astype(float)
+    # MuJoCo turns meshes into their principal axes and keeps how.
+    turned = Rotation.from_quat(model.mesh_quat[rim.id], scalar_first=True).apply(vertices)
+    radii = np.linalg.norm((turned + model.mesh_pos[rim.id])[:, :2], axis=1)
     wheel = paper_device().flywheel
     np.testing.assert_allclose(
         [radii.min(), radii.max()], [wheel.inner_radius, wheel.outer_radius], rtol=1e-4
