@@ -15,8 +15,8 @@ from ocs_design.requirement.bound import SpinDemand
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.device_problem import (
     DeviceProblem,
-    best_incidences,
     braked_total,
+    chosen_incidence,
     device_demands,
 )
 from ocs_design.sizing.incidence import incidence_by_criterion
@@ -96,10 +96,7 @@ def find_fixed_point(problem: DeviceProblem) -> FixedPoint | DeadEnd:
 
 def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> _Guess:
     """The incidence, the demands and the spin inertia that a rim at an incidence entails."""
-    if problem.incidence is not None:
-        incidence = problem.incidence
-    else:
-        incidence = best_incidences(problem, shape, incidence)[problem.criterion]
+    incidence = chosen_incidence(problem, shape, incidence)
     demands = device_demands(problem, shape, incidence)
     asked = problem.requirement.spin_inertia
     return _Guess(_needed(problem, demands) if asked is None else asked, incidence, demands)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
@@ -90,11 +91,16 @@ def device_demands(
         shape: of both rims; None: of the robot alone.
         incidence: of the design [rad].
     """
+
+    @cache
+    def inertia_at(angle: float) -> FloatArray:
+        return braked_total(problem, shape, angle).inertia
+
     found: list[SpinDemand] = []
     for part in _parts(problem.requirement):
         own = part.maneuvers[0].incidence if part.maneuvers else None
         at = incidence if own is None else own
-        found.extend(spin_demands(part, braked_total(problem, shape, at).inertia, at))
+        found.extend(spin_demands(part, inertia_at(at), at))
     return tuple(found)
 
 
@@ -107,6 +113,18 @@ def design_momenta(requirement: Requirement, demands: Sequence[SpinDemand]) -> F
     momenta = [np.abs(demand.momentum) for demand in demands if demand.source not in turned]
     largest: FloatArray = np.max([np.zeros(2), *momenta], axis=0)
     return largest
+
+
+def chosen_incidence(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> float:
+    """The incidence of the design [rad], with the wheels standing at `incidence` so far."""
+    if problem.incidence is not None:
+        return problem.incidence
+    if problem.criterion in {Criterion.WEIGHTED, Criterion.SIMULTANEOUS}:
+        return best_incidences(problem, shape, incidence)[problem.criterion]
+    # The others look at no demands, which take most of the time of an iteration.
+    return incidence_by_criterion(braked_total(problem, shape, incidence).inertia)[
+        problem.criterion
+    ]
 
 
 def best_incidences(
