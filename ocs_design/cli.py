@@ -73,6 +73,7 @@ def size(
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
     quiet: opt.Quiet = False,
+    verbose: opt.Verbose = False,
     no_color: opt.NoColor = False,
 ) -> None:
     """Size a device for a robot, export it and prove it in simulation.
@@ -81,10 +82,7 @@ def size(
     scenario fails, 2 wrong usage, 3 the input cannot be read, 4 no design meets the specification,
     5 an optional tool is missing.
     """
-    from ocs_design.design_file import design_to_json
-    from ocs_design.pipeline import design_ocs
     from ocs_design.report.console import Steps, make_console
-    from ocs_design.report.terminal import print_design, print_outcome
 
     specification = _specification(
         spec,
@@ -113,18 +111,25 @@ def size(
         },
     )
     console = make_console(color=not no_color)
+    steps = Steps(console, quiet=quiet or as_json)
+    with steps.step("load the solver and the simulator"):
+        from ocs_design.design_file import design_to_json
+        from ocs_design.pipeline import design_ocs
+        from ocs_design.report.terminal import print_design, print_outcome, print_solution
     outcome = design_ocs(
         specification,
         out=out,
         package_paths=_package_paths(package_path),
         force=force,
         strict=strict,
-        steps=Steps(console, quiet=quiet or as_json),
+        steps=steps,
     )
     if as_json:
         sys.stdout.buffer.write(design_to_json(outcome.design))
     elif not quiet:
         print_design(console, outcome.design)
+        if verbose:
+            print_solution(console, outcome.design)
         print_outcome(console, outcome.design, outcome.folder)
     raise typer.Exit(outcome.exit_code)
 

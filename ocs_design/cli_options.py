@@ -125,4 +125,7 @@ Strict: TypeAlias = Annotated[
     bool, typer.Option("--strict", help="Warnings about the robot are errors.")
 ]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
+Verbose: TypeAlias = Annotated[
+    bool, typer.Option("-v", "--verbose", help="Also print the posture and how it was solved.")
+]
 NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]

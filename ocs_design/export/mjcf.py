@@ -11,6 +11,7 @@ from ocs_design.export.naming import flywheel_names
 from ocs_design.export.stl import METRES, stl_bytes
 from ocs_design.export.urdf import WHEEL_MESH
 from ocs_design.robot.mjcf.spec import compiled
+from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.bodies import HIDDEN_GROUP, VISUAL_GROUP
 from ocs_design.robot.spec.model import build_spec
@@ -18,7 +19,9 @@ from ocs_design.robot.spec.model import build_spec
 _MESHES = PurePath(WHEEL_MESH).parent
 
 
-def export_robot_mjcf(robot: Robot, device: Device, path: Path) -> Path:
+def export_robot_mjcf(
+    robot: Robot, device: Device, path: Path, remarks: Remarks | None = None
+) -> Path:
     """Write the robot with both flywheels on its trunk, its meshes and textures beside it.
 
     The model refers to nothing outside its folder, which can be moved. It has no floor.
@@ -27,8 +30,9 @@ def export_robot_mjcf(robot: Robot, device: Device, path: Path) -> Path:
         robot: that carries the device.
         device: to add.
         path: of the model.
+        remarks: takes what the model has otherwise than the robot's file.
     """
-    spec = robot_with_device(robot, device)
+    spec = robot_with_device(robot, device, remarks)
     spec.compiler.saveinertial = True
     text = precise_xml(spec, compiled(spec), assets=str(_MESHES))
     path.write_bytes(text.encode("utf-8"))
@@ -36,12 +40,16 @@ def export_robot_mjcf(robot: Robot, device: Device, path: Path) -> Path:
     return path
 
 
-def robot_with_device(robot: Robot, device: Device) -> mujoco.MjSpec:
+def robot_with_device(
+    robot: Robot, device: Device, remarks: Remarks | None = None
+) -> mujoco.MjSpec:
     """The model that is written: robot, wheels with their motors, and the rims to look at."""
-    spec = build_spec(robot).spec
-    attach_device(spec, robot, device)
-    _draw_rims(spec, device)
-    return spec
+    built = build_spec(robot)
+    for sentence in built.warnings if remarks is not None else ():
+        remarks.add(sentence)
+    attach_device(built.spec, robot, device)
+    _draw_rims(built.spec, device)
+    return built.spec
 
 
 def _draw_rims(spec: mujoco.MjSpec, device: Device) -> None:

@@ -7,7 +7,7 @@ from rich.text import Text
 from ocs_design.inspection import Inspection
 from ocs_design.report.layout import columns, facts, heading, note, show
 from ocs_design.report.quantities import signed
-from ocs_design.report.terminal import print_robot
+from ocs_design.report.terminal import print_joints, print_robot
 
 PAPER_ANGLE = (
     "The paper states about 40 deg for Solo12; its own formula gives that only with the legs "
@@ -34,7 +34,8 @@ def print_inspection(console: Console, inspection: Inspection) -> None:
     )
     _print_criteria(console, inspection)
     _print_postures(console, inspection)
-    _print_joints(console, inspection)
+    if robot.posture:
+        print_joints(console, robot)
 
 
 def _print_criteria(console: Console, inspection: Inspection) -> None:
@@ -53,13 +54,3 @@ def _print_postures(console: Console, inspection: Inspection) -> None:
         table.add_row(Text(line.posture), *moments, f"{np.degrees(line.incidence):.2f}")
     show(console, table)
     note(console, PAPER_ANGLE)
-
-
-def _print_joints(console: Console, inspection: Inspection) -> None:
-    if not inspection.robot.posture:
-        return
-    heading(console, f"Joints at {inspection.robot.posture_name}")
-    table = columns("joint", "rad or m", "deg")
-    for name, value in inspection.robot.posture.items():
-        table.add_row(Text(name), f"{value:.4f}", f"{np.degrees(value):.1f}")
-    show(console, table)

@@ -28,7 +28,9 @@ from ocs_design.report.quantities import (
     tenths,
 )
 
-VERDICTS = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not judged", "yellow")}
+WITH_DEVICE = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not judged", "yellow")}
+# Without the device a failure is what one expects, and no alarm.
+WITHOUT_DEVICE = {True: ("pass", ""), False: ("fails", "dim"), None: ("not judged", "dim")}
 
 
 def print_design(console: Console, design: OcsDesign) -> None:
@@ -39,6 +41,34 @@ def print_design(console: Console, design: OcsDesign) -> None:
     _print_limits(console, design)
     _print_margins(console, design)
     _print_validation(console, design)
+
+
+def print_solution(console: Console, design: OcsDesign) -> None:
+    """Joint by joint, and how the optimum was found."""
+    if design.robot.posture:
+        print_joints(console, design.robot)
+    sizing = design.sizing
+    heading(console, "Solution")
+    facts(
+        console,
+        [
+            ("status", sizing.status),
+            ("method", sizing.method),
+            ("objective", f"{sizing.objective!r} kg, one rim"),
+            ("relative duality gap", f"{sizing.gap:.1e}"),
+            ("fixed point", f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"),
+            *((f"price of {name}", f"{price!r}") for name, price in sizing.shadow_prices.items()),
+        ],
+    )
+
+
+def print_joints(console: Console, robot: RobotRecord) -> None:
+    """Value of every joint in the nominal posture."""
+    heading(console, f"Joints at {robot.posture_name}")
+    table = columns("joint", "rad or m", "deg")
+    for name, value in robot.posture.items():
+        table.add_row(Text(name), f"{value:.4f}", degrees(value).removesuffix(" deg"))
+    show(console, table)
 
 
 def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
@@ -194,7 +224,7 @@ def _print_validation(console: Console, design: OcsDesign) -> None:
         return
     heading(console, "Proof in MuJoCo: the same flights with and without the device")
     table = columns(
-        "scenario", "device", "verdict", "touchdown\npitch  roll", "turned\ndeg",
+        "scenario", "device", "verdict", "touchdown deg\npitch  roll", "turned\ndeg",
         "wheel\nrpm", "torque\nN m", left=3,
     )  # fmt: skip
     for run in design.validation:
@@ -204,7 +234,7 @@ def _print_validation(console: Console, design: OcsDesign) -> None:
 
 
 def _run_row(run: ValidationRecord) -> list[Text | str]:
-    word, style = VERDICTS[run.passed]
+    word, style = (WITH_DEVICE if run.ocs else WITHOUT_DEVICE)[run.passed]
     metrics = run.metrics
     tilt = f"{_deg(metrics, 'touchdown_pitch')} {_deg(metrics, 'touchdown_roll'):>6}"
     speed, torque = metrics.get("peak_wheel_speed"), metrics.get("peak_wheel_torque")

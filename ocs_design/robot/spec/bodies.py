@@ -13,6 +13,7 @@ from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.spec.frames import quaternion
 from ocs_design.robot.spec.inertia import inertial
 from ocs_design.robot.spec.meshes import MeshLibrary
+from ocs_design.robot.spec.visuals import oversized_visuals
 from ocs_design.robot.tree import Body, Joint, JointKind, Shape, ShapeKind, Tree
 
 VISUAL_GROUP = 2
@@ -53,7 +54,8 @@ def spec_from_tree(tree: Tree, remarks: Remarks, *, visuals: bool) -> mujoco.MjS
     spec = mujoco.MjSpec()
     spec.modelname = tree.name
     spec.compiler.degree = False
-    meshes = MeshLibrary(spec)
+    left_out = oversized_visuals(tree) if visuals else frozenset()
+    meshes = MeshLibrary(spec, left_out)
     made: list[mujoco.MjsBody] = []
     for name, body in zip(body_names(tree), tree.bodies, strict=True):
         parent = spec.worldbody if body.parent < 0 else made[body.parent]
@@ -62,6 +64,8 @@ def spec_from_tree(tree: Tree, remarks: Remarks, *, visuals: bool) -> mujoco.MjS
     _add_mimics(spec, tree)
     for path, why in meshes.unreadable.items():
         remarks.add(f"meshes left out ({why})", path.name)
+    for path in sorted(left_out):
+        remarks.add("meshes too large to be shown in the MuJoCo model, left out", path.name)
     return spec
 
 

@@ -1,5 +1,6 @@
 """Mesh files as MuJoCo takes them: binary STL or OBJ, as bytes."""
 
+from collections.abc import Set
 from pathlib import Path
 
 import mujoco
@@ -20,15 +21,17 @@ class MeshLibrary:
         unreadable: files that could not be read, in the order met.
     """
 
-    def __init__(self, spec: mujoco.MjSpec) -> None:
+    def __init__(self, spec: mujoco.MjSpec, left_out: Set[Path] = frozenset()) -> None:
+        """Fill `spec`; files in `left_out` are not looked at."""
         self.unreadable: dict[Path, str] = {}
+        self._left_out = left_out
         self._spec = spec
         self._assets: dict[Path, str] = {}
         self._meshes: dict[tuple[Path, tuple[float, ...]], str] = {}
 
     def name_of(self, shape: Shape) -> str | None:
         """Name in the model of a shape's mesh; None if there is none that MuJoCo could take."""
-        if shape.mesh is None or shape.mesh in self.unreadable:
+        if shape.mesh is None or shape.mesh in self._left_out or shape.mesh in self.unreadable:
             return None
         key = (shape.mesh, shape.size)
         if key not in self._meshes:
