@@ -25,7 +25,7 @@ def room(outer_radius_max, height_max, **others):
 
 
 def paper_problem(spin_inertia, outer_radius_max, height_max):
-    """One of the cases of THEORY, section 5."""
+    """One of the cases of docs/theory.md, The rim."""
     return RimProblem(spin_inertia, room(outer_radius_max, height_max), PAPER_STEEL, 754.0)
 
 

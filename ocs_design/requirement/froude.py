@@ -146,7 +146,7 @@ def default_envelope(robot: Robot) -> Envelope:
 def _disturbance(scale: Scale, gravity: float) -> Disturbance:
     """A torque that changes the rates by what the paper's changes Solo12's, over T.
 
-    The paper states no lift-off speed; 2.4 m/s up is that of THEORY, section 8.
+    The paper states no lift-off speed; 2.4 m/s up is that of docs/validation.md.
     """
     time, speed = scale.time(gravity), scale.speed(gravity)
     return Disturbance(

@@ -59,7 +59,7 @@ class Disturbance(Maneuver):
     duration: float
 
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """The angular impulse, which the wheels hold until touchdown (THEORY, section 6)."""
+        """The angular impulse, which the wheels hold until touchdown (docs/theory.md)."""
         del inertia, standing_height
         roll, pitch, _ = self.torque
         return np.array([abs(roll) * self.duration, abs(pitch) * self.duration])

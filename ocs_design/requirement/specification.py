@@ -28,10 +28,10 @@ from ocs_design.units import Dimension
 Section = TypeVar("Section")
 
 CRITERIA = ("equal-rate", "weighted", "simultaneous", "pitch-only", "roll-only")
-"""How the incidence may be chosen (THEORY, section 4)."""
+"""How the incidence may be chosen (docs/theory.md, Incidence angle)."""
 
 PROJECTIONS = ("pseudo-inverse", "transpose")
-"""How a torque on the trunk becomes torques of the wheels (THEORY, section 7)."""
+"""How a torque on the trunk becomes torques of the wheels (docs/theory.md, The control law)."""
 
 
 @dataclass(frozen=True)

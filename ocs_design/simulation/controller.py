@@ -1,7 +1,7 @@
 """The wheel law of the paper, for a batch of worlds at once.
 
 `tau_fb = -I_r (K_p e + K_d e_dot) - w x (I_r w)`, `u = C^T tau_fb` (paper, section 3.3), with what
-THEORY, section 7 adds: the motor torque acts on the wheel and its reaction on the trunk; the
+docs/theory.md adds: the motor torque acts on the wheel and its reaction on the trunk; the
 wheels' own momentum is compensated; the pseudo-inverse gives the commanded torque where the
 paper's transpose gives it scaled by `C C^T`.
 """
@@ -33,7 +33,7 @@ class Gains:
 
 @dataclass(frozen=True, eq=False)
 class Gyrostat:
-    """A rigid trunk with two wheels (THEORY, section 2).
+    """A rigid trunk with two wheels (docs/theory.md, The robot's inertia).
 
     Attributes:
         inertia: of everything about its centre of mass in B, wheels braked [kg m^2], shape (3, 3).
@@ -213,7 +213,7 @@ def tilt_error(attitude: FloatArray, target: FloatArray) -> FloatArray:
 def _torque_map(actuated_inertia: FloatArray, allocation: FloatArray) -> FloatArray:
     """Motor torques from (roll acceleration, pitch acceleration, w x H), shape (2, 5).
 
-    `J w_dot = -A tau - w x H` (THEORY, section 2) solved for tau. The wheels cannot push about z,
+    `J w_dot = -A tau - w x H` (docs/theory.md) solved for tau. The wheels cannot push about z,
     so its row is no command but says which yaw acceleration comes with the other two.
     """
     J = actuated_inertia

@@ -137,7 +137,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
 
 
 def _momentum_error(recording: Recording, index: int, last: int, world: World) -> float:
-    """`|H(t) - H(0) - impulse|` over the momentum that was moved about (THEORY, section 9).
+    """`|H(t) - H(0) - impulse|` over the momentum that was moved about (docs/theory.md).
 
     H itself is near zero in most of these flights, as trunk and wheels turn against each other, so
     the scale is the largest momentum of the wheels plus that of the trunk and its legs. Gravity has

@@ -10,7 +10,7 @@ from ocs_design.design import Motor
 
 @dataclass(frozen=True)
 class MotorLimits:
-    """Limits of a motor at its wheel (THEORY, section 6).
+    """Limits of a motor at its wheel (docs/theory.md, What a motor can do).
 
     Attributes:
         no_load_speed: w_0 [rad/s]; inf: not limited.

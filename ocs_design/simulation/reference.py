@@ -178,8 +178,8 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
     """Largest share of voltage or current that both wheels need along the turn, from zero momentum.
 
-    Of a gyrostat with no momentum, `I_tot w + A I_w W = 0` and `J w_dot = -A tau` (THEORY,
-    section 2). The pseudo-inverse leaves out an axis that the wheels do not reach.
+    Of a gyrostat with no momentum, `I_tot w + A I_w W = 0` and `J w_dot = -A tau`
+    (docs/theory.md). The pseudo-inverse leaves out an axis that the wheels do not reach.
     """
     s = np.linspace(0.0, 1.0, 401)
     rate = turn.span / turn.duration * turn.profile.rate(s)

@@ -44,7 +44,7 @@ class Sensor(StrEnum):
 def robot_scene(robot: Robot) -> mujoco.MjSpec:
     """The bare robot on a floor, its joints on drives, with sensors; free to fall.
 
-    Runge-Kutta, because Euler and implicitfast drift with fast wheels (THEORY, section 9); the
+    Runge-Kutta, because Euler and implicitfast drift with fast wheels (docs/theory.md); the
     dense Jacobian, because MuJoCo 4.0's sparse Newton solver has a fault.
     """
     spec = build_spec(robot, visuals=False).spec

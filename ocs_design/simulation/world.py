@@ -29,7 +29,7 @@ from ocs_design.simulation.scene import (
 from ocs_design.simulation.trunk import TrunkChain
 
 PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
-"""K_p and K_d that THEORY, section 8, was measured with, for Solo12."""
+"""K_p and K_d that docs/validation.md, was measured with, for Solo12."""
 
 _CLEARANCE = 1e-3
 """Gap under the feet at lift-off, over the standing height."""

@@ -1,4 +1,4 @@
-"""Closed forms of a hollow cylinder that spins about its axis (THEORY, section 5).
+"""Closed forms of a hollow cylinder that spins about its axis (docs/theory.md, The rim).
 
 Radii and heights are in metres, densities in kg/m^3; scalars or arrays that broadcast. Sources:
 masses and inertias by integration, as in any handbook; stresses from Budynas and Nisbett,

@@ -1,4 +1,4 @@
-"""The incidence angle of the two wheel axes (THEORY, section 4)."""
+"""The incidence angle of the two wheel axes (docs/theory.md, Incidence angle)."""
 
 from collections.abc import Mapping
 from enum import StrEnum
@@ -40,7 +40,7 @@ def module_axes(incidence: float) -> FloatArray:
 def incidence_by_criterion(
     inertia: FloatArray, momenta: FloatArray | None = None
 ) -> Mapping[Criterion, float]:
-    """The best incidence under each criterion [rad] (THEORY, section 4).
+    """The best incidence under each criterion [rad] (docs/theory.md, Incidence angle).
 
     Args:
         inertia: of what the wheels turn, about its centre of mass in B [kg m^2], shape (3, 3).
@@ -61,7 +61,7 @@ def incidence_by_criterion(
 def simultaneous_momentum(momenta: FloatArray) -> float:
     """Momentum of each wheel that takes these at once at the best incidence, H* [N m s].
 
-    The rhombi of all incidences with the same H fill an astroid (THEORY, section 4).
+    The rhombi of all incidences with the same H fill an astroid (docs/theory.md, Incidence angle).
 
     Args:
         momenta: on roll and on pitch [N m s], shape (2,).
@@ -70,13 +70,13 @@ def simultaneous_momentum(momenta: FloatArray) -> float:
 
 
 def condition_number(incidence: float) -> float:
-    """How unevenly the wheels act on roll and pitch: max(tan, cot) (THEORY, section 4)."""
+    """How unevenly the wheels act on roll and pitch: max(tan, cot) (docs/theory.md)."""
     tangent = abs(np.tan(incidence))
     return float(max(tangent, 1.0 / tangent)) if tangent > 0.0 else float("inf")
 
 
 def heading_drift(inertia: FloatArray) -> FloatArray:
-    """Yaw rate per roll rate and per pitch rate at zero momentum, shape (2,) (THEORY, section 4).
+    """Yaw rate per roll rate and per pitch rate at zero momentum, shape (2,) (docs/theory.md).
 
     Args:
         inertia: of the robot with its device about the centre of mass in B [kg m^2], shape (3, 3).
@@ -87,7 +87,7 @@ def heading_drift(inertia: FloatArray) -> FloatArray:
 def actuated_inertia(total: FloatArray, spin_inertia: float, incidence: float) -> FloatArray:
     """What the motors' torque accelerates, J = I_tot - I_w A A^T [kg m^2], shape (3, 3).
 
-    The wheels' mass and transverse inertia count, their spin inertia does not (THEORY, section 2).
+    The wheels' mass and transverse inertia count, their spin inertia does not (docs/theory.md).
 
     Args:
         total: inertia of the robot with its device, wheels braked [kg m^2], shape (3, 3).

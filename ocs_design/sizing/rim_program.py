@@ -1,4 +1,4 @@
-"""The lightest rim as a convex program in CVXPY, solved by Clarabel (THEORY, section 5).
+"""The lightest rim as a convex program in CVXPY, solved by Clarabel (docs/theory.md, The rim).
 
 In a = R^2 and b = r^2, with the spin inertia I met with equality, the mass is 2 I / (a + b). All
 limits are convex but two, wall and least height, whose feasible side lies under a convex function:

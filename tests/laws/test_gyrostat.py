@@ -1,4 +1,4 @@
-"""Free flight of trunk and wheels against the gyrostat's equations (THEORY, sections 2, 6, 9)."""
+"""Free flight of trunk and wheels against the gyrostat's equations (docs/theory.md)."""
 
 from dataclasses import replace
 
@@ -85,7 +85,7 @@ def test_a_symmetric_top_precesses_as_euler_says():
 @pytest.mark.parametrize("incidence", [0.0, np.radians(40.0)])
 def test_full_torque_there_and_back_turns_the_trunk_as_the_closed_form_says(incidence):
     """t = 2 sqrt(I_b theta / tau); with xi = I_w / (I_w + I_b) the wheel peaks at 2 theta / (xi t)
-    (THEORY, section 6), two wheels at alpha = 0 acting as one of twice the inertia and torque.
+    (docs/theory.md), two wheels at alpha = 0 acting as one of twice the inertia and torque.
     """
     world = floating(inertia=INERTIA[:3], device=paper_device(incidence))
     model, data = world.model, mujoco.MjData(world.model)
@@ -110,7 +110,7 @@ def test_full_torque_there_and_back_turns_the_trunk_as_the_closed_form_says(inci
 
 
 def test_a_saturated_motor_follows_its_voltage_line():
-    """W = w_0 (1 - exp(-t / T)), T = I_red w_0 / tau_s (THEORY, section 6)."""
+    """W = w_0 (1 - exp(-t / T)), T = I_red w_0 / tau_s (docs/theory.md, What a motor can do)."""
     drive = motor(no_load_speed=650.4, stall_torque=1.4566)
     world = floating(device=paper_device(incidence=0.0, drive=drive), duration=0.1)
     far = replace(world.turn, start=0.0, end=3.0, profile=Step())

@@ -60,7 +60,7 @@ def test_what_is_stated_is_not_assumed(solo12):
 
 
 def test_the_papers_wheel_needs_the_speed_that_the_example_allows(solo12):
-    """The back-flip at alpha 0 takes 7.11e-5 kg m^2 to some 23,000 rpm (THEORY, section 8)."""
+    """The back-flip at alpha 0 takes 7.11e-5 kg m^2 to some 23,000 rpm (docs/validation.md)."""
     requirement = resolve(read_specification(EXAMPLES / "solo12.toml"), solo12, SIZE).requirement
     total = solo12.inertia + np.diag([1e-3, 2e-3, 2e-3])
     demands = spin_demands(requirement, total, np.radians(40.0))

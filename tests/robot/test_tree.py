@@ -64,7 +64,7 @@ def test_principal_moments_are_the_same_seen_from_every_link(seed):
 
 
 def test_the_published_inertia_of_solo12():
-    """THEORY section 2, made with Pinocchio."""
+    """docs/theory.md, The robot's inertia, made with Pinocchio."""
     legs = {"FL": 1, "FR": 1, "HL": -1, "HR": -1}
     standing = {f"{leg}_HFE": 0.8 * sign for leg, sign in legs.items()}
     standing |= {f"{leg}_KFE": -1.6 * sign for leg, sign in legs.items()}

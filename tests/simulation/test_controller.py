@@ -39,7 +39,7 @@ def level(rate=(0.0, 0.0), acceleration=(0.0, 0.0)):
 
 
 def acceleration(body, torque, rate, wheel_speed):
-    """The gyrostat's own equation (THEORY, section 2)."""
+    """The gyrostat's own equation (docs/theory.md, The robot's inertia)."""
     momentum = body.inertia @ rate + body.spin_inertia * body.axes @ wheel_speed
     return np.linalg.solve(body.actuated_inertia, -body.axes @ torque - np.cross(rate, momentum))
 
@@ -85,7 +85,7 @@ def test_the_trunk_gets_the_roll_and_pitch_acceleration_that_the_law_asks_for(no
 
 
 def test_the_transpose_scales_the_torque_by_C_times_its_transpose():
-    """C C^T = diag(2 sin^2 a, 2 cos^2 a, 0) (THEORY, section 7)."""
+    """C C^T = diag(2 sin^2 a, 2 cos^2 a, 0) (docs/theory.md, The control law)."""
     body = Gyrostat(np.diag([0.03, 0.05, 0.07]), module_axes(np.radians(30.0)), 7e-5)
     tilted = wxyz(Rotation.from_rotvec([0.1, -0.2, 0.0]))
     torques = {

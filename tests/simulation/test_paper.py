@@ -1,4 +1,4 @@
-"""The paper's three experiments on Solo12 with its own wheel (THEORY, section 8)."""
+"""The paper's three experiments on Solo12 with its own wheel (docs/validation.md)."""
 
 from dataclasses import replace
 
@@ -82,7 +82,7 @@ def test_the_papers_transpose_passes_too(solo12, maneuvers):
 
 
 def test_a_motor_that_is_too_weak_fails_and_says_why(solo12, maneuvers):
-    """THEORY, section 6: 0.30 N m cannot do the drop in time with any wheel."""
+    """docs/theory.md, What a motor can do: 0.30 N m cannot do the drop in time with any wheel."""
     device = paper_device(drive=motor(1000.0, None, 0.2))
     run, _ = run_scenarios(solo12, device, maneuvers[1:2])
     assert run.passed is False

@@ -13,6 +13,7 @@ from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.spec.bodies import body_names, spec_from_tree
 from ocs_design.robot.spec.contacts import add_missing_feet, exclude_neighbours
 from ocs_design.robot.spec.free_base import free_base
+from ocs_design.robot.spec.hulls import reduce_to_hulls
 from ocs_design.robot.spec.meshes import drop_refused_meshes
 from ocs_design.robot.spec.written_out import write_out_inertials, write_out_orientations
 from ocs_design.robot.tree import Placement
@@ -39,7 +40,8 @@ def build_spec(robot: Robot, *, visuals: bool = True) -> BuiltModel:
 
     Args:
         robot: as read.
-        visuals: whether to load what is only to look at; collision geometry is always there.
+        visuals: whether the model will be looked at; if not, what only shows is left out, and
+            meshes are reduced to their convex hulls, all that MuJoCo lets touch.
     """
     remarks = Remarks()
     if robot.format is Format.MJCF:
@@ -48,7 +50,10 @@ def build_spec(robot: Robot, *, visuals: bool = True) -> BuiltModel:
         spec = spec_from_tree(robot.tree, remarks, visuals=visuals)
     # MuJoCo 4.0.0's sparse Newton solver is wrong.
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    add_missing_feet(spec, _compiled(spec, robot, remarks), robot)
+    model = _compiled(spec, robot, remarks)
+    if not visuals:
+        reduce_to_hulls(spec, model)
+    add_missing_feet(spec, model, robot)
     exclude_neighbours(spec, compiled(spec), robot)
     return BuiltModel(spec, remarks.sentences())
 

@@ -24,7 +24,7 @@ def test_zero_is_that_of_the_theory(rows):
 
 
 def test_the_ratio_spans_what_the_theory_says(rows):
-    """THEORY, sections 2 and 4: it rises with abduction; 40 degrees belong to 0.75 to 1 rad."""
+    """Of alpha* (docs/theory.md): it rises with abduction; 40 degrees belong to 0.75 to 1 rad."""
     spread = [ratio(rows[f"legs spread by {angle} rad"]) for angle in ("0.25", "0.5", "0.75", "1")]
     assert (np.diff(spread) > 0.0).all()
     assert spread[2] < np.tan(np.radians(40.0)) < spread[3]
