@@ -3,6 +3,7 @@
 Heavy modules are imported inside the commands: that costs seconds, and `--help` needs none.
 """
 
+import signal
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -26,7 +27,8 @@ app = typer.Typer(
 
 
 def main() -> None:
-    """Entry point of `ocs-design`."""
+    """Entry point of `ocs-design`; to be told to end is an interrupt, so that it tidies up."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     sys.exit(cli_errors.run(app, sys.argv[1:]))
 
 
@@ -248,6 +250,9 @@ def _package_paths(texts: list[str] | None) -> Mapping[str, Path]:
     for text in texts or []:
         name, separator, folder = text.partition("=")
         if not (name and separator and folder):
-            raise UsageError(f"--package-path {text}: is not NAME=DIR")
+            raise UsageError(
+                f"--package-path {text}: is not NAME=DIR",
+                hint="as in --package-path my_robot=/opt/my_robot",
+            )
         found[name] = Path(folder)
     return found

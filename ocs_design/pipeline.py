@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.assembly import assemble
@@ -24,6 +24,7 @@ from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
+from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress
@@ -92,7 +93,8 @@ def design_ocs(
         device = assemble(sizing, resolved)
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
-            _export(robot, device, staging)
+            remarks = _export(robot, device, staging)
+            robot = replace(robot, warnings=(*robot.warnings, *remarks))
         with steps.step("fly the maneuvers with and without the device") as step:
             runs = _fly(specification, robot, device, resolved, step.update)
             _write_runs(runs, staging)
@@ -132,16 +134,18 @@ def _size(
     return sizing, BY_HAND if stated.alpha is not None else str(criterion)
 
 
-def _export(robot: Robot, device: Device, folder: Path) -> None:
-    name = safe_name(robot.name)
+def _export(robot: Robot, device: Device, folder: Path) -> tuple[str, ...]:
+    """Write parts and robot files; what MuJoCo's model has otherwise than the robot's file."""
+    name, remarks = safe_name(robot.name), Remarks()
     for subfolder in ("cad", "robot", "snippets"):
         (folder / subfolder).mkdir()
     export_stl(device.flywheel, folder / "cad" / "flywheel.stl", units_per_metre=MILLIMETRES)
     export_robot_urdf(robot, device, folder / "robot" / f"{name}_ocs.urdf")
-    export_robot_mjcf(robot, device, folder / "robot" / f"{name}_ocs.xml")
-    export_snippet_urdf(device, robot.trunk, folder / "snippets" / "ocs.urdf")
-    export_snippet_xacro(device, robot.trunk, folder / "snippets" / "ocs.urdf.xacro")
-    export_snippet_mjcf(device, robot.trunk, folder / "snippets" / "ocs.xml")
+    export_robot_mjcf(robot, device, folder / "robot" / f"{name}_ocs.xml", remarks)
+    export_snippet_urdf(device, robot, folder / "snippets" / "ocs.urdf")
+    export_snippet_xacro(device, robot, folder / "snippets" / "ocs.urdf.xacro")
+    export_snippet_mjcf(device, robot, folder / "snippets" / "ocs.xml")
+    return remarks.sentences()
 
 
 def _fly(

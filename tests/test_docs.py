@@ -78,7 +78,7 @@ def test_every_section_that_the_code_cites_exists():
         for title in re.findall(r"docs/theory\.md, ([A-Z][a-z' ]+)", path.read_text())
     }
     assert {title.rstrip() for title in cited if not title.startswith(tuple(titles))} == set()
-    assert len(cited) > 5
+    assert cited
 
 
 def test_every_reference_of_the_theory_is_listed():

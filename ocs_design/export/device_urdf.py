@@ -5,9 +5,25 @@ from ocs_design.export.motor import largest_torque
 from ocs_design.export.naming import flywheel_name, joint_name
 from ocs_design.export.templates import fill, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_rpy
+from ocs_design.robot.robot import Mount
+from ocs_design.robot.rotations import rpy_from_rotation
+from ocs_design.robot.stance.base_frame import BASE_FRAME
 
 UNLIMITED = 1e6
 """Where URDF asks for a limit of torque or speed and there is none [SI]."""
+
+
+def mount_urdf(mount: Mount) -> str:
+    """The base frame as a link fixed to the robot's own, where it has none with x forward, z up."""
+    return fill(
+        "base_frame.urdf",
+        {
+            "link": BASE_FRAME,
+            "parent": quoted(mount.link),
+            "position": numbers(mount.placement.position),
+            "rpy": numbers(rpy_from_rotation(mount.placement.rotation)),
+        },
+    )
 
 
 def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:

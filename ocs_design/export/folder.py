@@ -34,22 +34,23 @@ def check_target(target: Path, *, force: bool) -> None:
     """
     parent = target.absolute().parent
     if not parent.is_dir():
-        raise OutputError(f"{parent}: no such folder", hint=_CURES[errno.ENOENT])
+        fault = errno.ENOTDIR if any(map(Path.is_file, target.absolute().parents)) else errno.ENOENT
+        raise OutputError(f"{parent}: no such folder", hint=_CURES[fault])
     if not os.access(parent, os.W_OK | os.X_OK):
         raise OutputError(f"{parent}: cannot be written to", hint=_CURES[errno.EACCES])
     if not os.path.lexists(target):
         return
-    if not force:
-        raise OutputError(
-            f"{target}: exists already",
-            hint="choose another folder with -o, or replace this one with --force",
-        )
     if target.is_symlink() or not target.is_dir():
         raise OutputError(f"{target}: is not a folder", hint="choose another name with -o")
     if any(target.iterdir()) and not (target / DESIGN_FILE).is_file():
         raise OutputError(
-            f"{target}: holds no {DESIGN_FILE}, so it is not an output of ocs-design",
-            hint="--force replaces only those; choose another folder with -o",
+            f"{target}: exists already, and is no output of ocs-design: it holds no {DESIGN_FILE}",
+            hint="choose another folder with -o",
+        )
+    if not force:
+        raise OutputError(
+            f"{target}: exists already",
+            hint="choose another folder with -o, or replace this one with --force",
         )
 
 
@@ -97,7 +98,7 @@ def _take_place(staging: Path, target: Path) -> None:
     target.rename(aside / target.name)
     try:
         staging.rename(target)
-    except OSError:
+    except BaseException:
         (aside / target.name).rename(target)
         raise
     finally:

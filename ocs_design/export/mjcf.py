@@ -45,8 +45,9 @@ def robot_with_device(
 ) -> mujoco.MjSpec:
     """The model that is written: robot, wheels with their motors, and the rims to look at."""
     built = build_spec(robot)
-    for sentence in built.warnings if remarks is not None else ():
-        remarks.add(sentence)
+    if remarks is not None:
+        for sentence in built.warnings:
+            remarks.add(sentence)
     attach_device(built.spec, robot, device)
     _draw_rims(built.spec, device)
     return built.spec

@@ -89,10 +89,16 @@ def _sharpen(
         printed = _floats(text.split())
         for source in sources if printed.size else ():
             exact = _floats(getattr(source, names.get(attribute, attribute), ()))[: printed.size]
-            if exact.size == printed.size and np.allclose(printed, exact, rtol=_PRINTED, atol=0.0):
+            if exact.size == printed.size and _printed_from(exact, printed):
                 if not np.array_equal(printed, exact):
                     element.set(attribute, numbers(exact))
                 break
+
+
+def _printed_from(exact: FloatArray, printed: FloatArray) -> bool:
+    """Whether six digits of `exact` are `printed`; what is next to nothing is printed as zero."""
+    nothing = _PRINTED**2 * float(np.abs(exact).max())
+    return bool(np.allclose(printed, exact, rtol=_PRINTED, atol=nothing))
 
 
 def _floats(values: object) -> FloatArray:

@@ -5,10 +5,10 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
 from ocs_design.export.device_urdf import UNLIMITED
 from ocs_design.export.templates import numbers
 from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.rotations import rpy_from_rotation
 from ocs_design.robot.spec.unused_name import unused_name
 from ocs_design.robot.tree import Body, Joint, JointKind, Placement, Shape, ShapeKind, Tree
 
@@ -122,17 +122,6 @@ def _connection(name: str, kind: str, parent: str, child: str, place: Placement)
 
 
 def _origin(place: Placement) -> ET.Element:
-    return ET.Element("origin", xyz=numbers(place.position), rpy=numbers(_rpy(place.rotation)))
-
-
-def _rpy(rotation: FloatArray) -> FloatArray:
-    """Roll, pitch and yaw [rad] about the fixed axes x, y, z in turn, shape (3,).
-
-    Where the pitch is a right angle roll and yaw turn about one axis: the yaw is then zero.
-    """
-    cosine = np.hypot(rotation[0, 0], rotation[1, 0])
-    pitch = np.arctan2(-rotation[2, 0], cosine)
-    if cosine < 1e-7:
-        return np.array([np.arctan2(-rotation[1, 2], rotation[1, 1]), pitch, 0.0])
-    roll = np.arctan2(rotation[2, 1], rotation[2, 2])
-    return np.array([roll, pitch, np.arctan2(rotation[1, 0], rotation[0, 0])])
+    return ET.Element(
+        "origin", xyz=numbers(place.position), rpy=numbers(rpy_from_rotation(place.rotation))
+    )

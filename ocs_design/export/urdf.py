@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from ocs_design.design import Device
-from ocs_design.export.device_urdf import device_urdf
+from ocs_design.export.device_urdf import device_urdf, mount_urdf
 from ocs_design.export.insertion import insert_before_end
 from ocs_design.export.naming import flywheel_names, joint_names, require_free
 from ocs_design.export.stl import METRES, export_stl
@@ -11,6 +11,7 @@ from ocs_design.export.templates import in_comment
 from ocs_design.export.tree_urdf import tree_urdf
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.stance.base_frame import BASE_FRAME
 from ocs_design.robot.urdf.xml import parse_xml
 
 WHEEL_MESH = "meshes/ocs_flywheel.stl"
@@ -30,12 +31,16 @@ def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
     """
     content = robot.content if robot.format is Format.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content, Remarks())
+    base = () if robot.mount is None or robot.format is not Format.URDF else (BASE_FRAME,)
     for kind, names in (("link", flywheel_names(device)), ("joint", joint_names(device))):
-        require_free(kind, (each.get("name", "") for each in root.iter(kind)), names)
+        require_free(kind, (each.get("name", "") for each in root.iter(kind)), (*names, *base))
     heading = (
         f"  <!-- Orientation control system on {in_comment(robot.trunk)}, by ocs-design. -->\n"
     )
     elements = device_urdf(device, robot.trunk, mesh=WHEEL_MESH)
+    # What is written from the tree has the base frame already.
+    if robot.mount is not None and robot.format is Format.URDF:
+        elements = mount_urdf(robot.mount) + elements
     path.write_bytes(insert_before_end(content, heading + elements))
     export_wheel_mesh(device, path.parent)
     return path

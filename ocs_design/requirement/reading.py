@@ -58,7 +58,10 @@ def _text(path: Path) -> str:
             content = stream.read(LARGEST_FILE + 1)
     except OSError as error:
         reason = error.strerror or "it cannot be opened"
-        raise SpecificationError(f"cannot read the specification {path}: {reason}") from error
+        raise SpecificationError(
+            f"cannot read the specification {path}: {reason}",
+            hint="check the path given with --spec",
+        ) from error
     if len(content) > LARGEST_FILE:
         raise SpecificationError(f"{path} is larger than 64 KiB: that is no specification")
     try:

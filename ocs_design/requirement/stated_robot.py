@@ -35,6 +35,11 @@ def read_stated_robot(
         )
     elif stated.mass is not None and stated.inertia is not None:
         robot = robot_by_hand(stated.mass, stated.inertia, name=stated.name or "robot")
+    elif stated.mass is not None or stated.inertia is not None:
+        raise UsageError(
+            "a robot by hand needs both its mass and its inertia",
+            hint="give --mass MASS and --inertia IXX,IYY,IZZ, or both keys under [robot]",
+        )
     else:
         raise UsageError(
             "no robot is given",

@@ -183,7 +183,9 @@ class JointValues(Value[Mapping[str, float]]):
     def _pair(self, text: object, where: str) -> tuple[str, str]:
         name, separator, value = str(text).partition("=")
         if not (name and separator):
-            raise SpecificationError(f"{where}: {shortened(text)} is not NAME=VALUE")
+            raise SpecificationError(
+                f"{where}: {shortened(text)} is not NAME=VALUE", hint="Write hip=10deg."
+            )
         return name, value
 
     def _value(self, raw: object, where: str) -> float:

@@ -9,6 +9,7 @@ from ocs_design.exceptions import RobotError
 from ocs_design.robot.files.loader import load
 from ocs_design.robot.mass_properties import MassProperties, physical_defect
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance.base_frame import BASE_FRAME, with_base_frame
 from ocs_design.robot.stance.leg_geometry import convention_warnings
 from ocs_design.robot.stance.legs import find_legs
 from ocs_design.robot.stance.posture import resolve_posture, unknown_name
@@ -36,11 +37,17 @@ def read_robot(
     loaded = load(source, package_paths=package_paths)
     tree = loaded.tree
     legs = find_legs(tree)
-    base = find_trunk(tree, legs) if trunk is None else _checked_trunk(tree, trunk)
+    if trunk is None:
+        found = find_trunk(tree, legs)
+        tree, mount, told = with_base_frame(tree, found, legs)
+        base = found if mount is None else BASE_FRAME
+    else:
+        base, mount = _checked_trunk(tree, trunk), None
+        told = tuple(convention_warnings(tree, base, legs))
     chosen = resolve_posture(tree, base, legs, posture, joints or {})
     weighed = tree.locked_mass_properties(chosen.values, base)
     _check_physical(weighed)
-    warnings = (*tree.warnings, *convention_warnings(tree, base, legs), *chosen.warnings)
+    warnings = (*tree.warnings, *told, *chosen.warnings)
     return Robot(
         name=tree.name,
         source=loaded.source,
@@ -56,6 +63,7 @@ def read_robot(
         legs=legs,
         standing_height=chosen.standing_height,
         warnings=tuple(dict.fromkeys(warnings)),
+        mount=mount,
     )
 
 

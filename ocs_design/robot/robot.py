@@ -8,7 +8,7 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.robot.tree import Tree
+from ocs_design.robot.tree import Placement, Tree
 
 
 class Format(StrEnum):
@@ -41,6 +41,19 @@ class Leg:
 
 
 @dataclass(frozen=True, eq=False)
+class Mount:
+    """The base frame B where no link of the file has x forward and z up.
+
+    Attributes:
+        link: of the file that B is fixed to.
+        placement: of B in that link's frame.
+    """
+
+    link: str
+    placement: Placement
+
+
+@dataclass(frozen=True, eq=False)
 class Robot:
     """A robot at its nominal posture.
 
@@ -51,7 +64,7 @@ class Robot:
         format: see `Format`.
         content: the file's text as bytes, unzipped and expanded; empty by hand.
         tree: moving bodies; by hand, one body with the homogeneous box of the same inertia.
-        trunk: link that carries the device; its frame is the base frame B.
+        trunk: link that carries the device; its frame is the base frame B; see also `mount`.
         floating_base: link of the tree's root.
         posture: value of every moving joint [rad or m].
         posture_name: `zero`, `stand`, the name of a keyframe or SRDF state, with ` + joints` if
@@ -61,6 +74,7 @@ class Robot:
         standing_height: of the trunk frame's origin over the feet at `posture` [m]; None without
             legs.
         warnings: one sentence each, naming the link or joint.
+        mount: how B is fixed to the file's own link; None if `trunk` is a link of the file.
     """
 
     name: str
@@ -77,6 +91,7 @@ class Robot:
     legs: tuple[Leg, ...]
     standing_height: float | None
     warnings: tuple[str, ...]
+    mount: Mount | None = None
 
     @property
     def mass(self) -> float:

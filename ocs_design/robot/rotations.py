@@ -42,3 +42,16 @@ def rotation_from_quaternion(wxyz: ArrayLike) -> FloatArray:
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
+
+
+def rpy_from_rotation(rotation: FloatArray) -> FloatArray:
+    """Roll, pitch and yaw [rad] about the fixed axes x, y, z in turn, shape (3,).
+
+    Where the pitch is a right angle roll and yaw turn about one axis: the yaw is then zero.
+    """
+    cosine = np.hypot(rotation[0, 0], rotation[1, 0])
+    pitch = np.arctan2(-rotation[2, 0], cosine)
+    if cosine < 1e-7:
+        return np.array([np.arctan2(-rotation[1, 2], rotation[1, 1]), pitch, 0.0])
+    roll = np.arctan2(rotation[2, 1], rotation[2, 2])
+    return np.array([roll, pitch, np.arctan2(rotation[1, 0], rotation[0, 0])])

@@ -85,15 +85,9 @@ class _Batch:
             if self.lengths[running - 1] <= k:
                 running = int(np.count_nonzero(self.lengths > k))
                 active, models = law.take(slice(running)), self.models[:running]
-                references.keep(running)
-            self._observe(record, k, running)
-            torque = active.torque(
-                record.attitude[k, :running],
-                record.rate[k, :running],
-                record.wheel_speed[k, :running],
-                references.at(k),
-                self.period,
-            )
+            vertical, rate, wheel_speed = self._observe(record, k, running)
+            target = references.at(k, running)
+            torque = active.torque(vertical, rate, wheel_speed, target, self.period)
             record.wheel_torque[k, :running] = torque
             push = pushes.get(k)
             self._advance(pool, models, data, torque, self._in_world(record, k, running, push))
@@ -105,13 +99,18 @@ class _Batch:
         record.stable[:] = np.abs(self.state[:, 0] - self.lengths * self.period) < 0.5 * self.period
         return record
 
-    def _observe(self, record: Recording, k: int, running: int) -> None:
-        """Trunk and wheels at instant `k`."""
+    def _observe(
+        self, record: Recording, k: int, running: int
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Trunk and wheels at instant `k`, recorded; what the law needs of them."""
         qpos = self.state[:running, 1 : 1 + self.nq]
         qvel = self.state[:running, 1 + self.nq :]
-        record.attitude[k, :running] = self.chain.attitude(qpos)
-        record.rate[k, :running] = self.chain.rate(qpos, qvel)
-        record.wheel_speed[k, :running] = qvel[:, self.wheels]
+        attitude, rate = self.chain.attitude(qpos), self.chain.rate(qpos, qvel)
+        wheel_speed = qvel[:, self.wheels]
+        record.attitude[k, :running] = attitude
+        record.rate[k, :running] = rate
+        record.wheel_speed[k, :running] = wheel_speed
+        return quaternions.vertical(attitude), rate, wheel_speed
 
     def _in_world(
         self, record: Recording, k: int, running: int, push: FloatArray | None

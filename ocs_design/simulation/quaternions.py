@@ -47,6 +47,16 @@ def matrix(quaternion: FloatArray) -> FloatArray:
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
+def vertical(quaternion: FloatArray) -> FloatArray:
+    """The world's upward direction in the turned frame, unit vectors (..., 3)."""
+    w, x, y, z = (quaternion[..., i] for i in range(4))
+    found = np.empty((*quaternion.shape[:-1], 3))
+    found[..., 0] = 2.0 * (x * z - w * y)
+    found[..., 1] = 2.0 * (y * z + w * x)
+    found[..., 2] = 1.0 - 2.0 * (x * x + y * y)
+    return found
+
+
 def tilt(quaternion: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Roll and pitch of the trunk against the vertical [rad], whatever its heading; shapes (...).
 
@@ -54,10 +64,8 @@ def tilt(quaternion: FloatArray) -> tuple[FloatArray, FloatArray]:
     unwrapped through a flip; roll is the elevation of the trunk's y axis. Near level both are the
     usual roll and pitch.
     """
-    w, x, y, z = (quaternion[..., i] for i in range(4))
-    pitch = np.arctan2(2 * (w * y - x * z), 1 - 2 * (x * x + y * y))
-    roll = np.arcsin(np.clip(2 * (y * z + w * x), -1.0, 1.0))
-    return roll, pitch
+    x, y, z = np.moveaxis(vertical(quaternion), -1, 0)
+    return np.arcsin(np.clip(y, -1.0, 1.0)), np.arctan2(-x, z)
 
 
 def heading(quaternion: FloatArray) -> FloatArray:

@@ -1,4 +1,9 @@
-"""The proof of a design: every maneuver flown with the device and without it, in one batch."""
+"""The proof of a design: every maneuver flown with the device and without it, in one batch.
+
+Whether a robot stands at the end is judged only where its legs bear a level landing at all. A run
+that comes down well and stands shows that they do. Where none of a maneuver does, a second batch
+flies that maneuver once more, level and undisturbed, to tell the device's fault from the legs'.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -9,10 +14,9 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress, simulate
 from ocs_design.simulation.metrics import Metrics, Series, measure, series_of
-from ocs_design.simulation.recording import Recording
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.verdict import judge, stands
+from ocs_design.simulation.verdict import comes_down_well, judge, stands
 from ocs_design.simulation.world import World, WorldBuilder
 
 
@@ -56,13 +60,12 @@ class Run:
 
 
 @dataclass(frozen=True, eq=False)
-class _Flights:
-    """The worlds of one maneuver; `level` shows what the legs can bear, None without legs."""
+class _Flight:
+    """One world, flown; `metrics` as in `Run`."""
 
-    maneuver: Maneuver
-    with_ocs: World
-    without_ocs: World
-    level: World | None
+    world: World
+    metrics: Metrics | None
+    series: Series
 
 
 def run_scenarios(
@@ -83,73 +86,76 @@ def run_scenarios(
         progress: told the part of the work that is done, 0..1.
     """
     chosen = options or Options()
-    flights = _flights(robot, device, maneuvers, chosen)
-    worlds = [world for flight in flights for world in _worlds(flight)]
-    if not worlds:
-        return ()
-    recording = simulate(worlds, hold=chosen.hold, threads=chosen.threads, progress=progress)
-    runs: list[Run] = []
-    first = 0
-    for flight in flights:
-        runs += _runs(flight, recording, first)
-        first += len(_worlds(flight))
-    return tuple(runs)
-
-
-def _flights(
-    robot: Robot, device: Device, maneuvers: Sequence[Maneuver], options: Options
-) -> list[_Flights]:
     builder = WorldBuilder(
         robot,
         device,
-        allocation=options.allocation,
-        gains=options.gains,
-        drop_profile=options.drop_profile,
+        allocation=chosen.allocation,
+        gains=chosen.gains,
+        drop_profile=chosen.drop_profile,
     )
-    return [
-        _Flights(
-            maneuver,
-            builder.flight(maneuver, Wheels.ACTIVE),
-            builder.flight(maneuver, Wheels.ABSENT),
-            builder.level_landing(maneuver) if robot.legs else None,
-        )
+    worlds = [
+        builder.flight(maneuver, wheels)
         for maneuver in maneuvers
+        for wheels in (Wheels.ACTIVE, Wheels.ABSENT)
     ]
+    flights = _fly(worlds, chosen, progress)
+    pairs = list(zip(flights[::2], flights[1::2], strict=True))
+    can_stand = _legs_bear_landings(builder, robot, maneuvers, pairs, chosen)
+    return tuple(
+        _run(maneuver, flight, ocs=ocs, can_stand=legs)
+        for maneuver, pair, legs in zip(maneuvers, pairs, can_stand, strict=True)
+        for flight, ocs in zip(pair, (True, False), strict=True)
+    )
 
 
-def _worlds(flight: _Flights) -> list[World]:
-    found = [flight.with_ocs, flight.without_ocs, flight.level]
-    return [world for world in found if world is not None]
-
-
-def _runs(flight: _Flights, recording: Recording, first: int) -> list[Run]:
-    can_stand = None
-    if flight.level is not None:
-        can_stand = stands(measure(recording, first + 2, flight.level))
-    pair = ((first, flight.with_ocs, True), (first + 1, flight.without_ocs, False))
+def _fly(
+    worlds: Sequence[World], options: Options, progress: Progress | None = None
+) -> list[_Flight]:
+    if not worlds:
+        return []
+    recording = simulate(worlds, hold=options.hold, threads=options.threads, progress=progress)
     return [
-        _run(flight.maneuver, recording, index, world, ocs=ocs, can_stand=can_stand)
-        for index, world, ocs in pair
+        _Flight(world, measure(recording, index, world), series_of(recording, index))
+        for index, world in enumerate(worlds)
     ]
 
 
-def _run(
-    maneuver: Maneuver,
-    recording: Recording,
-    index: int,
-    world: World,
-    *,
-    ocs: bool,
-    can_stand: bool | None,
-) -> Run:
-    metrics = measure(recording, index, world)
-    verdict = judge(metrics, maneuver, can_stand=can_stand)
+def _legs_bear_landings(
+    builder: WorldBuilder,
+    robot: Robot,
+    maneuvers: Sequence[Maneuver],
+    pairs: Sequence[tuple[_Flight, _Flight]],
+    options: Options,
+) -> list[bool | None]:
+    """`can_stand` of each maneuver; see `judge`."""
+    if not robot.legs:
+        return [None] * len(maneuvers)
+    doubtful = [
+        index
+        for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True))
+        if _is_doubtful(maneuver, pair)
+    ]
+    level = _fly([builder.level_landing(maneuvers[index]) for index in doubtful], options)
+    found: list[bool | None] = [True] * len(maneuvers)
+    for index, flight in zip(doubtful, level, strict=True):
+        found[index] = stands(flight.metrics)
+    return found
+
+
+def _is_doubtful(maneuver: Maneuver, pair: Sequence[_Flight]) -> bool:
+    """Whether some flight comes down well, but none that does stands."""
+    down = [flight.metrics for flight in pair if comes_down_well(flight.metrics, maneuver)]
+    return bool(down) and not any(stands(metrics) for metrics in down)
+
+
+def _run(maneuver: Maneuver, flight: _Flight, *, ocs: bool, can_stand: bool | None) -> Run:
+    verdict = judge(flight.metrics, maneuver, can_stand=can_stand)
     return Run(
         scenario=maneuver.name,
         ocs=ocs,
         passed=verdict.passed,
         reason=verdict.reason,
-        metrics=metrics,
-        series=series_of(recording, index),
-        note=world.note,
+        metrics=flight.metrics,
+        series=flight.series,
+        note=flight.world.note,
     )

@@ -14,28 +14,19 @@ class References:
     """What every trunk should do at each control instant, tabulated before the run."""
 
     def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
-        self._axis = np.stack([world.turn.axis for world in worlds])
         later = np.append(times, times[-1] + period)
-        self._angle = np.stack([world.turn.angle(times) for world in worlds], axis=1)
-        rates = np.stack([world.turn.rate(later) for world in worlds], axis=1)
-        self._rate = rates[:-1]
+        axis = np.stack([world.turn.axis for world in worlds])
+        angle = np.stack([world.turn.angle(times) for world in worlds], axis=1)
+        rates = np.stack([world.turn.rate(later) for world in worlds], axis=1)[..., None]
+        self._vertical = quaternions.vertical(quaternions.from_axis_angle(axis, angle))
+        self._rate = rates[:-1] * axis[:, :2]
         # The mean over the step that the torque is held for brings the rate to where it should be.
-        self._acceleration = np.diff(rates, axis=0) / period
+        self._acceleration = np.diff(rates, axis=0) / period * axis[:, :2]
 
-    def keep(self, running: int) -> None:
-        """Forget worlds that have ended."""
-        self._axis = self._axis[:running]
-        self._angle = self._angle[:, :running]
-        self._rate = self._rate[:, :running]
-        self._acceleration = self._acceleration[:, :running]
-
-    def at(self, k: int) -> Target:
-        """At control instant `k`."""
-        tilt_axis = self._axis[:, :2]
+    def at(self, k: int, running: int) -> Target:
+        """At control instant `k`, of the first `running` worlds."""
         return Target(
-            quaternions.from_axis_angle(self._axis, self._angle[k]),
-            self._rate[k][:, None] * tilt_axis,
-            self._acceleration[k][:, None] * tilt_axis,
+            self._vertical[k, :running], self._rate[k, :running], self._acceleration[k, :running]
         )
 
 

@@ -28,14 +28,14 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
     Args:
         metrics: of the run; None if it became unstable.
         maneuver: that was flown.
-        can_stand: whether the robot stays up on its joint drives after the same flight, level and
-            undisturbed; None for a robot without legs. Where it does not, "upright at the end" says
+        can_stand: whether the robot stays up on its joint drives after a level landing from this
+            flight; None for a robot without legs. Where it does not, "upright at the end" says
             nothing about the device and is not judged.
     """
     unsound = _unsound(metrics)
     if metrics is None or unsound:
         return Verdict(None, unsound)
-    failure = _turn_failure(metrics, maneuver) or _landing_failure(metrics)
+    failure = _flight_failure(metrics, maneuver)
     if failure:
         return Verdict(False, failure)
     landing = f"touches down at {_tilt(metrics)}"
@@ -51,14 +51,21 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
     return Verdict(True, f"{landing} and stands")
 
 
-def stands(level_landing: Metrics | None) -> bool:
-    """Whether a level, undisturbed landing ends on the feet, with half the tilt still to spare.
+def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
+    """Whether a run passes in everything but standing."""
+    if metrics is None or _unsound(metrics):
+        return False
+    return not _flight_failure(metrics, maneuver)
+
+
+def stands(metrics: Metrics | None) -> bool:
+    """Whether a run ends on the feet, with half the tilt still to spare.
 
     A robot that is slowly toppling over passes 45 deg some time after it was last looked at.
     """
-    if level_landing is None or not level_landing.upright_at_end:
+    if metrics is None or not metrics.upright_at_end:
         return False
-    tilt = max(abs(level_landing.final_roll), abs(level_landing.final_pitch))
+    tilt = max(abs(metrics.final_roll), abs(metrics.final_pitch))
     return bool(tilt <= 0.5 * UPRIGHT_TILT)
 
 
@@ -74,6 +81,11 @@ def _unsound(metrics: Metrics | None) -> str:
     if metrics.touchdown_time is None:
         return "not judged: nothing of the robot touched the floor"
     return ""
+
+
+def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> str:
+    """What was wrong up to touchdown; empty if nothing."""
+    return _turn_failure(metrics, maneuver) or _landing_failure(metrics)
 
 
 def _turn_failure(metrics: Metrics, maneuver: Maneuver) -> str:

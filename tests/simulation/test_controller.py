@@ -29,13 +29,13 @@ def gyrostat(incidence=FORTY_DEGREES):
     return Gyrostat(INERTIA, module_axes(incidence), 7.1e-5)
 
 
-def wxyz(rotation):
-    return rotation.as_quat(scalar_first=True)[None]
+def seen_from(rotation):
+    """The world's upward direction, by SciPy."""
+    return rotation.inv().apply([[0.0, 0.0, 1.0]])
 
 
 def level(rate=(0.0, 0.0), acceleration=(0.0, 0.0)):
-    upright = np.array([[1.0, 0.0, 0.0, 0.0]])
-    return Target(upright, np.array([rate]), np.array([acceleration]))
+    return Target(np.array([[0.0, 0.0, 1.0]]), np.array([rate]), np.array([acceleration]))
 
 
 def acceleration(body, torque, rate, wheel_speed):
@@ -56,7 +56,7 @@ def nearest_target(attitude, target):
 def test_the_error_is_the_smallest_turn_over_all_headings(now, wanted):
     attitude, target = Rotation.from_rotvec(now), Rotation.from_rotvec(wanted)
     shortest = (attitude.inv() * nearest_target(attitude, target)).as_rotvec()
-    error = tilt_error(wxyz(attitude), wxyz(target))[0]
+    error = tilt_error(seen_from(attitude), seen_from(target))[0]
     np.testing.assert_allclose(error, shortest[:2], atol=1e-3)
 
 
@@ -64,22 +64,24 @@ def test_the_error_is_the_smallest_turn_over_all_headings(now, wanted):
 def test_a_heading_that_drifts_changes_nothing(roll, pitch, yaw):
     tilted = Rotation.from_rotvec([roll, pitch, 0.0])
     turned = Rotation.from_rotvec([0.0, 0.0, yaw]) * tilted
-    upright = wxyz(Rotation.identity())
+    upright = seen_from(Rotation.identity())
     np.testing.assert_allclose(
-        tilt_error(wxyz(turned), upright), tilt_error(wxyz(tilted), upright), atol=1e-9
+        tilt_error(seen_from(turned), upright), tilt_error(seen_from(tilted), upright), atol=1e-9
     )
-    np.testing.assert_allclose(tilt_error(wxyz(tilted), upright)[0], [-roll, -pitch], atol=1e-9)
+    np.testing.assert_allclose(
+        tilt_error(seen_from(tilted), upright)[0], [-roll, -pitch], atol=1e-9
+    )
 
 
 @given(vectors, vectors, st.tuples(st.floats(-800, 800), st.floats(-800, 800)))
 def test_the_trunk_gets_the_roll_and_pitch_acceleration_that_the_law_asks_for(now, rate, spin):
     """Whatever the rates, the wheel speeds and the products of inertia."""
     body, w, W = gyrostat(), np.array(rate), np.array(spin)
-    attitude = wxyz(Rotation.from_rotvec(now))
+    vertical = seen_from(Rotation.from_rotvec(now))
     law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
     target = level(rate=(0.3, -0.2), acceleration=(1.0, -4.0))
-    torque = law.torque(attitude, w[None], W[None], target, 1e-3)[0]
-    error = tilt_error(attitude, target.attitude)[0]
+    torque = law.torque(vertical, w[None], W[None], target, 1e-3)[0]
+    error = tilt_error(vertical, target.vertical)[0]
     wanted = 60.0 * error + 12.0 * (np.array([0.3, -0.2]) - w[:2]) + np.array([1.0, -4.0])
     np.testing.assert_allclose(acceleration(body, torque, w, W)[:2], wanted, rtol=0, atol=1e-8)
 
@@ -87,7 +89,7 @@ def test_the_trunk_gets_the_roll_and_pitch_acceleration_that_the_law_asks_for(no
 def test_the_transpose_scales_the_torque_by_C_times_its_transpose():
     """C C^T = diag(2 sin^2 a, 2 cos^2 a, 0) (docs/theory.md, The control law)."""
     body = Gyrostat(np.diag([0.03, 0.05, 0.07]), module_axes(np.radians(30.0)), 7e-5)
-    tilted = wxyz(Rotation.from_rotvec([0.1, -0.2, 0.0]))
+    tilted = seen_from(Rotation.from_rotvec([0.1, -0.2, 0.0]))
     torques = {
         how: -body.axes
         @ WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, how).torque(
@@ -102,7 +104,7 @@ def test_the_transpose_scales_the_torque_by_C_times_its_transpose():
 def test_wheels_across_the_trunk_leave_roll_alone():
     body = gyrostat(incidence=0.0)
     law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
-    rolled = wxyz(Rotation.from_rotvec([0.3, 0.0, 0.0]))
+    rolled = seen_from(Rotation.from_rotvec([0.3, 0.0, 0.0]))
     torque = law.torque(rolled, np.zeros((1, 3)), np.zeros((1, 2)), level(), 1e-3)
     assert np.abs(torque).max() < 0.05
 
@@ -120,7 +122,7 @@ def test_no_wheel_passes_its_no_load_speed_and_no_motor_its_current(
     body, W = gyrostat(), np.array([left, right])
     limits = MotorLimits.of(motor(no_load_speed=700.0, stall_torque=stall, torque_limit=1.0))
     law = WheelLaw.of(body, Gains(600.0, 12.0), limits, Allocation.PSEUDO_INVERSE)
-    attitude = wxyz(Rotation.from_rotvec([0.0, tilt, 0.0]))
+    attitude = seen_from(Rotation.from_rotvec([0.0, tilt, 0.0]))
     torque = law.torque(attitude, np.zeros((1, 3)), W[None], level(), period)[0]
     w_dot = acceleration(body, torque, np.zeros(3), W)
     later = W + period * (torque / body.spin_inertia - body.axes.T @ w_dot)
@@ -135,7 +137,7 @@ def test_braking_at_full_speed_is_not_cut():
     """The voltage line lets a motor brake with up to twice its stall torque at no-load speed."""
     limits = MotorLimits.of(motor(no_load_speed=700.0, stall_torque=1.0))
     law = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), limits, Allocation.PSEUDO_INVERSE)
-    pitched = wxyz(Rotation.from_rotvec([0.0, 0.1, 0.0]))
+    pitched = seen_from(Rotation.from_rotvec([0.0, 0.1, 0.0]))
     free = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
     arguments = (pitched, np.zeros((1, 3)), np.full((1, 2), -700.0), level(), 1e-3)
     assert free.torque(*arguments)[0, 0] > 0.0
@@ -144,7 +146,11 @@ def test_braking_at_full_speed_is_not_cut():
 
 def test_a_law_that_is_off_gives_no_torque_whatever_happens():
     torque = WheelLaw.off().torque(
-        wxyz(Rotation.from_rotvec([1.0, 1.0, 1.0])), np.ones((1, 3)), np.ones((1, 2)), level(), 1e-3
+        seen_from(Rotation.from_rotvec([1.0, 1.0, 1.0])),
+        np.ones((1, 3)),
+        np.ones((1, 2)),
+        level(),
+        1e-3,
     )
     np.testing.assert_array_equal(torque, np.zeros((1, 2)))
 

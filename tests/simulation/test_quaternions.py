@@ -21,6 +21,13 @@ def test_products_matrices_and_inverses_agree_with_scipy(first, second):
     np.testing.assert_allclose(inverse, a.inv().as_matrix(), atol=1e-12)
 
 
+@given(st.tuples(angles, angles, angles))
+def test_the_vertical_is_scipys(turn):
+    rotation = Rotation.from_rotvec(turn)
+    expected = rotation.inv().apply([0.0, 0.0, 1.0])
+    np.testing.assert_allclose(quaternions.vertical(wxyz(rotation)), expected, atol=1e-12)
+
+
 @given(st.floats(-1.5, 1.5), st.floats(-1.0, 1.0), angles)
 def test_tilt_is_roll_and_pitch_whatever_the_heading(pitch, roll, yaw):
     only_pitch = wxyz(Rotation.from_euler("ZY", [yaw, pitch]))

@@ -1,9 +1,11 @@
 """Reads a robot from any file that is understood, chosen by content and not by name."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ocs_design.exceptions import MissingToolError, RobotError
 from ocs_design.robot.files.meshes import MeshFinder
 from ocs_design.robot.files.source import Source, read_source
 from ocs_design.robot.files.srdf import Postures, postures_beside
@@ -44,6 +46,20 @@ def load(source: str | Path, *, package_paths: Mapping[str, Path] | None = None)
         package_paths: folder of each package that `package://` addresses name.
     """
     read = read_source(source)
+    with _naming_the_file(read):
+        return _load(read, package_paths or {})
+
+
+@contextmanager
+def _naming_the_file(read: Source) -> Iterator[None]:
+    """Puts the file's name in front of what is wrong in it."""
+    try:
+        yield
+    except (RobotError, MissingToolError) as error:
+        raise type(error)(f"{read.shown}: {error.message}", hint=error.hint) from error
+
+
+def _load(read: Source, package_paths: Mapping[str, Path]) -> Loaded:
     folder = read.folder or Path.cwd()
     root = parse_xml(read.content, Remarks())
     if root.tag == "mujoco":
@@ -51,7 +67,7 @@ def load(source: str | Path, *, package_paths: Mapping[str, Path] | None = None)
 
         tree = read_mjcf(read.content, folder)
         return Loaded(tree, Format.MJCF, read.content, read.sha256, read.path_text)
-    finder = MeshFinder(folder, package_paths or {})
+    finder = MeshFinder(folder, package_paths)
     content = read.content
     if root.tag == "robot" and is_xacro(root):
         content = expand_xacro(content, folder / Path(read.path_text).name, finder.package_folder)

@@ -35,6 +35,11 @@ class Source:
     content: bytes
     sha256: str
 
+    @property
+    def shown(self) -> str:
+        """What messages call it."""
+        return _shown(self.path_text)
+
 
 def read_source(source: str | Path) -> Source:
     """Read a path, or standard input for `-`."""
@@ -114,11 +119,11 @@ def _shown(path_text: str) -> str:
 
 def _missing_hint(path: Path) -> str:
     try:
-        names = [each.name for each in path.absolute().parent.iterdir()]
+        name_of_stem = {each.stem: each.name for each in path.absolute().parent.iterdir()}
     except OSError:
         return f"the folder {path.parent} does not exist either"
-    close = get_close_matches(path.name, names, n=1)
-    return f"did you mean {path.with_name(close[0])}?" if close else "check the path"
+    close = get_close_matches(path.stem, name_of_stem, n=1)
+    return f"did you mean {path.with_name(name_of_stem[close[0]])}?" if close else "check the path"
 
 
 def _folder_hint(path: Path) -> str:

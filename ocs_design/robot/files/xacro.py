@@ -29,7 +29,7 @@ def expand_xacro(content: bytes, path: Path, find_package: FindPackage) -> bytes
     except Exception as error:  # xacro evaluates expressions: whatever Python can raise
         reason = " ".join(str(error).split()) or type(error).__name__
         raise RobotError(
-            f"{path.name}: xacro cannot expand the file: {reason}",
+            f"xacro cannot expand the file: {reason}",
             hint="expand it where its packages are installed: xacro robot.urdf.xacro > robot.urdf; "
             "or say where they are with --package-path NAME=DIR",
         ) from error

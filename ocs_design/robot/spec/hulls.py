@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.robot.spec.unused_name import unused_name
 
 
 def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
@@ -17,15 +18,25 @@ def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
         model: that it was compiled to.
     """
     fitted = {geom.meshname for geom in spec.geoms if geom.type != mujoco.mjtGeom.mjGEOM_MESH}
-    for mesh in spec.meshes:
+    for mesh in list(spec.meshes):
+        index = model.mesh(mesh.name).id
         # A box or capsule fitted to a mesh would come out otherwise around its hull.
-        if mesh.name not in fitted and model.mesh_graphadr[mesh.id] >= 0:
-            mesh.uservert = _hull_corners(model, mesh.id).ravel()
-            mesh.file, mesh.scale, mesh.userface = "", np.ones(3), []
-            mesh.refpos, mesh.refquat = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
-    for unused in set(spec.assets) - {mesh.file for mesh in spec.meshes}:
-        if unused.lower().endswith((".stl", ".obj", ".msh")):
-            del spec.assets[unused]
+        if mesh.name not in fitted and model.mesh_graphadr[index] >= 0:
+            _replace(spec, mesh, _hull_corners(model, index))
+
+
+def _replace(spec: mujoco.MjSpec, mesh: mujoco.MjsMesh, corners: FloatArray) -> None:
+    """Put a mesh of these corners alone where `mesh` was."""
+    name = unused_name(mesh.name, "", {each.name for each in spec.meshes})
+    spec.add_mesh(
+        name=name, uservert=corners.ravel(), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+    )
+    for geom in spec.geoms:
+        if geom.meshname == mesh.name:
+            geom.meshname = name
+    if [each.file for each in spec.meshes].count(mesh.file) == 1:
+        spec.assets.pop(mesh.file, None)
+    spec.delete(mesh)
 
 
 def _hull_corners(model: mujoco.MjModel, mesh: int) -> FloatArray:

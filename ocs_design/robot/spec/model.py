@@ -82,6 +82,8 @@ def trunk_body(spec: mujoco.MjSpec, robot: Robot) -> tuple[mujoco.MjsBody, Place
     """The trunk's body in a spec of `build_spec`, and the base frame B in that body's frame."""
     if robot.format is Format.MJCF:
         # The tree joins what is welded; the user's model has it apart still.
+        if robot.mount is not None:
+            return spec.body(robot.mount.link), robot.mount.placement
         return spec.body(robot.trunk), Placement.identity()
     index = robot.tree.body_of_link[robot.trunk]
     body = robot.tree.bodies[index]
