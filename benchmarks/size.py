@@ -2,18 +2,25 @@
 
     python benchmarks/size.py [PAIRS]
 
-Both take the same number of Runge-Kutta steps: those of the simulated runs, read from the time
-series that `size` wrote. Runs that leave no time series count for `size` only.
-Goals: at most 1.2 times the bare script, and a peak memory below 1 GiB.
+Both take the same number of Runge-Kutta steps of the same six models, robot and device on a floor:
+three maneuvers, each with the device and without. `bare.py` leaves the wheels alone and writes
+nothing. Goals: at most 1.2 times the bare script, and a peak memory below 1 GiB.
 """
 
-import csv
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
-from bare import TIME_STEP
+import mujoco
+import numpy as np
 from paired import alternate, print_pairs, run_process
+
+from ocs_design.pipeline import design_ocs
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import World, WorldBuilder
 
 LIMIT = 1.2
 HERE = Path(__file__).resolve().parent
@@ -23,39 +30,50 @@ ROBOT = HERE.parent / "examples" / "solo12.urdf"
 def main() -> None:
     pairs = int(sys.argv[1]) if len(sys.argv) > 1 else 7
     with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "solo12-ocs"
-        size = size_command(out)
-        run_process(size)
-        steps = simulated_steps(out)
-        bare = bare_command(out, steps)
-        print(f"{steps} steps of {TIME_STEP * 1e3:g} ms")
+        out, models = Path(folder) / "solo12-ocs", Path(folder) / "models"
+        worlds = worlds_of_size(out)
+        write_models(worlds, models)
+        size, bare = size_command(out), [sys.executable, str(HERE / "bare.py"), str(models)]
+        print(f"{len(worlds)} runs, {sum(map(steps_of, worlds))} steps")
         measured = alternate(lambda: run_process(size), lambda: run_process(bare), pairs)
         print_pairs(measured, ("ocs-design size", "bare script"), LIMIT)
+
+
+def worlds_of_size(out: Path) -> list[World]:
+    """What `size` simulates for the device that it finds."""
+    outcome = design_ocs(Specification(robot=RobotSection(file=str(ROBOT))), out=out)
+    builder = WorldBuilder(outcome.robot, outcome.device)
+    return [
+        builder.flight(maneuver, wheels)
+        for maneuver in default_maneuvers(outcome.robot)
+        for wheels in (Wheels.ACTIVE, Wheels.ABSENT)
+    ]
+
+
+def write_models(worlds: Sequence[World], folder: Path) -> None:
+    """Each world's model, and where it starts."""
+    folder.mkdir()
+    for index, world in enumerate(worlds):
+        path = folder / f"{index}.mjb"
+        mujoco.mj_saveModel(world.model, str(path))
+        np.savez(
+            path.with_suffix(".npz"),
+            qpos=world.qpos,
+            qvel=world.qvel,
+            ctrl=world.ctrl,
+            steps=steps_of(world),
+        )
+
+
+def steps_of(world: World) -> int:
+    """Steps of one run."""
+    return int(np.ceil(world.duration / world.model.opt.timestep))
 
 
 def size_command(out: Path) -> list[str]:
     """The command that is measured; the folder is replaced each time."""
     program = str(Path(sys.executable).with_name("ocs-design"))
     return [program, "size", str(ROBOT), "-o", str(out), "--force"]
-
-
-def bare_command(out: Path, steps: int) -> list[str]:
-    """The bare script on a copy of the exported robot, which `--force` will replace."""
-    kept = out.with_name("model")
-    (out / "robot").rename(kept)
-    model = next(kept.glob("*_ocs.xml"))
-    return [sys.executable, str(HERE / "bare.py"), str(model), str(steps)]
-
-
-def simulated_steps(out: Path) -> int:
-    """Over all runs with a time series."""
-    return sum(round(duration(path) / TIME_STEP) for path in out.glob("validation/*.csv"))
-
-
-def duration(path: Path) -> float:
-    """Last time in a time series [s]; it starts at zero."""
-    with path.open(newline="") as file:
-        return max(float(row["time_s"]) for row in csv.DictReader(file))
 
 
 if __name__ == "__main__":

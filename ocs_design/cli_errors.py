@@ -17,22 +17,25 @@ BROKEN_PIPE = 141
 def run(app: typer.Typer, arguments: Sequence[str]) -> int:
     """Run the command line and return its exit code; only bugs escape as exceptions."""
     _never_fail_on_encoding()
-    as_json = "--json" in arguments
+    as_json, color = "--json" in arguments, "--no-color" not in arguments
     command = typer.main.get_command(app)
     try:
         result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
-        return result if isinstance(result, int) else 0
+        sys.stdout.flush()
     except OcsError as error:
-        return _report(error, as_json=as_json)
+        return _report(error, as_json=as_json, color=color)
     except typer.TyperException as error:
-        return _report_usage(error, as_json=as_json)
+        return _report_usage(error, as_json=as_json, color=color)
     except (typer.Abort, KeyboardInterrupt):
+        result = INTERRUPTED
+    except (BrokenPipeError, SystemExit) as error:
+        # Typer and rich make a plain exit of the first.
+        if not isinstance(error.__context__ or error, BrokenPipeError):
+            raise
+        return _fall_silent()
+    if result == INTERRUPTED:
         print("interrupted; nothing was written", file=sys.stderr)
-        return INTERRUPTED
-    except BrokenPipeError:
-        # The reader left, as `head` does; Python would complain once more when it flushes at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE
+    return result if isinstance(result, int) else 0
 
 
 def _never_fail_on_encoding() -> None:
@@ -41,24 +44,32 @@ def _never_fail_on_encoding() -> None:
             stream.reconfigure(errors="replace")
 
 
-def _report(error: OcsError, *, as_json: bool) -> int:
+def _fall_silent() -> int:
+    """The reader left, as `head` does; Python would complain once more when it flushes at exit."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        os.dup2(nowhere, stream.fileno())
+    return BROKEN_PIPE
+
+
+def _report(error: OcsError, *, as_json: bool, color: bool) -> int:
     if as_json:
         _print_json(error.kind, error.message, error.hint, error.data())
     else:
         lines = [error.message]
         if isinstance(error, SpecificationError):
             lines += [f"  - {problem}" for problem in error.problems]
-        _print_panel(lines, error.hint)
+        _print_panel(lines, error.hint, color=color)
     return error.exit_code
 
 
-def _report_usage(error: typer.TyperException, *, as_json: bool) -> int:
+def _report_usage(error: typer.TyperException, *, as_json: bool, color: bool) -> int:
     context = getattr(error, "ctx", None)
     hint = f"see `{context.command_path} --help`" if context else ""
     if as_json:
         _print_json("usage", error.format_message(), hint, {})
     else:
-        _print_panel([error.format_message()], hint)
+        _print_panel([error.format_message()], hint, color=color)
     return 2
 
 
@@ -68,7 +79,7 @@ def _print_json(kind: str, message: str, hint: str, data: object) -> None:
     print(json.dumps({"schema_version": SCHEMA_VERSION, "error": document}, indent=2))
 
 
-def _print_panel(lines: Sequence[str], hint: str) -> None:
+def _print_panel(lines: Sequence[str], hint: str, *, color: bool) -> None:
     from ocs_design.report.console import error_panel  # noqa: PLC0415  rich costs 80 ms
 
-    error_panel(lines, hint)
+    error_panel(lines, hint, color=color)

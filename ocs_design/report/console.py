@@ -1,5 +1,6 @@
 """Where people read: standard error, at any width, with or without colour."""
 
+import os
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -21,15 +22,16 @@ WIDEST = 110
 
 
 def make_console(*, color: bool = True) -> Console:
-    """A console on standard error; NO_COLOR and pipes are respected by rich itself."""
-    console = Console(stderr=True, no_color=True if not color else None, highlight=False)
+    """A console on standard error; without colour there is no bold or dim text either."""
+    plain = not color or bool(os.environ.get("NO_COLOR"))
+    console = Console(stderr=True, color_system=None if plain else "auto", highlight=False)
     console.width = min(max(console.width, NARROWEST), WIDEST)
     return console
 
 
-def error_panel(lines: Sequence[str], hint: str) -> None:
+def error_panel(lines: Sequence[str], hint: str, *, color: bool = True) -> None:
     """One panel with what is wrong and how to mend it."""
-    console = make_console()
+    console = make_console(color=color)
     text = Text("\n".join(lines))
     if hint:
         text.append("\n\n" + hint, style="bold")

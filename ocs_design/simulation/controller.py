@@ -176,8 +176,8 @@ class Target:
     """Where n trunks should be at one instant.
 
     Attributes:
-        vertical: the world's upward direction in B, unit vectors (n, 3); the
-            heading is free.
+        vertical: the world's upward direction in B, unit vectors (n, 3). The heading
+            is free.
         rate, acceleration: about roll and pitch in B [rad/s, rad/s^2], shape (n, 2).
     """
 

@@ -71,12 +71,18 @@ def compile_scene(
     attach_device(spec, robot, _massless(device) if wheels is Wheels.ABSENT else device)
     for name in FLYWHEELS:
         for geom in spec.body(name).geoms:
-            geom.contype, geom.conaffinity = 0, int(wheels is not Wheels.ABSENT)
+            geom.contype, geom.conaffinity = 0, 1
     spec.option.gravity = [0.0, 0.0, -gravity]
     if wheels is not Wheels.ACTIVE:
         for name in WHEEL_JOINTS:
             spec.joint(name).armature = _HELD
-    return spec.compile()
+    model = spec.compile()
+    if wheels is Wheels.ABSENT:
+        # Only now: a geom that touches nothing would be compiled to other sizes, and the worlds
+        # of a batch share their working memory.
+        flywheels = [model.body(name).id for name in FLYWHEELS]
+        model.geom_conaffinity[np.isin(model.geom_bodyid, flywheels)] = 0
+    return model
 
 
 def locked_inertia(model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatArray) -> FloatArray:

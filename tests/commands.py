@@ -1,0 +1,75 @@
+"""The command line as its users meet it: exit code, both streams, and what it leaves behind."""
+
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+from unittest import mock
+
+from ocs_design import cli_errors
+from ocs_design.cli import app
+
+ROOT = Path(__file__).parents[1]
+SOLO12 = str(ROOT / "examples" / "solo12.urdf")
+PROGRAM = (sys.executable, "-m", "ocs_design")
+
+
+@dataclass(frozen=True)
+class Result:
+    """Of one command."""
+
+    code: int
+    stdout: str
+    stderr: str
+
+    @property
+    def document(self):
+        """Standard output as the one JSON document that it must be."""
+        return json.loads(self.stdout)
+
+    @property
+    def said(self):
+        """Standard error as one line, its panels' frames taken off and its words joined again."""
+        return re.sub(r"[│╭╮╰╯─\s]+", " ", self.stderr)
+
+
+def run(*arguments, stdin=b""):
+    """In this process, for a process of its own takes seconds to start."""
+    streams = [io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2)]
+    given = io.TextIOWrapper(io.BytesIO(stdin), "utf-8")
+    with (
+        redirect_stdout(streams[0]),
+        redirect_stderr(streams[1]),
+        mock.patch.object(sys, "stdin", given),
+    ):
+        code = cli_errors.run(app, [str(argument) for argument in arguments])
+    out, err = (stream.buffer.getvalue().decode() for stream in streams)
+    return Result(code, out, err)
+
+
+def run_process(*arguments, **options):
+    """In a process of its own."""
+    done = subprocess.run(
+        [*PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False, **options
+    )
+    return Result(done.returncode, done.stdout, done.stderr)
+
+
+def environment(**changes):
+    """The environment without what decides on width and colour, with these changes."""
+    kept = {
+        name: value
+        for name, value in os.environ.items()
+        if name not in {"COLUMNS", "NO_COLOR", "FORCE_COLOR", "TTY_COMPATIBLE", "TERM"}
+    }
+    return {**kept, "TERM": "xterm-256color", **changes}
+
+
+def everything_in(folder):
+    """Relative path of every file and folder, hidden ones too."""
+    return sorted(str(path.relative_to(folder)) for path in Path(folder).rglob("*"))
