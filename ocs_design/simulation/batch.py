@@ -1,6 +1,6 @@
 """Worlds that run in step: the physics in MuJoCo's `rollout`, the law vectorised in between."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from threading import Event
 
 import mujoco
@@ -22,49 +22,146 @@ _TELLING = 20
 
 
 class Batch:
-    """The buffers of one run and the loop over its control steps.
+    """Worlds from start to end, with the buffers that this takes.
 
-    The worlds that still run are a leading slice of all buffers, a view without copies.
+    Those that still run are a leading slice of every buffer, a view without copies.
     """
 
     def __init__(self, worlds: Sequence[World], hold: int) -> None:
-        """Worlds sorted, longest first; one control step is `hold` physics steps."""
+        """Of worlds with models of equal sizes, longest first; see `simulate`."""
         first = worlds[0].model
-        self._worlds, self._hold = worlds, hold
+        self._hold, self._period = hold, hold * first.opt.timestep
         self._models = [world.model for world in worlds]
-        self._period = hold * first.opt.timestep
         self._lengths = np.array([_control_steps(world, self._period) for world in worlds])
-        self._addresses, self._chain = worlds[0].addresses, worlds[0].chain
+        times = self._period * np.arange(self._lengths[0])
+        self._record = empty_recording(times, self._lengths)
+        self._references = References(worlds, times, self._period)
+        self._pushes = push_torques(worlds, times, self._period)
+        self._law = WheelLaw.stack([world.law for world in worlds])
+        self._chain, self._addresses = worlds[0].chain, worlds[0].addresses
         self._wheels, self._motors = list(self._addresses.wheels), list(self._addresses.motors)
-        self._qpos, self._qvel = slice(1, 1 + first.nq), slice(1 + first.nq, 1 + first.nq + first.nv)
-        self._push = first.nu + 6 * self._addresses.trunk + 3
         self._state = start_states(worlds)
-        n = len(worlds)
+        self._qpos, self._qvel = np.split(
+            self._state[:, 1 : 1 + first.nq + first.nv], [first.nq], 1
+        )
+        self._make_buffers(np.stack([world.ctrl for world in worlds]), first)
+
+    def _make_buffers(self, ctrl: FloatArray, model: mujoco.MjModel) -> None:
+        """What `rollout` reads and writes; every step of a control step has its own row."""
+        n, hold = len(ctrl), self._hold
         self._states = np.empty((n, hold, self._state.shape[1]))
-        self._sensors = np.empty((n, hold, first.nsensordata))
-        ctrl = np.stack([world.ctrl for world in worlds])
+        self._sensors = np.empty((n, hold, model.nsensordata))
         self._control = _held(ctrl, hold)
-        self._pushed_control = _held(np.hstack([ctrl, np.zeros((n, 6 * first.nbody))]), hold)
+        self._pushed_control = _held(np.hstack([ctrl, np.zeros((n, 6 * model.nbody))]), hold)
+        self._push_address = model.nu + 6 * self._addresses.trunk + 3
 
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
-        """Run all worlds to their ends.
+        """Run all worlds to their ends, once.
 
         Args:
             threads: of the physics.
             stop: set from elsewhere to give up; the recording is then not complete.
             progress: told the part of the work that is done, 0..1.
         """
-        times = self._period * np.arange(self._lengths[0])
-        record = empty_recording(times, self._lengths)
-        references = References(self._worlds, times, self._period)
-        pushes = push_torques(self._worlds, times, self._period)
-        law = WheelLaw.stack([world.law for world in self._worlds])
         data = [mujoco.MjData(self._models[0]) for _ in range(threads)]
         # Without a pool the calling thread does the work.
         with Rollout(nthread=threads if threads > 1 else 0) as pool:
-            for k in range(len(times)):
+            for k, running, law in self._control_steps():
                 if stop.is_set():
                     break
-                running = int(np.count_nonzero(self._lengths > k))
-                ...
-        return record
+                if k % _TELLING == 0:
+                    progress(float(np.minimum(self._lengths, k).sum() / self._lengths.sum()))
+                torque = self._observe_and_decide(k, running, law)
+                self._advance(pool, data, torque, self._push_in_world(k, running))
+                self._sense(k, running)
+        missing = np.abs(self._state[:, 0] - self._lengths * self._period)
+        self._record.stable[:] = missing < 0.5 * self._period
+        return self._record
+
+    def _control_steps(self) -> Iterator[tuple[int, int, WheelLaw | None]]:
+        """Each control instant, how many worlds run, and their law; None where all are off."""
+        begin = 0
+        for end in np.unique(self._lengths):
+            running = int(np.count_nonzero(self._lengths > begin))
+            law = self._law.take(slice(running))
+            for k in range(begin, end):
+                yield k, running, None if law.is_off else law
+            begin = end
+
+    def _observe_and_decide(self, k: int, running: int, law: WheelLaw | None) -> FloatArray:
+        """Record trunk and wheels at instant `k`; the motor torques from then on, shape (n, 2)."""
+        record, qpos, qvel = self._record, self._qpos[:running], self._qvel[:running]
+        attitude, rate = self._chain.attitude(qpos), self._chain.rate(qpos, qvel)
+        speed = qvel[:, self._wheels]
+        record.attitude[k, :running] = attitude
+        record.rate[k, :running] = rate
+        record.wheel_speed[k, :running] = speed
+        if law is None:
+            torque = np.zeros((running, 2))
+        else:
+            target = self._references.at(k, running)
+            vertical = quaternions.vertical(attitude)
+            torque = law.torque(vertical, rate, speed, target, self._period)
+        record.wheel_torque[k, :running] = torque
+        return torque
+
+    def _push_in_world(self, k: int, running: int) -> FloatArray | None:
+        """The outer torque of this step in the world; its impulse is added to the record."""
+        record, push, torque = self._record, self._pushes.get(k), None
+        if push is not None:
+            rotation = quaternions.matrix(record.attitude[k, :running])
+            torque = np.einsum("nij,nj->ni", rotation, push[:running])
+        if k + 1 < len(record.time):
+            gained = 0.0 if torque is None else torque * self._period
+            record.impulse[k + 1, :running] = record.impulse[k, :running] + gained
+        return torque
+
+    def _advance(
+        self,
+        pool: Rollout,
+        data: list[mujoco.MjData],
+        torque: FloatArray,
+        push: FloatArray | None,
+    ) -> None:
+        """One control step of physics."""
+        n = len(torque)
+        control, specification = self._control, _CONTROL
+        if push is not None:
+            control, specification = self._pushed_control, _PUSHED
+            first = self._push_address
+            control[:n, :, first : first + 3] = push[:, None]
+        control[:n, :, self._motors] = torque[:, None]
+        pool.rollout(
+            self._models[:n],
+            data,
+            self._state[:n],
+            control[:n],
+            control_spec=specification,
+            skip_checks=True,
+            nstep=self._hold,
+            state=self._states[:n],
+            sensordata=self._sensors[:n],
+        )
+        self._state[:n] = self._states[:n, -1]
+
+    def _sense(self, k: int, running: int) -> None:
+        """What the sensors saw at the start of the control step; contact throughout it."""
+        where, record = self._addresses, self._record
+        now = self._sensors[:running, 0]
+        record.com[k, :running] = now[:, where.com : where.com + 3]
+        record.momentum[k, :running] = now[:, where.momentum : where.momentum + 3]
+        record.height[k, :running] = now[:, where.height]
+        touches = self._sensors[:running, :, where.contact] > 0
+        record.contact[k, :running] = touches.any(axis=1)
+        if k > 0:
+            # The last Runge-Kutta stage of the step before has felt this contact already.
+            record.contact[k - 1, :running] |= touches[:, 0]
+
+
+def _control_steps(world: World, period: float) -> int:
+    return max(1, int(np.ceil(world.duration / period - 1e-9)))
+
+
+def _held(values: FloatArray, hold: int) -> FloatArray:
+    """The same values in each step of a control step, shape (n, hold, ...)."""
+    return np.ascontiguousarray(np.repeat(values[:, None], hold, axis=1))

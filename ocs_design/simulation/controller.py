@@ -119,6 +119,11 @@ class WheelLaw:
         names = [field.name for field in fields(cls)]
         return cls(*(np.concatenate([getattr(law, name) for law in laws]) for name in names))
 
+    @property
+    def is_off(self) -> bool:
+        """Whether none of the motors ever pushes."""
+        return not self.torque_limit.any()
+
     def take(self, worlds: slice) -> "WheelLaw":
         """The law of some of the worlds."""
         return WheelLaw(*(getattr(self, field.name)[worlds] for field in fields(self)))

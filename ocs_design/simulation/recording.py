@@ -1,6 +1,7 @@
 """What happened in a batch of worlds."""
 
-from dataclasses import dataclass, fields, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,13 +68,22 @@ def empty_recording(times: FloatArray, lengths: NDArray[np.int64]) -> Recording:
     )
 
 
-def reordered(recording: Recording, order: NDArray[np.intp]) -> Recording:
-    """The same recording with its worlds in another order."""
-    series = {
-        field.name: getattr(recording, field.name)[:, order]
-        for field in fields(Recording)
-        if field.name not in {"time", "lengths", "stable"}
-    }
-    return replace(
-        recording, lengths=recording.lengths[order], stable=recording.stable[order], **series
-    )
+def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Recording:
+    """Several recordings as one.
+
+    Args:
+        parts: with equal control steps.
+        places: for each part, where its worlds belong among all worlds.
+    """
+    longest = max(parts, key=lambda part: len(part.time))
+    whole = empty_recording(longest.time, np.empty(sum(map(len, places)), dtype=np.int64))
+    for part, place in zip(parts, places, strict=True):
+        whole.lengths[place], whole.stable[place] = part.lengths, part.stable
+        for name in _SERIES:
+            getattr(whole, name)[: len(part.time), place] = getattr(part, name)
+    return whole
+
+
+_SERIES = [
+    field.name for field in fields(Recording) if field.name not in {"time", "lengths", "stable"}
+]

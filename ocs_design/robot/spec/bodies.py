@@ -4,7 +4,7 @@ MuJoCo's own URDF reader loses the root link's mass and refuses links without in
 joins them; the tree has them joined already.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import mujoco
 import numpy as np
@@ -106,9 +106,11 @@ def _add_joint(body: mujoco.MjsBody, joint: Joint) -> None:
     )
 
 
-def _add_geoms(body: mujoco.MjsBody, shapes: Iterable[Shape], meshes: MeshLibrary) -> None:
+def _add_geoms(body: mujoco.MjsBody, shapes: Sequence[Shape], meshes: MeshLibrary) -> None:
     drawn = [shape for shape in shapes if shape.kind is not ShapeKind.MESH or meshes.name_of(shape)]
-    has_visuals = any(not shape.collides for shape in drawn)
+    wanted, shown = (sum(not shape.collides for shape in each) for each in (shapes, drawn))
+    # Where something to look at is missing, what touches stands in for it.
+    group_of_touching = HIDDEN_GROUP if wanted and shown == wanted else 0
     for shape in drawn:
         geom = body.add_geom(
             type=_GEOM_TYPES[shape.kind],
@@ -123,7 +125,7 @@ def _add_geoms(body: mujoco.MjsBody, shapes: Iterable[Shape], meshes: MeshLibrar
             geom.size = [*shape.size, 0.0, 0.0][:3]
         if not shape.collides:
             geom.contype = geom.conaffinity = 0
-        geom.group = (HIDDEN_GROUP if has_visuals else 0) if shape.collides else VISUAL_GROUP
+        geom.group = group_of_touching if shape.collides else VISUAL_GROUP
 
 
 def _colliding(shapes: Iterable[Shape]) -> tuple[Shape, ...]:

@@ -1,0 +1,247 @@
+"""One robot in every format, and in other postures: the same design wherever it comes from."""
+
+import gzip
+import json
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from commands import SOLO12, run
+
+# Stated, so that nothing hangs on what only one of the formats knows.
+ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
+ROOM = (*ROOM, "--wall-min", "2mm", "--wheel-mass-max", "250g")
+NO_MANEUVERS = "[requirement]\nmaneuvers = 'none'\nrate_change = '6.3 rad/s'\n"
+
+
+@pytest.fixture(scope="module")
+def solo12():
+    """Pinocchio's view of the example, with all its shapes."""
+    model = pin.buildModelFromUrdf(SOLO12, pin.JointModelFreeFlyer())
+    shapes = {
+        kind: list(pin.buildGeomFromUrdf(model, SOLO12, kind).geometryObjects)
+        for kind in (pin.GeometryType.COLLISION, pin.GeometryType.VISUAL)
+    }
+    return SimpleNamespace(model=model, shapes=shapes)
+
+
+def numbers(values):
+    return " ".join(repr(float(value)) for value in np.ravel(values))
+
+
+def quaternion(rotation):
+    x, y, z, w = pin.Quaternion(rotation).coeffs()
+    return numbers([w, x, y, z])
+
+
+def geom(shape, *, visual):
+    """MJCF's sizes are half lengths."""
+    place, form = shape.placement, shape.geometry
+    kind = type(form).__name__.lower()
+    size = {
+        "box": lambda: form.halfSide,
+        "sphere": lambda: form.radius,
+        "cylinder": lambda: [form.radius, form.halfLength],
+    }[kind]()
+    touch = 'contype="0" conaffinity="0" group="2"' if visual else ""
+    return (
+        f'<geom type="{kind}" size="{numbers(size)}" pos="{numbers(place.translation)}" '
+        f'quat="{quaternion(place.rotation)}" {touch}/>'
+    )
+
+
+def body(solo12, index):
+    """A moving body and all that hangs on it, from Pinocchio's numbers alone."""
+    model = solo12.model
+    place, inertia = model.jointPlacements[index], model.inertias[index]
+    own = inertia.inertia
+    name = next(f.name for f in model.frames if f.parentJoint == index and f.type == pin.BODY)
+    if index == 1:
+        joint = "<freejoint/>"
+    else:
+        axis = {"JointModelRX": "1 0 0", "JointModelRY": "0 1 0"}[model.joints[index].shortname()]
+        first = model.joints[index].idx_q
+        span = numbers([model.lowerPositionLimit[first], model.upperPositionLimit[first]])
+        joint = f'<joint name="{model.names[index]}" axis="{axis}" range="{span}"/>'
+    geoms = [
+        geom(shape, visual=kind is pin.GeometryType.VISUAL)
+        for kind, shapes in solo12.shapes.items()
+        for shape in shapes
+        if shape.parentJoint == index
+    ]
+    children = [
+        body(solo12, child) for child in range(2, model.njoints) if model.parents[child] == index
+    ]
+    full = [own[0, 0], own[1, 1], own[2, 2], own[0, 1], own[0, 2], own[1, 2]]
+    return (
+        f'<body name="{name}" pos="{numbers(place.translation)}" '
+        f'quat="{quaternion(place.rotation)}">{joint}'
+        f'<inertial pos="{numbers(inertia.lever)}" mass="{inertia.mass!r}" '
+        f'fullinertia="{numbers(full)}"/>{"".join(geoms)}{"".join(children)}</body>'
+    )
+
+
+@pytest.fixture(scope="module")
+def mjcf(solo12):
+    """The example as MJCF, by nobody's exporter."""
+    posed = numbers([0.0, 0.0, 0.3, 1.0, 0.0, 0.0, 0.0, *(0.1, 0.6, -1.1) * 4])
+    return (
+        '<mujoco model="solo12"><compiler angle="radian"/>'
+        f"<worldbody>{body(solo12, 1)}</worldbody>"
+        f'<keyframe><key name="crouch" qpos="{posed}"/></keyframe></mujoco>'
+    )
+
+
+def design(*arguments, stdin=b""):
+    """What `size` finds for it, without flights."""
+    result = run("size", *arguments, "--no-validate", "--json", stdin=stdin)
+    assert result.code == 0, result.stdout
+    return json.loads(result.stdout)
+
+
+def check_same(found, expected):
+    """Rim, incidence, inertia and position, to one part in a million."""
+    for key in ("inner_radius", "outer_radius", "height", "mass", "spin_inertia"):
+        value = expected["ocs"]["flywheel"][key]
+        assert found["ocs"]["flywheel"][key] == pytest.approx(value, rel=1e-6), key
+    assert found["ocs"]["incidence"] == pytest.approx(expected["ocs"]["incidence"], rel=1e-6)
+    np.testing.assert_allclose(
+        found["ocs"]["total_inertia"], expected["ocs"]["total_inertia"], rtol=1e-6, atol=1e-9
+    )
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_every_format_gives_the_same_design(folder, mjcf):
+    text = Path(SOLO12).read_bytes()
+    (folder / "a.urdf.gz").write_bytes(gzip.compress(text))
+    (folder / "robot").write_text(mjcf)
+    (folder / "b.xml.gz").write_bytes(gzip.compress(mjcf.encode()))
+    expected = design(SOLO12, "-o", "urdf")
+    assert expected["robot"]["posture_name"] == "stand"
+    found = {
+        "gzip": design("a.urdf.gz", "-o", "gzip"),
+        "standard input": design("-", "-o", "stdin", stdin=text),
+        "MJCF": design("robot", "-o", "mjcf"),
+        "MJCF, gzip": design("b.xml.gz", "-o", "mjcf-gzip"),
+        "MJCF, standard input": design("-", "-o", "mjcf-stdin", stdin=mjcf.encode()),
+    }
+    for name, each in found.items():
+        check_same(each, expected)
+        assert each["robot"]["standing_height"] == pytest.approx(0.272, rel=1e-6), name
+        positions = [np.array(d["ocs"]["modules"][0]["position"]) for d in (each, expected)]
+        np.testing.assert_allclose(*positions, rtol=0.0, atol=1e-8)
+        assert each["robot"]["name"] == "solo12"
+    assert found["standard input"]["robot"]["source"] == "-"
+
+
+def test_the_exported_robot_can_be_read_again(folder):
+    """It is a robot like any other, only its device's names are taken."""
+    design(SOLO12, "-o", "first")
+    for name in ("solo12_ocs.urdf", "solo12_ocs.xml"):
+        result = run("inspect", folder / "first" / "robot" / name, "--json")
+        assert result.code == 0
+        assert len(result.document["robot"]["legs"]) == 4
+        again = run("size", folder / "first" / "robot" / name, "--json")
+        assert again.code == 3
+        assert "'ocs_left" in again.document["error"]["message"]
+        assert "rename" in again.document["error"]["hint"]
+
+
+def test_by_hand_the_same_inertia_gives_the_same_design(folder):
+    """Without legs there is no standing height to scale maneuvers and room by: both are stated.
+
+    By hand the base frame lies in the centre of mass, so that the same place has other coordinates.
+    """
+    (folder / "s.toml").write_text(NO_MANEUVERS)
+    place = np.array([0.0, 0.055, 0.079])
+    told = ("--spec", "s.toml", *ROOM)
+    expected = design(SOLO12, *told, "--position", ",".join(map(str, place)), "-o", "file")
+    robot = expected["robot"]
+    inertia = np.array(robot["inertia"])
+    six = [inertia[index] for index in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    by_hand = (
+        "--mass",
+        repr(robot["mass"]),
+        "--inertia",
+        ",".join(repr(float(value)) for value in six),
+        "--position",
+        ",".join(repr(float(value)) for value in place - robot["com"]),
+    )
+    found = design(*by_hand, *told, "-o", "hand")
+    check_same(found, expected)
+    assert found["robot"]["source"] == "by hand"
+    assert (found["robot"]["legs"], found["robot"]["standing_height"]) == ([], None)
+    assert found["requirement"]["maneuvers"] == expected["requirement"]["maneuvers"] == []
+
+
+def locked(solo12, joints, link="base_link"):
+    """Mass properties with the joints held, in the frame of a link, by Pinocchio."""
+    model, data = solo12.model, solo12.model.createData()
+    q = pin.neutral(model)
+    for name, value in joints.items():
+        q[model.joints[model.getJointId(name)].idx_q] = value
+    pin.ccrba(model, data, q, np.zeros(model.nv))
+    pin.framesForwardKinematics(model, data, q)
+    frame = data.oMf[model.getFrameId(link, pin.BODY)]
+    com = frame.actInv(data.com[0])
+    return com, frame.rotation.T @ data.Ig.inertia @ frame.rotation
+
+
+def check_inertia(document, solo12, joints, link="base_link"):
+    com, inertia = locked(solo12, joints, link)
+    robot = document["robot"]
+    np.testing.assert_allclose(robot["com"], com, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(robot["inertia"], inertia, rtol=1e-9, atol=1e-13)
+    assert robot["trunk"] == link
+    ocs = document["ocs"]
+    alone = ocs["incidence_by_criterion_robot_alone"]["equal-rate"]
+    assert alone == pytest.approx(np.arctan2(inertia[0, 0], inertia[1, 1]), abs=1e-9)
+
+
+def test_postures_are_what_is_asked_for(folder, solo12):
+    zero = design(SOLO12, "--posture", "zero", "-o", "zero")
+    check_inertia(zero, solo12, {})
+    assert zero["robot"]["posture_name"] == "zero"
+    bent = ("--joint", "FL_KFE=-1.25", "--joint", "FR_HAA=10deg")
+    joints = {"FL_KFE": -1.25, "FR_HAA": np.radians(10.0)}
+    check_inertia(design(SOLO12, "--posture", "zero", *bent, "-o", "bent"), solo12, joints)
+    standing = design(SOLO12, *bent, "-o", "standing")
+    check_inertia(standing, solo12, {**standing["robot"]["posture"], **joints})
+    assert standing["robot"]["posture_name"] == "stand + joints"
+    assert standing["robot"]["posture"]["HL_KFE"] == pytest.approx(1.287, abs=1e-3)
+
+
+def test_another_trunk_has_its_own_frame(folder, solo12):
+    """The device then sits on a leg: nobody would, but it is what was asked for."""
+    found = design(SOLO12, "--posture", "zero", "--trunk", "HL_UPPER_LEG", "-o", "leg")
+    check_inertia(found, solo12, {}, "HL_UPPER_LEG")
+    urdf = (folder / "leg" / "robot" / "solo12_ocs.urdf").read_text()
+    assert urdf.count('<parent link="HL_UPPER_LEG"/>') == 3
+
+
+def test_a_keyframe_by_name(folder, solo12, mjcf):
+    (folder / "solo12.xml").write_text(mjcf)
+    found = design("solo12.xml", "--posture", "crouch", "-o", "crouch")
+    names = list(solo12.model.names)[2:]
+    check_inertia(found, solo12, dict(zip(names, (0.1, 0.6, -1.1) * 4, strict=True)))
+    assert found["robot"]["posture_name"] == "crouch"
+
+
+def test_an_srdf_state_by_name(folder, solo12):
+    (folder / "solo12.urdf").write_bytes(Path(SOLO12).read_bytes())
+    (folder / "solo12.srdf").write_text(
+        '<robot name="solo12"><group_state name="kneel" group="legs">'
+        '<joint name="FL_HFE" value="0.7"/><joint name="HR_KFE" value="1.5"/>'
+        "</group_state></robot>"
+    )
+    found = design("solo12.urdf", "--posture", "kneel")
+    check_inertia(found, solo12, {"FL_HFE": 0.7, "HR_KFE": 1.5})
+    wrong = run("size", "solo12.urdf", "--posture", "kneal", "-o", "wrong")
+    assert (wrong.code, "available: kneel" in wrong.said) == (2, True)

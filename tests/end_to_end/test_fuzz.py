@@ -1,0 +1,190 @@
+"""Whatever is typed: one of the known exit codes, and no exception that nobody has thought of."""
+
+import shutil
+import tempfile
+from pathlib import Path
+
+import pytest
+from commands import everything_in, run
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
+from ocs_design.requirement.specification import all_keys
+
+FUZZ = settings(
+    max_examples=80,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+
+UNITS = [
+    "",
+    "mm",
+    " m",
+    "kg",
+    "g",
+    "deg",
+    "rad",
+    "rpm",
+    "rad/s",
+    "N m",
+    "kg m2",
+    "kg cm2",
+    "%",
+    "x",
+]
+MAGNITUDES = st.one_of(
+    st.floats(1e-3, 1e3).map(lambda value: f"{value:.4g}"),
+    st.floats().map(repr),
+    st.sampled_from(["0", "-1", "1e308", "1e-308", "5e-324", "1e999", "nan", "inf", "0x10", "1_0"]),
+)
+QUANTITIES = st.one_of(
+    st.builds(lambda number, unit: number + unit, MAGNITUDES, st.sampled_from(UNITS)),
+    st.text(max_size=12),
+)
+INERTIAS = st.one_of(
+    st.lists(st.floats(1e-6, 1e4), min_size=3, max_size=3).map(
+        lambda moments: ",".join(f"{moment:.6g}" for moment in moments)
+    ),
+    st.lists(MAGNITUDES, max_size=7).map(",".join),
+    st.text(max_size=12),
+)
+OPTIONS = [
+    "--rate-change",
+    "--wheel-speed-max",
+    "--torque-max",
+    "--alpha",
+    "--r-max",
+    "--r-min",
+    "--h-max",
+    "--h-min",
+    "--wall-min",
+    "--wheel-mass-max",
+    "--position",
+    "--material",
+    "--joint",
+    "--posture",
+    "--trunk",
+]
+VALUES = st.one_of(
+    QUANTITIES,
+    st.floats(),
+    st.integers(-(10**20), 10**20),
+    st.booleans(),
+    st.lists(st.one_of(QUANTITIES, st.floats(-10.0, 10.0)), max_size=4),
+    st.dictionaries(st.text(max_size=5), st.floats(-1.0, 1.0), max_size=2),
+    st.sampled_from(["none", "paper", "stand", "zero", "equal-rate", "weighted", "stainless-304"]),
+)
+
+
+@pytest.fixture
+def folder(monkeypatch):
+    """Empty at first; every command cleans up what it has written."""
+    with tempfile.TemporaryDirectory() as name:
+        monkeypatch.chdir(name)
+        yield Path(name)
+
+
+def check(folder, *arguments):
+    """A known exit code, and a folder only where it says so."""
+    before = everything_in(folder)
+    result = run(*arguments)
+    assert result.code in {0, 1, 2, 3, 4}
+    assert result.stdout == ""
+    assert bool(result.stderr) == (result.code > 1)
+    if result.code in {0, 1}:
+        shutil.rmtree(folder / "out")
+    assert everything_in(folder) == before
+
+
+@FUZZ
+@given(
+    mass=QUANTITIES,
+    inertia=INERTIAS,
+    options=st.dictionaries(st.sampled_from(OPTIONS), QUANTITIES, max_size=3),
+)
+@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--r-max": "1e-300"})
+@example(mass="1e-300", inertia="1e-300,1e-300,1e-300", options={})
+@example(mass="1e300", inertia="1e300,1e300,1e300", options={})
+@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--wheel-speed-max": "1e-300"})
+@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--wheel-speed-max": "1e300"})
+@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--rate-change": "1e300"})
+@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--rate-change": "1e-300"})
+@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--wheel-mass-max": "1e-300"})
+def test_robots_by_hand(folder, mass, inertia, options):
+    typed = [f"{name}={value}" for name, value in options.items()]
+    by_hand = (f"--mass={mass}", f"--inertia={inertia}")
+    check(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
+
+
+@FUZZ
+@given(
+    moments=st.lists(st.floats(0.5, 1.0), min_size=3, max_size=3),
+    scale=st.floats(-12.0, 12.0),
+    mass=st.floats(-12.0, 12.0),
+    options=st.dictionaries(
+        st.sampled_from(OPTIONS[:10]),
+        st.floats(-12.0, 12.0).map(lambda n: f"{10.0**n:.6g}"),
+        max_size=2,
+    ),
+)
+def test_robots_that_can_exist_of_any_size(folder, moments, scale, mass, options):
+    inertia = ",".join(f"{10.0**scale * moment:.6g}" for moment in moments)
+    typed = [f"{name}={value}" for name, value in options.items()]
+    by_hand = (f"--mass={10.0**mass:.6g}", f"--inertia={inertia}")
+    check(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
+
+
+def toml(value):
+    """A value as TOML writes it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{toml(key)} = {toml(each)}" for key, each in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    if isinstance(value, str):
+        escaped = "".join(f"\\U{ord(each):08x}" if ord(each) < 0xD800 else "?" for each in value)
+        return f'"{escaped}"'
+    return repr(value)
+
+
+@FUZZ
+@given(
+    stated=st.dictionaries(st.sampled_from([*all_keys(), "ocs.beta"]), VALUES, max_size=4),
+    maneuver=st.dictionaries(
+        st.sampled_from(sorted({name for kind in MANEUVER_KINDS.values() for name in kind.values})),
+        VALUES,
+        max_size=5,
+    ),
+    kind=st.sampled_from([*MANEUVER_KINDS, "salto", None]),
+)
+def test_specifications(folder, stated, maneuver, kind):
+    lines = [f"{path} = {toml(value)}" for path, value in stated.items()]
+    if kind is not None:
+        lines += ["[[maneuver]]", f"kind = {toml(kind)}"]
+        lines += [f"{name} = {toml(value)}" for name, value in maneuver.items()]
+    (folder / "s.toml").write_text("\n".join(lines))
+    by_hand = ("--mass", "2.5", "--inertia", "0.03,0.05,0.07")
+    check(folder, "size", "--spec", "s.toml", *by_hand, "--no-validate", "-q", "-o", "out")
+
+
+@settings(FUZZ, max_examples=10)
+@given(
+    moments=st.lists(st.floats(0.55, 1.0), min_size=3, max_size=3),
+    scale=st.floats(-3.0, 3.0),
+    speed=st.floats(2.0, 4.0),
+    torque=st.floats(-2.0, 2.0),
+)
+def test_flights_of_robots_by_hand(folder, moments, scale, speed, torque):
+    """From a toy to an elephant, with motors from hopeless to needless."""
+    mass, size = 10.0**scale, 10.0 ** (scale * 5.0 / 3.0)
+    typed = (
+        f"--mass={mass:.6g}",
+        f"--inertia={','.join(f'{0.05 * size * moment:.6g}' for moment in moments)}",
+        f"--wheel-speed-max={10.0**speed:.6g}",
+        f"--torque-max={10.0**torque * size:.6g}",
+    )
+    check(folder, "size", *typed, "-q", "-o", "out")
