@@ -3,6 +3,8 @@
 Heavy modules are imported inside the commands: that costs seconds, and `--help` needs none.
 """
 
+import gc
+import os
 import signal
 import sys
 from collections.abc import Mapping
@@ -29,7 +31,17 @@ app = typer.Typer(
 def main() -> None:
     """Entry point of `ocs-design`; to be told to end is an interrupt, so that it tidies up."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    _skip_idle_work()
     sys.exit(cli_errors.run(app, sys.argv[1:]))
+
+
+def _skip_idle_work() -> None:
+    """Leave out what takes a tenth of `size` and serves nothing."""
+    # Importing makes some hundred thousand objects and hardly any garbage, and at its usual
+    # threshold of 700 the collector goes through all of them again and again.
+    gc.set_threshold(1_000_000)
+    # Nothing is drawn; unless told so, MuJoCo starts processes to look for a window library.
+    os.environ.setdefault("MUJOCO_GL", "disabled")
 
 
 @app.callback(invoke_without_command=True)
@@ -117,7 +129,8 @@ def size(
     with steps.step("load the solver and the simulator"):
         from ocs_design.design_file import design_to_json
         from ocs_design.pipeline import design_ocs
-        from ocs_design.report.terminal import print_design, print_outcome, print_solution
+        from ocs_design.report.flights import print_outcome
+        from ocs_design.report.terminal import print_design, print_solution
     outcome = design_ocs(
         specification,
         out=out,

@@ -94,13 +94,14 @@ class ManeuverRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class DemandRecord:
-    """What one source of demand asks of each wheel at its incidence angle."""
+    """What one source of demand asks at its incidence angle: see `requirement.bound.SpinDemand`."""
 
     source: str
     incidence: float
     roll_momentum: float
     pitch_momentum: float
     spin_inertia: float
+    torque: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,6 +165,14 @@ class MotorRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ClearanceRecord:
+    """See `simulation.clearance.Clearance`."""
+
+    part: str
+    distance: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class OcsRecord:
     """The device. `mass_total` is of both modules; `total_...` of robot and braked device."""
 
@@ -178,6 +187,7 @@ class OcsRecord:
     total_inertia: Matrix
     total_com: Vector
     modules: tuple[ModuleRecord, ModuleRecord]
+    clearance: ClearanceRecord | None
     flywheel: FlywheelRecord
     motor: MotorRecord
 

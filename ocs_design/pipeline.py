@@ -26,6 +26,7 @@ from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Robot
+from ocs_design.simulation.clearance import nearest_part
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.scenario import Options, Run, run_scenarios
@@ -91,19 +92,23 @@ def design_ocs(
         resolved = resolve(specification, robot, extent)
         sizing, criterion = _size(specification, robot, resolved)
         device = assemble(sizing, resolved)
+        clearance = nearest_part(robot, device)
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
             remarks = _export(robot, device, staging)
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
-        with steps.step("fly the maneuvers with and without the device") as step:
-            runs = _fly(specification, robot, device, resolved, step.update)
-            _write_runs(runs, staging)
+        runs: tuple[Run, ...] = ()
+        if specification.validation.enabled is not False:
+            with steps.step("fly the maneuvers with and without the device") as step:
+                runs = _fly(specification, robot, device, resolved, step.update)
+                _write_runs(runs, staging)
         design = record_design(
             robot,
             resolved,
             sizing,
             device,
             runs,
+            clearance=clearance,
             criterion=criterion,
             seed=specification.validation.seed or 0,
             files=file_hashes(staging),
@@ -156,8 +161,6 @@ def _fly(
     progress: Progress,
 ) -> tuple[Run, ...]:
     stated = specification.validation
-    if stated.enabled is False:
-        return ()
     default = wheel_gains(robot)
     options = Options(
         allocation=Allocation(stated.projection or Allocation.PSEUDO_INVERSE),

@@ -10,6 +10,7 @@ from ocs_design.design import Device
 from ocs_design.design_file import (
     SCHEMA_VERSION,
     AxisInertia,
+    ClearanceRecord,
     DemandRecord,
     FlywheelRecord,
     ManeuverRecord,
@@ -30,6 +31,7 @@ from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
+from ocs_design.simulation.clearance import Clearance
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.device_sizing import DeviceSizing
 from ocs_design.sizing.incidence import Criterion, heading_drift
@@ -45,6 +47,7 @@ def record_design(
     device: Device,
     runs: Sequence[Run],
     *,
+    clearance: Clearance | None,
     criterion: str,
     seed: int,
     files: Mapping[str, str],
@@ -56,9 +59,9 @@ def record_design(
         seed=seed,
         robot=RobotRecord.of(robot),
         requirement=_requirement(resolved, sizing),
-        ocs=_ocs(sizing, device, criterion),
+        ocs=_ocs(sizing, device, clearance, criterion),
         sizing=_sizing(sizing),
-        margins=tuple(_margins(resolved, device, runs)),
+        margins=tuple(_margins(resolved, sizing, device, runs)),
         validation=tuple(_validation(run) for run in runs),
         files=files,
     )
@@ -101,10 +104,13 @@ def _demand(demand: SpinDemand) -> DemandRecord:
         roll_momentum=roll,
         pitch_momentum=pitch,
         spin_inertia=demand.spin_inertia,
+        torque=demand.torque,
     )
 
 
-def _ocs(sizing: DeviceSizing, device: Device, criterion: str) -> OcsRecord:
+def _ocs(
+    sizing: DeviceSizing, device: Device, clearance: Clearance | None, criterion: str
+) -> OcsRecord:
     drift = heading_drift(sizing.total.inertia)
     left, right = device.modules
     return OcsRecord(
@@ -122,6 +128,7 @@ def _ocs(sizing: DeviceSizing, device: Device, criterion: str) -> OcsRecord:
             ModuleRecord(name="left", axis=vector(left.axis), position=vector(left.position)),
             ModuleRecord(name="right", axis=vector(right.axis), position=vector(right.position)),
         ),
+        clearance=None if clearance is None else ClearanceRecord(**asdict(clearance)),
         flywheel=FlywheelRecord(**asdict(device.flywheel)),
         motor=MotorRecord(**asdict(device.motor)),
     )
@@ -145,7 +152,9 @@ def _sizing(sizing: DeviceSizing) -> SizingRecord:
     )
 
 
-def _margins(resolved: Resolved, device: Device, runs: Sequence[Run]) -> list[MarginRecord]:
+def _margins(
+    resolved: Resolved, sizing: DeviceSizing, device: Device, runs: Sequence[Run]
+) -> list[MarginRecord]:
     wheel, requirement, envelope = device.flywheel, resolved.requirement, resolved.envelope
     driven = [run.metrics for run in runs if run.ocs and run.metrics is not None]
     found = []
@@ -154,6 +163,9 @@ def _margins(resolved: Resolved, device: Device, runs: Sequence[Run]) -> list[Ma
         torque = max(metrics.peak_wheel_torque for metrics in driven)
         found.append(_margin("wheel speed in flight", speed, requirement.wheel_speed_max, "rad/s"))
         found.append(_margin("wheel torque in flight", torque, device.motor.torque_limit, "N m"))
+    least = max((demand.torque for demand in sizing.demands), default=0.0)
+    if least > 0.0:
+        found.append(_margin("wheel torque, least", least, device.motor.torque_limit, "N m"))
     if wheel.hoop_stress is not None:
         strength = resolved.material.yield_strength
         found.append(_margin("hoop stress, to yield", wheel.hoop_stress, strength, "Pa"))

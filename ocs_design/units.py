@@ -13,6 +13,9 @@ from reprlib import repr as shortened
 
 from ocs_design.exceptions import QuantityError
 
+LARGEST = 1e15
+"""In SI; whatever is measured here is far below, and the fifth power of a length must be finite."""
+
 LONGEST_QUANTITY = 64
 """Characters; more is not a number, and long exponents would cost time."""
 
@@ -114,15 +117,13 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
         where: the option or key that is being read, for the message.
 
     Raises:
-        QuantityError: no finite number, an unknown unit or one of another dimension.
+        QuantityError: no finite number, an unknown unit or one of another dimension, or more than
+            `LARGEST`.
     """
-    if isinstance(value, str):
-        return _parse_text(value, dimension, where)
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise QuantityError(
-            f"{where}: {shortened(value)} is not a number", hint=f"Write {_example(dimension)}."
-        )
-    return _finite(value, "the number", where)
+    number = _parse(value, dimension, where)
+    if abs(number) > LARGEST:
+        raise QuantityError(f"{where}: {value} is beyond all measure", hint="Check its unit.")
+    return number
 
 
 def si_unit(dimension: Dimension) -> str:
@@ -141,6 +142,16 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     """The SI `value` in `unit`, for people, as in `30 mm`; `parse_quantity` reads it back."""
     space = "" if unit in {"%", "°"} else " "
     return f"{to_unit(value, unit):.{digits}g}{space}{unit}"
+
+
+def _parse(value: object, dimension: Dimension, where: str) -> float:
+    if isinstance(value, str):
+        return _parse_text(value, dimension, where)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise QuantityError(
+            f"{where}: {shortened(value)} is not a number", hint=f"Write {_example(dimension)}."
+        )
+    return _finite(value, "the number", where)
 
 
 def _parse_text(text: str, dimension: Dimension, where: str) -> float:

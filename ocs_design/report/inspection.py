@@ -14,6 +14,11 @@ PAPER_ANGLE = (
     "spread by about 0.75 to 1 rad."
 )
 
+SAME_RATE = (
+    "weighted and simultaneous: for the same rate on both axes; `size` puts in what is asked of "
+    "each axis."
+)
+
 
 def print_inspection(console: Console, inspection: Inspection) -> None:
     """Mass, posture, inertia, incidence angles and how they move with the posture."""
@@ -44,6 +49,7 @@ def _print_criteria(console: Console, inspection: Inspection) -> None:
     for name, angle in inspection.incidence_by_criterion.items():
         table.add_row(name, f"{np.degrees(angle):.3f}")
     show(console, table)
+    note(console, SAME_RATE)
 
 
 def _print_postures(console: Console, inspection: Inspection) -> None:
@@ -53,4 +59,5 @@ def _print_postures(console: Console, inspection: Inspection) -> None:
         moments = (f"{moment:.4g}" for moment in line.inertia_diagonal)
         table.add_row(Text(line.posture), *moments, f"{np.degrees(line.incidence):.2f}")
     show(console, table)
-    note(console, PAPER_ANGLE)
+    if "solo12" in inspection.robot.name.lower():
+        note(console, PAPER_ANGLE)

@@ -1,13 +1,13 @@
 """The story of a design in the terminal: what was read, asked, found, proved and written."""
 
-from collections.abc import Mapping
-from pathlib import Path
+from collections.abc import Iterator
 
 import numpy as np
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.design_file import OcsDesign, RobotRecord, ValidationRecord
+from ocs_design.design_file import ClearanceRecord, OcsDesign, RobotRecord
+from ocs_design.report.flights import print_flights
 from ocs_design.report.layout import (
     columns,
     facts,
@@ -28,9 +28,16 @@ from ocs_design.report.quantities import (
     tenths,
 )
 
-WITH_DEVICE = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not judged", "yellow")}
-# Without the device a failure is what one expects, and no alarm.
-WITHOUT_DEVICE = {True: ("pass", ""), False: ("fails", "dim"), None: ("not judged", "dim")}
+TURNS = (
+    "Turns are sized for constant torque one way and then the other, a peak rate of 2 theta / T: "
+    "the least torque that does it. More torque may do with up to half the wheel: the flights tell."
+)
+OVERLAP = (
+    "warning: a wheel overlaps that part, and nothing in the simulation would notice: choose "
+    "another place with --position X,Y,Z"
+)
+SAME_ANGLE = 1e-9
+"""Incidences that differ by less are equal [rad]."""
 
 
 def print_design(console: Console, design: OcsDesign) -> None:
@@ -40,7 +47,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
     _print_device(console, design)
     _print_limits(console, design)
     _print_margins(console, design)
-    _print_validation(console, design)
+    print_flights(console, design)
 
 
 def print_solution(console: Console, design: OcsDesign) -> None:
@@ -69,24 +76,6 @@ def print_joints(console: Console, robot: RobotRecord) -> None:
     for name, value in robot.posture.items():
         table.add_row(Text(name), f"{value:.4f}", degrees(value).removesuffix(" deg"))
     show(console, table)
-
-
-def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
-    """What was written, and the verdict in one line."""
-    heading(console, f"Written to {folder}/")
-    rows = [("design.json", "everything in this report, and the hashes of the other files")]
-    for group in sorted({name.split("/")[0] for name in design.files}):
-        names = [name.partition("/")[2] for name in design.files if name.startswith(f"{group}/")]
-        rows.append((f"{group}/", "  ".join(names)))
-    facts(console, rows)
-    with_device = [run for run in design.validation if run.ocs]
-    if with_device:
-        passed = sum(run.passed is True for run in with_device)
-        style = "bold green" if passed == len(with_device) else "bold red"
-        console.print()
-        console.print(
-            Text(f"{passed} of {len(with_device)} scenarios pass with the device", style=style)
-        )
 
 
 def print_robot(console: Console, robot: RobotRecord) -> None:
@@ -119,7 +108,12 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
     requirement = design.requirement
     heading(console, f"Requirement: wheels of at most {rpm(requirement.wheel_speed_max)}")
     table = columns(
-        "asked by", "alpha\ndeg", "roll\nmN m s", "pitch\nmN m s", "spin inertia\nkg m2"
+        "asked by",
+        "alpha\ndeg",
+        "roll\nmN m s",
+        "pitch\nmN m s",
+        "spin inertia\nkg m2",
+        "least torque\nN m",
     )
     for demand in requirement.demands:
         table.add_row(
@@ -128,12 +122,35 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
             f"{1e3 * demand.roll_momentum:.1f}",
             f"{1e3 * demand.pitch_momentum:.1f}",
             f"{demand.spin_inertia:.3e}",
+            f"{demand.torque:.3f}" if demand.torque else "-",
         )
+    if requirement.spin_inertia_by_hand is not None:
+        table.add_row("stated", "", "", "", f"{requirement.spin_inertia_by_hand:.3e}", "-")
     show(console, table)
-    note(console, "A necessary bound: torque and control come on top; the flights below decide.")
+    note(console, TURNS)
+    items(console, _doubts(design), style="yellow")
     if requirement.assumptions:
         heading(console, "Assumed, because nothing else was stated")
         items(console, requirement.assumptions)
+
+
+def _doubts(design: OcsDesign) -> Iterator[str]:
+    """What the design cannot do, or does in another state than it is delivered in."""
+    limit, stated = design.ocs.motor.torque_limit, design.requirement.spin_inertia_by_hand
+    for demand in design.requirement.demands:
+        if limit is not None and demand.torque > limit:
+            yield (
+                f"{demand.source}: needs at least {demand.torque:.3g} N m a wheel, more than the "
+                f"{limit:.3g} N m allowed: no wheel, however large, makes this turn in time"
+            )
+        if stated is not None and demand.spin_inertia > stated:
+            yield f"{demand.source}: asks for more spin inertia than the {stated:.3e} kg m2 stated"
+        if abs(demand.incidence - design.ocs.incidence) > SAME_ANGLE:
+            yield (
+                f"{demand.source}: sized and flown with both modules turned by hand to "
+                f"{degrees(demand.incidence)}, not at the {degrees(design.ocs.incidence)} that "
+                "the files have"
+            )
 
 
 def _print_device(console: Console, design: OcsDesign) -> None:
@@ -161,6 +178,7 @@ def _print_device(console: Console, design: OcsDesign) -> None:
             ("spin inertia", f"{inertia(ocs.spin_inertia)} each"),
             ("transverse inertia", f"{inertia(wheel.transverse_inertia)} each"),
             ("left wheel at", f"{position} mm; the right one mirrored in y"),
+            ("nearest part", _clearance(ocs.clearance)),
             ("motor", f"{design.ocs.motor.name}: {design.ocs.motor.source}"),
             (
                 "heading drift",
@@ -169,6 +187,8 @@ def _print_device(console: Console, design: OcsDesign) -> None:
             ),
         ],
     )
+    if ocs.clearance is not None and ocs.clearance.distance < 0.0:
+        note(console, OVERLAP, style="bold yellow")
     table = columns("incidence by criterion", "deg", "robot alone")
     for name, angle in ocs.incidence_by_criterion.items():
         before = ocs.incidence_by_criterion_robot_alone.get(name)
@@ -212,6 +232,9 @@ def _print_margins(console: Console, design: OcsDesign) -> None:
             "-" if margin.margin is None else f"{margin.margin:.2f}",
         )
     show(console, table)
+    if design.ocs.flywheel.stress_margin is None:
+        material = design.ocs.flywheel.material
+        note(console, f"Stress is NOT checked: no strength of {material} is known.", style="yellow")
 
 
 def _with_unit(value: float, unit: str) -> str:
@@ -219,42 +242,8 @@ def _with_unit(value: float, unit: str) -> str:
     return shown[unit](value) if unit in shown else f"{value:.3g} {unit}"
 
 
-def _print_validation(console: Console, design: OcsDesign) -> None:
-    if not design.validation:
-        return
-    heading(console, "Proof in MuJoCo: the same flights with and without the device")
-    table = columns(
-        "scenario", "device", "verdict", "touchdown deg\npitch  roll", "turned\ndeg",
-        "wheel\nrpm", "torque\nN m", left=3,
-    )  # fmt: skip
-    for run in design.validation:
-        table.add_row(*_run_row(run))
-    show(console, table)
-    items(console, (_run_story(run) for run in design.validation))
-
-
-def _run_row(run: ValidationRecord) -> list[Text | str]:
-    word, style = (WITH_DEVICE if run.ocs else WITHOUT_DEVICE)[run.passed]
-    metrics = run.metrics
-    tilt = f"{_deg(metrics, 'touchdown_pitch')} {_deg(metrics, 'touchdown_roll'):>6}"
-    speed, torque = metrics.get("peak_wheel_speed"), metrics.get("peak_wheel_torque")
-    return [
-        Text(run.scenario),
-        "with" if run.ocs else "without",
-        Text(word, style=style),
-        tilt,
-        _deg(metrics, "turned_angle"),
-        "-" if not run.ocs or speed is None else f"{speed * 30 / np.pi:,.0f}",
-        "-" if not run.ocs or torque is None else f"{torque:.2f}",
-    ]
-
-
-def _run_story(run: ValidationRecord) -> str:
-    """The verdict in words, with what was changed about the turn."""
-    device = "with" if run.ocs else "without"
-    return f"{run.scenario}, {device}: " + "; ".join(filter(None, (run.reason, run.note)))
-
-
-def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:
-    value = metrics.get(name)
-    return "-" if value is None else degrees(value).removesuffix(" deg")
+def _clearance(clearance: ClearanceRecord | None) -> str:
+    if clearance is None:
+        return "not checked: the robot has no collision geometry"
+    gap = millimetres(clearance.distance)
+    return f"{clearance.part}, {gap} away (nominal posture; what moves is not checked)"

@@ -43,12 +43,14 @@ class SpinDemand:
         incidence: at which it was computed [rad].
         momentum: roll and pitch momentum that both wheels take together [N m s], shape (2,).
         spin_inertia: smallest of each wheel [kg m^2]; inf if an axis is out of the wheels' reach.
+        torque: of each motor, below which no wheel turns the robot in time [N m]; 0: no time set.
     """
 
     source: str
     incidence: float
     momentum: FloatArray
     spin_inertia: float
+    torque: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "momentum", frozen(self.momentum))
@@ -141,12 +143,24 @@ def spin_inertia_for(momentum: FloatArray, incidence: float, wheel_speed_max: fl
         incidence: [rad].
         wheel_speed_max: relative to the trunk [rad/s].
     """
-    asked = np.abs(momentum)
+    return per_wheel(momentum, incidence) / wheel_speed_max
+
+
+def per_wheel(both: FloatArray, incidence: float) -> float:
+    """What each wheel must give along its own axis for roll and pitch of both together.
+
+    `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s] as for torques [N m]; inf if an axis that
+    is asked for is out of reach.
+
+    Args:
+        both: on roll and on pitch, shape (2,).
+        incidence: [rad].
+    """
+    asked = np.abs(both)
     share = authority(incidence)
     if np.any((asked > 0.0) & (share < SMALLEST_AUTHORITY)):
         return float("inf")
-    per_axis = np.divide(asked, share, out=np.zeros(2), where=asked > 0.0)
-    return float(per_axis.sum() / (2.0 * wheel_speed_max))
+    return float(np.divide(asked, share, out=np.zeros(2), where=asked > 0.0).sum() / 2.0)
 
 
 def spin_demands(
@@ -163,15 +177,19 @@ def spin_demands(
         incidence: of the design; a maneuver's own goes first [rad].
     """
 
-    def demand(source: str, momentum: FloatArray, at: float) -> SpinDemand:
+    def demand(
+        source: str, momentum: FloatArray, at: float, torque: FloatArray | None = None
+    ) -> SpinDemand:
         least = spin_inertia_for(momentum, at, requirement.wheel_speed_max)
-        return SpinDemand(source, at, momentum, least)
+        per_motor = 0.0 if torque is None else per_wheel(torque, at)
+        return SpinDemand(source, at, momentum, least, per_motor)
 
     found = [
         demand(
             maneuver.name,
             maneuver.momentum(total_inertia, requirement.standing_height),
             incidence if maneuver.incidence is None else maneuver.incidence,
+            maneuver.least_torque(total_inertia, requirement.standing_height),
         )
         for maneuver in requirement.maneuvers
     ]

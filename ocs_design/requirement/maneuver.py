@@ -36,6 +36,19 @@ class Maneuver(ABC):
             standing_height: of the trunk over the ground [m].
         """
 
+    def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
+        """Least torque of both wheels together on roll and on pitch [N m], shape (2,).
+
+        Less than that cannot finish a turn in time, whatever the wheel; zero where no time is set
+        (docs/theory.md, What a motor can do).
+
+        Args:
+            inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+            standing_height: of the trunk over the ground [m].
+        """
+        del inertia, standing_height
+        return np.zeros(2)
+
     @property
     @abstractmethod
     def summary(self) -> str:
@@ -113,6 +126,10 @@ class Drop(Maneuver):
         peak = 2.0 / self.duration(standing_height)
         return np.array([inertia[0, 0] * abs(self.roll), inertia[1, 1] * abs(self.pitch)]) * peak
 
+    def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
+        """That of the same turn: 4 I theta / T^2."""
+        return 2.0 * self.momentum(inertia, standing_height) / self.duration(standing_height)
+
     @property
     def summary(self) -> str:
         """Height, attitude and gravity."""
@@ -138,6 +155,10 @@ class Flip(Maneuver):
         """Half the time up, half the time down: a peak rate of 2 theta / T."""
         del standing_height
         return np.array([0.0, inertia[1, 1] * 2.0 * abs(self.angle) / self.duration])
+
+    def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
+        """That of the same turn: 4 I theta / T^2."""
+        return 2.0 * self.momentum(inertia, standing_height) / self.duration
 
     @property
     def flight_time(self) -> float:

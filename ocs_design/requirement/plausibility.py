@@ -21,6 +21,7 @@ def implausible(
     """Every fault, one line each; `requirement` and `envelope` have their defaults filled in."""
     return (
         *_oversized(specification, robot, robot_size),
+        *_wrong_side(specification.ocs.position),
         *_empty_room(envelope),
         *_impossible(requirement, robot),
         *_unknown_material(specification.flywheel.material),
@@ -47,6 +48,15 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
         yield (
             f"flywheel.wheel_mass_max: {mass:g} kg is more than the robot ({robot.mass:.3g} kg): "
             f"did you mean {mass:g}g?"
+        )
+
+
+def _wrong_side(position: tuple[float, ...] | None) -> Iterator[str]:
+    """The right wheel mirrors the left one in y."""
+    if position is not None and position[1] <= 0.0:
+        yield (
+            f"ocs.position: y = {format_quantity(position[1], 'mm')} is not on the left side: "
+            "the left wheel needs y > 0"
         )
 
 

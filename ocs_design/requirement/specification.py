@@ -30,6 +30,9 @@ Section = TypeVar("Section")
 CRITERIA = ("equal-rate", "weighted", "simultaneous", "pitch-only", "roll-only")
 """How the incidence may be chosen (docs/theory.md, Incidence angle)."""
 
+FASTEST_BARE = 4000.0
+"""[rad/s], 38,000 rpm: a larger wheel speed without a unit was meant in rpm."""
+
 PROJECTIONS = ("pseudo-inverse", "transpose")
 """How a torque on the trunk becomes torques of the wheels (docs/theory.md, The control law)."""
 
@@ -82,7 +85,11 @@ class RequirementSection:
         float | None, Key(Quantity(Dimension.ANGULAR_SPEED), "change of the trunk's rate")
     ] = None
     wheel_speed_max: Annotated[
-        float | None, Key(Quantity(Dimension.ANGULAR_SPEED), "highest speed of a wheel")
+        float | None,
+        Key(
+            Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm"),
+            "highest speed of a wheel",
+        ),
     ] = None
     spin_inertia: Annotated[
         float | None, Key(Quantity(Dimension.INERTIA), "spin inertia of one wheel, asked directly")

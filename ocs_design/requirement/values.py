@@ -17,6 +17,9 @@ from ocs_design.units import Dimension, parse_quantity, si_unit
 
 T = TypeVar("T")
 
+SMALLEST = 1e-15
+"""In SI, of what must be positive; less is a slip, and its powers would vanish."""
+
 
 class Sign(Enum):
     """Which numbers make sense; the value completes 'must be ...'."""
@@ -56,26 +59,42 @@ class Quantity(Value[float]):
         dimension: what it measures.
         sign: which numbers make sense.
         most: largest that makes sense (SI).
+        most_bare: largest that is believed without its unit (SI).
+        likely: unit that a larger bare number was probably meant in.
     """
 
     dimension: Dimension
     sign: Sign = Sign.POSITIVE
     most: float = math.inf
+    most_bare: float = math.inf
+    likely: str = ""
 
     def read(self, raw: object, where: str) -> float:
         """See `Value.read`."""
         number = parse_quantity(raw, self.dimension, where)
         if not self.sign.allows(number):
             raise QuantityError(f"{where}: {raw} must be {self.sign.value}")
+        if 0.0 < number < SMALLEST:
+            raise QuantityError(f"{where}: {raw} is next to nothing", hint="Check its unit.")
         if number > self.most:
             limit = f"{self.most:.4g} {si_unit(self.dimension)}"
             raise QuantityError(f"{where}: {raw} is above {limit}", hint=self._hint(raw))
+        if number > self.most_bare and _is_bare(raw):
+            raise QuantityError(
+                f"{where}: {raw} without a unit is {raw} {si_unit(self.dimension)}",
+                hint=f"Did you mean {raw}{self.likely}? Give the number with its unit.",
+            )
         return number
 
     def _hint(self, raw: object) -> str:
         """The cure where degrees were given as a bare number."""
-        bare = str(raw).strip()[-1].isdigit()
-        return f"Did you mean {raw}deg?" if bare and self.dimension is Dimension.ANGLE else ""
+        meant = _is_bare(raw) and self.dimension is Dimension.ANGLE
+        return f"Did you mean {raw}deg?" if meant else ""
+
+
+def _is_bare(raw: object) -> bool:
+    """Whether a number was given without a unit."""
+    return str(raw).strip()[-1].isdigit()
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,9 @@ from ocs_design.robot.tree import Body, Placement, Shape, ShapeKind, Tree
 TRUNK = "base"
 """The only link of a robot given by hand."""
 
+_DENSEST = 4.0 / 3.0 * np.pi * (5.0 / 6.0) ** 1.5 * 19_300.0
+"""Mass over cube of `sqrt(trace(I) / m)` of a ball of tungsten [kg/m^3]."""
+
 
 def robot_by_hand(
     mass: float,
@@ -101,4 +104,11 @@ def _check_physical(weighed: MassProperties) -> None:
     if smallest <= 0.0:
         raise RobotError(
             f"the robot given by hand has the principal moment {smallest:.3g} kg m^2", hint=hint
+        )
+    radius = float(np.sqrt(np.trace(weighed.inertia) / weighed.mass))
+    if weighed.mass > _DENSEST * radius**3:
+        raise RobotError(
+            f"the robot given by hand, {weighed.mass:.3g} kg with a radius of gyration of "
+            f"{1e3 * radius:.3g} mm, is denser than a ball of tungsten",
+            hint=hint,
         )

@@ -326,7 +326,7 @@ INFEASIBLE = {
     "height": ("--h-max", "2.1mm"),
     "mass": ("--wheel-mass-max", "20g"),
     "slow wheels": ("--wheel-speed-max", "1000rpm"),
-    "stress": ("--wheel-speed-max", "120000rpm"),
+    "stress": ("--wheel-speed-max", "50000rpm", "--r-min", "40mm"),
     "room": ("--wall-min", "40mm", "--r-min", "20mm"),
     "thin room": ("--r-max", "49mm", "--r-min", "48mm"),
     "rate": ("--rate-change", "30", "--r-max", "30mm"),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.bound import per_wheel
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 
 INERTIA = np.diag([0.03, 0.0515, 0.068])
@@ -52,3 +53,31 @@ def test_summaries_carry_units():
         name="push", takeoff_velocity=(0.5, 2.4), torque=(0.2, 0.8, 0), onset=0.1, duration=0.05
     )
     assert "(0.2, 0.8, 0) N m on the trunk for 0.05 s, 0.1 s after" in push.summary
+
+
+def test_least_torque_of_the_worked_example():
+    """30 deg at 0.30 N m a wheel and 40 deg of incidence take 0.494 s at best (bang-bang)."""
+    inertia, at_best, torque, incidence = 0.0535, 0.494, 0.30, np.radians(40.0)
+    height = 0.272 + 9.81 * at_best**2 / 2.0
+    drop = Drop(name="drop", height=height, pitch=np.radians(30.0))
+    needed = per_wheel(drop.least_torque(inertia * np.eye(3), 0.272), incidence)
+    assert needed == pytest.approx(torque, rel=2e-3)
+
+
+def test_least_torque_reaches_the_momentum_in_half_the_time():
+    flip = Flip(name="flip", jump_height=1.0, angle=-np.pi, duration=1.4)
+    inertia = np.diag([1.0, 2.0, 3.0])
+    np.testing.assert_allclose(
+        flip.least_torque(inertia, 0.3) * flip.duration / 2.0, flip.momentum(inertia, 0.3)
+    )
+
+
+def test_a_disturbance_sets_no_time():
+    push = Disturbance(
+        name="push",
+        takeoff_velocity=(0.0, 2.0),
+        torque=(1.0, 1.0, 0.0),
+        onset=0.1,
+        duration=0.1,
+    )
+    np.testing.assert_array_equal(push.least_torque(np.eye(3), 0.3), [0.0, 0.0])

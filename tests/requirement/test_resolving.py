@@ -112,3 +112,22 @@ def test_faults_come_together(solo12):
 def test_a_rate_change_alone_is_enough(solo12):
     text = "[requirement]\nmaneuvers = 'none'\nrate_change = 2"
     assert resolve(stated(text), solo12, SIZE).requirement.rate_change == 2.0
+
+
+def test_a_left_wheel_on_the_right_is_refused(solo12):
+    with pytest.raises(SpecificationError) as caught:
+        resolve(stated("[ocs]\nposition = [0, '-50mm', '80mm']"), solo12, SIZE)
+    assert "y > 0" in caught.value.problems[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "fits"), [("9000", False), ("'9000rpm'", True), ("'12566rad/s'", True)]
+)
+def test_a_wheel_speed_without_its_unit_is_asked_about(text, fits):
+    text = f"[requirement]\nwheel_speed_max = {text}"
+    if fits:
+        assert stated(text).requirement.wheel_speed_max > 0.0
+        return
+    with pytest.raises(SpecificationError) as caught:
+        stated(text)
+    assert "Did you mean 9000rpm?" in caught.value.problems[0]

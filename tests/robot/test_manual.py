@@ -45,11 +45,12 @@ def test_the_box_of_solo12():
 
 
 @given(
-    mass=st.floats(0.1, 100.0),
+    density=st.floats(1.0, 10_000.0),
     sides=st.tuples(*[st.floats(0.05, 2.0)] * 3),
     angles=st.tuples(*[st.floats(-3.0, 3.0)] * 3),
 )
-def test_the_box_has_the_mass_properties_that_were_given(mass, sides, angles):
+def test_the_box_has_the_mass_properties_that_were_given(density, sides, angles):
+    mass = density * np.prod(sides)
     a, b, c = (side * side for side in sides)
     turn = rotation_from_rpy(*angles)
     inertia = turn @ np.diag([b + c, a + c, a + b]) @ turn.T * mass / 12.0
@@ -88,3 +89,13 @@ def test_what_no_body_can_have_is_refused_with_its_numbers(mass, inertia, said):
 def test_an_inertia_has_three_or_six_numbers():
     with pytest.raises(UsageError, match="not 4"):
         robot_by_hand(2.5, (1.0, 1.0, 1.0, 0.0))
+
+
+def test_what_would_be_denser_than_tungsten_is_a_slip_of_units():
+    """A ball of tungsten can be; Solo12 with its inertia in kg mm2 taken for kg m2 cannot."""
+    radius = 0.01
+    mass = 4.0 / 3.0 * np.pi * radius**3 * 19_299.0
+    robot_by_hand(mass, [0.4 * mass * radius**2] * 3)
+    with pytest.raises(RobotError, match="denser than a ball of tungsten") as caught:
+        robot_by_hand(2.5, [1e-6 * moment for moment in SOLO12])
+    assert "kg m^2" in caught.value.hint

@@ -45,4 +45,7 @@ def test_quadrupeds_pass_with_the_device(path):
 def test_a_biped_without_balance_is_judged_on_touchdown_alone():
     runs = fly("bolt_description/robots/bolt")
     assert [run.passed for run in runs] == [True, False] * 3
-    assert all("standing is not judged" in run.reason for run in runs if run.ocs)
+    # In lunar gravity it falls so slowly that it still stands when the run ends.
+    fallen = [run for run in runs if run.ocs and not run.metrics.upright_at_end]
+    assert {run.scenario for run in fallen} == {"disturbance", "drop"}
+    assert all("standing is not judged" in run.reason for run in fallen)

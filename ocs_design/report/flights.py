@@ -1,0 +1,81 @@
+"""The proof by simulation in the terminal, and what was written."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.text import Text
+
+from ocs_design.design_file import OcsDesign, ValidationRecord
+from ocs_design.report.layout import columns, facts, heading, items, show
+from ocs_design.report.quantities import degrees
+
+WITH_DEVICE = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not judged", "yellow")}
+# Without the device a failure is what one expects, and no alarm.
+WITHOUT_DEVICE = {True: ("pass", ""), False: ("fails", "dim"), None: ("not judged", "dim")}
+
+
+def print_flights(console: Console, design: OcsDesign) -> None:
+    """Verdicts, attitude at touchdown, what the wheels did, and why."""
+    if not design.validation:
+        return
+    heading(console, "Proof in MuJoCo: the same flights with and without the device")
+    table = columns(
+        "scenario", "device", "verdict", "touchdown deg\npitch  roll", "turned\ndeg",
+        "wheel\nrpm", "torque\nN m", left=3,
+    )  # fmt: skip
+    for run in design.validation:
+        table.add_row(*_run_row(run))
+    show(console, table)
+    items(console, (_run_story(run) for run in design.validation))
+
+
+def _run_row(run: ValidationRecord) -> list[Text | str]:
+    word, style = (WITH_DEVICE if run.ocs else WITHOUT_DEVICE)[run.passed]
+    metrics = run.metrics
+    tilt = f"{_deg(metrics, 'touchdown_pitch')} {_deg(metrics, 'touchdown_roll'):>6}"
+    speed, torque = metrics.get("peak_wheel_speed"), metrics.get("peak_wheel_torque")
+    return [
+        Text(run.scenario),
+        "with" if run.ocs else "without",
+        Text(word, style=style),
+        tilt,
+        _deg(metrics, "turned_angle"),
+        "-" if not run.ocs or speed is None else f"{speed * 30 / np.pi:,.0f}",
+        "-" if not run.ocs or torque is None else f"{torque:.2f}",
+    ]
+
+
+def _run_story(run: ValidationRecord) -> str:
+    """The verdict in words, with what was changed about the turn."""
+    device = "with" if run.ocs else "without"
+    return f"{run.scenario}, {device}: " + "; ".join(filter(None, (run.reason, run.note)))
+
+
+def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:
+    value = metrics.get(name)
+    return "-" if value is None else degrees(value).removesuffix(" deg")
+
+
+def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
+    """What was written, and the verdict in one line."""
+    heading(console, f"Written to {folder}/")
+    rows = [("design.json", "everything in this report, and the hashes of the other files")]
+    for group in sorted({name.split("/")[0] for name in design.files}):
+        names = [name.partition("/")[2] for name in design.files if name.startswith(f"{group}/")]
+        rows.append((f"{group}/", "  ".join(names)))
+    facts(console, rows)
+    console.print()
+    console.print(_summary([run.passed for run in design.validation if run.ocs]))
+
+
+def _summary(verdicts: Sequence[bool | None]) -> Text:
+    """The flights with the device in one line."""
+    if not verdicts:
+        return Text("No flight was simulated: the design is not proved.", style="bold yellow")
+    passed, failed = verdicts.count(True), verdicts.count(False)
+    line = f"{passed} of {len(verdicts)} scenarios pass with the device"
+    if unknown := len(verdicts) - passed - failed:
+        line += f", {unknown} could not be judged"
+    return Text(line, style="bold green" if passed == len(verdicts) else "bold red")
