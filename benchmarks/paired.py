@@ -18,8 +18,12 @@ class Run:
 
 def run_process(command: Sequence[str]) -> Run:
     """Run to the end with its output thrown away; its children count towards the memory."""
+    # As pip installs them, packages have their byte code beside them.
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     start = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - start
     # wait4 took the status that Popen would wait for.

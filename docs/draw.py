@@ -1,6 +1,6 @@
 """Draws the picture of the README: Solo12 with its device, standing.
 
-    MUJOCO_GL=egl python docs/draw.py        or MUJOCO_GL=osmesa; needs OpenGL and Pillow
+MUJOCO_GL=egl python docs/draw.py        or MUJOCO_GL=osmesa; needs OpenGL and Pillow
 """
 
 import tempfile
@@ -62,9 +62,7 @@ def light(spec: mujoco.MjSpec) -> None:
         diffuse=[0.4] * 3,
         specular=[0.1] * 3,
     )
-    spec.worldbody.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 0.1], rgba=[1.0] * 4
-    )
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0.0, 0.0, 0.1], rgba=[1.0] * 4)
 
 
 def pose(data: mujoco.MjData, design: OcsDesign) -> None:

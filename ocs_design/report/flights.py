@@ -16,6 +16,10 @@ WITH_DEVICE = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not
 WITHOUT_DEVICE = {True: ("pass", ""), False: ("fails", "dim"), None: ("not judged", "dim")}
 
 
+MOST_LISTED = 6
+"""Files of one folder that are named; more are counted."""
+
+
 def print_flights(console: Console, design: OcsDesign) -> None:
     """Verdicts, attitude at touchdown, what the wheels did, and why."""
     if not design.validation:
@@ -62,12 +66,19 @@ def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
     """What was written, and the verdict in one line."""
     heading(console, f"Written to {folder}/")
     rows = [("design.json", "everything in this report, and the hashes of the other files")]
-    for group in sorted({name.split("/")[0] for name in design.files}):
-        names = [name.partition("/")[2] for name in design.files if name.startswith(f"{group}/")]
-        rows.append((f"{group}/", "  ".join(names)))
+    folders: dict[str, list[str]] = {}
+    for name in design.files:
+        folder_name, _, file = name.rpartition("/")
+        folders.setdefault(folder_name, []).append(file)
+    rows += [(f"{name}/", _listed(files)) for name, files in sorted(folders.items())]
     facts(console, rows)
     console.print()
     console.print(_summary([run.passed for run in design.validation if run.ocs]))
+
+
+def _listed(files: Sequence[str]) -> str:
+    """All of a few files, the number of many."""
+    return "  ".join(files) if len(files) <= MOST_LISTED else f"{len(files)} files"
 
 
 def _summary(verdicts: Sequence[bool | None]) -> Text:

@@ -9,6 +9,7 @@ Every other joint only has to hold its own link, critically damped: `kp = I w^2`
 the inertia `I = 1 / (M^-1)_jj` that the joint feels and `w = 10 sqrt(g / L)`.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -31,10 +32,16 @@ STABLE_SHARE = 0.5
 
 @dataclass(frozen=True, eq=False)
 class DriveGains:
-    """Of every driven joint, in model order: `stiffness` [N m/rad], `damping` [N m s/rad]."""
+    """Of every driven joint, in model order.
+
+    Attributes:
+        stiffness: [N m/rad]. damping: of the drive [N m s/rad].
+        friction: viscous, of the joint itself [N m s/rad].
+    """
 
     stiffness: FloatArray
     damping: FloatArray
+    friction: FloatArray
 
 
 def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
@@ -68,12 +75,13 @@ def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
     model.actuator_gainprm[actuators, 0] = gains.stiffness
     model.actuator_biasprm[actuators, 1] = -gains.stiffness
     model.actuator_biasprm[actuators, 2] = -gains.damping
+    model.dof_damping[_dofs(model, names)] = gains.friction
 
 
 def drive_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> DriveGains:
     """Gains from physics, then lowered where the step could not follow them."""
     names = list(robot.tree.joints)
-    dofs = [int(model.joint(name).dofadr[0]) for name in names]
+    dofs = _dofs(model, names)
     mobility = _mobility(model, data)[np.ix_(dofs, dofs)]
     lengths = _leg_lengths(robot)
     typical = max(lengths.values(), default=robot.gyration_radius)
@@ -85,21 +93,28 @@ def drive_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> Dri
             length = lengths[name]
             stiffness[place] = LEG_STIFFNESS * robot.mass * STANDARD_GRAVITY * length
             damping[place] = LEG_DAMPING * stiffness[place] * np.sqrt(length / STANDARD_GRAVITY)
-    return _stable(DriveGains(stiffness, damping), mobility, felt, model.opt.timestep)
+    wanted = DriveGains(stiffness, damping, model.dof_damping[dofs])
+    return _stable(wanted, mobility, felt, model.opt.timestep)
 
 
 def _stable(gains: DriveGains, mobility: FloatArray, felt: FloatArray, step: float) -> DriveGains:
     """Gains that the explicit step can follow: first each joint alone, then all together.
 
     Runge-Kutta of order four is stable for `|lambda| dt < 2.78` on the real axis and 2.82 on the
-    imaginary one (Hairer and Wanner, Solving ODEs II, section IV.2).
+    imaginary one (Hairer and Wanner, Solving ODEs II, section IV.2). The friction that a file
+    states counts as well: on a link that it gives next to no inertia none would be slow enough.
     """
-    damping = np.minimum(gains.damping, STABLE_SHARE * felt / step)
+    friction = np.minimum(gains.friction, STABLE_SHARE * felt / step)
+    damping = np.minimum(gains.damping + friction, STABLE_SHARE * felt / step) - friction
     stiffness = np.minimum(gains.stiffness, (STABLE_SHARE / step) ** 2 * felt)
-    root = np.sqrt(damping)
+    root = np.sqrt(damping + friction)
     fastest = np.linalg.eigvalsh(root[:, None] * mobility * root).max() * step
     relax = min(1.0, 2.0 * STABLE_SHARE / fastest) if fastest > 0.0 else 1.0
-    return DriveGains(stiffness * relax, damping * relax)
+    return DriveGains(stiffness * relax, damping * relax, friction * relax)
+
+
+def _dofs(model: mujoco.MjModel, names: Sequence[str]) -> list[int]:
+    return [int(model.joint(name).dofadr[0]) for name in names]
 
 
 def _leg_lengths(robot: Robot) -> dict[str, float]:

@@ -46,22 +46,26 @@ class DeviceProblem:
         return RimProblem(spin_inertia, self.envelope, self.material, speed)
 
 
-def wheel_mass_properties(
-    shape: RimShape, density: float, center: FloatArray, axis: FloatArray
+def both_wheels(
+    shape: RimShape, density: float, centers: FloatArray, incidence: float
 ) -> MassProperties:
-    """Of one rim in B, spinning about `axis` through `center`, braked.
+    """Of both rims in B, braked.
 
     Args:
         shape: of one rim.
         density: [kg/m^3].
-        center: in B [m], shape (3,).
-        axis: unit vector in B, shape (3,).
+        centers: of the left and the right one in B [m], shape (2, 3).
+        incidence: of their axes [rad].
     """
     inner, outer, height, mass = (float(value) for value in shape)
     spin = cylinder_spin_inertia(inner, outer, height, density)
     transverse = cylinder_transverse_inertia(inner, outer, height, density)
-    inertia = transverse * np.eye(3) + (spin - transverse) * np.outer(axis, axis)
-    return MassProperties(mass, center, inertia)
+    axes = module_axes(incidence)
+    com = (centers[0] + centers[1]) / 2.0
+    apart = centers[0] - com
+    own = 2.0 * transverse * np.eye(3) + (spin - transverse) * axes @ axes.T
+    moved = 2.0 * mass * (apart @ apart * np.eye(3) - np.outer(apart, apart))
+    return MassProperties(2.0 * mass, com, own + moved)
 
 
 def braked_total(
@@ -71,12 +75,9 @@ def braked_total(
     if shape is None:
         return problem.robot
     centers = problem.place(float(shape.outer_radius), float(shape.height))
-    density, axes = problem.material.density, module_axes(incidence)
-    wheels = [
-        wheel_mass_properties(shape, density, center, axis)
-        for center, axis in zip(centers, axes.T, strict=True)
-    ]
-    return combine([problem.robot, *wheels])
+    return combine(
+        [problem.robot, both_wheels(shape, problem.material.density, centers, incidence)]
+    )
 
 
 def device_demands(

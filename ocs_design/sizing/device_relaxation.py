@@ -12,12 +12,15 @@ from ocs_design.sizing.limits import WHEEL_SPEED, Limit, smallest_changes
 from ocs_design.sizing.relaxation import (
     advice,
     capitalised,
-    conflicting_limits,
+    in_the_way,
     largest_spin_inertia,
     limits_set,
     relaxations,
     shortfall,
 )
+
+PRECISION = 1e-4
+"""Of the changes, relative: they are told to three digits, and each step sizes a whole device."""
 
 
 def infeasible_device(
@@ -40,7 +43,7 @@ def infeasible_device(
         solve(with_limit(problem, limit, value))
     return Infeasible(
         f"{capitalised(asked_by + shortfall(rim_problem))}.",
-        binding=[limit.name for limit in conflicting_limits(rim_problem)],
+        binding=[limit.name for limit in in_the_way(rim_problem)],
         required_spin_inertia=dead_end.spin_inertia,
         largest_spin_inertia=largest,
         relaxations=relaxations(rim_problem, changes),
@@ -55,7 +58,7 @@ def device_changes(problem: DeviceProblem) -> dict[Limit, float]:
         return isinstance(find_fixed_point(with_limit(problem, limit, value)), FixedPoint)
 
     values = {limit: _value(problem, limit) for limit in _limits_set(problem)}
-    return smallest_changes(values, mends)
+    return smallest_changes(values, mends, PRECISION)
 
 
 def with_limit(problem: DeviceProblem, limit: Limit, value: float) -> DeviceProblem:

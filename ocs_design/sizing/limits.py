@@ -76,23 +76,29 @@ WHEEL_SPEED = Limit("wheel_speed_max", "wheel_speed_max", "wheel_speed_max", Tru
 
 
 def smallest_changes(
-    values: Mapping[Limit, float], mends: Callable[[Limit, float], bool]
+    values: Mapping[Limit, float],
+    mends: Callable[[Limit, float], bool],
+    precision: float = PRECISION,
 ) -> dict[Limit, float]:
     """For each limit that can mend the design alone the value that just does, gentlest first [SI].
 
     Args:
         values: of the limits as they are [SI].
         mends: whether a design exists with one limit at another value.
+        precision: of the values, relative.
     """
     found = {
-        limit: smallest_change(limit, now, partial(mends, limit)) for limit, now in values.items()
+        limit: smallest_change(limit, now, partial(mends, limit), precision)
+        for limit, now in values.items()
     }
     helpful = {limit: value for limit, value in found.items() if value is not None}
     return dict(sorted(helpful.items(), key=lambda item: abs(log10(item[1] / values[item[0]]))))
 
 
-def smallest_change(limit: Limit, now: float, mends: Callable[[float], bool]) -> float | None:
-    """The value next to `now`, on its loose side, that mends the design, to within `PRECISION`.
+def smallest_change(
+    limit: Limit, now: float, mends: Callable[[float], bool], precision: float = PRECISION
+) -> float | None:
+    """The value next to `now`, on its loose side, that mends the design.
 
     Steps outwards until it mends, then halves the last step: a limit loosened too far need not
     mend what a smaller change does, as a larger wheel also weighs on the robot.
@@ -101,6 +107,7 @@ def smallest_change(limit: Limit, now: float, mends: Callable[[float], bool]) ->
         limit: which one, for the side on which it is loose.
         now: its value, at which `mends` is false.
         mends: whether a value allows a design.
+        precision: of the value, relative.
 
     Returns:
         None if nothing within `MOST_CHANGE` helps.
@@ -112,14 +119,14 @@ def smallest_change(limit: Limit, now: float, mends: Callable[[float], bool]) ->
         tight, loose = loose, loose * _STEP
         if tight > MOST_CHANGE:
             return None
-    while loose - tight > PRECISION / 3.0 * tight:
+    while loose - tight > precision / 3.0 * tight:
         middle = (tight + loose) / 2.0
         if mends(limit.loosened(now, middle)):
             loose = middle
         else:
             tight = middle
     # Just inside: on the edge itself a single point is feasible, and no solver can prove it.
-    return limit.loosened(now, loose * (1.0 + PRECISION / 3.0))
+    return limit.loosened(now, loose * (1.0 + precision / 3.0))
 
 
 def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:

@@ -111,9 +111,7 @@ def largest_spin_inertia(problem: RimProblem) -> float:
 def shortfall(problem: RimProblem) -> str:
     """What is asked for, what stands against it and how much is possible, without a full stop."""
     asked = f"{problem.spin_inertia:.5g} kg m^2"
-    room = _listed(
-        [limit.text(limit.value(problem.envelope)) for limit in conflicting_limits(problem)]
-    )
+    room = _listed([limit.text(limit.value(problem.envelope)) for limit in in_the_way(problem)])
     largest = largest_spin_inertia(problem)
     if largest == 0.0:
         return f"no rim at all fits within {room}, whatever its spin inertia"
@@ -124,6 +122,11 @@ def shortfall(problem: RimProblem) -> str:
         f"no rim of {problem.material.name} within {room} has the spin inertia of {asked}; "
         f"the limits allow {largest:.5g} kg m^2 at most"
     )
+
+
+def in_the_way(problem: RimProblem) -> Sequence[Limit]:
+    """The limits that conflict; all of them where the demand is beyond what can be told apart."""
+    return conflicting_limits(problem) or limits_set(problem)
 
 
 def relaxations(problem: RimProblem, changes: Mapping[Limit, float]) -> dict[str, float]:

@@ -5,7 +5,7 @@ import pytest
 
 from ocs_design.requirement.maneuver import Drop, Flip
 from ocs_design.simulation.metrics import Metrics
-from ocs_design.simulation.verdict import judge, stands
+from ocs_design.simulation.verdict import comes_down_well, judge, stands
 
 GOOD = Metrics(
     touchdown_time=0.39,
@@ -48,6 +48,8 @@ def test_pass_rule(metrics, maneuver, can_stand, passed, reason):
     verdict = judge(metrics, maneuver, can_stand=can_stand)
     assert verdict.passed is passed
     assert reason in verdict.reason
+    without_legs = judge(metrics, maneuver, can_stand=None)
+    assert comes_down_well(metrics, maneuver) is (without_legs.passed is True)
 
 
 def test_a_robot_that_topples_slowly_does_not_count_as_standing():

@@ -14,7 +14,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.device_iteration import DeadEnd, find_fixed_point
 from ocs_design.sizing.device_problem import DeviceProblem
-from ocs_design.sizing.device_relaxation import with_limit
+from ocs_design.sizing.device_relaxation import PRECISION, with_limit
 from ocs_design.sizing.device_sizing import size_device
 from ocs_design.sizing.incidence import Criterion, incidence_by_criterion, module_axes
 from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED
@@ -207,7 +207,7 @@ def test_infeasible_by_its_robot():
     for name, value in error.relaxations.items():
         mended = with_limit(problem, by_name[name], value)
         size_device(SOLO12, mended.requirement, mended.envelope, STEEL, place)
-        tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3e-6))
+        tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * PRECISION))
         assert isinstance(find_fixed_point(with_limit(problem, by_name[name], tighter)), DeadEnd)
 
 

@@ -1,0 +1,75 @@
+"""What is flown, and what the legs are held to."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from wheels import paper_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.requirement.maneuver import Drop
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.simulation import scenario
+from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.world import WorldBuilder
+
+GENTLE = Drop(name="gentle", height=0.4, pitch=np.radians(10.0))
+
+
+@pytest.fixture
+def batches(monkeypatch):
+    """How many worlds each call of the engine got."""
+    sizes: list[int] = []
+    simulate = scenario.simulate
+
+    def counted(worlds, **options):
+        sizes.append(len(worlds))
+        return simulate(worlds, **options)
+
+    monkeypatch.setattr(scenario, "simulate", counted)
+    return sizes
+
+
+def test_a_robot_that_stands_is_flown_twice(solo12, batches):
+    runs = run_scenarios(solo12, paper_device(), [GENTLE])
+    assert runs[0].reason.endswith("and stands")
+    assert batches == [2]
+
+
+def test_a_robot_that_falls_is_flown_level_too(solo12, batches, monkeypatch):
+    """Its drives let go of the joints."""
+    build = WorldBuilder._build
+
+    def limp(self, *arguments, **options):
+        world = build(self, *arguments, **options)
+        world.model.actuator_gainprm[:-2] = world.model.actuator_biasprm[:-2] = 0.0
+        return world
+
+    monkeypatch.setattr(WorldBuilder, "_build", limp)
+    runs = run_scenarios(solo12, paper_device(), [GENTLE])
+    assert batches == [2, 1]
+    assert "standing is not judged" in runs[0].reason
+
+
+def test_without_legs_nothing_is_flown_level(batches):
+    body = robot_by_hand(2.5, (0.030, 0.0535, 0.068))
+    drop = replace(GENTLE, height=1.0)
+    runs = run_scenarios(body, paper_device(), [drop])
+    assert batches == [2]
+    assert "without legs" in runs[0].reason
+
+
+def test_no_maneuvers_no_runs(solo12, batches):
+    assert run_scenarios(solo12, paper_device(), []) == ()
+    assert batches == []
+
+
+def test_runs_come_in_the_order_of_the_maneuvers(solo12):
+    jump, drop, _ = default_maneuvers(solo12)
+    runs = run_scenarios(solo12, paper_device(), [drop, jump])
+    assert [(run.scenario, run.ocs) for run in runs] == [
+        ("drop", True),
+        ("drop", False),
+        ("disturbance", True),
+        ("disturbance", False),
+    ]
