@@ -11,7 +11,7 @@ from ocs_design.design import Device
 from ocs_design.export.attach import attach_device
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.model import build_spec, trunk_body
-from ocs_design.simulation.drives import add_drives
+from ocs_design.simulation.drives import HELD, add_drives, hold_other_joints
 from ocs_design.simulation.ground import FLOOR, add_floor
 
 STEP = 1e-3
@@ -19,9 +19,6 @@ STEP = 1e-3
 
 WHEEL_JOINTS = ("ocs_left", "ocs_right")
 FLYWHEELS = ("ocs_left_flywheel", "ocs_right_flywheel")
-
-_HELD = 1e6
-"""Armature of a held wheel [kg m^2]: 1 N m over a second moves it by 1e-6 rad/s."""
 
 
 class Wheels(StrEnum):
@@ -42,7 +39,7 @@ class Sensor(StrEnum):
 
 
 def robot_scene(robot: Robot) -> mujoco.MjSpec:
-    """The bare robot on a floor, its joints on drives, with sensors; free to fall.
+    """The bare robot on a floor, its legs on drives, with sensors; free to fall.
 
     Runge-Kutta, because Euler and implicitfast drift with fast wheels (docs/theory.md); the
     dense Jacobian, because MuJoCo 4.0's sparse Newton solver has a fault.
@@ -51,6 +48,7 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     _remove_own_control(spec)
     add_floor(spec)
     add_drives(spec, robot)
+    hold_other_joints(spec, robot)
     _add_sensors(spec, robot)
     spec.option.timestep = STEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
@@ -75,7 +73,7 @@ def compile_scene(
     spec.option.gravity = [0.0, 0.0, -gravity]
     if wheels is not Wheels.ACTIVE:
         for name in WHEEL_JOINTS:
-            spec.joint(name).armature = _HELD
+            spec.joint(name).armature = HELD
     model = spec.compile()
     if wheels is Wheels.ABSENT:
         # Only now: a geom that touches nothing would be compiled to other sizes, and the worlds

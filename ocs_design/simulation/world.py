@@ -13,7 +13,7 @@ from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.frames import quaternion
 from ocs_design.simulation.controller import Allocation, Gains, Gyrostat, WheelLaw
-from ocs_design.simulation.drives import DRIVE, set_gains
+from ocs_design.simulation.drives import DRIVE, leg_joints, set_gains
 from ocs_design.simulation.ground import lowest_point
 from ocs_design.simulation.launch import Launch, Push, flight_time, launch, level_launch
 from ocs_design.simulation.motor_limits import MotorLimits
@@ -226,10 +226,10 @@ def _set_trunk(
 
 
 def _posture_control(robot: Robot, model: mujoco.MjModel) -> FloatArray:
-    """Every joint drive at the nominal posture, the motors at zero, shape (nu,)."""
+    """Every leg drive at the nominal posture, the motors at zero, shape (nu,)."""
     ctrl = np.zeros(model.nu)
-    for name, value in robot.posture.items():
-        ctrl[model.actuator(DRIVE + name).id] = value
+    for name in leg_joints(robot):
+        ctrl[model.actuator(DRIVE + name).id] = robot.posture[name]
     return ctrl
 
 

@@ -7,7 +7,7 @@ from wheels import paper_device
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.drives import DRIVE
+from ocs_design.simulation.drives import DRIVE, leg_joints
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import World, WorldBuilder
 
@@ -35,8 +35,8 @@ def test_no_drive_is_faster_than_the_step(path):
     mujoco.mj_forward(model, data)
     inverse = np.empty((model.nv, model.nv))
     mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
-    drives = [model.actuator(DRIVE + name).id for name in robot.tree.joints]
-    dofs = [int(model.joint(name).dofadr[0]) for name in robot.tree.joints]
+    drives = [model.actuator(DRIVE + name).id for name in leg_joints(robot)]
+    dofs = [int(model.joint(name).dofadr[0]) for name in leg_joints(robot)]
     inverse = inverse[np.ix_(dofs, dofs)]
     zero, one = np.zeros_like(inverse), np.eye(len(dofs))
     stiffness = inverse @ np.diag(model.actuator_gainprm[drives, 0])
