@@ -66,12 +66,6 @@ def closed_loop_time(worlds, threads):
     return time.perf_counter() - start
 
 
-def best_of_rounds(cases):
-    """Best rate of each case; interleaved, so that other load on the machine meets all alike."""
-    rounds = [{name: case() for name, case in cases.items()} for _ in range(ROUNDS)]
-    return {name: max(rates[name] for rates in rounds) for name in cases}
-
-
 def bare_step_time(worlds):
     """Seconds for the same steps of the same worlds by `mj_step(m, d, nstep)` on one thread."""
     start = time.perf_counter()
@@ -83,6 +77,17 @@ def bare_step_time(worlds):
     return time.perf_counter() - start
 
 
+def interleaved(cases):
+    """Each case once a round, so that other load on the machine meets all alike."""
+    rounds = [{name: case() for name, case in cases.items()} for _ in range(ROUNDS)]
+    return {name: np.array([measured[name] for measured in rounds]) for name in cases}
+
+
+def spread(ratios):
+    """Median and range of the rounds."""
+    return f"{np.median(ratios):.2f} ({ratios.min():.2f} to {ratios.max():.2f})"
+
+
 def main():
     """Prints the ratios."""
     parser = argparse.ArgumentParser()
@@ -92,31 +97,37 @@ def main():
     robot = read_robot(arguments.robot)
     builder = WorldBuilder(robot, paper_device())
     maneuvers = default_maneuvers(robot)
-    flip = replace(builder.flight(maneuvers[2], Wheels.ACTIVE), duration=SECONDS)
-    batch = [flip] * WORLDS
-    threads = arguments.threads
-    cases = {
-        "open loop": lambda: open_loop_rate(batch, threads),
-        "held 1 step": lambda: closed_loop_rate(batch, threads, 1),
-        "held 5 steps": lambda: closed_loop_rate(batch, threads, 5),
-    }
-    rates = best_of_rounds(cases)
-    print(f"{WORLDS} worlds, {threads} threads, best of {ROUNDS} interleaved rounds")
+    print_batch(builder, maneuvers[2], arguments.threads)
+    print_six_runs(builder, maneuvers, arguments.threads)
+
+
+def print_batch(builder, flip, threads):
+    """Closed loop against open loop."""
+    batch = [replace(builder.flight(flip, Wheels.ACTIVE), duration=SECONDS)] * WORLDS
+    rates = interleaved(
+        {
+            "open loop": lambda: open_loop_rate(batch, threads),
+            "held 1 step": lambda: closed_loop_rate(batch, threads, 1),
+            "held 5 steps": lambda: closed_loop_rate(batch, threads, 5),
+        }
+    )
+    print(f"{WORLDS} worlds, {threads} threads, {ROUNDS} interleaved rounds")
     for name, rate in rates.items():
-        print(f"{name:14s}{rate:9.0f} steps/s, ratio {rate / rates['open loop']:.2f}")
+        print(f"{name:14s}{rate.max():9.0f} steps/s, ratio {spread(rate / rates['open loop'])}")
+
+
+def print_six_runs(builder, maneuvers, threads):
+    """What `size` simulates, against its bare physics."""
     six = [
         builder.flight(maneuver, wheels)
         for maneuver in maneuvers
         for wheels in (Wheels.ACTIVE, Wheels.ABSENT)
     ]
-    speeds = best_of_rounds(
-        {
-            "bare steps": lambda: 1.0 / bare_step_time(six),
-            "six runs": lambda: 1.0 / closed_loop_time(six, threads),
-        }
+    times = interleaved(
+        {"bare": lambda: bare_step_time(six), "ours": lambda: closed_loop_time(six, threads)}
     )
-    ratio = speeds["bare steps"] / speeds["six runs"]
-    print(f"six runs {1 / speeds['six runs']:.2f} s, {ratio:.2f} of bare mj_step on one thread")
+    ratio = spread(times["ours"] / times["bare"])
+    print(f"six runs {times['ours'].min():.2f} s, {ratio} of bare mj_step on one thread")
 
 
 if __name__ == "__main__":

@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 from ocs_design.design import Device
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance.leg_geometry import up_axis
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress, simulate
 from ocs_design.simulation.metrics import Metrics, Series, measure, series_of
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.verdict import comes_down_well, judge, stands
+from ocs_design.simulation.verdict import Verdict, comes_down_well, judge, stands
 from ocs_design.simulation.world import World, WorldBuilder
 
 
@@ -100,9 +101,15 @@ def run_scenarios(
     ]
     flights = _fly(worlds, chosen, progress)
     pairs = list(zip(flights[::2], flights[1::2], strict=True))
+    refusal = _refusal(robot)
     can_stand = _legs_bear_landings(builder, robot, maneuvers, pairs, chosen)
     return tuple(
-        _run(maneuver, flight, ocs=ocs, can_stand=legs)
+        _run(
+            maneuver,
+            flight,
+            Verdict(None, refusal) if refusal else judge(flight.metrics, maneuver, can_stand=legs),
+            ocs=ocs,
+        )
         for maneuver, pair, legs in zip(maneuvers, pairs, can_stand, strict=True)
         for flight, ocs in zip(pair, (True, False), strict=True)
     )
@@ -148,8 +155,17 @@ def _is_doubtful(maneuver: Maneuver, pair: Sequence[_Flight]) -> bool:
     return bool(down) and not any(stands(metrics) for metrics in down)
 
 
-def _run(maneuver: Maneuver, flight: _Flight, *, ocs: bool, can_stand: bool | None) -> Run:
-    verdict = judge(flight.metrics, maneuver, can_stand=can_stand)
+def _refusal(robot: Robot) -> str:
+    """Why no flight of this robot says anything; empty if they do."""
+    if not robot.legs or up_axis(robot.tree, robot.trunk, robot.legs)[2] == 1.0:
+        return ""
+    return (
+        f"not judged: the z axis of the trunk frame '{robot.trunk}' does not point up, so level "
+        f"is not what it seems"
+    )
+
+
+def _run(maneuver: Maneuver, flight: _Flight, verdict: Verdict, *, ocs: bool) -> Run:
     return Run(
         scenario=maneuver.name,
         ocs=ocs,

@@ -188,11 +188,15 @@ def addresses(model: mujoco.MjModel) -> Addresses:
 
 
 def _stand(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    """Put the level trunk at the origin in the nominal posture; its height over its feet [m]."""
+    """Put the level trunk at the origin in the nominal posture; its height over its feet [m].
+
+    Zero for a robot that has nothing to stand on: its file gives it no shape.
+    """
     _set_posture(robot, model, data)
     _set_trunk(robot, model, data, np.eye(3), 0.0)
     mujoco.mj_forward(model, data)
-    return -lowest_point(model, data)
+    lowest = lowest_point(model, data)
+    return -lowest if np.isfinite(lowest) else 0.0
 
 
 def _place(

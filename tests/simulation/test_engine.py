@@ -1,3 +1,4 @@
+import time
 from dataclasses import fields, replace
 
 import numpy as np
@@ -36,6 +37,7 @@ def test_numbers_do_not_depend_on_the_threads(worlds):
     alone = simulate(worlds, threads=1)
     assert_same(alone, simulate(worlds, threads=2))
     assert_same(alone, simulate(worlds, threads=3))
+    assert_same(alone, simulate(worlds, threads=4))
 
 
 def test_a_world_does_not_feel_the_others(worlds):
@@ -75,6 +77,18 @@ def test_progress_rises_to_one(worlds):
     assert told == sorted(told)
     assert told[0] == 0.0
     assert told[-1] == 1.0
+
+
+def test_who_stops_one_batch_stops_the_other(worlds):
+    """Ten minutes of flight would take longer than anybody waits after Ctrl-C."""
+
+    def interrupt(_done: float) -> None:
+        raise KeyboardInterrupt
+
+    start = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        simulate([replace(world, duration=600.0) for world in worlds[:2]], progress=interrupt)
+    assert time.perf_counter() - start < 10.0
 
 
 @pytest.mark.parametrize("period", [1e-3, 5e-3, 7e-3])

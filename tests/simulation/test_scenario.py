@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from wheels import paper_device
+from robots import ROBOTS
+from wheels import paper_device, scaled_device
 
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
 from ocs_design.simulation import scenario
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.world import WorldBuilder
@@ -57,6 +59,15 @@ def test_without_legs_nothing_is_flown_level(batches):
     runs = run_scenarios(body, paper_device(), [drop])
     assert batches == [2]
     assert "without legs" in runs[0].reason
+
+
+@pytest.mark.parametrize(("trunk", "judged"), [(None, True), ("middle_pelvis", False)])
+def test_a_trunk_frame_whose_z_axis_lies_down_is_not_judged(trunk, judged):
+    """The human's frames have y up; where no trunk is named, the reader adds one with z up."""
+    human = read_robot(ROBOTS / "human_description" / "robots" / "human.urdf", trunk=trunk)
+    run, _ = run_scenarios(human, scaled_device(human), [Drop(name="low", height=1.3, pitch=0.1)])
+    assert (run.passed is not None) is judged
+    assert ("z axis of the trunk frame 'middle_pelvis'" in run.reason) is not judged
 
 
 def test_no_maneuvers_no_runs(solo12, batches):

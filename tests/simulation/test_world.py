@@ -71,6 +71,16 @@ def test_absent_wheels_leave_exactly_the_bare_robot(solo12, builder, maneuvers):
     assert data.ncon > 0
 
 
+def test_all_worlds_fit_the_same_working_memory(builder, maneuvers):
+    """MuJoCo's rollout runs them in one MjData and checks only a few of these."""
+    models = [builder.flight(maneuver, wheels).model for maneuver in maneuvers for wheels in Wheels]
+    found = [name for name in dir(models[0]) if name.startswith("n")]
+    sizes = [name for name in found if isinstance(getattr(models[0], name), int)]
+    assert {"nv", "nbvh", "ngeom", "nC", "nD"} <= set(sizes)
+    for name in sizes:
+        assert len({getattr(model, name) for model in models}) == 1, name
+
+
 def test_braked_wheels_are_part_of_the_trunk(builder, maneuvers):
     world = builder.flight(maneuvers[0], Wheels.BRAKED)
     data = placed(world)
