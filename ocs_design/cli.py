@@ -7,7 +7,8 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -31,17 +32,23 @@ app = typer.Typer(
 def main() -> None:
     """Entry point of `ocs-design`; to be told to end is an interrupt, so that it tidies up."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    _skip_idle_work()
     sys.exit(cli_errors.run(app, sys.argv[1:]))
 
 
-def _skip_idle_work() -> None:
-    """Leave out what takes a tenth of `size` and serves nothing."""
-    # Importing makes some hundred thousand objects and hardly any garbage, and at its usual
-    # threshold of 700 the collector goes through all of them again and again.
-    gc.set_threshold(1_000_000)
+@contextmanager
+def _quick_imports() -> Iterator[None]:
+    """Import without collecting garbage.
+
+    Importing makes some hundred thousand objects and hardly any garbage, and the collector goes
+    through all of them again and again. Afterwards it is needed: meshes leave much behind.
+    """
     # Nothing is drawn; unless told so, MuJoCo starts processes to look for a window library.
     os.environ.setdefault("MUJOCO_GL", "disabled")
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 @app.callback(invoke_without_command=True)
@@ -126,11 +133,14 @@ def size(
     )
     console = make_console(color=not no_color)
     steps = Steps(console, quiet=quiet or as_json)
-    with steps.step("load the solver and the simulator"):
+    with steps.step("load the solver and the simulator"), _quick_imports():
         from ocs_design.design_file import design_to_json
         from ocs_design.pipeline import design_ocs
         from ocs_design.report.flights import print_outcome
         from ocs_design.report.terminal import print_design, print_solution
+        from ocs_design.sizing.rim_program import load_solver
+
+        load_solver()
     outcome = design_ocs(
         specification,
         out=out,

@@ -12,6 +12,7 @@ from typing import Literal
 import msgspec
 
 from ocs_design.arrays import FloatArray
+from ocs_design.design import Flywheel, Motor
 from ocs_design.exceptions import OcsError
 from ocs_design.robot.robot import Robot
 
@@ -135,36 +136,6 @@ class ModuleRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FlywheelRecord:
-    """See `design.Flywheel`."""
-
-    inner_radius: float
-    outer_radius: float
-    height: float
-    material: str
-    density: float
-    mass: float
-    spin_inertia: float
-    transverse_inertia: float
-    hoop_stress: float | None
-    stress_margin: float | None
-    stored_energy: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class MotorRecord:
-    """See `design.Motor`."""
-
-    name: str
-    mass: float
-    stall_torque: float | None
-    no_load_speed: float
-    torque_limit: float | None
-    rotor_inertia: float
-    source: str
-
-
-@dataclass(frozen=True, kw_only=True)
 class ClearanceRecord:
     """See `simulation.clearance.Clearance`."""
 
@@ -188,8 +159,8 @@ class OcsRecord:
     total_com: Vector
     modules: tuple[ModuleRecord, ModuleRecord]
     clearance: ClearanceRecord | None
-    flywheel: FlywheelRecord
-    motor: MotorRecord
+    flywheel: Flywheel
+    motor: Motor
 
 
 @dataclass(frozen=True, kw_only=True)

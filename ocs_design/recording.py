@@ -12,11 +12,9 @@ from ocs_design.design_file import (
     AxisInertia,
     ClearanceRecord,
     DemandRecord,
-    FlywheelRecord,
     ManeuverRecord,
     MarginRecord,
     ModuleRecord,
-    MotorRecord,
     OcsDesign,
     OcsRecord,
     RequirementRecord,
@@ -129,8 +127,8 @@ def _ocs(
             ModuleRecord(name="right", axis=vector(right.axis), position=vector(right.position)),
         ),
         clearance=None if clearance is None else ClearanceRecord(**asdict(clearance)),
-        flywheel=FlywheelRecord(**asdict(device.flywheel)),
-        motor=MotorRecord(**asdict(device.motor)),
+        flywheel=device.flywheel,
+        motor=device.motor,
     )
 
 

@@ -143,6 +143,11 @@ def _gradients(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
     return np.array([limit.gradient(*point) for limit in limits])
 
 
+def load_solver() -> None:
+    """Import CVXPY, which takes a second, at a time of the caller's choice."""
+    import_module("cvxpy")
+
+
 def _program(constraints: RimConstraints) -> "Problem":
     cvxpy = import_module("cvxpy")
     mass = cvxpy.inv_pos(constraints.a + constraints.b)

@@ -40,7 +40,8 @@ def test_no_drive_is_faster_than_the_step(path):
     inverse = inverse[np.ix_(dofs, dofs)]
     zero, one = np.zeros_like(inverse), np.eye(len(dofs))
     stiffness = inverse @ np.diag(model.actuator_gainprm[drives, 0])
-    damping = inverse @ np.diag(-model.actuator_biasprm[drives, 2])
+    own = model.dof_damping[dofs]
+    damping = inverse @ np.diag(own - model.actuator_biasprm[drives, 2])
     poles = np.linalg.eigvals(np.block([[zero, one], [-stiffness, -damping]]))
     assert np.all(poles.real < 0.0)
     assert np.abs(poles).max() * model.opt.timestep < 1.5
@@ -64,3 +65,17 @@ def test_drives_do_not_exceed_the_joint_effort():
         np.testing.assert_allclose(
             model.actuator(DRIVE + name).forcerange, (-joint.effort, joint.effort)
         )
+
+
+def test_joints_that_are_in_no_leg_stay_where_they_are():
+    """The iCub's file gives its head next to no inertia, and its neck a damping that no step of a
+    millisecond could follow."""
+    robot = read_robot(ROBOTS / "icub_description" / "robots" / "icub.urdf")
+    world = drop_of(robot)
+    model, data = world.model, mujoco.MjData(world.model)
+    data.qpos[:], data.qvel[:], data.ctrl[:] = world.qpos, world.qvel, world.ctrl
+    mujoco.mj_step(model, data, round(1e3 * world.duration))
+    others = set(robot.tree.joints) - set(leg_joints(robot))
+    assert {"neck_yaw", "torso_pitch", "l_elbow"} <= others
+    held = [int(model.joint(name).qposadr[0]) for name in others]
+    np.testing.assert_allclose(data.qpos[held], world.qpos[held], atol=1e-3)

@@ -14,7 +14,11 @@ QUADRUPEDS = [
     "anymal_c_simple_description/urdf/anymal",
     "hyq_description/robots/hyq_no_sensors",
 ]
-BIPEDS = ["bolt_description/robots/bolt", "talos_data/robots/talos_full_v2"]
+BIPEDS = [
+    "bolt_description/robots/bolt",
+    "icub_description/robots/icub",
+    "talos_data/robots/talos_full_v2",
+]
 
 
 def fly(path):
