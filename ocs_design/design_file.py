@@ -1,6 +1,6 @@
 """`design.json`: the one artefact that other commands and programs read.
 
-Field names and units are the contract of `docs/design-json.md`: SI, radians, the base frame B, full
+Field names and units are the contract of `docs/output.md`: SI, radians, the base frame B, full
 double precision. The dataclasses are the schema; a change of meaning needs a new `SCHEMA_VERSION`.
 """
 
