@@ -245,5 +245,6 @@ def _with_unit(value: float, unit: str) -> str:
 def _clearance(clearance: ClearanceRecord | None) -> str:
     if clearance is None:
         return "not checked: the robot has no collision geometry"
-    gap = millimetres(clearance.distance)
-    return f"{clearance.part}, {gap} away (nominal posture; what moves is not checked)"
+    gap = millimetres(abs(clearance.distance))
+    how = f"{gap} away" if clearance.distance >= 0.0 else f"overlapping by {gap}"
+    return f"{clearance.part}, {how} (nominal posture; what moves is not checked)"
