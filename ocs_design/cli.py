@@ -108,12 +108,7 @@ def size(
     specification = _specification(
         spec,
         {
-            "robot.file": robot,
-            "robot.mass": mass,
-            "robot.inertia": inertia,
-            "robot.trunk": trunk,
-            "robot.posture": posture,
-            "robot.joints": joint or None,
+            **_robot(robot, mass, inertia, trunk, posture, joint),
             "requirement.rate_change": rate_change,
             "requirement.wheel_speed_max": wheel_speed_max,
             "motor.torque_max": torque_max,
@@ -180,14 +175,7 @@ def inspect(
 
     specification = _specification(
         spec,
-        {
-            "robot.file": robot,
-            "robot.mass": mass,
-            "robot.inertia": inertia,
-            "robot.trunk": trunk,
-            "robot.posture": posture,
-            "robot.joints": joint or None,
-        },
+        _robot(robot, mass, inertia, trunk, posture, joint),
     )
     inspection = inspect_robot(
         specification, package_paths=_package_paths(package_path), strict=strict
@@ -253,6 +241,25 @@ def catalogue(
         sys.stdout.buffer.write(materials_to_json())
     else:
         print_materials(make_console(color=not no_color), list(materials().values()))
+
+
+def _robot(
+    file: opt.Text,
+    mass: opt.Text,
+    inertia: opt.Text,
+    trunk: opt.Text,
+    posture: opt.Text,
+    joints: list[str] | None,
+) -> Mapping[str, object]:
+    """Options that say which robot and how it stands, by the key of the specification."""
+    return {
+        "robot.file": file,
+        "robot.mass": mass,
+        "robot.inertia": inertia,
+        "robot.trunk": trunk,
+        "robot.posture": posture,
+        "robot.joints": joints or None,
+    }
 
 
 def _specification(file: Path | None, options: Mapping[str, object]) -> "Specification":

@@ -21,7 +21,9 @@ def place_on_top(robot: Robot) -> Place:
     Each wheel may be turned to any incidence without touching the trunk or the other wheel. Other
     parts of the robot are not looked at: give a position where something stands on the trunk.
     """
-    top, forward = trunk_top(robot.tree, robot.trunk), float(robot.com[0])
+    # To the micrometre, so that no rounding error of the centre of mass reaches the files.
+    forward = round(float(robot.com[0]), 6) + 0.0
+    top = round(trunk_top(robot.tree, robot.trunk), 6)
 
     def place(outer_radius: float, height: float) -> FloatArray:
         reach = CLEARANCE * float(np.hypot(outer_radius, height / 2.0))

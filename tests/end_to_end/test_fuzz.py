@@ -87,7 +87,7 @@ def folder(monkeypatch):
         yield Path(name)
 
 
-def check(folder, *arguments):
+def check_exit(folder, *arguments):
     """A known exit code, and a folder only where it says so."""
     before = everything_in(folder)
     result = run(*arguments)
@@ -116,7 +116,7 @@ def check(folder, *arguments):
 def test_robots_by_hand(folder, mass, inertia, options):
     typed = [f"{name}={value}" for name, value in options.items()]
     by_hand = (f"--mass={mass}", f"--inertia={inertia}")
-    check(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
+    check_exit(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
 
 
 @settings(FUZZ, max_examples=10)
@@ -136,7 +136,7 @@ def test_robots_that_can_exist_of_any_size(folder, moments, size, density, optio
     inertia = ",".join(f"{mass * 10.0 ** (2.0 * size) * moment:.6g}" for moment in moments)
     typed = [f"{name}={value}" for name, value in options.items()]
     by_hand = (f"--mass={mass:.6g}", f"--inertia={inertia}")
-    check(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
+    check_exit(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
 
 
 def toml(value):
@@ -170,7 +170,7 @@ def test_specifications(folder, stated, maneuver, kind):
         lines += [f"{name} = {toml(value)}" for name, value in maneuver.items()]
     (folder / "s.toml").write_text("\n".join(lines))
     by_hand = ("--mass", "2.5", "--inertia", "0.03,0.05,0.07")
-    check(folder, "size", "--spec", "s.toml", *by_hand, "--no-validate", "-q", "-o", "out")
+    check_exit(folder, "size", "--spec", "s.toml", *by_hand, "--no-validate", "-q", "-o", "out")
 
 
 @pytest.mark.slow
@@ -190,4 +190,4 @@ def test_flights_of_robots_by_hand(folder, moments, scale, speed, torque):
         f"--wheel-speed-max={10.0**speed:.6g}",
         f"--torque-max={10.0**torque * size:.6g}",
     )
-    check(folder, "size", *typed, "-q", "-o", "out")
+    check_exit(folder, "size", *typed, "-q", "-o", "out")

@@ -108,9 +108,10 @@ def test_the_mjcf_snippet_stands_alone(tmp_path):
 def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path, export):
     path = export(paper_device(), carrier('a&"<b>--c--'), tmp_path / "ocs")
     if export is export_snippet_mjcf:
-        mujoco.MjModel.from_xml_path(str(path.rename(tmp_path / "ocs.xml")))
+        model = mujoco.MjModel.from_xml_path(str(path.rename(tmp_path / "ocs.xml")))
+        assert model.nu == 2
     else:
-        xacro.process_file(str(path))
+        assert xacro.process_file(str(path)).documentElement.tagName == "robot"
 
 
 def test_keyframes_of_an_attaching_robot_are_as_the_snippet_says(tmp_path):

@@ -1,0 +1,122 @@
+"""`inspect`, `bound` and `catalogue`, and what cannot be read back as a design."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import ROOT, SOLO12, run
+
+from ocs_design.design_file import read_design
+from ocs_design.exceptions import OcsError
+
+PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
+
+
+def test_bound_gives_the_worked_example_and_the_exact_one():
+    answer = run(*PAPER, "--alpha", "40deg", "--json").document
+    assert answer["paper"] == pytest.approx(1.36968e-4, rel=1e-5)
+    assert answer["required"] == pytest.approx(0.0515 * 2.0 / 748.0, rel=1e-12)
+    per_wheel = answer["required"] / (2.0 * np.cos(np.radians(40.0)))
+    assert answer["spin_inertia"] == pytest.approx(per_wheel, rel=1e-12)
+
+
+def test_bound_on_roll_takes_the_sine():
+    answer = run(*PAPER, "--alpha", "40deg", "--axis", "roll", "--json").document
+    per_wheel = answer["required"] / (2.0 * np.sin(np.radians(40.0)))
+    assert answer["spin_inertia"] == pytest.approx(per_wheel, rel=1e-12)
+
+
+def test_the_curve_of_a_bound_passes_through_it():
+    answer = run(*PAPER, "--json").document
+    row = answer["wheel_speeds"].index(answer["wheel_speed_max"])
+    column = answer["rate_changes"].index(answer["rate_change"])
+    assert answer["curve"][row][column] == pytest.approx(answer["required"] / 0.0515, rel=1e-12)
+
+
+def test_bound_in_words_names_both_forms():
+    result = run(*PAPER)
+    assert (result.code, result.stdout) == (0, "")
+    assert "1.37701e-04" in result.said
+    assert "1.36968e-04" in result.said
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--axis", "yaw"), "neither pitch nor roll"),
+        (("--alpha", "90deg"), "infinitely large"),
+        (("--alpha", "91deg"), "0 to 90 deg"),
+        (("--rate-change", "0"), "must be positive"),
+        (("--rate-change", "800rad/s"), "infinitely large"),
+        (("--inertia", "5kg"), "--inertia"),
+    ],
+)
+def test_a_bound_that_makes_no_sense_is_wrong_usage(options, words):
+    result = run(*PAPER, *options)
+    assert result.code == 2
+    assert words in result.said
+
+
+def test_the_catalogue_is_its_file():
+    listed = run("catalogue", "materials", "--json").document["materials"]
+    path = Path(ROOT / "ocs_design" / "catalogue" / "materials.csv")
+    rows = {row["name"]: row for row in csv.DictReader(path.read_text().splitlines())}
+    assert {material["name"] for material in listed} == set(rows)
+    for material in listed:
+        row = rows[material["name"]]
+        assert material["density"] == float(row["density_kg_m3"])
+        assert material["source"] == row["source"]
+        assert material["name"] in run("catalogue", "materials").said
+
+
+def test_an_unknown_catalogue_is_wrong_usage():
+    result = run("catalogue", "cheeses")
+    assert result.code == 2
+    assert "catalogue materials" in result.said
+
+
+def test_inspect_says_what_size_goes_by():
+    found = run("inspect", SOLO12, "--json").document
+    robot = found["robot"]
+    inertia = np.array(robot["inertia"])
+    alpha = np.arctan2(inertia[0, 0], inertia[1, 1])
+    assert found["incidence_by_criterion"]["equal-rate"] == pytest.approx(alpha, rel=1e-12)
+    nominal = found["incidence_by_posture"][0]
+    assert nominal["incidence"] == pytest.approx(alpha, rel=1e-12)
+    text = run("inspect", SOLO12).said
+    assert "stand, trunk 272 mm over the feet" in text
+    assert "FL_FOOT, FR_FOOT, HL_FOOT, HR_FOOT" in text
+    assert f"equal-rate {np.degrees(alpha):.3f}" in text
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"{}",
+        b"[1, 2]",
+        b"not json",
+        b"\xff\xfe",
+        b'{"schema_version": 99}',
+        b'{"schema_version": 1}',
+    ],
+)
+def test_what_is_no_design_is_told(tmp_path, content):
+    path = tmp_path / "design.json"
+    path.write_bytes(content)
+    with pytest.raises(OcsError) as caught:
+        read_design(path)
+    assert str(path) in caught.value.message
+
+
+def test_a_design_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(OcsError, match="No such file"):
+        read_design(tmp_path / "design.json")
+
+
+def test_json_errors_are_one_document():
+    result = run("bound", "--json")
+    assert result.code == 2
+    assert json.loads(result.stdout)["error"]["kind"] == "usage"
