@@ -1,39 +1,147 @@
-"""From a sizing to the device that is exported and simulated."""
+"""From a sizing or a selection to the device that is exported and simulated."""
 
+import math
+from dataclasses import replace
+
+from ocs_design.arrays import FloatArray
 from ocs_design.catalogue.materials import Material
 from ocs_design.design import Device, Flywheel, Module, Motor
+from ocs_design.drive.line import DriveLine, armature, rotor_share
 from ocs_design.requirement.resolving import Resolved
-from ocs_design.sizing.cylinder import hoop_stress, stored_energy
+from ocs_design.sizing.carrier import Carrier
+from ocs_design.sizing.cylinder import (
+    cylinder_mass,
+    cylinder_spin_inertia,
+    cylinder_transverse_inertia,
+    hoop_stress,
+    stored_energy,
+)
 from ocs_design.sizing.device_sizing import DeviceSizing
 from ocs_design.sizing.incidence import module_axes
+from ocs_design.sizing.margins.driven_wheel import DrivenWheel
+from ocs_design.sizing.selection.result import Candidate
 
 
 def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
     """Two modules at the sized places, each with the sized wheel and the assumed motor."""
-    axes = module_axes(sizing.incidence)
+    rim, speed = sizing.rim, resolved.requirement.wheel_speed_max
+    cylinder = (rim.inner_radius, rim.outer_radius, rim.height)
+    flywheel = _flywheel(cylinder, resolved.material, speed, rotor_share=0.0)
+    return Device(
+        sizing.incidence,
+        _modules(sizing.incidence, sizing.centers),
+        # To the last digit what was minimised.
+        replace(flywheel, mass=rim.mass),
+        _assumed_motor(resolved),
+    )
+
+
+def assemble_selected(candidate: Candidate, bus_voltage: float) -> Device:
+    """Two modules as they were selected, fed at `bus_voltage` [V]."""
+    wheel = DrivenWheel(
+        candidate.inner_radius,
+        candidate.outer_radius,
+        candidate.height,
+        candidate.material,
+        candidate.motor,
+        candidate.gear,
+        bus_voltage,
+    )
+    return assemble_driven(
+        wheel, candidate.carrier, candidate.incidence, candidate.centers, candidate.line
+    )
+
+
+def assemble_driven(
+    wheel: DrivenWheel,
+    carrier: Carrier,
+    incidence: float,
+    centers: FloatArray,
+    line: DriveLine | None = None,
+) -> Device:
+    """Two modules with a motor of the catalogue each.
+
+    Args:
+        wheel: rim, motor, gear and supply of each.
+        carrier: what of each stands still.
+        incidence: of the wheel axes [rad].
+        centers: of the left and the right wheel in B [m], shape (2, 3).
+        line: what the drive may do at the wheel; None: all that motor and gear can.
+
+    Raises:
+        OcsError: the motor lacks a figure that every drive needs.
+    """
+    cylinder = (wheel.inner_radius, wheel.outer_radius, wheel.height)
+    motor = _driven_motor(wheel, wheel.line if line is None else line)
+    speed = min(motor.no_load_speed, motor.speed_max or math.inf)
+    return Device(
+        incidence,
+        _modules(incidence, centers),
+        _flywheel(cylinder, wheel.material, speed, motor.rotor_inertia),
+        motor,
+        carrier,
+    )
+
+
+def _driven_motor(wheel: DrivenWheel, line: DriveLine) -> Motor:
+    """What a motor of the catalogue does at its wheel behind its gear, at the bus voltage."""
+    motor, gear = wheel.motor, wheel.gear
+    rotor, gain = motor.rotor_inertia or 0.0, gear.ratio * gear.efficiency
+    return Motor(
+        name=motor.name,
+        mass=motor.mass or 0.0,
+        stall_torque=_finite(float(line.stall_torque)),
+        no_load_speed=float(line.no_load_speed),
+        torque_limit=_finite(float(line.torque_limit)),
+        rotor_inertia=rotor_share(rotor, gear),
+        source=motor.source,
+        gear=gear.name,
+        gear_ratio=gear.ratio,
+        gear_efficiency=gear.efficiency,
+        gear_mass=gear.mass,
+        bus_voltage=wheel.bus_voltage,
+        speed_max=_finite(float(line.speed_max)),
+        armature=armature(rotor, gear),
+        torque_constant=motor.torque_constant,
+        resistance=motor.resistance,
+        continuous_torque=None
+        if motor.continuous_torque is None
+        else gain * motor.continuous_torque,
+    )
+
+
+def _modules(incidence: float, centers: FloatArray) -> tuple[Module, Module]:
     left, right = (
         Module(name, axis, center)
-        for name, axis, center in zip(("left", "right"), axes.T, sizing.centers, strict=True)
+        for name, axis, center in zip(
+            ("left", "right"), module_axes(incidence).T, centers, strict=True
+        )
     )
-    flywheel = _flywheel(sizing, resolved.material, resolved.requirement.wheel_speed_max)
-    return Device(sizing.incidence, (left, right), flywheel, _assumed_motor(resolved))
+    return left, right
 
 
-def _flywheel(sizing: DeviceSizing, material: Material, wheel_speed: float) -> Flywheel:
-    rim = sizing.rim
-    stress = _hoop_stress(sizing, material, wheel_speed)
+def _flywheel(
+    cylinder: tuple[float, float, float],
+    material: Material,
+    wheel_speed: float,
+    rotor_share: float,
+) -> Flywheel:
+    """Of the rim's inner and outer radius and height [m], with what the rotor adds [kg m^2]."""
+    inner, outer, height = cylinder
+    stress = _hoop_stress(inner, outer, material, wheel_speed)
+    spin_inertia = cylinder_spin_inertia(*cylinder, material.density) + rotor_share
     return Flywheel(
-        inner_radius=rim.inner_radius,
-        outer_radius=rim.outer_radius,
-        height=rim.height,
+        inner_radius=inner,
+        outer_radius=outer,
+        height=height,
         material=material.name,
         density=material.density,
-        mass=rim.mass,
-        spin_inertia=rim.spin_inertia,
-        transverse_inertia=rim.transverse_inertia,
+        mass=cylinder_mass(*cylinder, material.density),
+        spin_inertia=spin_inertia,
+        transverse_inertia=cylinder_transverse_inertia(*cylinder, material.density),
         hoop_stress=stress,
         stress_margin=_ratio(material.yield_strength, stress),
-        stored_energy=float(stored_energy(rim.spin_inertia, wheel_speed)),
+        stored_energy=float(stored_energy(spin_inertia, wheel_speed)),
     )
 
 
@@ -50,13 +158,15 @@ def _assumed_motor(resolved: Resolved) -> Motor:
     )
 
 
-def _hoop_stress(sizing: DeviceSizing, material: Material, wheel_speed: float) -> float | None:
+def _hoop_stress(
+    inner_radius: float, outer_radius: float, material: Material, wheel_speed: float
+) -> float | None:
     if material.poisson_ratio is None:
         return None
     return float(
         hoop_stress(
-            sizing.rim.inner_radius,
-            sizing.rim.outer_radius,
+            inner_radius,
+            outer_radius,
             density=material.density,
             poisson_ratio=material.poisson_ratio,
             wheel_speed=wheel_speed,
@@ -66,3 +176,8 @@ def _hoop_stress(sizing: DeviceSizing, material: Material, wheel_speed: float) -
 
 def _ratio(capacity: float | None, demand: float | None) -> float | None:
     return None if capacity is None or demand is None else capacity / demand
+
+
+def _finite(limit: float) -> float | None:
+    """None for what is not limited."""
+    return limit if math.isfinite(limit) else None

@@ -7,18 +7,16 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from ocs_design import cli_errors
 from ocs_design import cli_options as opt
-
-if TYPE_CHECKING:
-    from ocs_design.requirement.specification import Specification
+from ocs_design.cli_pareto import pareto
+from ocs_design.cli_stated import stated_package_paths, stated_specification
 
 app = typer.Typer(
     name="ocs-design",
@@ -66,6 +64,7 @@ def _no_command(
 
 @app.command()
 def size(
+    context: typer.Context,
     robot: opt.RobotFile = None,
     mass: opt.Mass = None,
     inertia: opt.Inertia = None,
@@ -87,6 +86,12 @@ def size(
     wall_min: opt.WallMin = None,
     wheel_mass_max: opt.WheelMassMax = None,
     material: opt.MaterialName = None,
+    motor: opt.MotorName = None,
+    bus_voltage: opt.BusVoltage = None,
+    gear: opt.GearName = None,
+    motors: opt.MotorsFile = None,
+    gears: opt.GearsFile = None,
+    co_design: opt.CoDesign = False,
     no_validate: opt.NoValidate = False,
     seed: opt.Seed = None,
     out: opt.Out = None,
@@ -105,41 +110,20 @@ def size(
     """
     from ocs_design.report.console import Steps, make_console
 
-    specification = _specification(
-        spec,
-        {
-            **_robot(robot, mass, inertia, trunk, posture, joint),
-            "requirement.rate_change": rate_change,
-            "requirement.wheel_speed_max": wheel_speed_max,
-            "motor.torque_max": torque_max,
-            "ocs.alpha": alpha,
-            "ocs.alpha_criterion": alpha_criterion,
-            "ocs.position": position,
-            "flywheel.r_max": r_max,
-            "flywheel.r_min": r_min,
-            "flywheel.h_max": h_max,
-            "flywheel.h_min": h_min,
-            "flywheel.wall_min": wall_min,
-            "flywheel.wheel_mass_max": wheel_mass_max,
-            "flywheel.material": material,
-            "validation.enabled": False if no_validate else None,
-            "validation.seed": seed,
-        },
-    )
+    specification = stated_specification(context)
     console = make_console(color=not no_color)
     steps = Steps(console, quiet=quiet or as_json)
     with steps.step("load the solver and the simulator"), _quick_imports():
         from ocs_design.design_file import design_to_json
-        from ocs_design.pipeline import design_ocs
+        from ocs_design.pipeline import design_ocs, load_solvers
         from ocs_design.report.flights import print_outcome
         from ocs_design.report.terminal import print_design, print_solution
-        from ocs_design.sizing.rim_program import load_solver
 
-        load_solver()
+        load_solvers(specification)
     outcome = design_ocs(
         specification,
         out=out,
-        package_paths=_package_paths(package_path),
+        package_paths=stated_package_paths(package_path),
         force=force,
         strict=strict,
         steps=steps,
@@ -156,6 +140,7 @@ def size(
 
 @app.command()
 def inspect(
+    context: typer.Context,
     robot: opt.RobotFile = None,
     mass: opt.Mass = None,
     inertia: opt.Inertia = None,
@@ -173,12 +158,10 @@ def inspect(
     from ocs_design.report.console import make_console
     from ocs_design.report.inspection import print_inspection
 
-    specification = _specification(
-        spec,
-        _robot(robot, mass, inertia, trunk, posture, joint),
-    )
     inspection = inspect_robot(
-        specification, package_paths=_package_paths(package_path), strict=strict
+        stated_specification(context),
+        package_paths=stated_package_paths(package_path),
+        strict=strict,
     )
     if as_json:
         sys.stdout.buffer.write(inspection_to_json(inspection))
@@ -223,66 +206,26 @@ def bound(
         print_bound(make_console(color=not no_color), answer)
 
 
+app.command()(pareto)
+
+
 @app.command()
 def catalogue(
-    what: Annotated[str, typer.Argument(metavar="materials", help="What to list.")],
+    what: Annotated[str, typer.Argument(metavar="motors|gears|materials", help="What to list.")],
+    motors: opt.MotorsFile = None,
+    gears: opt.GearsFile = None,
     as_json: opt.AsJson = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Also print each row's source and remark.")
+    ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
     """What can be chosen, with sources."""
-    from ocs_design.catalogue.materials import materials, materials_to_json
-    from ocs_design.exceptions import UsageError
-    from ocs_design.report.catalogue import print_materials
+    from ocs_design.report.catalogue import listing
     from ocs_design.report.console import make_console
 
-    if what != "materials":
-        raise UsageError(f"there is no catalogue of {what}", hint="try: catalogue materials")
+    listed = listing(what, {"motors": motors, "gears": gears})
     if as_json:
-        sys.stdout.buffer.write(materials_to_json())
+        sys.stdout.buffer.write(listed.to_json())
     else:
-        print_materials(make_console(color=not no_color), list(materials().values()))
-
-
-def _robot(
-    file: opt.Text,
-    mass: opt.Text,
-    inertia: opt.Text,
-    trunk: opt.Text,
-    posture: opt.Text,
-    joints: list[str] | None,
-) -> Mapping[str, object]:
-    """Options that say which robot and how it stands, by the key of the specification."""
-    return {
-        "robot.file": file,
-        "robot.mass": mass,
-        "robot.inertia": inertia,
-        "robot.trunk": trunk,
-        "robot.posture": posture,
-        "robot.joints": joints or None,
-    }
-
-
-def _specification(file: Path | None, options: Mapping[str, object]) -> "Specification":
-    """The specification file with the options over it."""
-    from ocs_design.requirement.options import specification_from_options
-    from ocs_design.requirement.reading import read_specification
-    from ocs_design.requirement.specification import Specification, merge
-
-    base = Specification() if file is None else read_specification(file)
-    return merge(base, specification_from_options(options))
-
-
-def _package_paths(texts: list[str] | None) -> Mapping[str, Path]:
-    """`NAME=DIR` pairs of `--package-path`."""
-    from ocs_design.exceptions import UsageError
-
-    found = {}
-    for text in texts or []:
-        name, separator, folder = text.partition("=")
-        if not (name and separator and folder):
-            raise UsageError(
-                f"--package-path {text}: is not NAME=DIR",
-                hint="as in --package-path my_robot=/opt/my_robot",
-            )
-        found[name] = Path(folder)
-    return found
+        listed.show(make_console(color=not no_color), verbose=verbose)

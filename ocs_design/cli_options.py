@@ -60,7 +60,9 @@ RateChange: TypeAlias = Annotated[
 WheelSpeedMax: TypeAlias = Annotated[
     Text,
     typer.Option(
-        "--wheel-speed-max", metavar="SPEED", help="Highest wheel speed. Default: 7200rpm."
+        "--wheel-speed-max",
+        metavar="SPEED",
+        help="Highest wheel speed. Default: the motor's; 7200rpm without a motor.",
     ),
 ]
 TorqueMax: TypeAlias = Annotated[
@@ -75,7 +77,8 @@ AlphaCriterion: TypeAlias = Annotated[
     typer.Option(
         "--alpha-criterion",
         metavar="NAME",
-        help="equal-rate (default), weighted, simultaneous, pitch-only, roll-only.",
+        help="lightest (default with a motor), equal-rate (default without), weighted, "
+        "simultaneous, pitch-only, roll-only.",
     ),
 ]
 Position: TypeAlias = Annotated[
@@ -103,7 +106,47 @@ WheelMassMax: TypeAlias = Annotated[
     Text, typer.Option("--wheel-mass-max", metavar="MASS", help="Largest mass of one rim.")
 ]
 MaterialName: TypeAlias = Annotated[
-    Text, typer.Option("--material", metavar="NAME", help="See `ocs-design catalogue materials`.")
+    Text,
+    typer.Option(
+        "--material",
+        metavar="NAME",
+        help="See `ocs-design catalogue materials`; auto (default): the lightest device.",
+    ),
+]
+MotorName: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--motor",
+        metavar="NAME",
+        help="See `ocs-design catalogue motors`; auto (default): the lightest device; none: size "
+        "the wheels by the bound alone.",
+    ),
+]
+BusVoltage: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--bus-voltage",
+        metavar="VOLTAGE",
+        help="Of the motors' supply. Default: 24V, above 20 kg 48V.",
+    ),
+]
+GearName: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--gear",
+        metavar="NAME",
+        help="See `ocs-design catalogue gears`; direct: none; auto (default): the lightest device.",
+    ),
+]
+MotorsFile: TypeAlias = Annotated[
+    Text, typer.Option("--motors", metavar="FILE", help="Motors of your own, CSV or TOML.")
+]
+GearsFile: TypeAlias = Annotated[
+    Text, typer.Option("--gears", metavar="FILE", help="Gears of your own, CSV or TOML.")
+]
+CoDesign: TypeAlias = Annotated[
+    bool,
+    typer.Option("--co-design", help="Refine all dimensions together with the maneuvers, in 3-D."),
 ]
 NoValidate: TypeAlias = Annotated[
     bool, typer.Option("--no-validate", help="Do not simulate the maneuvers.")

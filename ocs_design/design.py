@@ -5,7 +5,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.drive.gear import DIRECT
+from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.incidence import module_axes
+
+NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
+"""Of the assumed motor, which weighs nothing."""
 
 
 @dataclass(frozen=True)
@@ -15,9 +20,11 @@ class Flywheel:
     Attributes:
         inner_radius, outer_radius, height: [m].
         material: name in the catalogue. density: [kg/m^3].
-        mass: [kg].
-        spin_inertia: about the spin axis, motor rotor included [kg m^2].
-        transverse_inertia: about any axis across it through its centre of mass [kg m^2].
+        mass: of the rim [kg].
+        spin_inertia: angular momentum about the spin axis per speed relative to the trunk, the
+            motor's rotor included [kg m^2].
+        transverse_inertia: of the rim about any axis across it through its centre of mass
+            [kg m^2].
         hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
         stress_margin: yield strength over hoop stress; None if the strength is not known.
         stored_energy: at the highest wheel speed [J].
@@ -53,16 +60,31 @@ class Module:
 
 @dataclass(frozen=True)
 class Motor:
-    """What drives a wheel: the voltage line and the current limit, at the wheel.
+    """What drives a wheel: the voltage line, the limits and the gear, all at the wheel.
+
+    None is what is not limited or not known; with the assumed motor that is all but its speed and,
+    where one was stated, its torque.
 
     Attributes:
         name: in the catalogue, or "assumed".
-        mass: [kg].
-        stall_torque: torque of the voltage line at rest [N m]; None: not limited.
-        no_load_speed: [rad/s].
-        torque_limit: at the current limit [N m]; None: not limited.
-        rotor_inertia: [kg m^2].
+        mass: of the motor alone, without its gear [kg].
+        stall_torque: torque of the voltage line at rest [N m]; None: full torque to the top speed.
+        no_load_speed: of the voltage line [rad/s].
+        torque_limit: at the current limit of motor and drive, or of the gear [N m].
+        rotor_inertia: what the rotor adds to the spin inertia of the wheel [kg m^2]: its own times
+            the gear ratio, negative where the gear reverses.
         source: where the figures come from.
+        gear: name in the catalogue, or "direct".
+        gear_ratio: motor speed over wheel speed.
+        gear_efficiency: of the torque, 0..1, taken as a loss both ways.
+        gear_mass: [kg].
+        bus_voltage: [V].
+        speed_max: mechanical, of wheel, gear and motor [rad/s].
+        armature: what the motor accelerates beyond the spin inertia of the wheel, at the wheel
+            [kg m^2]; 0 without a gear.
+        torque_constant: of the motor itself, six-step, between two lines [N m/A].
+        resistance: of the motor between two lines [ohm].
+        continuous_torque: that the winding stands for good [N m].
     """
 
     name: str
@@ -72,6 +94,16 @@ class Motor:
     torque_limit: float | None
     rotor_inertia: float
     source: str
+    gear: str = DIRECT.name
+    gear_ratio: float = DIRECT.ratio
+    gear_efficiency: float = DIRECT.efficiency
+    gear_mass: float = DIRECT.mass
+    bus_voltage: float | None = None
+    speed_max: float | None = None
+    armature: float = 0.0
+    torque_constant: float | None = None
+    resistance: float | None = None
+    continuous_torque: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,12 +115,19 @@ class Device:
         modules: left and right.
         flywheel: of each module.
         motor: of each module.
+        carrier: what of each module stands still with the trunk, at the wheel's centre.
     """
 
     incidence: float
     modules: tuple[Module, Module]
     flywheel: Flywheel
     motor: Motor
+    carrier: Carrier = NO_CARRIER
+
+    @property
+    def mass(self) -> float:
+        """Of both modules: rims, motors, gears and housings [kg]."""
+        return 2.0 * (self.flywheel.mass + self.carrier.mass)
 
     @property
     def axes(self) -> FloatArray:

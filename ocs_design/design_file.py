@@ -12,9 +12,11 @@ from typing import Literal
 import msgspec
 
 from ocs_design.arrays import FloatArray
-from ocs_design.design import Flywheel, Motor
+from ocs_design.design import NO_CARRIER, Flywheel, Motor
 from ocs_design.exceptions import OcsError
 from ocs_design.robot.robot import Robot
+from ocs_design.selection_record import SelectionRecord
+from ocs_design.sizing.carrier import Carrier
 
 SCHEMA_VERSION = 1
 
@@ -161,6 +163,7 @@ class OcsRecord:
     clearance: ClearanceRecord | None
     flywheel: Flywheel
     motor: Motor
+    carrier: Carrier = NO_CARRIER
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,13 +182,18 @@ class SizingRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class MarginRecord:
-    """Demand against capacity; `margin` is capacity over demand, None where there is no limit."""
+    """Demand against capacity; `margin` is capacity over demand, None where there is no limit.
+
+    `maneuver` is the one that sets it, empty if none does; `note` is what the figures rest on.
+    """
 
     name: str
     demand: float
     capacity: float | None
     unit: str
     margin: float | None
+    maneuver: str = ""
+    note: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -214,6 +222,7 @@ class OcsDesign:
     requirement: RequirementRecord
     ocs: OcsRecord
     sizing: SizingRecord
+    selection: SelectionRecord | None = None
     margins: tuple[MarginRecord, ...]
     validation: tuple[ValidationRecord, ...]
     files: Mapping[str, str]

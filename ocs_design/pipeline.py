@@ -3,11 +3,13 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ocs_design.assembly import assemble
 from ocs_design.design import Device
 from ocs_design.design_file import OcsDesign, design_to_json
+from ocs_design.designing import Designed, design_device
 from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.snippets import (
@@ -18,10 +20,10 @@ from ocs_design.export.snippets import (
 from ocs_design.export.stl import MILLIMETRES, export_stl
 from ocs_design.export.time_series import export_time_series
 from ocs_design.export.urdf import export_robot_urdf
-from ocs_design.recording import BY_HAND, record_design
+from ocs_design.recording import record_design
 from ocs_design.report.console import Steps
 from ocs_design.requirement.resolving import Resolved, resolve
-from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.specification import NO_MOTOR, Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
 from ocs_design.robot.remarks import Remarks
@@ -31,9 +33,10 @@ from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.scenario import Options, Run, run_scenarios
 from ocs_design.simulation.world import wheel_gains
-from ocs_design.sizing.device_sizing import DeviceSizing, size_device
-from ocs_design.sizing.incidence import Criterion
-from ocs_design.sizing.placement import place_at, place_on_top
+from ocs_design.sizing.rim_program import load_solver
+
+if TYPE_CHECKING:
+    from ocs_design.sizing.optimal_control.reference import Reference
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,12 +90,15 @@ def design_ocs(
         folder = out or Path(f"{safe_name(robot.name)}-ocs")
         check_target(folder, force=force)
         step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
-    with steps.step("size the device"):
+    with steps.step("size the device") as step:
         extent = size(robot.tree, robot.posture, robot.trunk)
         resolved = resolve(specification, robot, extent)
-        sizing, criterion = _size(specification, robot, resolved)
-        device = assemble(sizing, resolved)
+        designed = design_device(specification, robot, resolved)
+        device = designed.device
         clearance = nearest_part(robot, device)
+        step.note = _what_was_sized(designed)
+    with steps.step("plan the maneuvers"):
+        plans = _plan(robot, designed, resolved)
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
             remarks = _export(robot, device, staging)
@@ -100,16 +106,17 @@ def design_ocs(
         runs: tuple[Run, ...] = ()
         if specification.validation.enabled is not False:
             with steps.step("fly the maneuvers with and without the device") as step:
-                runs = _fly(specification, robot, device, resolved, step.update)
+                runs = _fly(
+                    specification, robot, designed, resolved, plans=plans, progress=step.update
+                )
                 _write_runs(runs, staging)
         design = record_design(
             robot,
             resolved,
-            sizing,
-            device,
+            designed,
             runs,
+            plans=plans,
             clearance=clearance,
-            criterion=criterion,
             seed=specification.validation.seed or 0,
             files=file_hashes(staging),
         )
@@ -122,21 +129,34 @@ def safe_name(name: str) -> str:
     return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
 
 
-def _size(
-    specification: Specification, robot: Robot, resolved: Resolved
-) -> tuple[DeviceSizing, str]:
-    stated = specification.ocs
-    criterion = Criterion(stated.alpha_criterion or Criterion.EQUAL_RATE)
-    sizing = size_device(
+def load_solvers(specification: Specification) -> None:
+    """Import what sizing will need: that takes most of the time of a first design."""
+    if specification.motor.name == NO_MOTOR:
+        load_solver()
+    else:
+        import_module("ocs_design.planning")
+
+
+def _what_was_sized(designed: Designed) -> str:
+    if designed.choice is None:
+        return ""
+    return f"{designed.choice.selection.candidates:,} combinations"
+
+
+def _plan(robot: Robot, designed: Designed, resolved: Resolved) -> Mapping[str, "Reference"]:
+    """The turns that the flights track; without a motor's figures there is nothing to plan for."""
+    if designed.choice is None:
+        return {}
+    # CasADi takes a third of a second to import, and wheels without a motor do without.
+    from ocs_design.planning import plan  # noqa: PLC0415
+
+    requirement = resolved.requirement
+    return plan(
         robot.mass_properties,
-        resolved.requirement,
-        resolved.envelope,
-        resolved.material,
-        place_on_top(robot) if stated.position is None else place_at(stated.position),
-        incidence=stated.alpha,
-        criterion=criterion,
+        designed.device,
+        requirement.maneuvers,
+        requirement.standing_height,
     )
-    return sizing, BY_HAND if stated.alpha is not None else str(criterion)
 
 
 def _export(robot: Robot, device: Device, folder: Path) -> tuple[str, ...]:
@@ -156,8 +176,10 @@ def _export(robot: Robot, device: Device, folder: Path) -> tuple[str, ...]:
 def _fly(
     specification: Specification,
     robot: Robot,
-    device: Device,
+    designed: Designed,
     resolved: Resolved,
+    *,
+    plans: Mapping[str, "Reference"],
     progress: Progress,
 ) -> tuple[Run, ...]:
     stated = specification.validation
@@ -167,7 +189,16 @@ def _fly(
         gains=Gains(stated.kp or default.stiffness, stated.kd or default.damping),
     )
     return run_scenarios(
-        robot, device, resolved.requirement.maneuvers, options=options, progress=progress
+        robot,
+        designed.device,
+        resolved.requirement.maneuvers,
+        options=options,
+        references={
+            name: planned.trajectory
+            for name, planned in plans.items()
+            if planned.trajectory is not None
+        },
+        progress=progress,
     )
 
 

@@ -2,18 +2,17 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ocs_design import __version__
-from ocs_design.design import Device
 from ocs_design.design_file import (
     SCHEMA_VERSION,
     AxisInertia,
     ClearanceRecord,
     DemandRecord,
     ManeuverRecord,
-    MarginRecord,
     ModuleRecord,
     OcsDesign,
     OcsRecord,
@@ -25,28 +24,37 @@ from ocs_design.design_file import (
     matrix,
     vector,
 )
+from ocs_design.designing import Designed
+from ocs_design.margin_recording import record_margins
 from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
+from ocs_design.selection_recording import record_selection
 from ocs_design.simulation.clearance import Clearance
 from ocs_design.simulation.scenario import Run
-from ocs_design.sizing.device_sizing import DeviceSizing
+from ocs_design.sizing.housing import CLEARANCE, WALL
 from ocs_design.sizing.incidence import Criterion, heading_drift
+from ocs_design.sizing.sized import Sized
+from ocs_design.units import format_quantity
 
-BY_HAND = "by hand"
-"""Criterion of an incidence, or source of a spin inertia, that the user gave."""
+if TYPE_CHECKING:
+    from ocs_design.sizing.optimal_control.reference import Reference
+
+HOUSING_ASSUMED = (
+    f"Housing: printed in PETG, wall {format_quantity(WALL, 'mm')}, "
+    f"{format_quantity(CLEARANCE, 'mm')} clear of the rim."
+)
 
 
 def record_design(
     robot: Robot,
     resolved: Resolved,
-    sizing: DeviceSizing,
-    device: Device,
+    designed: Designed,
     runs: Sequence[Run],
     *,
+    plans: Mapping[str, "Reference"],
     clearance: Clearance | None,
-    criterion: str,
     seed: int,
     files: Mapping[str, str],
 ) -> OcsDesign:
@@ -56,29 +64,28 @@ def record_design(
         tool=Tool(name="ocs-design", version=__version__),
         seed=seed,
         robot=RobotRecord.of(robot),
-        requirement=_requirement(resolved, sizing),
-        ocs=_ocs(sizing, device, clearance, criterion),
-        sizing=_sizing(sizing),
-        margins=tuple(_margins(resolved, sizing, device, runs)),
+        requirement=_requirement(resolved, designed.sized),
+        ocs=_ocs(designed, clearance),
+        sizing=_sizing(designed.sized),
+        selection=None if designed.choice is None else record_selection(designed.choice),
+        margins=record_margins(resolved, designed, runs, plans),
         validation=tuple(_validation(run) for run in runs),
         files=files,
     )
 
 
-def _requirement(resolved: Resolved, sizing: DeviceSizing) -> RequirementRecord:
-    requirement = resolved.requirement
-    speed = requirement.wheel_speed_max
-    roll, pitch = (
-        np.max([demand.momentum for demand in sizing.demands], axis=0, initial=0.0) / speed
-    )
+def _requirement(resolved: Resolved, sized: Sized) -> RequirementRecord:
+    requirement, speed = resolved.requirement, sized.wheel_speed_max
+    roll, pitch = np.max([demand.momentum for demand in sized.demands], axis=0, initial=0.0) / speed
+    housing = () if resolved.choice is None else (HOUSING_ASSUMED,)
     return RequirementRecord(
         maneuvers=tuple(_maneuver(maneuver) for maneuver in requirement.maneuvers),
         rate_change=requirement.rate_change,
-        wheel_speed_max=requirement.wheel_speed_max,
+        wheel_speed_max=speed,
         required_inertia=AxisInertia(pitch=float(pitch), roll=float(roll)),
         spin_inertia_by_hand=requirement.spin_inertia,
-        demands=tuple(_demand(demand) for demand in sizing.demands),
-        assumptions=resolved.assumptions,
+        demands=tuple(_demand(demand) for demand in sized.demands),
+        assumptions=(*resolved.assumptions, *housing),
     )
 
 
@@ -106,22 +113,21 @@ def _demand(demand: SpinDemand) -> DemandRecord:
     )
 
 
-def _ocs(
-    sizing: DeviceSizing, device: Device, clearance: Clearance | None, criterion: str
-) -> OcsRecord:
-    drift = heading_drift(sizing.total.inertia)
+def _ocs(designed: Designed, clearance: Clearance | None) -> OcsRecord:
+    device, sized = designed.device, designed.sized
+    drift = heading_drift(sized.total.inertia)
     left, right = device.modules
     return OcsRecord(
         incidence=device.incidence,
-        incidence_criterion=criterion,
-        incidence_by_criterion=_by_name(sizing.incidence_by_criterion),
-        incidence_by_criterion_robot_alone=_by_name(sizing.incidence_by_criterion_robot),
+        incidence_criterion=designed.criterion,
+        incidence_by_criterion=_by_name(sized.incidence_by_criterion),
+        incidence_by_criterion_robot_alone=_by_name(sized.incidence_by_criterion_robot),
         heading_drift=(float(drift[0]), float(drift[1])),
         spin_inertia=device.flywheel.spin_inertia,
-        mass_total=2.0 * (device.flywheel.mass + device.motor.mass),
-        total_mass=sizing.total.mass,
-        total_inertia=matrix(sizing.total.inertia),
-        total_com=vector(sizing.total.com),
+        mass_total=device.mass,
+        total_mass=sized.total.mass,
+        total_inertia=matrix(sized.total.inertia),
+        total_com=vector(sized.total.com),
         modules=(
             ModuleRecord(name="left", axis=vector(left.axis), position=vector(left.position)),
             ModuleRecord(name="right", axis=vector(right.axis), position=vector(right.position)),
@@ -129,6 +135,7 @@ def _ocs(
         clearance=None if clearance is None else ClearanceRecord(**asdict(clearance)),
         flywheel=device.flywheel,
         motor=device.motor,
+        carrier=device.carrier,
     )
 
 
@@ -136,46 +143,17 @@ def _by_name(angles: Mapping[Criterion, float]) -> Mapping[str, float]:
     return {str(name): float(angle) for name, angle in angles.items()}
 
 
-def _sizing(sizing: DeviceSizing) -> SizingRecord:
-    rim = sizing.rim
+def _sizing(sized: Sized) -> SizingRecord:
     return SizingRecord(
-        status=rim.status,
-        method=rim.method,
-        objective=rim.mass,
-        binding=rim.binding,
-        shadow_prices=dict(rim.shadow_prices),
-        gap=rim.gap,
-        residual=sizing.residual,
-        iterations=sizing.iterations,
+        status=sized.status,
+        method=sized.method,
+        objective=sized.objective,
+        binding=sized.binding,
+        shadow_prices=dict(sized.shadow_prices),
+        gap=sized.gap,
+        residual=sized.residual,
+        iterations=sized.iterations,
     )
-
-
-def _margins(
-    resolved: Resolved, sizing: DeviceSizing, device: Device, runs: Sequence[Run]
-) -> list[MarginRecord]:
-    wheel, requirement, envelope = device.flywheel, resolved.requirement, resolved.envelope
-    driven = [run.metrics for run in runs if run.ocs and run.metrics is not None]
-    found = []
-    if driven:
-        speed = max(metrics.peak_wheel_speed for metrics in driven)
-        torque = max(metrics.peak_wheel_torque for metrics in driven)
-        found.append(_margin("wheel speed in flight", speed, requirement.wheel_speed_max, "rad/s"))
-        found.append(_margin("wheel torque in flight", torque, device.motor.torque_limit, "N m"))
-    least = max((demand.torque for demand in sizing.demands), default=0.0)
-    if least > 0.0:
-        found.append(_margin("wheel torque, least", least, device.motor.torque_limit, "N m"))
-    if wheel.hoop_stress is not None:
-        strength = resolved.material.yield_strength
-        found.append(_margin("hoop stress, to yield", wheel.hoop_stress, strength, "Pa"))
-    found.append(_margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"))
-    found.append(_margin("height", wheel.height, envelope.height_max, "m"))
-    found.append(_margin("rim mass", wheel.mass, envelope.mass_max, "kg"))
-    return found
-
-
-def _margin(name: str, demand: float, capacity: float | None, unit: str) -> MarginRecord:
-    factor = None if capacity is None or demand == 0.0 else capacity / demand
-    return MarginRecord(name=name, demand=demand, capacity=capacity, unit=unit, margin=factor)
 
 
 def _validation(run: Run) -> ValidationRecord:

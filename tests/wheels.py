@@ -4,9 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from ocs_design.arrays import FloatArray
 from ocs_design.design import Device, Flywheel, Module, Motor
 from ocs_design.requirement.froude import Scale
+from ocs_design.robot.mass_properties import MassProperties, combine
 from ocs_design.robot.robot import Robot
+from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.incidence import module_axes
 
 # Table 2 of the paper; its h of 10.2 mm contradicts its own mass and inertia.
@@ -37,6 +40,13 @@ def motor(
     return Motor("test", 0.0, stall_torque, no_load_speed, torque_limit, 0.0, "made up")
 
 
+# docs/theory.md, What a motor can do: maxon's EC 45 flat 70 W at 24 V, its drive limited to 1 N m.
+EC45 = replace(
+    motor(650.4, 1.4566, 1.0), mass=0.141, rotor_inertia=1.81e-5, speed_max=1047.2, bus_voltage=24.0
+)
+EC45_BODY = Carrier(mass=0.15, axial_inertia=3.5e-5, transverse_inertia=2.5e-5)
+
+
 def paper_device(incidence: float = np.radians(40.0), drive: Motor | None = None) -> Device:
     axes = module_axes(incidence)
     return Device(
@@ -48,6 +58,56 @@ def paper_device(incidence: float = np.radians(40.0), drive: Motor | None = None
         PAPER_WHEEL,
         drive or motor(),
     )
+
+
+def driven_device(
+    incidence: float = np.radians(40.0), drive: Motor = EC45, carrier: Carrier = EC45_BODY
+) -> Device:
+    """The paper's rim on a real motor."""
+    spin_inertia = PAPER_WHEEL.spin_inertia + drive.rotor_inertia
+    wheel = replace(PAPER_WHEEL, spin_inertia=spin_inertia)
+    return replace(paper_device(incidence, drive), flywheel=wheel, carrier=carrier)
+
+
+def geared(ratio: float, *, reverses: bool = False, inertia: float = 2e-6) -> Motor:
+    """That motor behind a gear (docs/theory.md): s N J_r of its rotor adds to the momentum."""
+    sense = -1.0 if reverses else 1.0
+    rotor = EC45.rotor_inertia
+    return replace(
+        EC45,
+        gear=f"{ratio} to 1",
+        gear_ratio=ratio,
+        rotor_inertia=sense * ratio * rotor,
+        armature=ratio * (ratio - sense) * rotor + inertia,
+        stall_torque=1.4566 * ratio,
+        no_load_speed=650.4 / ratio,
+        torque_limit=ratio,
+    )
+
+
+def braked_inertia(robot: Robot, device: Device) -> MassProperties:
+    """Robot, rims and carriers as they stand still: what a scale and a pendulum would say.
+
+    The rotors' own inertia is the carriers' already.
+    """
+    rim, rotor, carrier = device.flywheel, device.motor.rotor_inertia, device.carrier
+    modules = [
+        MassProperties(
+            rim.mass + carrier.mass,
+            module.position,
+            _body_of_revolution(
+                rim.spin_inertia - rotor + carrier.axial_inertia,
+                rim.transverse_inertia + carrier.transverse_inertia,
+                module.axis,
+            ),
+        )
+        for module in device.modules
+    ]
+    return combine([robot.mass_properties, *modules])
+
+
+def _body_of_revolution(axial: float, transverse: float, axis: FloatArray) -> FloatArray:
+    return transverse * np.eye(3) + (axial - transverse) * np.outer(axis, axis)
 
 
 def scaled_device(robot: Robot) -> Device:

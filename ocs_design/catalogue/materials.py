@@ -4,14 +4,14 @@ import csv
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
 
 import msgspec
 
-from ocs_design.exceptions import OcsError, SpecificationError
+from ocs_design.catalogue.names import entry
+from ocs_design.exceptions import OcsError
 
 DEFAULT_MATERIAL = "stainless-304"
 """Dense, cheap, does not rust, sold as tube."""
@@ -70,12 +70,7 @@ def material(name: str) -> Material:
     Raises:
         SpecificationError: there is none; the hint names the closest.
     """
-    known = materials()
-    if name in known:
-        return known[name]
-    close = get_close_matches(name, known, n=3)
-    hint = f"Did you mean {' or '.join(close)}?" if close else f"Known: {', '.join(known)}."
-    raise SpecificationError(f"there is no material {name!r}", hint=hint)
+    return entry(materials(), name, "material")
 
 
 def _material(row: Mapping[str, str]) -> Material:

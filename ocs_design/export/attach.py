@@ -3,9 +3,12 @@
 import mujoco
 
 from ocs_design.design import Device, Module, Motor
+from ocs_design.export.inertials import Inertial, carrier_inertial, flywheel_inertial
 from ocs_design.export.motor import largest_torque
 from ocs_design.export.naming import (
     PREFIX,
+    carrier_name,
+    carrier_names,
     flywheel_name,
     flywheel_names,
     joint_name,
@@ -25,7 +28,7 @@ _STEEL = (0.55, 0.57, 0.6, 1.0)
 
 
 def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
-    """Attach both flywheels with their joints and motors to the trunk.
+    """Attach both flywheels with their joints and motors, and what carries them, to the trunk.
 
     Args:
         spec: of `build_spec(robot)`; changed in place. Its keyframes keep the robot's own values.
@@ -36,16 +39,19 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     trunk, base = trunk_body(spec, robot)
     wheels = mujoco.MjSpec()
     frame = wheels.worldbody.add_frame()
+    carrier = carrier_inertial(device)
     for module in device.modules:
-        body = _add_wheel(wheels, module, device, base @ wheel_placement(module))
-        body.set_frame(frame)
+        place = base @ wheel_placement(module)
+        _add_wheel(wheels, module, device, place).set_frame(frame)
+        if carrier is not None:
+            _add_body(wheels, carrier_name(module), carrier, place).set_frame(frame)
     # Bodies added in any other way shift the values of keyframes to wrong joints.
     trunk.attach_frame(frame, PREFIX, "")
 
 
 def _require_free_names(spec: mujoco.MjSpec, device: Device) -> None:
     bodies, joints = flywheel_names(device), joint_names(device)
-    require_free("body", (body.name for body in spec.bodies), bodies)
+    require_free("body", (body.name for body in spec.bodies), bodies + carrier_names(device))
     require_free("joint", (joint.name for joint in spec.joints), joints)
     require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
     require_free("geom", (geom.name for geom in spec.geoms), bodies)
@@ -54,22 +60,17 @@ def _require_free_names(spec: mujoco.MjSpec, device: Device) -> None:
 def _add_wheel(
     spec: mujoco.MjSpec, module: Module, device: Device, placement: Placement
 ) -> mujoco.MjsBody:
-    """Add a wheel to a model of its own; attaching puts the prefix in front of its names."""
-    wheel, name = device.flywheel, flywheel_name(module).removeprefix(PREFIX)
-    body = spec.worldbody.add_body(
-        name=name,
-        pos=placement.position,
-        quat=quaternion(placement.rotation),
-        mass=wheel.mass,
-        ipos=(0.0, 0.0, 0.0),
-        iquat=(1.0, 0.0, 0.0, 0.0),
-        inertia=(wheel.transverse_inertia, wheel.transverse_inertia, wheel.spin_inertia),
-        explicitinertial=True,
+    """Add a wheel with its joint, its motor and its outline to a model of its own."""
+    wheel, joint = device.flywheel, joint_name(module).removeprefix(PREFIX)
+    body = _add_body(spec, flywheel_name(module), flywheel_inertial(device), placement)
+    body.add_joint(
+        name=joint,
+        type=mujoco.mjtJoint.mjJNT_HINGE,
+        axis=(0.0, 0.0, 1.0),
+        armature=device.motor.armature,
     )
-    joint = joint_name(module).removeprefix(PREFIX)
-    body.add_joint(name=joint, type=mujoco.mjtJoint.mjJNT_HINGE, axis=(0.0, 0.0, 1.0))
     body.add_geom(
-        name=name,
+        name=body.name,
         type=mujoco.mjtGeom.mjGEOM_CYLINDER,
         size=(wheel.outer_radius, wheel.height / 2.0, 0.0),
         contype=0,
@@ -78,6 +79,23 @@ def _add_wheel(
     )
     _add_motor(spec, joint, device.motor)
     return body
+
+
+def _add_body(
+    spec: mujoco.MjSpec, name: str, inertial: Inertial, placement: Placement
+) -> mujoco.MjsBody:
+    """Add a body of revolution; attaching puts the prefix in front of its name."""
+    across = inertial.transverse_inertia
+    return spec.worldbody.add_body(
+        name=name.removeprefix(PREFIX),
+        pos=placement.position,
+        quat=quaternion(placement.rotation),
+        mass=inertial.mass,
+        ipos=(0.0, 0.0, 0.0),
+        iquat=(1.0, 0.0, 0.0, 0.0),
+        inertia=(across, across, inertial.axial_inertia),
+        explicitinertial=True,
+    )
 
 
 def _add_motor(spec: mujoco.MjSpec, joint: str, motor: Motor) -> None:

@@ -1,8 +1,9 @@
 """The device as links and joints of a URDF."""
 
 from ocs_design.design import Device, Flywheel, Module
-from ocs_design.export.motor import largest_torque
-from ocs_design.export.naming import flywheel_name, joint_name
+from ocs_design.export.inertials import Inertial, carrier_inertial, flywheel_inertial
+from ocs_design.export.motor import highest_speed, largest_torque
+from ocs_design.export.naming import carrier_name, flywheel_name, joint_name
 from ocs_design.export.templates import fill, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_rpy
 from ocs_design.robot.robot import Mount
@@ -27,7 +28,7 @@ def mount_urdf(mount: Mount) -> str:
 
 
 def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
-    """Both flywheels as URDF elements, each line indented by two spaces.
+    """Both flywheels and what carries them as URDF elements, indented by two spaces.
 
     Args:
         device: to write.
@@ -38,15 +39,18 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
 
 
 def _module_urdf(device: Device, module: Module, parent: str, mesh: str | None) -> str:
-    return fill(
+    place = {
+        "parent": quoted(parent),
+        "position": numbers(module.position),
+        "rpy": numbers(wheel_rpy(module.axis)),
+    }
+    wheel = fill(
         "flywheel.urdf",
         {
-            **flywheel_values(device.flywheel),
+            **place,
+            **inertial_values(flywheel_inertial(device)),
             "link": flywheel_name(module),
             "joint": joint_name(module),
-            "parent": quoted(parent),
-            "position": numbers(module.position),
-            "rpy": numbers(wheel_rpy(module.axis)),
             "limit": limit_urdf(device),
             "visual": cylinder_urdf(device.flywheel)
             if mesh is None
@@ -54,14 +58,26 @@ def _module_urdf(device: Device, module: Module, parent: str, mesh: str | None) 
             "collision": cylinder_urdf(device.flywheel),
         },
     )
+    return wheel + carrier_urdf(device, {**place, "link": carrier_name(module)})
 
 
-def flywheel_values(flywheel: Flywheel) -> dict[str, str]:
-    """Mass properties of a wheel, for templates."""
+def carrier_urdf(device: Device, place: dict[str, str]) -> str:
+    """What stands still as a fixed link without shape; nothing if it is massless.
+
+    Args:
+        device: to write.
+        place: `link`, `parent`, `position` and `rpy`, ready to stand in XML.
+    """
+    carrier = carrier_inertial(device)
+    return "" if carrier is None else fill("carrier.urdf", {**place, **inertial_values(carrier)})
+
+
+def inertial_values(inertial: Inertial) -> dict[str, str]:
+    """Mass properties, for templates."""
     return {
-        "mass": numbers(flywheel.mass),
-        "transverse_inertia": numbers(flywheel.transverse_inertia),
-        "spin_inertia": numbers(flywheel.spin_inertia),
+        "mass": numbers(inertial.mass),
+        "transverse_inertia": numbers(inertial.transverse_inertia),
+        "axial_inertia": numbers(inertial.axial_inertia),
     }
 
 
@@ -72,9 +88,14 @@ def cylinder_urdf(flywheel: Flywheel) -> str:
 
 
 def limit_urdf(device: Device) -> str:
-    """What the motor can do; URDF has no limit of speed without one of torque."""
-    torque = largest_torque(device.motor)
-    if torque is None:
-        return "<!-- the motor's torque is not limited -->"
-    velocity = numbers(min(device.motor.no_load_speed, UNLIMITED))
-    return f'<limit effort="{numbers(torque)}" velocity="{velocity}"/>'
+    """What the motor can do; URDF has no limit of speed without one of torque, and no armature."""
+    motor, torque = device.motor, largest_torque(device.motor)
+    velocity = numbers(min(highest_speed(motor), UNLIMITED))
+    limit = (
+        "<!-- the motor's torque is not limited -->"
+        if torque is None
+        else f'<limit effort="{numbers(torque)}" velocity="{velocity}"/>'
+    )
+    if motor.armature == 0.0:
+        return limit
+    return f"{limit}\n    <!-- armature {numbers(motor.armature)} kg m^2, which URDF cannot say -->"

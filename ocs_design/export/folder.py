@@ -12,6 +12,7 @@ from pathlib import Path
 from ocs_design.exceptions import OutputError
 
 DESIGN_FILE = "design.json"
+FRONT_FILE = "front.json"
 
 _CURES = {
     errno.ENOSPC: "free some space, or choose another folder with -o",
@@ -42,9 +43,11 @@ def check_target(target: Path, *, force: bool) -> None:
         return
     if target.is_symlink() or not target.is_dir():
         raise OutputError(f"{target}: is not a folder", hint="choose another name with -o")
-    if any(target.iterdir()) and not (target / DESIGN_FILE).is_file():
+    ours = any((target / name).is_file() for name in (DESIGN_FILE, FRONT_FILE))
+    if any(target.iterdir()) and not ours:
         raise OutputError(
-            f"{target}: exists already, and is no output of ocs-design: it holds no {DESIGN_FILE}",
+            f"{target}: exists already, and is no output of ocs-design: it holds no {DESIGN_FILE} "
+            f"and no {FRONT_FILE}",
             hint="choose another folder with -o",
         )
     if not force:

@@ -18,6 +18,11 @@ def joint_name(module: Module) -> str:
     return f"{PREFIX}{module.name}"
 
 
+def carrier_name(module: Module) -> str:
+    """Of what stands still: link and fixed joint in URDF, body in MJCF."""
+    return f"{PREFIX}{module.name}_motor"
+
+
 def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None:
     """Refuse a robot that uses one of the device's names itself.
 
@@ -37,6 +42,13 @@ def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None
 def flywheel_names(device: Device) -> tuple[str, ...]:
     """Of both modules."""
     return tuple(flywheel_name(module) for module in device.modules)
+
+
+def carrier_names(device: Device) -> tuple[str, ...]:
+    """Of both modules; none where what stands still weighs nothing."""
+    if device.carrier.mass == 0.0:
+        return ()
+    return tuple(carrier_name(module) for module in device.modules)
 
 
 def joint_names(device: Device) -> tuple[str, ...]:

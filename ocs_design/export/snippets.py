@@ -1,25 +1,36 @@
 """The device alone, to paste, include or attach."""
 
 from pathlib import Path
+from textwrap import indent
 
 import numpy as np
 
 from ocs_design.design import Device, Module
 from ocs_design.export.attach import WHEEL_CONTACT_BIT
 from ocs_design.export.device_urdf import (
+    carrier_urdf,
     cylinder_urdf,
     device_urdf,
-    flywheel_values,
+    inertial_values,
     limit_urdf,
     mount_urdf,
 )
+from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
 from ocs_design.export.motor import largest_torque
-from ocs_design.export.naming import PREFIX, flywheel_name, joint_name
+from ocs_design.export.naming import PREFIX, carrier_name, flywheel_name, joint_name
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_placement
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.rotations import rpy_from_rotation
 from ocs_design.robot.spec.frames import quaternion
+
+_MACRO_PLACE = {
+    "link": "${prefix}ocs_${side}_motor",
+    "parent": "${parent}",
+    "position": "${position}",
+    "rpy": "${-pi/2} 0 ${yaw}",
+}
+"""Of what stands still, in terms of the xacro macro's arguments."""
 
 
 def export_snippet_urdf(device: Device, robot: Robot, path: Path) -> Path:
@@ -42,12 +53,13 @@ def export_snippet_xacro(device: Device, robot: Robot, path: Path) -> Path:
     values = {
         **_names(robot),
         "base_rpy": numbers(rpy_from_rotation(rotation)),
-        **flywheel_values(device.flywheel),
+        **inertial_values(flywheel_inertial(device)),
         "incidence": numbers(device.incidence),
         "left_position": numbers(left.position),
         "right_position": numbers(right.position),
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
+        "carrier": indent(carrier_urdf(device, _MACRO_PLACE), "  "),
     }
     return _write(path, fill("ocs.urdf.xacro", values))
 
@@ -67,19 +79,27 @@ def export_snippet_mjcf(device: Device, robot: Robot, path: Path) -> Path:
 
 
 def _module_mjcf(device: Device, module: Module) -> str:
-    place, wheel = wheel_placement(module), device.flywheel
-    return fill(
+    placement, wheel, carrier = wheel_placement(module), device.flywheel, carrier_inertial(device)
+    place = {
+        "position": numbers(placement.position),
+        "quaternion": numbers(quaternion(placement.rotation)),
+    }
+    turning = fill(
         "flywheel.xml",
         {
-            **flywheel_values(wheel),
+            **place,
+            **inertial_values(flywheel_inertial(device)),
             "body": flywheel_name(module).removeprefix(PREFIX),
             "joint": joint_name(module).removeprefix(PREFIX),
-            "position": numbers(place.position),
-            "quaternion": numbers(quaternion(place.rotation)),
+            "armature": numbers(device.motor.armature),
             "size": numbers((wheel.outer_radius, wheel.height / 2.0)),
             "contact_bit": str(WHEEL_CONTACT_BIT),
         },
     )
+    if carrier is None:
+        return turning
+    name = carrier_name(module).removeprefix(PREFIX)
+    return turning + fill("carrier.xml", {**place, **inertial_values(carrier), "body": name})
 
 
 def _motor_mjcf(device: Device, module: Module) -> str:

@@ -5,7 +5,7 @@ from pathlib import Path
 from ocs_design.design import Device
 from ocs_design.export.device_urdf import device_urdf, mount_urdf
 from ocs_design.export.insertion import insert_before_end
-from ocs_design.export.naming import flywheel_names, joint_names, require_free
+from ocs_design.export.naming import carrier_names, flywheel_names, joint_names, require_free
 from ocs_design.export.stl import METRES, export_stl
 from ocs_design.export.templates import in_comment
 from ocs_design.export.tree_urdf import tree_urdf
@@ -32,7 +32,9 @@ def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
     content = robot.content if robot.format is Format.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content, Remarks())
     base = () if robot.mount is None or robot.format is not Format.URDF else (BASE_FRAME,)
-    for kind, names in (("link", flywheel_names(device)), ("joint", joint_names(device))):
+    carriers = carrier_names(device)
+    links, joints = flywheel_names(device) + carriers, joint_names(device) + carriers
+    for kind, names in (("link", links), ("joint", joints)):
         require_free(kind, (each.get("name", "") for each in root.iter(kind)), (*names, *base))
     heading = (
         f"  <!-- Orientation control system on {in_comment(robot.trunk)}, by ocs-design. -->\n"

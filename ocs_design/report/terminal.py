@@ -6,7 +6,8 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.design_file import ClearanceRecord, OcsDesign, RobotRecord
+from ocs_design.design_file import MarginRecord, OcsDesign, RobotRecord
+from ocs_design.report.device import print_device
 from ocs_design.report.flights import print_flights
 from ocs_design.report.layout import (
     columns,
@@ -17,24 +18,19 @@ from ocs_design.report.layout import (
     print_warnings,
     show,
 )
+from ocs_design.report.margins import print_margins
 from ocs_design.report.quantities import (
     degrees,
-    grams,
-    inertia,
-    megapascals,
     millimetres,
     rpm,
-    signed,
     tenths,
 )
+from ocs_design.report.selection import print_selection
+from ocs_design.sizing.margins.margin import Margin
 
 TURNS = (
     "Turns are sized for constant torque one way and then the other, a peak rate of 2 theta / T: "
     "the least torque that does it. More torque may do with up to half the wheel: the flights tell."
-)
-OVERLAP = (
-    "warning: a wheel overlaps that part, and nothing in the simulation would notice: choose "
-    "another place with --position X,Y,Z"
 )
 SAME_ANGLE = 1e-9
 """Incidences that differ by less are equal [rad]."""
@@ -44,7 +40,9 @@ def print_design(console: Console, design: OcsDesign) -> None:
     """The whole report of `size`."""
     print_robot(console, design.robot)
     _print_requirement(console, design)
-    _print_device(console, design)
+    if design.selection is not None:
+        print_selection(console, design.selection)
+    print_device(console, design)
     _print_limits(console, design)
     _print_margins(console, design)
     print_flights(console, design)
@@ -127,7 +125,8 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
     if requirement.spin_inertia_by_hand is not None:
         table.add_row("stated", "", "", "", f"{requirement.spin_inertia_by_hand:.3e}", "-")
     show(console, table)
-    note(console, TURNS)
+    if design.selection is None:
+        note(console, TURNS)
     items(console, _doubts(design), style="yellow")
     if requirement.assumptions:
         heading(console, "Assumed, because nothing else was stated")
@@ -151,51 +150,6 @@ def _doubts(design: OcsDesign) -> Iterator[str]:
                 f"{degrees(demand.incidence)}, not at the {degrees(design.ocs.incidence)} that "
                 "the files have"
             )
-
-
-def _print_device(console: Console, design: OcsDesign) -> None:
-    ocs, wheel = design.ocs, design.ocs.flywheel
-    heading(console, "Device: two flywheels")
-    alone = ocs.incidence_by_criterion_robot_alone.get(ocs.incidence_criterion)
-    chosen = ocs.incidence_criterion
-    if alone is not None:
-        chosen += f"; {degrees(alone)} for the robot alone"
-    outer, inner, height = (
-        f"{1e3 * length:.2f}" for length in (wheel.outer_radius, wheel.inner_radius, wheel.height)
-    )
-    share = f"{ocs.mass_total / design.robot.mass:.1%} of the robot; no motors yet"
-    position = ", ".join(map(tenths, ocs.modules[0].position))
-    facts(
-        console,
-        [
-            ("incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"),
-            ("rim", f"R {outer}  r {inner}  h {height} mm, {wheel.material}"),
-            ("mass of one rim", grams(wheel.mass)),
-            (
-                "mass of both",
-                f"{grams(ocs.mass_total)} ({share})",
-            ),
-            ("spin inertia", f"{inertia(ocs.spin_inertia)} each"),
-            ("transverse inertia", f"{inertia(wheel.transverse_inertia)} each"),
-            ("left wheel at", f"{position} mm; the right one mirrored in y"),
-            ("nearest part", _clearance(ocs.clearance)),
-            ("motor", f"{design.ocs.motor.name}: {design.ocs.motor.source}"),
-            (
-                "heading drift",
-                f"{signed(ocs.heading_drift[0])} rad of yaw per rad of roll, "
-                f"{signed(ocs.heading_drift[1])} per rad of pitch (cannot be commanded)",
-            ),
-        ],
-    )
-    if ocs.clearance is not None and ocs.clearance.distance < 0.0:
-        note(console, OVERLAP, style="bold yellow")
-    table = columns("incidence by criterion", "deg", "robot alone")
-    for name, angle in ocs.incidence_by_criterion.items():
-        before = ocs.incidence_by_criterion_robot_alone.get(name)
-        table.add_row(
-            name, f"{np.degrees(angle):.2f}", "" if before is None else f"{np.degrees(before):.2f}"
-        )
-    show(console, table)
 
 
 def _print_limits(console: Console, design: OcsDesign) -> None:
@@ -222,29 +176,13 @@ def _price(name: str, price: float | None) -> str:
 
 
 def _print_margins(console: Console, design: OcsDesign) -> None:
-    heading(console, "Margins")
-    table = columns("quantity", "demand", "capacity", "factor")
-    for margin in design.margins:
-        table.add_row(
-            margin.name,
-            _with_unit(margin.demand, margin.unit),
-            "not limited" if margin.capacity is None else _with_unit(margin.capacity, margin.unit),
-            "-" if margin.margin is None else f"{margin.margin:.2f}",
-        )
-    show(console, table)
+    print_margins(console, [_margin(record) for record in design.margins])
     if design.ocs.flywheel.stress_margin is None:
         material = design.ocs.flywheel.material
         note(console, f"Stress is NOT checked: no strength of {material} is known.", style="yellow")
 
 
-def _with_unit(value: float, unit: str) -> str:
-    shown = {"rad/s": rpm, "Pa": megapascals, "m": millimetres, "kg": grams, "rad": degrees}
-    return shown[unit](value) if unit in shown else f"{value:.3g} {unit}"
-
-
-def _clearance(clearance: ClearanceRecord | None) -> str:
-    if clearance is None:
-        return "not checked: the robot has no collision geometry"
-    gap = millimetres(abs(clearance.distance))
-    how = f"{gap} away" if clearance.distance >= 0.0 else f"overlapping by {gap}"
-    return f"{clearance.part}, {how} (nominal posture; what moves is not checked)"
+def _margin(record: MarginRecord) -> Margin:
+    return Margin(
+        record.name, record.demand, record.capacity, record.unit, record.note, record.maneuver
+    )

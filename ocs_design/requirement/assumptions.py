@@ -3,10 +3,18 @@
 from collections.abc import Iterator
 
 from ocs_design.catalogue.materials import Material
+from ocs_design.drive.line import RESERVE
 from ocs_design.requirement.envelope import LIMIT_OF_KEY, Envelope
-from ocs_design.requirement.froude import RIM_MASS_SHARE, SOLO12, Scale
+from ocs_design.requirement.froude import (
+    BUS_VOLTAGES,
+    LIGHT_ROBOT,
+    RIM_MASS_SHARE,
+    SOLO12,
+    Scale,
+)
+from ocs_design.requirement.motor_choice import MotorChoice
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import FlywheelSection, Specification
+from ocs_design.requirement.specification import AUTO, FlywheelSection, Specification
 from ocs_design.robot.robot import Robot
 from ocs_design.units import format_quantity
 
@@ -16,15 +24,20 @@ def assumptions(
     robot: Robot,
     requirement: Requirement,
     envelope: Envelope,
+    *,
     chosen: Material,
+    choice: MotorChoice | None,
 ) -> tuple[str, ...]:
     """One sentence for everything that was not stated; the rest has its defaults filled in."""
     scale = Scale.of(robot)
     return (
         *_assumed_task(specification, robot, requirement, scale),
         *_assumed_room(specification.flywheel, envelope, scale),
-        *_assumed_strength(specification.flywheel, envelope, chosen),
-        *_assumed_drive(specification, requirement),
+        *(
+            _without_motor(specification, requirement, envelope, chosen)
+            if choice is None
+            else _choosing(specification, envelope, choice)
+        ),
     )
 
 
@@ -53,20 +66,42 @@ def _assumed_room(flywheel: FlywheelSection, envelope: Envelope, scale: Scale) -
         yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
 
 
-def _assumed_strength(
-    flywheel: FlywheelSection, envelope: Envelope, chosen: Material
+def _without_motor(
+    specification: Specification, requirement: Requirement, envelope: Envelope, chosen: Material
 ) -> Iterator[str]:
-    if flywheel.material is None:
+    if specification.flywheel.material in {None, AUTO}:
         yield f"Material: {chosen.name}, {chosen.density:g} kg/m3."
-    if chosen.yield_strength is None:
-        yield f"Stress: not checked, for no strength of {chosen.name} is known."
-    elif flywheel.stress_safety is None:
-        yield f"Stress: yield strength over hoop stress at least {envelope.stress_safety:g}."
-
-
-def _assumed_drive(specification: Specification, requirement: Requirement) -> Iterator[str]:
+    yield from _assumed_strength(specification.flywheel, envelope, chosen)
     if specification.requirement.wheel_speed_max is None:
         speed = format_quantity(requirement.wheel_speed_max, "rpm")
         yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
     if specification.motor.torque_max is None:
         yield "Motor torque: not limited."
+
+
+def _choosing(
+    specification: Specification, envelope: Envelope, choice: MotorChoice
+) -> Iterator[str]:
+    stated = specification.motor
+    if stated.bus_voltage is None:
+        which = "up to" if choice.bus_voltage == BUS_VOLTAGES[0] else "above"
+        yield f"Bus: {choice.bus_voltage:g} V, as robots {which} {LIGHT_ROBOT:g} kg have."
+    if stated.name in {None, AUTO}:
+        yield f"Motor: the lightest device of {len(choice.motors)} motors in the catalogue."
+    if stated.gear in {None, AUTO}:
+        yield f"Gear: none, or one of {len(choice.gears) - 1} stages in the catalogue."
+    if specification.flywheel.material in {None, AUTO}:
+        yield f"Material: one of {len(choice.materials)} whose strength is known."
+    yield from _assumed_strength(specification.flywheel, envelope, choice.materials[0])
+    yield (
+        f"Reserve: a design uses {RESERVE:.0%} of voltage and current; the rest is the feedback's."
+    )
+
+
+def _assumed_strength(
+    flywheel: FlywheelSection, envelope: Envelope, chosen: Material
+) -> Iterator[str]:
+    if chosen.yield_strength is None:
+        yield f"Stress: not checked, for no strength of {chosen.name} is known."
+    elif flywheel.stress_safety is None:
+        yield f"Stress: yield strength over hoop stress at least {envelope.stress_safety:g}."

@@ -4,6 +4,8 @@ from collections.abc import Iterable, Iterator
 
 from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
 from ocs_design.requirement.specification import (
+    LIGHTEST,
+    NO_MOTOR,
     FlywheelSection,
     RobotSection,
     Specification,
@@ -15,6 +17,7 @@ def contradictions(specification: Specification) -> tuple[str, ...]:
     return (
         *_room(specification.flywheel),
         *_robot(specification.robot),
+        *without_motor(specification),
         *_maneuvers(specification),
         *_flights(specification.maneuvers),
     )
@@ -34,6 +37,19 @@ def _robot(robot: RobotSection) -> Iterator[str]:
         yield "robot: mass and inertia come together"
     if robot.file is not None and robot.mass is not None:
         yield "robot: state either a file or mass and inertia, not both"
+
+
+def without_motor(specification: Specification) -> Iterator[str]:
+    """What only a motor gives a meaning to, where none is wanted, one line each."""
+    if specification.motor.name != NO_MOTOR:
+        return
+    for key in ("bus_voltage", "gear", "motors", "gears"):
+        if getattr(specification.motor, key) is not None:
+            yield f"motor.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+    if specification.ocs.alpha_criterion == LIGHTEST:
+        yield f"ocs.alpha_criterion: {LIGHTEST!r} needs a motor: motor.name is {NO_MOTOR!r}"
+    if specification.ocs.co_design:
+        yield f"ocs.co_design: needs a motor: motor.name is {NO_MOTOR!r}"
 
 
 def _maneuvers(specification: Specification) -> Iterator[str]:

@@ -23,6 +23,13 @@ LUNAR_GRAVITY = 1.62
 WHEEL_SPEED_MAX = 7200.0 * pi / 30.0
 """[rad/s], where no motor is named: Solo12's own, an Antigravity 4004 KV300, at 24 V."""
 
+BUS_VOLTAGES = (24.0, 48.0)
+"""[V], of six and of twelve cells of lithium polymer: the supplies of legged robots of up to
+`LIGHT_ROBOT` (Solo12, A1, Go2) and of heavier ones (ANYmal, B1)."""
+
+LIGHT_ROBOT = 20.0
+"""[kg], the heaviest robot that is taken to run from six cells."""
+
 RIM_MASS_SHARE = 0.1
 """Largest mass of one rim over the robot's."""
 
@@ -114,6 +121,12 @@ def standing_height(robot: Robot) -> float:
     if robot.standing_height is not None:
         return robot.standing_height
     return SOLO12.standing_height * Scale.of(robot).length
+
+
+def default_bus_voltage(robot: Robot) -> float:
+    """Of the supply that robots of this mass have [V]."""
+    light, heavy = BUS_VOLTAGES
+    return light if robot.mass <= LIGHT_ROBOT else heavy
 
 
 def default_maneuvers(

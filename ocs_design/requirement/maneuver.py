@@ -13,6 +13,22 @@ STANDARD_GRAVITY = 9.81
 """[m/s^2], as the paper takes it."""
 
 
+@dataclass(frozen=True, eq=False)
+class Slew:
+    """What both wheels together must do to the trunk in a given time, roll and pitch.
+
+    Attributes:
+        swept: momentum that must pass through the wheels, over time: inertia times angle of a turn
+            from rest to rest [N m s^2], shape (..., 2).
+        momentum: that the wheels still hold at the end [N m s], shape (..., 2).
+        duration: in which it must be done [s].
+    """
+
+    swept: FloatArray
+    momentum: FloatArray
+    duration: float
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Maneuver(ABC):
     """One thing that the device must do in the air.
@@ -49,6 +65,16 @@ class Maneuver(ABC):
         del inertia, standing_height
         return np.zeros(2)
 
+    @abstractmethod
+    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
+        """What a motor must do for it (docs/theory.md, What a motor can do).
+
+        Args:
+            inertia: of the robot with its device about roll and pitch, wheels braked [kg m^2],
+                shape (..., 2).
+            standing_height: of the trunk over the ground [m].
+        """
+
     @property
     @abstractmethod
     def summary(self) -> str:
@@ -76,6 +102,21 @@ class Disturbance(Maneuver):
         del inertia, standing_height
         roll, pitch, _ = self.torque
         return np.array([abs(roll) * self.duration, abs(pitch) * self.duration])
+
+    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
+        """Stop the trunk, turn it back and hold its momentum, from the end of the torque on.
+
+        A torque on a free trunk has tilted it by half its impulse times its duration over the
+        inertia when it ends.
+        """
+        momentum = self.momentum(np.zeros((3, 3)), standing_height)
+        shape = np.broadcast_shapes(np.shape(inertia), (2,))
+        left = self.flight_time - self.onset - self.duration
+        return Slew(
+            np.broadcast_to(0.5 * self.duration * momentum, shape),
+            np.broadcast_to(momentum, shape),
+            left,
+        )
 
     @property
     def flight_time(self) -> float:
@@ -121,14 +162,32 @@ class Drop(Maneuver):
             )
         return float(np.sqrt(2.0 * fall / self.gravity))
 
+    @property
+    def tilt(self) -> FloatArray:
+        """What the trunk must be turned about roll and pitch to be level [rad], shape (2,).
+
+        The smallest turn that brings the vertical of the world, (-sin p, cos p sin r, cos p cos r)
+        as seen from a trunk that was pitched by p and then rolled by r, to the trunk's own; the
+        heading is free.
+        """
+        forward, left = np.sin(self.pitch), np.cos(self.pitch) * np.sin(self.roll)
+        sine = np.hypot(forward, left)
+        angle = np.arctan2(sine, np.cos(self.pitch) * np.cos(self.roll))
+        return np.abs([left, forward]) * (angle / sine if sine > 0.0 else 1.0)
+
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
         """Half the time up, half the time down: a peak rate of 2 theta / T."""
         peak = 2.0 / self.duration(standing_height)
-        return np.array([inertia[0, 0] * abs(self.roll), inertia[1, 1] * abs(self.pitch)]) * peak
+        return np.diag(inertia)[:2] * self.tilt * peak
 
     def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
         """That of the same turn: 4 I theta / T^2."""
         return 2.0 * self.momentum(inertia, standing_height) / self.duration(standing_height)
+
+    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
+        """From the tilt at release to level, rest to rest, within the fall."""
+        swept = np.asarray(inertia) * self.tilt
+        return Slew(swept, np.zeros_like(swept), self.duration(standing_height))
 
     @property
     def summary(self) -> str:
@@ -159,6 +218,12 @@ class Flip(Maneuver):
     def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
         """That of the same turn: 4 I theta / T^2."""
         return 2.0 * self.momentum(inertia, standing_height) / self.duration
+
+    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
+        """The whole turn, rest to rest."""
+        del standing_height
+        swept = np.asarray(inertia) * np.array([0.0, abs(self.angle)])
+        return Slew(swept, np.zeros_like(swept), self.duration)
 
     @property
     def flight_time(self) -> float:

@@ -4,9 +4,11 @@ from collections.abc import Iterator
 
 from ocs_design.catalogue.materials import material
 from ocs_design.exceptions import OcsError, SpecificationError
+from ocs_design.requirement.contradictions import without_motor
 from ocs_design.requirement.envelope import Envelope
+from ocs_design.requirement.motor_choice import unknown_names
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.specification import AUTO, Specification
 from ocs_design.robot.robot import Robot
 from ocs_design.units import format_quantity
 
@@ -25,6 +27,8 @@ def implausible(
         *_empty_room(envelope),
         *_impossible(requirement, robot),
         *_unknown_material(specification.flywheel.material),
+        *unknown_names(specification),
+        *without_motor(specification),
     )
 
 
@@ -89,7 +93,7 @@ def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:
 
 def _unknown_material(name: str | None) -> Iterator[str]:
     try:
-        if name is not None:
+        if name not in {None, AUTO}:
             material(name)
     except SpecificationError as error:
         yield f"flywheel.material: {error.message}. {error.hint}"

@@ -23,16 +23,23 @@ LONGEST_LINE = 1000
 
 
 def read_specification(path: Path) -> Specification:
-    """The specification in a TOML file; `robot.file` is taken from the file's folder.
+    """The specification in a TOML file; files that it names are taken from its own folder.
 
     Raises:
         SpecificationError: it cannot be read, is not TOML, or has faults, all of which are listed.
     """
     specification = parse_specification(_text(path), str(path))
-    file = specification.robot.file
-    if file is None or file == "-":
-        return specification
-    return replace(specification, robot=replace(specification.robot, file=str(path.parent / file)))
+    robot, motor = specification.robot, specification.motor
+    return replace(
+        specification,
+        robot=replace(robot, file=_beside(path, robot.file)),
+        motor=replace(motor, motors=_beside(path, motor.motors), gears=_beside(path, motor.gears)),
+    )
+
+
+def _beside(path: Path, file: str | None) -> str | None:
+    """A file that the specification at `path` names; `-` is standard input."""
+    return file if file is None or file == "-" else str(path.parent / file)
 
 
 def parse_specification(text: str, name: str) -> Specification:

@@ -13,9 +13,10 @@ from ocs_design.requirement.froude import (
     standing_height,
 )
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
+from ocs_design.requirement.motor_choice import MotorChoice, motor_choice
 from ocs_design.requirement.plausibility import implausible
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import FlywheelSection, Specification
+from ocs_design.requirement.specification import AUTO, FlywheelSection, Specification
 from ocs_design.robot.robot import Robot
 
 
@@ -28,6 +29,7 @@ class Resolved:
         envelope: the room for a rim.
         material: of a rim.
         torque_max: of a wheel [N m]; None: not limited.
+        choice: of motors, gears and materials; None: no motor is wanted, and `material` holds.
         assumptions: what was not stated and what holds in its place, one sentence each.
     """
 
@@ -35,6 +37,7 @@ class Resolved:
     envelope: Envelope
     material: Material
     torque_max: float | None
+    choice: MotorChoice | None
     assumptions: tuple[str, ...]
 
 
@@ -54,14 +57,23 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
     faults = implausible(specification, robot, robot_size, requirement, envelope)
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)
-    chosen = material(specification.flywheel.material or DEFAULT_MATERIAL)
+    choice = motor_choice(specification, robot)
+    chosen = _material(specification.flywheel.material)
     return Resolved(
         requirement=requirement,
         envelope=envelope,
         material=chosen,
         torque_max=specification.motor.torque_max,
-        assumptions=assumptions(specification, robot, requirement, envelope, chosen),
+        choice=choice,
+        assumptions=assumptions(
+            specification, robot, requirement, envelope, chosen=chosen, choice=choice
+        ),
     )
+
+
+def _material(name: str | None) -> Material:
+    """Where no motor is chosen nothing but the rim weighs anything, and the default will do."""
+    return material(DEFAULT_MATERIAL if name in {None, AUTO} else name)
 
 
 def _envelope(flywheel: FlywheelSection, robot: Robot) -> Envelope:

@@ -27,8 +27,17 @@ from ocs_design.units import Dimension
 
 Section = TypeVar("Section")
 
-CRITERIA = ("equal-rate", "weighted", "simultaneous", "pitch-only", "roll-only")
+LIGHTEST = "lightest"
+"""Criterion of the incidence: whatever makes the device lightest, which only a real motor tells."""
+
+CRITERIA = (LIGHTEST, "equal-rate", "weighted", "simultaneous", "pitch-only", "roll-only")
 """How the incidence may be chosen (docs/theory.md, Incidence angle)."""
+
+AUTO = "auto"
+"""In place of a name: the one with which the device is lightest."""
+
+NO_MOTOR = "none"
+"""In place of a motor's name: size the wheels by the bound alone, as the paper does."""
 
 FASTEST_BARE = 4000.0
 """[rad/s], 38,000 rpm: a larger wheel speed without a unit was meant in rpm."""
@@ -117,6 +126,9 @@ class OcsSection:
         tuple[float, ...] | None,
         Key(Quantities(Dimension.LENGTH, (3,)), "centre of the left wheel on the trunk: x, y, z"),
     ] = None
+    co_design: Annotated[
+        bool | None, Key(Switch(), "whether to refine all dimensions by optimal control in 3-D")
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,7 +143,9 @@ class FlywheelSection:
     wheel_mass_max: Annotated[
         float | None, Key(Quantity(Dimension.MASS), "largest mass of a rim")
     ] = None
-    material: Annotated[str | None, Key(Text(), "material of a rim, from the catalogue")] = None
+    material: Annotated[
+        str | None, Key(Text(), "material of a rim, from the catalogue, or auto")
+    ] = None
     stress_safety: Annotated[
         float | None, Key(Number(), "yield strength over hoop stress at the highest speed")
     ] = None
@@ -139,8 +153,17 @@ class FlywheelSection:
 
 @dataclass(frozen=True, kw_only=True)
 class MotorSection:
-    """`[motor]`: what drives a wheel [N m]."""
+    """`[motor]`: what drives a wheel [V, N m]."""
 
+    name: Annotated[
+        str | None, Key(Text(), "motor from the catalogue, auto, or none", option="motor")
+    ] = None
+    bus_voltage: Annotated[
+        float | None, Key(Quantity(Dimension.VOLTAGE), "of the supply of both motors")
+    ] = None
+    gear: Annotated[str | None, Key(Text(), "gear from the catalogue, direct, or auto")] = None
+    motors: Annotated[str | None, Key(Text(), "file with motors of your own, CSV or TOML")] = None
+    gears: Annotated[str | None, Key(Text(), "file with gears of your own, CSV or TOML")] = None
     torque_max: Annotated[
         float | None, Key(Quantity(Dimension.TORQUE), "largest torque on a wheel")
     ] = None

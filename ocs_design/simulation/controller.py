@@ -14,6 +14,7 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.sizing.gyrostat import Gyrostat
 
 
 class Allocation(StrEnum):
@@ -32,52 +33,17 @@ class Gains:
 
 
 @dataclass(frozen=True, eq=False)
-class Gyrostat:
-    """A rigid trunk with two wheels (docs/theory.md, The robot's inertia).
-
-    Attributes:
-        inertia: of everything about its centre of mass in B, wheels braked [kg m^2], shape (3, 3).
-        axes: unit spin axes as columns, shape (3, 2).
-        spin_inertia: of one wheel [kg m^2].
-    """
-
-    inertia: FloatArray
-    axes: FloatArray
-    spin_inertia: float
-
-    @property
-    def actuated_inertia(self) -> FloatArray:
-        """What the motor torque accelerates, `J = I_tot - I_w A A^T` [kg m^2], shape (3, 3)."""
-        return self.inertia - self.spin_inertia * self.axes @ self.axes.T
-
-    @property
-    def wheel_response(self) -> float:
-        """Largest change of wheel speed per motor torque, both motors pushing alike [1/(kg m^2)].
-
-        From the gyrostat's equations: `W_dot = (1 / I_w + A^T J^-1 A) tau`.
-        """
-        coupling = self.axes.T @ np.linalg.solve(self.actuated_inertia, self.axes)
-        return float(1.0 / self.spin_inertia + np.abs(coupling).sum(axis=1).max())
-
-    def allocation(self, how: Allocation) -> FloatArray:
-        """From a torque on the trunk to minus the motor torques, shape (2, 3)."""
-        if how is Allocation.TRANSPOSE:
-            return self.axes.T
-        # An axis that the wheels reach with less than 1e-6 of their torque is left alone.
-        return np.asarray(np.linalg.pinv(self.axes, rcond=1e-6), dtype=np.float64)
-
-
-@dataclass(frozen=True, eq=False)
 class WheelLaw:
     """The law's constants for n worlds; every array has the worlds first.
 
     Attributes:
-        momentum_map: `[I_tot, I_w A]`, from trunk rate and wheel speeds to momentum,
+        momentum_map: `[I_tot, h A]`, from trunk rate and wheel speeds to momentum,
             shape (n, 3, 5).
         torque_map: from roll and pitch acceleration and the gyroscopic torque to motor torques,
             shape (n, 2, 5).
         stiffness, damping: `Gains`, shape (n,).
-        no_load_speed, line_slope, torque_limit, wheel_response: see `MotorLimits`, shape (n,).
+        no_load_speed, line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
+        wheel_response: see `Gyrostat`, shape (n,).
     """
 
     momentum_map: FloatArray
@@ -87,6 +53,7 @@ class WheelLaw:
     no_load_speed: FloatArray
     line_slope: FloatArray
     torque_limit: FloatArray
+    speed_max: FloatArray
     wheel_response: FloatArray
 
     @classmethod
@@ -95,7 +62,8 @@ class WheelLaw:
     ) -> "WheelLaw":
         """The law of one world (n = 1)."""
         momentum_map = np.hstack([body.inertia, body.spin_inertia * body.axes])
-        torque_map = _torque_map(body.actuated_inertia, body.allocation(allocation))
+        shared = body.axes.T / body.reaction if allocation is Allocation.TRANSPOSE else body.sharing
+        torque_map = _torque_map(body.actuated_inertia, shared)
         return cls(
             momentum_map[None],
             torque_map[None],
@@ -104,6 +72,7 @@ class WheelLaw:
             np.array([limits.no_load_speed]),
             np.array([limits.line_slope]),
             np.array([limits.torque_limit]),
+            np.array([limits.speed_max]),
             np.array([body.wheel_response]),
         )
 
@@ -111,7 +80,7 @@ class WheelLaw:
     def off(cls) -> "WheelLaw":
         """No torque, in one world."""
         one, none = np.ones(1), np.zeros(1)
-        return cls(np.zeros((1, 3, 5)), np.zeros((1, 2, 5)), none, none, one, one, none, one)
+        return cls(np.zeros((1, 3, 5)), np.zeros((1, 2, 5)), none, none, one, one, none, one, one)
 
     @classmethod
     def stack(cls, laws: Sequence["WheelLaw"]) -> "WheelLaw":
@@ -146,14 +115,18 @@ class WheelLaw:
             period: for which the torque will be held [s].
         """
         wanted = self._acceleration(vertical, rate, target)
-        momentum = np.einsum(
-            "nij,nj->ni", self.momentum_map, np.concatenate([rate, wheel_speed], axis=1)
-        )
-        gyroscopic = _cross(rate, momentum)
+        gyroscopic = self.gyroscopic(rate, wheel_speed)
         torque = np.einsum(
             "nij,nj->ni", self.torque_map, np.concatenate([wanted, gyroscopic], axis=1)
         )
-        return self._limited(torque, wheel_speed, period)
+        return self._limited(torque + target.torque, wheel_speed, period)
+
+    def gyroscopic(self, rate: FloatArray, wheel_speed: FloatArray) -> FloatArray:
+        """`w x (I_tot w + h A W)` [N m], shape (n, 3), or (k, 3) of k states of a single world."""
+        momentum = np.einsum(
+            "nij,nj->ni", self.momentum_map, np.concatenate([rate, wheel_speed], axis=1)
+        )
+        return _cross(rate, momentum)
 
     def _acceleration(self, vertical: FloatArray, rate: FloatArray, target: "Target") -> FloatArray:
         """Roll and pitch acceleration that the law asks for [rad/s^2], shape (n, 2)."""
@@ -162,18 +135,20 @@ class WheelLaw:
         return self.stiffness[:, None] * error + self.damping[:, None] * slip + target.acceleration
 
     def _limited(self, torque: FloatArray, wheel_speed: FloatArray, period: float) -> FloatArray:
-        """Clipped to the current limit and to the voltage line at the end of the control step.
+        """Clipped to current limit, voltage line and top speed at the end of the control step.
 
-        The line taken at the end, `W + tau * response * period`, is backward Euler: the exact line
-        as the period goes to zero, stable for any motor, and with no stall torque given it just
-        keeps the wheel from passing its no-load speed. It cuts driving torque and leaves braking.
+        Both taken at the end, at `W + tau * response * period`, are backward Euler: the exact line
+        as the period goes to zero, stable for any motor, and a wheel just keeps from passing its
+        top speed. They cut driving torque and leave braking.
         """
-        give = (self.line_slope + self.wheel_response * period)[:, None]
-        top = self.no_load_speed[:, None]
+        gain = (self.wheel_response * period)[:, None]
+        give = gain + self.line_slope[:, None]
+        line, top = self.no_load_speed[:, None], self.speed_max[:, None]
         limit = self.torque_limit[:, None]
-        lowest, highest = (-top - wheel_speed) / give, (top - wheel_speed) / give
-        on_line = np.minimum(np.maximum(torque, lowest), highest)
-        return np.minimum(np.maximum(on_line, -limit), limit)
+        highest = np.minimum((line - wheel_speed) / give, (top - wheel_speed) / gain)
+        lowest = np.maximum((-line - wheel_speed) / give, (-top - wheel_speed) / gain)
+        driven = np.minimum(np.maximum(torque, lowest), highest)
+        return np.minimum(np.maximum(driven, -limit), limit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,11 +159,14 @@ class Target:
         vertical: the world's upward direction in B, unit vectors (n, 3). The heading
             is free.
         rate, acceleration: about roll and pitch in B [rad/s, rad/s^2], shape (n, 2).
+        torque: of the motors, on top of what the acceleration and the gyroscopic torque of the
+            moment ask for [N m], shape (n, 2).
     """
 
     vertical: FloatArray
     rate: FloatArray
     acceleration: FloatArray
+    torque: FloatArray
 
 
 def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:
@@ -213,8 +191,8 @@ def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:
 def _torque_map(actuated_inertia: FloatArray, allocation: FloatArray) -> FloatArray:
     """Motor torques from (roll acceleration, pitch acceleration, w x H), shape (2, 5).
 
-    `J w_dot = -A tau - w x H` (docs/theory.md) solved for tau. The wheels cannot push about z,
-    so its row is no command but says which yaw acceleration comes with the other two.
+    `J w_dot = -g A tau - w x H`, g the reaction (see `Gyrostat`), solved for tau. The wheels cannot
+    push about z, so its row is no command but says which yaw acceleration comes with the other two.
     """
     J = actuated_inertia
     yaw = J[:, 2:] / J[2, 2]

@@ -31,6 +31,8 @@ class Series:
         rate: of the trunk in B [rad/s], (k, 3).
         wheel_speed: relative to the trunk [rad/s], (k, 2).
         wheel_torque: of the motors [N m], (k, 2).
+        torque_lowest, torque_highest: that the motors can give at these speeds [N m], (k, 2); None
+            where that is not limited.
         contact: whether anything touches the floor, (k,).
     """
 
@@ -42,11 +44,13 @@ class Series:
     rate: FloatArray
     wheel_speed: FloatArray
     wheel_torque: FloatArray
+    torque_lowest: FloatArray | None
+    torque_highest: FloatArray | None
     contact: FloatArray
 
     def columns(self) -> Mapping[str, FloatArray]:
         """Each scalar by name and unit, as in a CSV file."""
-        axes, wheels = "xyz", ("left", "right")
+        axes = "xyz"
         return {
             "time_s": self.time,
             **{f"com_{axis}_m": self.com[:, i] for i, axis in enumerate(axes)},
@@ -54,12 +58,19 @@ class Series:
             "pitch_rad": self.pitch,
             "yaw_rad": self.yaw,
             **{f"rate_{axis}_rad_s": self.rate[:, i] for i, axis in enumerate(axes)},
-            **{
-                f"wheel_speed_{side}_rad_s": self.wheel_speed[:, i] for i, side in enumerate(wheels)
-            },
-            **{f"wheel_torque_{side}_nm": self.wheel_torque[:, i] for i, side in enumerate(wheels)},
+            **_of_wheels("wheel_speed_{}_rad_s", self.wheel_speed),
+            **_of_wheels("wheel_torque_{}_nm", self.wheel_torque),
+            **_of_wheels("wheel_torque_lowest_{}_nm", self.torque_lowest),
+            **_of_wheels("wheel_torque_highest_{}_nm", self.torque_highest),
             "contact": self.contact,
         }
+
+
+def _of_wheels(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
+    """One column a wheel; none where there is nothing to tell."""
+    if values is None:
+        return {}
+    return {name.format(side): values[:, i] for i, side in enumerate(("left", "right"))}
 
 
 @dataclass(frozen=True)
@@ -94,11 +105,13 @@ class Metrics:
     final_pitch: float
 
 
-def series_of(recording: Recording, index: int) -> Series:
+def series_of(recording: Recording, index: int, world: World) -> Series:
     """Time series of one world of a recording."""
     ran = slice(recording.lengths[index])
-    attitude = recording.attitude[ran, index]
+    attitude, speed = recording.attitude[ran, index], recording.wheel_speed[ran, index]
     roll, pitch = quaternions.tilt(attitude)
+    limits = world.limits
+    lowest, highest = (None, None) if limits is None else limits.torque_range(speed)
     return Series(
         time=recording.time[ran],
         com=recording.com[ran, index],
@@ -106,8 +119,10 @@ def series_of(recording: Recording, index: int) -> Series:
         pitch=np.unwrap(pitch),
         yaw=np.unwrap(quaternions.heading(attitude)),
         rate=recording.rate[ran, index],
-        wheel_speed=recording.wheel_speed[ran, index],
+        wheel_speed=speed,
         wheel_torque=recording.wheel_torque[ran, index],
+        torque_lowest=lowest,
+        torque_highest=highest,
         contact=recording.contact[ran, index].astype(np.float64),
     )
 
@@ -116,7 +131,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     """Figures of one world of a recording; None if it did not reach its end."""
     if not recording.stable[index]:
         return None
-    series = series_of(recording, index)
+    series = series_of(recording, index, world)
     touching = np.flatnonzero(series.contact)
     last = int(touching[0]) if touching.size else len(series.time) - 1
     flight = slice(last + 1)

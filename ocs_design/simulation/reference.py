@@ -6,16 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.simulation.controller import Gyrostat
+from ocs_design.drive.line import RESERVE
 from ocs_design.simulation.motor_limits import MotorLimits
-
-HEADROOM = 0.95
-"""Share of voltage and current that a reference may take; the rest is left to the feedback."""
-
+from ocs_design.sizing.gyrostat import Gyrostat
 
 _FLATTENED = (
     f"the turn follows a trapezoid of rate in place of the quintic, which would take more than "
-    f"{HEADROOM:.0%} of the motors' voltage or current"
+    f"{RESERVE:.0%} of the motors' voltage or current"
 )
 _STEPPED = (
     "the turn is commanded as a step, as in the paper: no smooth profile that the motors can "
@@ -155,49 +152,50 @@ class FittedTurn:
 
 
 def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
-    """The turn with the first profile that leaves the feedback its headroom.
+    """The turn with the first profile that leaves the feedback its reserve (`drive.line.RESERVE`).
 
     The profile asked for comes first, then trapezoids from gentle to short ramps, which trade wheel
     speed for torque. If none will do in the time asked, the turn takes longer; where it may not, it
     is commanded as the paper's step, which lets the feedback take all that the motors have.
     """
-    if turn.span == 0.0 or utilisation(turn, body, limits) <= HEADROOM:
+    usable = limits.reserved()
+    if turn.span == 0.0 or utilisation(turn, body, usable) <= 1.0:
         return FittedTurn(turn, "")
     ramps = np.linspace(0.45, 0.1, 15)
     options = [replace(turn, profile=SmoothTrapezoid(float(ramp))) for ramp in ramps]
     for option in options:
-        if utilisation(option, body, limits) <= HEADROOM:
+        if utilisation(option, body, usable) <= 1.0:
             return FittedTurn(option, _FLATTENED)
     if not turn.extendable:
         return FittedTurn(replace(turn, profile=Step()), _STEPPED)
-    stretched = [_stretched(option, body, limits) for option in (turn, *options)]
+    stretched = [_stretched(option, body, usable) for option in (turn, *options)]
     shortest = min(stretched, key=lambda option: option.duration)
     return FittedTurn(shortest, _lengthened(turn, shortest))
 
 
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
-    """Largest share of voltage or current that both wheels need along the turn, from zero momentum.
+    """Largest share of the limits that both wheels need along the turn, from zero momentum.
 
-    Of a gyrostat with no momentum, `I_tot w + A I_w W = 0` and `J w_dot = -A tau`
-    (docs/theory.md). The pseudo-inverse leaves out an axis that the wheels do not reach.
+    Of a gyrostat with no momentum, `I_tot w + h A W = 0` and `J w_dot = -g A tau`, g the reaction
+    (see `Gyrostat`). The pseudo-inverse leaves out an axis that the wheels do not reach.
     """
     s = np.linspace(0.0, 1.0, 401)
     rate = turn.span / turn.duration * turn.profile.rate(s)
     acceleration = turn.span / turn.duration**2 * turn.profile.acceleration(s)
-    share = np.linalg.pinv(body.axes, rcond=1e-6)
-    speed = np.outer(share @ body.inertia @ turn.axis, rate) / body.spin_inertia
-    torque = np.outer(share @ body.actuated_inertia @ turn.axis, acceleration)
+    momentum = body.reaction * body.sharing @ body.inertia @ turn.axis
+    speed = np.outer(momentum / body.spin_inertia, rate)
+    torque = np.outer(body.sharing @ body.actuated_inertia @ turn.axis, acceleration)
     return limits.utilisation(speed, torque)
 
 
 def _stretched(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
-    """The same profile over the shortest time that keeps the headroom, by bisection."""
+    """The same profile over the shortest time that keeps the limits, by bisection."""
     too_short, enough = turn.duration, 2.0 * turn.duration
-    while utilisation(replace(turn, duration=enough), body, limits) > HEADROOM:
+    while utilisation(replace(turn, duration=enough), body, limits) > 1.0:
         too_short, enough = enough, 2.0 * enough
     for _ in range(30):
         middle = 0.5 * (too_short + enough)
-        if utilisation(replace(turn, duration=middle), body, limits) > HEADROOM:
+        if utilisation(replace(turn, duration=middle), body, limits) > 1.0:
             too_short = middle
         else:
             enough = middle

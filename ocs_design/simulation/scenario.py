@@ -5,7 +5,7 @@ that comes down well and stands shows that they do. Where none of a maneuver doe
 flies that maneuver once more, level and undisturbed, to tell the device's fault from the legs'.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ocs_design.design import Device
@@ -19,6 +19,7 @@ from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, comes_down_well, judge, stands
 from ocs_design.simulation.world import World, WorldBuilder
+from ocs_design.sizing.trajectory import Trajectory
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ class Run:
         scenario: name of the maneuver. ocs: with the device, or the bare robot.
         passed: True, False, or None where it cannot be judged. reason: one sentence.
         metrics: None if the simulation became unstable.
-        series: of time. note: how the turn was changed to suit the wheels; empty if it was not.
+        series: of time. note: see `World`.
     """
 
     scenario: str
@@ -75,6 +76,7 @@ def run_scenarios(
     maneuvers: Sequence[Maneuver],
     *,
     options: Options | None = None,
+    references: Mapping[str, Trajectory] | None = None,
     progress: Progress | None = None,
 ) -> tuple[Run, ...]:
     """Fly every maneuver with the device and then without, in that order.
@@ -84,6 +86,9 @@ def run_scenarios(
         device: that the robot carries.
         maneuvers: see `Maneuver`.
         options: see `Options`.
+        references: what the device tracks in a maneuver, by its name; one without follows a smooth
+            turn that its wheels can do, and a disturbance, not known beforehand, is met by feedback
+            alone.
         progress: told the part of the work that is done, 0..1.
     """
     chosen = options or Options()
@@ -94,8 +99,9 @@ def run_scenarios(
         gains=chosen.gains,
         drop_profile=chosen.drop_profile,
     )
+    planned = references or {}
     worlds = [
-        builder.flight(maneuver, wheels)
+        builder.flight(maneuver, wheels, planned.get(maneuver.name))
         for maneuver in maneuvers
         for wheels in (Wheels.ACTIVE, Wheels.ABSENT)
     ]
@@ -122,7 +128,7 @@ def _fly(
         return []
     recording = simulate(worlds, hold=options.hold, threads=options.threads, progress=progress)
     return [
-        _Flight(world, measure(recording, index, world), series_of(recording, index))
+        _Flight(world, measure(recording, index, world), series_of(recording, index, world))
         for index, world in enumerate(worlds)
     ]
 

@@ -13,6 +13,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.model import build_spec, trunk_body
 from ocs_design.simulation.drives import HELD, add_drives, hold_other_joints
 from ocs_design.simulation.ground import FLOOR, add_floor
+from ocs_design.sizing.carrier import Carrier
 
 STEP = 1e-3
 """Time step of the physics [s] (paper, table 1)."""
@@ -103,7 +104,10 @@ def locked_inertia(model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatAr
 def _massless(device: Device) -> Device:
     """The same device without mass."""
     wheel = replace(device.flywheel, mass=1e-9, spin_inertia=1e-12, transverse_inertia=1e-12)
-    return replace(device, flywheel=wheel, motor=replace(device.motor, mass=0.0))
+    motor = replace(device.motor, mass=0.0, rotor_inertia=0.0)
+    # What has a body keeps it: all worlds of a batch have the same sizes.
+    carrier = Carrier(1e-9, 1e-12, 1e-12) if device.carrier.mass > 0.0 else device.carrier
+    return replace(device, flywheel=wheel, motor=motor, carrier=carrier)
 
 
 def _remove_own_control(spec: mujoco.MjSpec) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.controller import Target
+from ocs_design.simulation.tracking import Track, track
 from ocs_design.simulation.world import World
 
 
@@ -22,11 +23,25 @@ class References:
         self._rate = rates[:-1] * axis[:, :2]
         # The mean over the step that the torque is held for brings the rate to where it should be.
         self._acceleration = np.diff(rates, axis=0) / period * axis[:, :2]
+        self._torque = np.zeros((len(times), len(worlds), 2))
+        for index, world in enumerate(worlds):
+            if world.trajectory is not None:
+                self._follow(index, track(world.trajectory, world.law, times, period))
+
+    def _follow(self, index: int, planned: Track) -> None:
+        """Put a trajectory in place of one world's turn; its torque holds its acceleration."""
+        self._vertical[:, index] = planned.vertical
+        self._rate[:, index] = planned.rate
+        self._acceleration[:, index] = 0.0
+        self._torque[:, index] = planned.torque
 
     def at(self, k: int, running: int) -> Target:
         """At control instant `k`, of the first `running` worlds."""
         return Target(
-            self._vertical[k, :running], self._rate[k, :running], self._acceleration[k, :running]
+            self._vertical[k, :running],
+            self._rate[k, :running],
+            self._acceleration[k, :running],
+            self._torque[k, :running],
         )
 
 

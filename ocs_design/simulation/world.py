@@ -9,10 +9,10 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.design import Device
 from ocs_design.requirement.froude import Scale
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Disturbance, Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.frames import quaternion
-from ocs_design.simulation.controller import Allocation, Gains, Gyrostat, WheelLaw
+from ocs_design.simulation.controller import Allocation, Gains, WheelLaw
 from ocs_design.simulation.drives import DRIVE, leg_joints, set_gains
 from ocs_design.simulation.ground import lowest_point
 from ocs_design.simulation.launch import Launch, Push, flight_time, launch, level_launch
@@ -27,6 +27,8 @@ from ocs_design.simulation.scene import (
     robot_scene,
 )
 from ocs_design.simulation.trunk import TrunkChain
+from ocs_design.sizing.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory import Trajectory
 
 PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
 """K_p and K_d that docs/validation.md, was measured with, for Solo12."""
@@ -65,9 +67,12 @@ class World:
         addresses: see `Addresses`. chain: see `TrunkChain`.
         body: what the law believes in, measured on the model at the start.
         law: of the wheels. turn: what the trunk should do. push: what hits it.
+        limits: of the motors; None where the wheels are not driven, or by no limited torque.
+        trajectory: what it should do in place of the turn, with its feed-forward torque.
         standing_height: of the trunk frame's origin when level with the feet on the ground [m].
         flight_time: expected [s]. duration: of the run [s].
-        note: how the turn was changed to suit the wheels; empty if it was not.
+        note: of what the trunk should do: how the turn was changed to suit the wheels, or what is
+            to be said of the trajectory; empty if nothing.
     """
 
     model: mujoco.MjModel
@@ -78,7 +83,9 @@ class World:
     chain: TrunkChain
     body: Gyrostat
     law: WheelLaw
+    limits: MotorLimits | None
     turn: Turn
+    trajectory: Trajectory | None
     push: Push
     standing_height: float
     flight_time: float
@@ -103,17 +110,31 @@ class WorldBuilder:
         self._allocation = allocation
         self._gains = wheel_gains(robot) if gains is None else gains
         self._drop_profile = Quintic() if drop_profile is None else drop_profile
+        self._limits = MotorLimits.of(device.motor)
         self._scene = robot_scene(robot)
 
-    def flight(self, maneuver: Maneuver, wheels: Wheels) -> World:
-        """The maneuver with the wheels active, braked or absent."""
-        return self._build(maneuver, wheels, level=False)
+    def flight(
+        self, maneuver: Maneuver, wheels: Wheels, trajectory: Trajectory | None = None
+    ) -> World:
+        """The maneuver with the wheels active, braked or absent.
+
+        Args:
+            maneuver: see `Maneuver`.
+            wheels: see `Wheels`.
+            trajectory: that active wheels track; None: a smooth turn that suits them. A disturbance
+                is not known beforehand, and is met by feedback alone.
+        """
+        if wheels is not Wheels.ACTIVE or isinstance(maneuver, Disturbance):
+            trajectory = None
+        return self._build(maneuver, wheels, trajectory, level=False)
 
     def level_landing(self, maneuver: Maneuver) -> World:
         """The same flight, level and undisturbed with braked wheels: what the legs can bear."""
-        return self._build(maneuver, Wheels.BRAKED, level=True)
+        return self._build(maneuver, Wheels.BRAKED, None, level=True)
 
-    def _build(self, maneuver: Maneuver, wheels: Wheels, *, level: bool) -> World:
+    def _build(
+        self, maneuver: Maneuver, wheels: Wheels, trajectory: Trajectory | None, *, level: bool
+    ) -> World:
         device = self._device
         if maneuver.incidence is not None:
             device = device.at_incidence(maneuver.incidence)
@@ -122,7 +143,10 @@ class WorldBuilder:
         standing = _stand(self._robot, model, data)
         set_gains(model, data, self._robot)
         body = Gyrostat(
-            locked_inertia(model, data, np.eye(3)), device.axes, device.flywheel.spin_inertia
+            locked_inertia(model, data, np.eye(3)),
+            device.axes,
+            device.flywheel.spin_inertia,
+            device.motor.armature,
         )
         start = (
             level_launch(maneuver, standing)
@@ -130,7 +154,7 @@ class WorldBuilder:
             else launch(maneuver, standing, self._drop_profile)
         )
         flight = flight_time(start, standing, maneuver.gravity)
-        fitted = self._fit(start.turn, body, wheels)
+        fitted = self._fit(start.turn, body, wheels, trajectory)
         _place(self._robot, model, data, start, standing)
         return World(
             model=model,
@@ -141,7 +165,9 @@ class WorldBuilder:
             chain=TrunkChain.of(self._robot, model),
             body=body,
             law=self._law(body, wheels),
+            limits=self._limits if wheels is Wheels.ACTIVE and self._limits.is_finite else None,
             turn=fitted.turn,
+            trajectory=trajectory,
             push=start.push,
             standing_height=standing,
             flight_time=flight,
@@ -149,16 +175,19 @@ class WorldBuilder:
             note=fitted.note,
         )
 
-    def _fit(self, turn: Turn, body: Gyrostat, wheels: Wheels) -> FittedTurn:
+    def _fit(
+        self, turn: Turn, body: Gyrostat, wheels: Wheels, trajectory: Trajectory | None
+    ) -> FittedTurn:
+        if trajectory is not None:
+            return FittedTurn(turn, trajectory.note)
         if wheels is Wheels.ACTIVE:
-            return fit_turn(turn, body, MotorLimits.of(self._device.motor))
+            return fit_turn(turn, body, self._limits)
         return FittedTurn(turn, "")
 
     def _law(self, body: Gyrostat, wheels: Wheels) -> WheelLaw:
         if wheels is not Wheels.ACTIVE:
             return WheelLaw.off()
-        limits = MotorLimits.of(self._device.motor)
-        return WheelLaw.of(body, self._gains, limits, self._allocation)
+        return WheelLaw.of(body, self._gains, self._limits, self._allocation)
 
 
 def wheel_gains(robot: Robot) -> Gains:

@@ -39,9 +39,10 @@ from ocs_design.sizing.rim_problem import RimLimits
 
 # Limits that meet in one point stay compatible when their figures are rounded.
 _ROUNDING = 1e-12
-# A rim is no disc: its bore is at least this share of its outer radius. As a bore closes, the
-# shadow prices grow without limit, and no solver can tell them.
-_BORE = 0.01
+
+BORE_SHARE = 0.01
+"""A rim is no disc: its bore is at least this share of its outer radius. As a bore closes, the
+shadow prices grow without limit, and no solver can tell them."""
 
 
 class RimShape(NamedTuple):
@@ -66,7 +67,7 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
         flat = np.divide(2.0 * inertia, np.pi * limits.density * np.asarray(limits.height_min))
         outer = np.minimum(
             np.minimum(limits.outer_radius_max, _hoop_radius(tall, limits)),
-            _flat_wall_radius(flat, limits.wall_min),
+            flat_wall_radius(flat, limits.wall_min),
         )
         bore_by_height = np.maximum(outer**4 - tall, 0.0) ** 0.25
         bore_by_wall = outer - limits.wall_min
@@ -83,9 +84,21 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
 
 def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
     """Of the narrowest, thinnest and flattest rim that the lower limits leave [kg m^2]."""
-    bore = np.maximum(limits.inner_radius_min, limits.wall_min * _BORE / (1.0 - _BORE))
+    bore = np.maximum(limits.inner_radius_min, limits.wall_min * BORE_SHARE / (1.0 - BORE_SHARE))
     spread = (bore + limits.wall_min) ** 4 - bore**4
     return np.asarray(np.pi * limits.density * limits.height_min * spread / 2.0, dtype=np.float64)
+
+
+def flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
+    """Outer radius at which a rim of the least wall and the least height has the inertia [m].
+
+    The real root of c^3 + t^2/4 c = Q / (4 t) by the hyperbolic sine.
+    """
+    thickness = np.asarray(wall)
+    argument = np.sqrt(27.0) * flat / thickness**4
+    middle = thickness / np.sqrt(3.0) * np.sinh(np.arcsinh(argument) / 3.0)
+    radius: FloatArray = np.where(thickness > 0.0, middle + thickness / 2.0, np.inf)
+    return radius
 
 
 def _hoop_radius(tall: FloatArray, limits: RimLimits) -> FloatArray:
@@ -100,18 +113,6 @@ def _hoop_radius(tall: FloatArray, limits: RimLimits) -> FloatArray:
     return radius
 
 
-def _flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
-    """Outer radius at which a rim of the least wall and the least height has the inertia [m].
-
-    The real root of c^3 + t^2/4 c = Q / (4 t) by the hyperbolic sine.
-    """
-    thickness = np.asarray(wall)
-    argument = np.sqrt(27.0) * flat / thickness**4
-    middle = thickness / np.sqrt(3.0) * np.sinh(np.arcsinh(argument) / 3.0)
-    radius: FloatArray = np.where(thickness > 0.0, middle + thickness / 2.0, np.inf)
-    return radius
-
-
 def _fits(
     inner: FloatArray, outer: FloatArray, mass: FloatArray, limits: RimLimits
 ) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
@@ -123,7 +124,7 @@ def _fits(
     slack = 1.0 + _ROUNDING
     return np.asarray(
         (inner * slack >= limits.inner_radius_min)
-        & (inner * slack >= _BORE * outer)
+        & (inner * slack >= BORE_SHARE * outer)
         & (mass <= limits.mass_max * slack)
         & ((3.0 + limits.poisson_ratio) * outer**2 <= limits.stretch_max * slack)
     )

@@ -316,7 +316,8 @@ def test_a_parent_that_is_read_only(folder):
 def test_a_failing_run_keeps_the_output_that_it_was_to_replace(folder):
     assert run("size", SOLO12, "--no-validate", "-o", "out").code == 0
     before = file_hashes(folder)
-    assert run("size", SOLO12, "--r-max", "20mm", "-o", "out", "--force").code == 4
+    weak = ("--motor", "Antigravity 4004 KV300")
+    assert run("size", SOLO12, *weak, "-o", "out", "--force").code == 4
     assert file_hashes(folder) == before
 
 
@@ -332,6 +333,7 @@ INFEASIBLE = {
     "rate": ("--rate-change", "30", "--r-max", "30mm"),
 }
 BY_HAND = ("--mass", "2.5", "--inertia", "0.032,0.055,0.07")
+WHEELS_ALONE = ("--motor", "none", "--no-validate")
 RELAXATION = re.compile(
     r"\b(?P<key>[a-z_]+) (?P<figure>[\d.e+]+)(?: (?P<unit>mm|g|rpm))?(?=[;.] ?)"
 )
@@ -340,7 +342,7 @@ RELAXATION = re.compile(
 @pytest.mark.parametrize("robot_given", [(SOLO12,), BY_HAND], ids=["Solo12", "by hand"])
 @pytest.mark.parametrize("limits", INFEASIBLE.values(), ids=INFEASIBLE)
 def test_what_the_hint_proposes_works_as_it_is_printed(folder, limits, robot_given):
-    result = run("size", *robot_given, *limits, "--no-validate", "--json")
+    result = run("size", *robot_given, *limits, *WHEELS_ALONE, "--json")
     error = result.document["error"]
     assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
     assert error["binding"]
@@ -351,16 +353,77 @@ def test_what_the_hint_proposes_works_as_it_is_printed(folder, limits, robot_giv
     assert error["relaxations"]
     for key, match in proposed.items():
         typed = (f"--{key.replace('_', '-')}", f"{match['figure']}{match['unit'] or ''}")
-        mended = run("size", *robot_given, *limits, *typed, "--no-validate", "-o", key)
+        mended = run("size", *robot_given, *limits, *typed, *WHEELS_ALONE, "-o", key)
         assert mended.code == 0, (typed, mended.said)
     assert sorted(path.name for path in folder.iterdir()) == sorted(proposed)
 
 
 def test_a_missing_authority_is_no_matter_of_size(folder):
-    result = run("size", SOLO12, "--alpha", "0", "--json")
+    result = run("size", SOLO12, "--alpha", "0", "--motor", "none", "--json")
     error = result.document["error"]
     assert (result.code, error["binding"], error["relaxations"]) == (4, ["incidence"], {})
     assert "roll momentum" in error["message"]
+
+
+def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
+    result = run("size", SOLO12, "--alpha", "0", "--motor", "R80 KV110", "--json")
+    assert result.code == 4
+    assert "axis out of reach" in result.document["error"]["message"]
+    assert everything_in(folder) == []
+
+
+def test_a_motor_that_is_too_weak_is_told_how_much_time_it_needs(folder):
+    """No limit of the room mends a torque: Solo12's own motor needs longer for the drop."""
+    result = run("size", SOLO12, "--motor", "Antigravity 4004 KV300", "--json")
+    error = result.document["error"]
+    assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
+    for words in ("Antigravity 4004 KV300", "24 V", "drop", "0.385 s given"):
+        assert words in error["message"]
+    assert set(error["relaxations"]) == {"time"}
+    assert 1.0 < error["relaxations"]["time"] < 2.0
+    assert everything_in(folder) == []
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--motor", "R80"), ("motor.name", "R80 KV110")),
+        (("--gear", "GP"), ("motor.gear", "GP 26 B 144043")),
+        (("--material", "cheese"), ("flywheel.material", "cheese")),
+        (("--motors", "missing.csv"), ("missing.csv",)),
+        (("--motor", "none", "--gear", "direct"), ("motor.gear", "says nothing")),
+        (("--motor", "none", "--alpha-criterion", "lightest"), ("needs a motor",)),
+        (("--motor", "none", "--co-design"), ("needs a motor",)),
+    ],
+)
+def test_motors_that_cannot_be_meant(folder, options, words):
+    result = run("size", SOLO12, *options)
+    assert result.code == 3
+    told = " ".join(result.stderr.split())
+    assert all(word in told for word in words)
+    assert everything_in(folder) == []
+
+
+@pytest.mark.parametrize("voltage", ["0", "-24V", "24A"])
+def test_a_bus_has_a_voltage(folder, voltage):
+    assert run("size", SOLO12, "--bus-voltage", voltage).code == 2
+    assert everything_in(folder) == []
+
+
+def test_a_motor_whose_figures_are_missing_says_which(folder):
+    result = run("size", SOLO12, "--motor", "EC 20 flat 5 W 351005")
+    assert result.code == 4
+    assert "resistance" in " ".join(result.stderr.split())
+    assert everything_in(folder) == []
+
+
+def test_all_faults_of_a_motor_file_are_told(folder):
+    own = "name,maker,source,mass_kg\nA,me,bench,-1\nB,me,bench,heavy\n"
+    (folder / "own.csv").write_text(own)
+    result = run("size", SOLO12, "--motors", "own.csv")
+    assert result.code == 3
+    assert all(words in result.stderr for words in ("line 2", "line 3"))
+    assert everything_in(folder) == ["own.csv"]
 
 
 @pytest.mark.parametrize("typed", ["inspect --json", "size", "inspect"])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from ocs_design.exceptions import SpecificationError
 from ocs_design.requirement.bound import per_wheel
@@ -21,8 +22,22 @@ def test_a_drop_takes_the_time_of_its_fall():
     drop = Drop(name="drop", height=1.0, roll=np.radians(-10.0), pitch=np.radians(30.0))
     fall = drop.duration(0.25)
     assert 0.25 + 9.81 * fall**2 / 2 == pytest.approx(1.0, rel=1e-15)
-    expected = [0.03 * 2 * np.radians(10.0) / fall, 0.0515 * 2 * np.radians(30.0) / fall]
+    expected = [0.03, 0.0515] * drop.tilt * 2.0 / fall
     np.testing.assert_allclose(drop.momentum(INERTIA, 0.25), expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("roll", np.radians([-10.0, 0.0, 40.0, 100.0]))
+@pytest.mark.parametrize("pitch", np.radians([-60.0, 0.0, 30.0]))
+def test_a_tilt_is_the_smallest_turn_to_level(roll, pitch):
+    """SciPy's rotations: the vertical, turned by the tilt about a horizontal axis, is level."""
+    trunk = Rotation.from_euler("YX", [pitch, roll])
+    vertical = trunk.inv().apply([0.0, 0.0, 1.0])
+    tilt = Drop(name="drop", height=1.0, roll=roll, pitch=pitch).tilt
+    assert np.linalg.norm(tilt) == pytest.approx(np.arccos(vertical[2]), abs=1e-12)
+    turn = np.array([np.copysign(tilt[0], roll), np.copysign(tilt[1], pitch), 0.0])
+    np.testing.assert_allclose(
+        Rotation.from_rotvec(turn).apply(vertical), [0.0, 0.0, 1.0], atol=1e-12
+    )
 
 
 @pytest.mark.parametrize("height", [0.1, 0.25])

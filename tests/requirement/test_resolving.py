@@ -5,12 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ocs_design.catalogue.gears import gears, stages
+from ocs_design.catalogue.motors import motors
 from ocs_design.exceptions import SpecificationError
 from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
 from ocs_design.requirement.reading import parse_specification, read_specification
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.specification import MotorSection, Specification
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SIZE = 0.45
@@ -20,9 +22,29 @@ def stated(text: str) -> Specification:
     return parse_specification(text, "x")
 
 
+WITHOUT_MOTOR = Specification(motor=MotorSection(name="none"))
+
+
 def test_nothing_stated_is_everything_assumed(solo12):
     resolved = resolve(Specification(), solo12, SIZE)
     assert resolved.envelope == default_envelope(solo12)
+    told = "\n".join(resolved.assumptions)
+    for words in (
+        "the paper's three",
+        "Bus: 24 V, as robots up to 20 kg have.",
+        f"lightest device of {len(motors())} motors",
+        f"none, or one of {len(stages(gears().values()))} stages",
+        "Material: one of",
+        "at least 2.",
+        "95% of voltage and current",
+    ):
+        assert words in told
+    assert all(sentence.endswith(".") for sentence in resolved.assumptions)
+
+
+def test_nothing_stated_but_that_there_is_no_motor(solo12):
+    resolved = resolve(WITHOUT_MOTOR, solo12, SIZE)
+    assert resolved.choice is None
     assert resolved.material.name == "stainless-304"
     assert resolved.requirement.wheel_speed_max == WHEEL_SPEED_MAX
     assert resolved.requirement.rate_change is None

@@ -8,12 +8,12 @@ from wheels import motor
 from ocs_design.simulation.controller import (
     Allocation,
     Gains,
-    Gyrostat,
     Target,
     WheelLaw,
     tilt_error,
 )
 from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.incidence import module_axes
 
 INERTIA = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])
@@ -35,7 +35,8 @@ def seen_from(rotation):
 
 
 def level(rate=(0.0, 0.0), acceleration=(0.0, 0.0)):
-    return Target(np.array([[0.0, 0.0, 1.0]]), np.array([rate]), np.array([acceleration]))
+    upright = np.array([[0.0, 0.0, 1.0]])
+    return Target(upright, np.array([rate]), np.array([acceleration]), np.zeros((1, 2)))
 
 
 def acceleration(body, torque, rate, wheel_speed):

@@ -3,10 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ocs_design.simulation.controller import Gyrostat
+from ocs_design.drive.line import RESERVE
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import (
-    HEADROOM,
     Quintic,
     SmoothTrapezoid,
     Step,
@@ -14,6 +13,7 @@ from ocs_design.simulation.reference import (
     fit_turn,
     utilisation,
 )
+from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.incidence import module_axes
 
 PITCH = np.array([0.0, 1.0, 0.0])
@@ -73,17 +73,17 @@ def test_a_wheel_a_little_too_slow_gets_a_flatter_profile():
     fitted = fit_turn(FLIP, BODY, limits)
     assert isinstance(fitted.turn.profile, SmoothTrapezoid)
     assert fitted.turn.duration == FLIP.duration
-    assert utilisation(fitted.turn, BODY, limits) <= HEADROOM
+    assert utilisation(fitted.turn, BODY, limits) <= RESERVE
     assert "trapezoid" in fitted.note
 
 
 def test_a_wheel_far_too_slow_gets_more_time_and_says_so():
     limits = MotorLimits(700.0, 350.0, 1.0)
     fitted = fit_turn(FLIP, BODY, limits)
-    assert utilisation(fitted.turn, BODY, limits) == pytest.approx(HEADROOM, rel=1e-6)
+    assert utilisation(fitted.turn, BODY, limits) == pytest.approx(RESERVE, rel=1e-6)
     assert "in place of the 2 s" in fitted.note
     faster = replace(fitted.turn, duration=0.999 * fitted.turn.duration)
-    assert utilisation(faster, BODY, limits) > HEADROOM
+    assert utilisation(faster, BODY, limits) > RESERVE
 
 
 def test_a_fall_does_not_wait():

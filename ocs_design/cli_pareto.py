@@ -1,0 +1,121 @@
+"""`ocs-design pareto`: parse, call, print. No arithmetic."""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ocs_design import cli_options as opt
+from ocs_design.cli_stated import stated_package_paths, stated_specification
+
+
+def pareto(
+    context: typer.Context,
+    robot: opt.RobotFile = None,
+    against: Annotated[
+        str,
+        typer.Option(
+            "--against", metavar="NAME", help="time, angle, radius, height or voltage is varied."
+        ),
+    ] = "time",
+    low: Annotated[
+        str | None, typer.Option("--from", metavar="VALUE", help="Lowest value, e.g. 300ms.")
+    ] = None,
+    high: Annotated[
+        str | None,
+        typer.Option(
+            "--to",
+            metavar="VALUE",
+            help="Highest value. Default of both: around the specification's own.",
+        ),
+    ] = None,
+    points: Annotated[int, typer.Option("--points", metavar="N", help="How many values.")] = 9,
+    maneuver: Annotated[
+        str,
+        typer.Option(
+            "--maneuver",
+            metavar="NAME",
+            help="Vary the time or angle of this one alone. Default: of all, in one ratio.",
+        ),
+    ] = "",
+    mass: opt.Mass = None,
+    inertia: opt.Inertia = None,
+    spec: opt.Spec = None,
+    trunk: opt.Trunk = None,
+    posture: opt.Posture = None,
+    joint: opt.Joints = None,
+    package_path: opt.PackagePaths = None,
+    rate_change: opt.RateChange = None,
+    wheel_speed_max: opt.WheelSpeedMax = None,
+    torque_max: opt.TorqueMax = None,
+    alpha: opt.Alpha = None,
+    alpha_criterion: opt.AlphaCriterion = None,
+    position: opt.Position = None,
+    r_max: opt.RMax = None,
+    r_min: opt.RMin = None,
+    h_max: opt.HMax = None,
+    h_min: opt.HMin = None,
+    wall_min: opt.WallMin = None,
+    wheel_mass_max: opt.WheelMassMax = None,
+    material: opt.MaterialName = None,
+    motor: opt.MotorName = None,
+    bus_voltage: opt.BusVoltage = None,
+    gear: opt.GearName = None,
+    motors: opt.MotorsFile = None,
+    gears: opt.GearsFile = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--out",
+            metavar="DIR",
+            help="Write the front and the specification of each point into this folder.",
+        ),
+    ] = None,
+    force: opt.Force = False,
+    as_json: opt.AsJson = False,
+    strict: opt.Strict = False,
+    quiet: opt.Quiet = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """Show what the lightest device weighs against time, angle or room.
+
+    Every value is a design of its own, without its proof by simulation: `ocs-design size --spec
+    DIR/points/NN.toml` makes, exports and flies it. Exit code 4: no value has a device.
+    """
+    from ocs_design.export.folder import check_target
+    from ocs_design.pareto import (
+        draw_front,
+        front_to_json,
+        front_values,
+        lightest_device,
+        read_task,
+    )
+    from ocs_design.report.console import Steps, make_console
+    from ocs_design.report.front_files import write_front
+    from ocs_design.report.pareto import print_front, print_written
+    from ocs_design.requirement.sweeps import sweep_of
+
+    sweep = sweep_of(against, maneuver)
+    if out is not None:
+        check_target(out, force=force)
+    console = make_console(color=not no_color)
+    steps = Steps(console, quiet=quiet or as_json)
+    with steps.step("read the robot") as step:
+        task = read_task(
+            stated_specification(context),
+            package_paths=stated_package_paths(package_path),
+            strict=strict,
+        )
+        step.note = task.robot.name
+    values = front_values(sweep, task, low=low, high=high, points=points)
+    with steps.step(f"choose a device for each of {points} values") as step:
+        front = draw_front(task, sweep, values, lightest_device, step.update)
+    remarks = () if out is None else write_front(front, out, force=force)
+    if as_json:
+        sys.stdout.buffer.write(front_to_json(front))
+    elif not quiet:
+        print_front(console, front)
+        print_written(console, front, out, remarks)
+    raise typer.Exit(front.exit_code)

@@ -1,0 +1,124 @@
+"""What a motor at a bus voltage does at its wheel, behind its gear.
+
+With N = motor speed / wheel speed and the gear's efficiency eta, taken as a loss whichever way the
+power flows, so that braking is not counted stronger than it is:
+
+    tau_s = N eta V k_t / R        w_0 = V / (k_t N)        tau_L = N eta peak torque
+
+(`V = R i + k_t w`, docs/theory.md, What a motor can do).
+"""
+
+from dataclasses import dataclass, replace
+
+from ocs_design.arrays import FloatArray
+from ocs_design.drive.gear import Gear
+from ocs_design.drive.motor import Motor
+from ocs_design.exceptions import OcsError
+
+RESERVE = 0.95
+"""Share of voltage and current that a design may use; the rest is left to the feedback."""
+
+
+@dataclass(frozen=True, eq=False)
+class DriveLine:
+    """Voltage line and limits at the wheel: scalars, or arrays that broadcast.
+
+    Attributes:
+        stall_torque: tau_s, of the voltage line at rest [N m]; inf: no line, full torque to w_0.
+        no_load_speed: w_0 [rad/s], finite.
+        torque_limit: tau_L, at the current limit [N m]; inf: not limited.
+        speed_max: mechanical, of wheel, motor and gear [rad/s]; inf: not limited.
+    """
+
+    stall_torque: float | FloatArray
+    no_load_speed: float | FloatArray
+    torque_limit: float | FloatArray
+    speed_max: float | FloatArray
+
+    def reserved(self, share: float | FloatArray = RESERVE) -> "DriveLine":
+        """What a part of voltage and current does; the mechanical limit stays."""
+        return replace(
+            self,
+            stall_torque=self.stall_torque * share,
+            no_load_speed=self.no_load_speed * share,
+            torque_limit=self.torque_limit * share,
+        )
+
+
+def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
+    """The motor at `bus_voltage` [V] behind its gear, all of it; see the module's text.
+
+    Raises:
+        OcsError: figures are missing that this needs; `missing_figures` has them.
+    """
+    k_t, resistance = motor.torque_constant, motor.resistance
+    peak, speed = motor.peak_torque, speed_limit(motor)
+    if k_t is None or resistance is None or peak is None or speed is None:
+        raise OcsError(
+            f"motor {motor.name!r}: its source does not give "
+            f"{', '.join(missing_figures(motor, gear))}",
+            hint="Choose another motor, or state its figures in a catalogue file of your own.",
+        )
+    gain = gear.ratio * gear.efficiency
+    return DriveLine(
+        stall_torque=gain * bus_voltage * k_t / resistance,
+        no_load_speed=bus_voltage / (k_t * gear.ratio),
+        torque_limit=min(gain * peak, gear.torque_max),
+        speed_max=min(min(speed, gear.motor_speed_max) / gear.ratio, gear.wheel_speed_max),
+    )
+
+
+def speed_limit(motor: Motor) -> float | None:
+    """How fast the motor may turn [rad/s].
+
+    What its maker states; else no faster than without load at its rated voltage, for which it was
+    built. None if the source gives neither.
+    """
+    if motor.speed_max is not None:
+        return motor.speed_max
+    if motor.no_load_speed is not None:
+        return motor.no_load_speed
+    if motor.rated_voltage is None or motor.torque_constant is None:
+        return None
+    return motor.rated_voltage / motor.torque_constant
+
+
+def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
+    """What this motor behind this gear needs and its source does not give, by name.
+
+    The rotor's inertia may be left out where that is conservative: where the rotor turns with the
+    wheel and no faster, it adds at least as much to the momentum as to what must be accelerated.
+    """
+    helps = gear.ratio <= 1.0 and not gear.reverses
+    helps = gear.ratio <= 1.0 and not gear.reverses
+    figures = {
+        "mass": motor.mass,
+        "torque constant": motor.torque_constant,
+        "resistance": motor.resistance,
+        "peak torque or current": motor.peak_torque,
+        "highest speed or rated voltage": speed_limit(motor),
+        "rotor inertia": 0.0 if helps else motor.rotor_inertia,
+    }
+    return tuple(name for name, figure in figures.items() if figure is None)
+
+
+def rotor_share(rotor_inertia: float, gear: Gear) -> float:
+    """Momentum of the rotor per speed of the wheel, s N J_r [kg m^2]; negative if it reverses.
+
+    Part of the spin inertia h = I_rim + s N J_r.
+    """
+    return _sense(gear) * gear.ratio * rotor_inertia
+
+
+def armature(rotor_inertia: float, gear: Gear) -> float:
+    """What the motor accelerates beyond the spin inertia h, N (N - s) J_r + J_gear [kg m^2].
+
+    The motor accelerates I_m = I_rim + N^2 J_r + J_gear = h + armature; zero without a gear,
+    negative where a gear that does not reverse speeds the wheel up.
+    """
+    return gear.ratio * (gear.ratio - _sense(gear)) * rotor_inertia + gear.inertia
+
+
+def _sense(gear: Gear) -> float:
+    """s, -1 if the wheel turns against the motor."""
+    return -1.0 if gear.reverses else 1.0

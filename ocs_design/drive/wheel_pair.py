@@ -1,0 +1,207 @@
+"""Two wheels that turn a trunk about roll and pitch: the smallest spin inertia that is in time.
+
+Per wheel, at its speed W relative to the trunk, h is its spin inertia (momentum per speed, the
+motor's rotor included) and I_m = h + armature what its motor accelerates. With s, c = sin, cos of
+the incidence and I_xx, I_yy of the whole with its wheels braked, momentum about roll and pitch is
+
+    I_xx w_x + s h (W_1 - W_2) = L_x        I_yy w_y + c h (W_1 + W_2) = L_y
+
+so that a turn that sweeps P = (P_x, P_y), inertia times angle, and leaves L in the wheels, asks the
+busier wheel for
+
+    phi = (|P_x| / s + |P_y| / c) / (2 h)        W_f = (|L_x| / s + |L_y| / c) / (2 h)
+
+while the other one does its k-th part, k = (|P_y| / c - |P_x| / s) / (|P_y| / c + |P_x| / s). The
+wheel's own equation, d/dt (h (s w_x + c w_y) + I_m W) = tau, then reads I_red dW/dt = tau with
+
+    I_red = h + armature - kappa h^2,
+    kappa = s^2 / I_xx + c^2 / I_yy + k (c^2 / I_yy - s^2 / I_xx).
+
+The less busy wheel needs no more torque than the busier one, and has more
+(docs/theory.md, Two wheels on a trunk). Where P and L are not in proportion, k is that of P.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ocs_design.arrays import FloatArray
+from ocs_design.drive.line import DriveLine
+from ocs_design.drive.slew import slew_time
+from ocs_design.drive.spin_root import SpinDemand, smallest_root
+from ocs_design.drive.unit_drive import UnitDrive
+
+# A share below it is none: the cosine of a right angle is 6e-17.
+_OUT_OF_REACH = 1e-9
+
+
+class SlewReason(IntEnum):
+    """What stands in the way of a slew."""
+
+    AXIS = 1
+    """The incidence leaves an axis out of reach that is asked for."""
+    TORQUE = 2
+    """The torque at rest, all the time, is too slow with any wheel."""
+    SPEED = 3
+    """The torque would do; how fast the drive turns decides how large its wheel must be."""
+
+
+@dataclass(frozen=True, eq=False)
+class WheelPairTask:
+    """A turn that two wheels must do; arrays that broadcast but for their last axis of two.
+
+    Attributes:
+        swept: P, momentum over time that must pass the wheels about roll and pitch [N m s^2],
+            shape (..., 2).
+        momentum: L, that they hold at the end [N m s], shape (..., 2).
+        duration: T [s], shape (...).
+        inertia: I_xx, I_yy of the whole, wheels braked [kg m^2], shape (..., 2).
+        incidence: between wheel axes and lateral direction [rad], shape (...).
+    """
+
+    swept: ArrayLike
+    momentum: ArrayLike
+    duration: ArrayLike
+    inertia: ArrayLike
+    incidence: ArrayLike
+
+    def load(self) -> "WheelLoad":
+        """What it asks of the busier wheel; see the module's text."""
+        shares = np.stack([np.sin(self.incidence), np.cos(self.incidence)], axis=-1)
+        shares = np.where(shares > _OUT_OF_REACH, shares, 0.0)
+        excess, held = _per_share(self.swept, shares), _per_share(self.momentum, shares)
+        turning = excess.sum(axis=-1, keepdims=True) > 0.0
+        compliance = shares**2 / np.asarray(self.inertia)
+        across = compliance[..., 1] - compliance[..., 0]
+        return WheelLoad(
+            excess=excess.sum(axis=-1),
+            held=held.sum(axis=-1),
+            coupling=compliance.sum(axis=-1) + _balance(np.where(turning, excess, held)) * across,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class WheelLoad:
+    """What a turn asks of the busier of two wheels, shape (...) each.
+
+    Attributes:
+        excess: |P_x| / s + |P_y| / c [N m s^2]; inf: an axis is out of reach.
+        held: |L_x| / s + |L_y| / c [N m s]; likewise.
+        coupling: kappa [1 / (kg m^2)].
+    """
+
+    excess: FloatArray
+    held: FloatArray
+    coupling: FloatArray
+
+    def angle(self, spin_inertia: ArrayLike) -> FloatArray:
+        """phi, by which a wheel of that spin inertia turns beyond its final speed [rad]."""
+        return np.asarray(self.excess / (2.0 * np.asarray(spin_inertia)))
+
+    def final_speed(self, spin_inertia: ArrayLike) -> FloatArray:
+        """W_f [rad/s]."""
+        return np.asarray(self.held / (2.0 * np.asarray(spin_inertia)))
+
+    def reduced_inertia(self, spin_inertia: ArrayLike, armature: ArrayLike = 0.0) -> FloatArray:
+        """I_red, what the motor accelerates while the trunk gives way [kg m^2]."""
+        h = np.asarray(spin_inertia)
+        return np.asarray(h + np.asarray(armature) - self.coupling * h**2)
+
+
+def pair_slew_time(
+    task: WheelPairTask, spin_inertia: ArrayLike, line: DriveLine, armature: ArrayLike = 0.0
+) -> FloatArray:
+    """How long wheels of that spin inertia take for the turn [s], shape (...); inf: for ever.
+
+    Args:
+        task: its duration is not used.
+        spin_inertia: h of each wheel [kg m^2], below 1 / kappa, shape (...); 0 or inf: no wheel.
+        line: of the drive at the wheel, shape (...).
+        armature: I_m - h [kg m^2], shape (...).
+    """
+    load, asked_of = task.load(), np.asarray(spin_inertia, dtype=np.float64)
+    there = (asked_of > 0.0) & np.isfinite(asked_of)
+    h = np.where(there, asked_of, 1.0 / (2.0 * load.coupling))
+    time = slew_time(load.angle(h), load.reduced_inertia(h, armature), line, load.final_speed(h))
+    return np.where(there | (load.excess + load.held == 0.0), time, np.inf)
+
+
+def smallest_spin_inertia(
+    task: WheelPairTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
+) -> FloatArray:
+    """The smallest h per wheel that does the turn in time [kg m^2], shape (...); inf: none does.
+
+    The time falls as h grows, up to h = 1 / (2 kappa), where the wheels carry half the inertia that
+    they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) lets
+    the time rise again for a while. A larger h, which another turn needs, must then be tried anew,
+    as `least`.
+
+    Args:
+        task: the inertia is taken as given, whatever h.
+        line: of the drive at the wheel, shape (...).
+        armature: I_m - h [kg m^2], shape (...).
+        least: smallest h to consider [kg m^2], shape (...).
+    """
+    return smallest_root(spin_demand(task, line, armature, least))
+
+
+def spin_demand(
+    task: WheelPairTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
+) -> SpinDemand:
+    """What `smallest_spin_inertia` solves for; arguments as there."""
+    load = task.load()
+    duration = np.asarray(task.duration, dtype=np.float64)
+    return SpinDemand(
+        sweep=load.excess + load.held * np.maximum(duration, 0.0),
+        momentum=load.held,
+        duration=duration,
+        coupling=load.coupling,
+        armature=np.asarray(armature, dtype=np.float64),
+        least=np.asarray(least, dtype=np.float64),
+        drive=UnitDrive.of(line),
+    )
+
+
+def slew_reason(task: WheelPairTask, line: DriveLine) -> NDArray[np.int_]:
+    """Why there is no wheel for a turn, or none that fits, as values of `SlewReason`, shape (...).
+
+    The time falls as the wheel grows, towards that of the torque at rest, there and back. A wheel
+    so large that it takes much of the given inertia upon itself (I_red falls short of h) may still
+    beat that; it counts as out of reach for want of torque.
+    """
+    load, torque = task.load(), UnitDrive.of(line).torque
+    duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
+    with np.errstate(invalid="ignore"):
+        weak = _torque_limited_excess(torque, load.held, duration) < load.excess
+    reason = np.where(weak, SlewReason.TORQUE, SlewReason.SPEED)
+    return np.where(np.isinf(load.excess + load.held), SlewReason.AXIS, reason)
+
+
+def _torque_limited_excess(
+    torque: FloatArray, held: FloatArray, duration: FloatArray
+) -> FloatArray:
+    """`WheelLoad.excess` that constant torque does in time with the largest wheels [N m s^2].
+
+    Each wheel's momentum rises by tau t to its peak (tau T + p_f) / 2 and falls to p_f = held / 2.
+    """
+    final = held / 2.0
+    peak = (torque * duration + final) / 2.0
+    excess = 2.0 * (peak**2 - final**2 / 2.0) / torque - held * duration
+    return np.where(peak >= final, excess, -np.inf)
+
+
+def _per_share(asked: ArrayLike, shares: FloatArray) -> FloatArray:
+    """|asked| / share; nothing where nothing is asked, inf where a share of zero is."""
+    amount, shares = np.broadcast_arrays(np.abs(np.asarray(asked, dtype=np.float64)), shares)
+    ratio = np.divide(amount, shares, out=np.full(amount.shape, np.inf), where=shares > 0.0)
+    return np.where(amount > 0.0, ratio, 0.0)
+
+
+def _balance(part: FloatArray) -> FloatArray:
+    """k, the speed of the less busy wheel over that of the busier one."""
+    roll, pitch = part[..., 0], part[..., 1]
+    whole = roll + pitch
+    usable = (whole > 0.0) & np.isfinite(whole)
+    return np.where(usable, pitch - roll, 0.0) / np.where(usable, whole, 1.0)

@@ -1,0 +1,63 @@
+"""A front as a folder: tables, a drawing, and the specification of every point."""
+
+import csv
+from collections.abc import Mapping
+from dataclasses import asdict
+from io import StringIO
+from pathlib import Path
+
+from ocs_design.exceptions import MissingToolError
+from ocs_design.export.folder import FRONT_FILE, staged_folder
+from ocs_design.pareto import Front, front_to_json
+from ocs_design.report.front_figure import front_svg
+
+COLUMNS: Mapping[str, str] = {
+    "mass": "mass_kg",
+    "share": "share_of_robot",
+    "motor": "motor",
+    "gear": "gear",
+    "material": "material",
+    "incidence": "incidence_rad",
+    "outer_radius": "outer_radius_m",
+    "inner_radius": "inner_radius_m",
+    "height": "height_m",
+    "rim_mass": "rim_mass_kg",
+    "spin_inertia": "spin_inertia_kg_m2",
+}
+"""Heading of each field of a device."""
+
+
+def write_front(front: Front, folder: Path, *, force: bool = False) -> tuple[str, ...]:
+    """Write all of it or nothing.
+
+    Returns:
+        What could not be written, and the cure.
+
+    Raises:
+        OutputError: see `staged_folder`.
+    """
+    remarks: tuple[str, ...] = ()
+    with staged_folder(folder, force=force) as staging:
+        (staging / "points").mkdir()
+        for point in front.points:
+            (staging / point.file).write_text(point.specification, encoding="utf-8")
+        (staging / "front.csv").write_text(front_csv(front), encoding="utf-8", newline="")
+        try:
+            (staging / "front.svg").write_bytes(front_svg(front))
+        except MissingToolError as error:
+            remarks = (f"{error.message}: {error.hint}",)
+        (staging / FRONT_FILE).write_bytes(front_to_json(front))
+    return remarks
+
+
+def front_csv(front: Front) -> str:
+    """A row for each point, SI, all digits; a point without a device has its reason."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    value = f"{front.against}_{front.si_unit}"
+    writer.writerow([value, *COLUMNS.values(), "specification", "reason"])
+    for point in front.points:
+        device = {} if point.device is None else asdict(point.device)
+        cells = [device.get(name, "") for name in COLUMNS]
+        writer.writerow([point.value, *cells, point.file, point.reason])
+    return text.getvalue()

@@ -1,0 +1,94 @@
+"""How the motor was chosen, for people."""
+
+from collections import Counter
+
+import numpy as np
+from rich.console import Console
+from rich.text import Text
+
+from ocs_design.report.layout import columns, facts, heading, items, note, show
+from ocs_design.report.quantities import grams, rpm
+from ocs_design.selection_record import RankedRecord, RejectionRecord, SelectionRecord
+from ocs_design.sizing.selection.result import TaskDemand
+
+SHOWN = 5
+"""Runners-up and rejections that the report shows; design.json has all, -v shows them."""
+
+
+def print_selection(console: Console, selection: SelectionRecord, *, verbose: bool = False) -> None:
+    """The winner's tasks, the next lightest, and why the others fell out."""
+    heading(
+        console,
+        f"Choice: {selection.candidates:,} combinations of motor, gear, material and incidence "
+        f"at {selection.bus_voltage:g} V",
+    )
+    _print_tasks(console, selection.tasks)
+    note(
+        console,
+        f"Needed: the least time at {selection.reserve:.0%} of voltage and current; "
+        f"{selection.binding_maneuver} asks for the most.",
+    )
+    _print_ranking(console, selection.ranking if verbose else selection.ranking[:SHOWN])
+    _print_rejections(console, selection.rejections, verbose=verbose)
+    _print_co_design(console, selection)
+
+
+def _print_tasks(console: Console, tasks: tuple[TaskDemand, ...]) -> None:
+    table = columns(
+        "asked by", "alpha\ndeg", "spin inertia\nkg m2", "needed\ns", "given\ns", "peak\nrpm"
+    )
+    for task in tasks:
+        table.add_row(
+            Text(task.source),
+            f"{np.degrees(task.incidence):.1f}",
+            f"{task.spin_inertia:.3e}",
+            "-" if task.time_needed is None else f"{task.time_needed:.3f}",
+            "-" if task.time_given is None else f"{task.time_given:.3f}",
+            rpm(task.peak_speed).removesuffix(" rpm"),
+        )
+    show(console, table)
+
+
+def _print_ranking(console: Console, ranking: tuple[RankedRecord, ...]) -> None:
+    table = columns(
+        "lightest devices", "gear", "rim", "alpha\ndeg", "R\nmm", "h\nmm", "mass\ng", left=3
+    )
+    for entry in ranking:
+        table.add_row(
+            Text(entry.motor),
+            Text(entry.gear),
+            Text(entry.material),
+            f"{np.degrees(entry.incidence):.1f}",
+            f"{1e3 * entry.outer_radius:.1f}",
+            f"{1e3 * entry.height:.1f}",
+            f"{1e3 * entry.mass:.1f}",
+        )
+    show(console, table)
+
+
+def _print_rejections(
+    console: Console, rejections: tuple[RejectionRecord, ...], *, verbose: bool
+) -> None:
+    if not rejections:
+        return
+    counted = Counter(rejection.reason for rejection in rejections)
+    reasons = ", ".join(f"{count} for {reason}" for reason, count in counted.most_common())
+    note(console, f"{len(rejections)} motors fell out: {reasons}.")
+    if verbose:
+        items(console, (f"{rejection.motor}: {rejection.detail}" for rejection in rejections))
+
+
+def _print_co_design(console: Console, selection: SelectionRecord) -> None:
+    found = selection.co_design
+    if found is None:
+        return
+    heading(console, "Co-design: all dimensions together with the maneuvers, in 3-D")
+    rows = [("solver", f"{found.status}, {found.iterations} iterations")]
+    if found.mass is not None:
+        gain = 1.0 - found.mass / found.selected_mass
+        rows.append(
+            ("device", f"{grams(found.mass)} against {grams(found.selected_mass)} ({gain:+.2%})")
+        )
+    if found.violation is not None:
+        rows.append(("violation", f"{found.violation:.1e} on a ten times finer grid, relative"))
+    facts(console, [*rows, ("outcome", found.remark)])

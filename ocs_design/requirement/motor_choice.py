@@ -1,0 +1,110 @@
+"""What the selection may choose from, as a specification states it."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ocs_design.catalogue.gears import gear, known_gears, stages
+from ocs_design.catalogue.materials import Material, material, materials
+from ocs_design.catalogue.motors import known_motors, motor
+from ocs_design.drive.gear import DIRECT, Gear
+from ocs_design.drive.motor import Motor
+from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.froude import default_bus_voltage
+from ocs_design.requirement.specification import AUTO, NO_MOTOR, Specification
+from ocs_design.robot.robot import Robot
+
+
+@dataclass(frozen=True, eq=False)
+class MotorChoice:
+    """Motors, gears and materials to choose from, and what feeds the motors.
+
+    Attributes:
+        motors, gears, materials: the candidates.
+        bus_voltage: of the supply [V].
+        wheel_speed_max: stated highest speed of a wheel [rad/s]; None: what the drive can do.
+    """
+
+    motors: tuple[Motor, ...]
+    gears: tuple[Gear, ...]
+    materials: tuple[Material, ...]
+    bus_voltage: float
+    wheel_speed_max: float | None
+
+
+def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | None:
+    """What may be chosen from; None where the specification wants no motor.
+
+    Raises:
+        SpecificationError: a name that no catalogue has, or a file that cannot be read; see
+            `unknown_names`.
+    """
+    stated = specification.motor
+    if stated.name == NO_MOTOR:
+        return None
+    return MotorChoice(
+        motors=_motors(specification),
+        gears=tuple(_limited(stage, stated.torque_max) for stage in _gears(specification)),
+        materials=_materials(specification.flywheel.material),
+        bus_voltage=stated.bus_voltage or default_bus_voltage(robot),
+        wheel_speed_max=specification.requirement.wheel_speed_max,
+    )
+
+
+def unknown_names(specification: Specification) -> Iterator[str]:
+    """Each motor and gear that is asked for and in no catalogue, one line each.
+
+    Raises:
+        SpecificationError: a catalogue file cannot be read.
+    """
+    choices: tuple[tuple[str, Callable[[Specification], object]], ...] = (
+        ("motor.name", _motors),
+        ("motor.gear", _gears),
+    )
+    for path, choose in choices:
+        try:
+            choose(specification)
+        except SpecificationError as error:
+            if error.problems:
+                raise
+            yield f"{path}: {error.message}. {error.hint}"
+
+
+def _motors(specification: Specification) -> tuple[Motor, ...]:
+    stated = specification.motor
+    known = known_motors(_path(stated.motors))
+    if stated.name in {None, AUTO, NO_MOTOR}:
+        return tuple(known.values())
+    return (motor(stated.name, known),)
+
+
+def _gears(specification: Specification) -> tuple[Gear, ...]:
+    stated = specification.motor
+    known = known_gears(_path(stated.gears))
+    if stated.gear in {None, AUTO}:
+        return (DIRECT, *stages(known.values()))
+    if stated.gear == DIRECT.name:
+        return (DIRECT,)
+    return stages([gear(stated.gear, known)])
+
+
+def _materials(name: str | None) -> tuple[Material, ...]:
+    """The one stated, or all whose stress can be checked."""
+    if name not in {None, AUTO}:
+        return (material(name),)
+    return tuple(
+        found
+        for found in materials().values()
+        if found.yield_strength is not None and found.poisson_ratio is not None
+    )
+
+
+def _limited(stage: Gear, torque_max: float | None) -> Gear:
+    """The stage with a stated limit of the torque on the wheel [N m]."""
+    if torque_max is None:
+        return stage
+    return replace(stage, torque_max=min(stage.torque_max, torque_max))
+
+
+def _path(file: str | None) -> Path | None:
+    return None if file is None else Path(file)

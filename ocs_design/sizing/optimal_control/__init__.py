@@ -1,0 +1,1 @@
+"""Maneuvers as optimal control problems in 3-D: direct collocation with CasADi and IPOPT."""

@@ -1,0 +1,1 @@
+"""The lightest device that does all maneuvers, over motors, gears, materials and incidences."""

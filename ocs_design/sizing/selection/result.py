@@ -1,0 +1,157 @@
+"""What a selection comes to: the lightest devices, and why the other motors fell out."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from ocs_design.arrays import FloatArray
+from ocs_design.catalogue.materials import Material
+from ocs_design.drive.gear import Gear
+from ocs_design.drive.line import DriveLine
+from ocs_design.drive.motor import Motor
+from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.sizing.carrier import Carrier
+
+
+@dataclass(frozen=True)
+class TaskDemand:
+    """What one part of the requirement asks of a drive.
+
+    Attributes:
+        source: name of the maneuver, or `rate change, roll` and `rate change, pitch`.
+        incidence: of the modules during it [rad].
+        spin_inertia: smallest of a wheel with which this drive does it in time [kg m^2].
+        time_needed: at the least, with the wheel as designed, on the reserved share of voltage and
+            current [s]; None: no time is set.
+        time_given: [s]; None likewise.
+        peak_speed: of the busier wheel in that least time [rad/s].
+        peak_torque: of its motor at the wheel, accelerating or braking [N m]; None: no time is set.
+    """
+
+    source: str
+    incidence: float
+    spin_inertia: float
+    time_needed: float | None
+    time_given: float | None
+    peak_speed: float
+    peak_torque: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A whole device: two equal modules on the robot.
+
+    Attributes:
+        motor, gear, material: chosen.
+        incidence: of the wheel axes [rad].
+        spin_inertia: of each wheel, the rotor's share included [kg m^2].
+        rotor_share: s N J_r of it. armature: what the motor accelerates beyond it [kg m^2].
+        inner_radius, outer_radius, height: of the rim [m].
+        rim_mass, housing_mass: of one module [kg].
+        carrier: what stands still of one module: motor, gear and housing.
+        line: of the drive at the wheel, nothing held back.
+        overspeed: at which the hoop stress is limited [rad/s].
+        total: robot and both modules, braked, in B.
+        centers: of the left and the right wheel in B [m], shape (2, 3).
+        demands: of all parts of the requirement.
+        binding: limits that hold the mass up, as named in the specification; "housing" where a
+            larger rim would be lighter, but its housing heavier.
+        residual: relative change of the spin inertia in one more iteration of the fixed point.
+        iterations: taken.
+    """
+
+    motor: Motor
+    gear: Gear
+    material: Material
+    incidence: float
+    spin_inertia: float
+    rotor_share: float
+    armature: float
+    inner_radius: float
+    outer_radius: float
+    height: float
+    rim_mass: float
+    housing_mass: float
+    carrier: Carrier
+    line: DriveLine
+    overspeed: float
+    total: MassProperties
+    centers: FloatArray
+    demands: tuple[TaskDemand, ...]
+    binding: tuple[str, ...]
+    residual: float
+    iterations: int
+
+    @property
+    def mass(self) -> float:
+        """Of both modules: rims, motors, gears and housings [kg]."""
+        return 2.0 * (self.rim_mass + self.carrier.mass)
+
+    @property
+    def binding_maneuver(self) -> str:
+        """What asks for the most; "smallest rim" if that has more, "" if the inertia is stated."""
+        most = max(self.demands, key=lambda demand: demand.spin_inertia, default=None)
+        if most is None or most.spin_inertia < self.spin_inertia * (1.0 - 1e-6):
+            return ""
+        return most.source
+
+
+class Reason(StrEnum):
+    """Why a motor has no place among the lightest devices.
+
+    Attributes:
+        FIGURES: its source lacks what the choice needs.
+        HEAVIER: it can do it, or may be able to, but its device is heavier than those listed.
+        TORQUE: too weak, whatever the wheel. SPEED: too slow, whatever the wheel.
+        ENVELOPE: the wheel that it needs has no room. MASS: that wheel is heavier than allowed.
+        STRESS: that wheel would burst.
+        INCIDENCE: the stated one leaves an axis out of reach.
+        OWN_WEIGHT: it could turn the robot alone, but not with the device on it.
+    """
+
+    FIGURES = "missing figures"
+    HEAVIER = "heavier"
+    TORQUE = "torque"
+    SPEED = "speed"
+    ENVELOPE = "envelope"
+    MASS = "mass"
+    STRESS = "stress"
+    INCIDENCE = "incidence"
+    OWN_WEIGHT = "own weight"
+
+
+@dataclass(frozen=True)
+class Rejection:
+    """Why a motor fell out.
+
+    Attributes:
+        motor: its name.
+        reason: the first thing in the way of its most promising combination.
+        detail: the same with figures.
+        shortfall: by how much it fails: time with the largest wheel that fits over the time given,
+            or wheel needed over the largest, whichever is less, over 1; inf if not known.
+    """
+
+    motor: str
+    reason: Reason
+    detail: str
+    shortfall: float
+
+
+@dataclass(frozen=True, eq=False)
+class Selection:
+    """The lightest devices.
+
+    Attributes:
+        ranking: of the best ten that differ in motor, gear or material, lightest first.
+        rejections: one for each motor that has no place in it, in the order of the problem.
+        candidates: combinations of motor, gear, material and 5 deg of incidence that were decided.
+    """
+
+    ranking: tuple[Candidate, ...]
+    rejections: tuple[Rejection, ...]
+    candidates: int
+
+    @property
+    def best(self) -> Candidate:
+        """The lightest."""
+        return self.ranking[0]

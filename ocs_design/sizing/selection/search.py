@@ -1,0 +1,188 @@
+"""Branch and bound over motors, gears and materials; the incidence is solved for.
+
+Every pair of a motor and a gear carries a lower bound on the mass of its lightest device. It starts
+as what motor, gear and the smallest wheel weigh, is tightened step by step (`bounds`), and becomes
+the mass itself where the fixed point is solved (`fixed_point`), for the most promising candidates
+first. A candidate is left out once its bound exceeds the tenth lightest device that is known, so
+that the ten lightest are found whatever the order.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.arrays import FloatArray
+from ocs_design.sizing.selection.bounds import (
+    CELLS,
+    RimFloor,
+    cells_of,
+    least_masses,
+    least_spin_inertias,
+)
+from ocs_design.sizing.selection.drive_table import DriveTable, drive_table, known_pairs
+from ocs_design.sizing.selection.lot import lot_of
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.settling import Outset, Settled, refine, settle
+
+RANKED = 10
+"""Devices that a selection lists."""
+
+_BATCH = 24
+_CHUNK = 1024
+
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, order=True)
+class Rank:
+    """One of the lightest devices: its mass [kg] and where it is settled."""
+
+    mass: float
+    lot: int
+    row: int
+
+
+@dataclass(eq=False)
+class Found:
+    """What a search knows so far.
+
+    Attributes:
+        problem: that is searched. floor: of its rims.
+        known: whether a motor behind a gear has all figures, shape (motors, gears).
+        least: lower bound of the mass of any device of motor and gear [kg], shape (motors, gears);
+            inf: there is none.
+        spin_inertia: lower bound of that of its wheels [kg m^2], as far as it was looked for.
+        lots: settled candidates. places: of the lightest, lightest first.
+    """
+
+    problem: SelectionProblem
+    floor: RimFloor
+    known: NDArray[np.bool_]
+    least: FloatArray
+    spin_inertia: FloatArray
+    lots: list[Settled] = field(default_factory=list)
+    places: list[Rank] = field(default_factory=list)
+
+    @classmethod
+    def nothing(cls, problem: SelectionProblem) -> "Found":
+        """Before the search."""
+        floor = RimFloor.of(problem)
+        motors = np.array([motor.mass or 0.0 for motor in problem.motors])
+        gears = np.array([gear.mass for gear in problem.gears])
+        least = 2.0 * (motors[:, None] + gears + floor.mass.min(initial=np.inf))
+        known = known_pairs(problem.motors, problem.gears)
+        least = np.where(known, least, np.inf)
+        return cls(problem, floor, known, least, np.zeros(known.shape))
+
+    @property
+    def lightest(self) -> float:
+        """Mass of the lightest device so far [kg]."""
+        return self.places[0].mass if self.places else np.inf
+
+    @property
+    def enough(self) -> float:
+        """Mass that a device must stay below to be listed [kg]."""
+        return self.places[RANKED - 1].mass if len(self.places) >= RANKED else np.inf
+
+    def add(self, settled: Settled) -> None:
+        """List what belongs among the lightest."""
+        self.lots.append(settled)
+        self._rank()
+
+    def refine(self) -> None:
+        """Look more closely at what may be the lightest of all, and list anew."""
+        for index, settled in enumerate(self.lots):
+            refined = refine(self.problem, settled, self.lightest)
+            self.lots[index] = refined
+            pair = refined.lot.drives.motor, refined.lot.drives.gear
+            np.minimum.at(self.least, pair, refined.mass)
+            self._rank()
+
+    def _rank(self) -> None:
+        ranks = [
+            Rank(float(mass), index, row)
+            for index, settled in enumerate(self.lots)
+            for row, mass in enumerate(settled.mass)
+            if mass < np.inf
+        ]
+        self.places = sorted(ranks)[:RANKED]
+
+
+def search(problem: SelectionProblem) -> Found:
+    """The lightest devices, and for every motor and gear how light its lightest is at least."""
+    found = Found.nothing(problem)
+    for pairs in _chunks(found):
+        worth = pairs[found.least[tuple(pairs.T)] < found.enough]
+        if worth.size:
+            _examine(found, worth)
+    found.refine()
+    return found
+
+
+def is_possible(problem: SelectionProblem) -> bool:
+    """Whether there is any device; what can only just be is not looked for as closely."""
+    found = Found.nothing(problem)
+    for pairs in _chunks(found):
+        _examine(found, pairs)
+        if found.places:
+            return True
+    return False
+
+
+def _chunks(found: Found) -> Iterator[Indices]:
+    """Pairs of motor and gear, shape (n, 2): every motor once with its lightest gear, then all."""
+    least = np.where(found.known, found.least, np.nan)
+    order = np.argsort(least, axis=None, kind="stable")
+    order = order[: int(found.known.sum())]
+    pairs = np.stack(np.unravel_index(order, least.shape), axis=-1)
+    _, first = np.unique(pairs[:, 0], return_index=True)
+    yield pairs[first]
+    rest = np.delete(pairs, first, axis=0)
+    for start in range(0, len(rest), _CHUNK):
+        yield rest[start : start + _CHUNK]
+
+
+def _examine(found: Found, pairs: Indices) -> None:
+    """Bound these pairs, and settle those that may be listed."""
+    problem = found.problem
+    drives = drive_table(problem, pairs)
+    spin = np.zeros(len(drives))
+    angles = np.zeros((len(drives), 2))
+    bound = np.full((len(problem.materials), len(drives)), -np.inf)
+    for count in (1, CELLS, CELLS):
+        worth = np.flatnonzero(bound.min(axis=0) < found.enough)
+        cells = cells_of(problem.incidence, count)
+        some = drives.take(worth)
+        needed = least_spin_inertias(problem, found.floor, some, cells, spin[worth])
+        best = needed.argmin(axis=1)
+        spin[worth] = needed.min(axis=1)
+        angles[worth] = np.array([(cell.low, cell.high) for cell in cells])[best]
+        bound[:, worth] = least_masses(found.floor, some, spin[worth])
+    found.spin_inertia[drives.motor, drives.gear] = spin
+    _settle_best(found, drives, spin, angles, bound)
+    found.least[drives.motor, drives.gear] = bound.min(axis=0)
+
+
+def _settle_best(
+    found: Found, drives: DriveTable, spin: FloatArray, angles: FloatArray, bound: FloatArray
+) -> None:
+    """Settle candidates in the order of their bounds, which become masses in place."""
+    problem = found.problem
+    order = np.argsort(bound, axis=None, kind="stable")
+    order = order[np.isfinite(bound.flat[order])]
+    for start in range(0, order.size, _BATCH):
+        some = order[start : start + _BATCH]
+        some = some[bound.flat[some] < found.enough]
+        if not some.size:
+            break
+        material, row = np.unravel_index(some, bound.shape)
+        lot = lot_of(drives.take(row), material, problem.materials, problem.envelope)
+        # A little beyond the best cell, as a bound need not lie where the best incidence does.
+        spread = (angles[row, 1] - angles[row, 0]) / 2.0
+        middle = angles[row].mean(axis=1)
+        outset = Outset(spin[row], bound.flat[some], middle, 2.0 * spread)
+        settled = settle(problem, lot, outset)
+        bound.flat[some] = settled.mass
+        found.add(settled)

@@ -1,0 +1,106 @@
+"""A selected device as a sized one, with what its limits cost."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from ocs_design.requirement.bound import SpinDemand, per_wheel
+from ocs_design.requirement.requirement import Requirement
+from ocs_design.sizing.incidence import incidence_by_criterion
+from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.rim_problem import RimLimits, RimProblem
+from ocs_design.sizing.selection.momenta import design_momenta
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.result import Candidate
+from ocs_design.sizing.sized import Sized
+
+METHOD = "branch and bound over the catalogue, each module in closed form"
+
+_LIMIT_OF_NAME: Mapping[str, str] = {
+    "r_max": "outer_radius_max",
+    "r_min": "inner_radius_min",
+    "h_max": "height_max",
+    "h_min": "height_min",
+    "wall_min": "wall_min",
+    "wheel_mass_max": "mass_max",
+    "hoop_stress": "stretch_max",
+}
+"""Field of `RimLimits` behind each name of a limit that can bind."""
+
+_STEP = 1e-5
+
+
+def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
+    """The figures behind the selected, or the co-designed, device."""
+    inertia, robot = chosen.total.inertia, problem.robot.inertia
+    requirement, line = problem.requirement, chosen.line.reserved()
+    return Sized(
+        wheel_speed_max=min(float(line.no_load_speed), float(line.speed_max)),
+        incidence_by_criterion=incidence_by_criterion(
+            inertia, design_momenta(requirement, inertia)
+        ),
+        incidence_by_criterion_robot=incidence_by_criterion(
+            robot, design_momenta(requirement, robot)
+        ),
+        demands=_demands(requirement, chosen),
+        total=chosen.total,
+        status="optimal",
+        method=METHOD,
+        objective=chosen.mass,
+        binding=chosen.binding,
+        shadow_prices=_shadow_prices(problem, chosen),
+        gap=0.0,
+        residual=chosen.residual,
+        iterations=chosen.iterations,
+    )
+
+
+def _demands(requirement: Requirement, chosen: Candidate) -> tuple[SpinDemand, ...]:
+    """What the motors' figures make of each part of the requirement."""
+    maneuvers = {maneuver.name: maneuver for maneuver in requirement.maneuvers}
+    inertia, height = chosen.total.inertia, requirement.standing_height
+    found = []
+    for demand in chosen.demands:
+        maneuver = maneuvers.get(demand.source)
+        if maneuver is None:
+            axis = np.array([demand.source.endswith(name) for name in ("roll", "pitch")])
+            momentum = axis * np.diag(inertia)[:2] * (requirement.rate_change or 0.0)
+            torque = 0.0
+        else:
+            momentum = maneuver.momentum(inertia, height)
+            torque = per_wheel(maneuver.least_torque(inertia, height), demand.incidence)
+        found.append(
+            SpinDemand(demand.source, demand.incidence, momentum, demand.spin_inertia, torque)
+        )
+    return tuple(found)
+
+
+def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, float]:
+    """By central differences of the closed form, at the spin inertia that was found."""
+    rim_inertia = chosen.spin_inertia - chosen.rotor_share
+    rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
+    prices = {}
+    for name in chosen.binding:
+        field = _LIMIT_OF_NAME.get(name)
+        if field is not None:
+            per_unit = 1.0
+            if name == "hoop_stress":
+                per_unit = rim.stretch_max / rim.hoop_stress_max
+            prices[name] = _slope(rim_inertia, rim.limits, field) * per_unit
+    return prices
+
+
+def _slope(rim_inertia: float, limits: RimLimits, field: str) -> float:
+    """dm of one module per dlimit; one-sided where only one side has a module."""
+    value = float(np.asarray(getattr(limits, field)))
+    steps = np.array([-_STEP, 0.0, _STEP]) * value
+    masses = np.array(
+        [
+            float(lightest_module(rim_inertia, replace(limits, **{field: value + step})).mass)
+            for step in steps
+        ]
+    )
+    known = np.isfinite(masses)
+    masses, steps = masses[known], steps[known]
+    return float((masses[-1] - masses[0]) / (steps[-1] - steps[0]))

@@ -1,0 +1,36 @@
+"""The selection that a specification asks for."""
+
+from ocs_design.requirement.resolving import Resolved
+from ocs_design.requirement.specification import LIGHTEST, Specification
+from ocs_design.robot.robot import Robot
+from ocs_design.sizing.incidence import Criterion
+from ocs_design.sizing.placement import place_at, place_on_top
+from ocs_design.sizing.selection.problem import SelectionProblem
+
+
+def selection_problem(
+    specification: Specification, robot: Robot, resolved: Resolved
+) -> SelectionProblem | None:
+    """What to choose from, and for what; None where the specification wants no motor."""
+    choice = resolved.choice
+    if choice is None:
+        return None
+    stated = specification.ocs
+    return SelectionProblem(
+        robot=robot.mass_properties,
+        requirement=resolved.requirement,
+        envelope=resolved.envelope,
+        place=place_on_top(robot) if stated.position is None else place_at(stated.position),
+        motors=choice.motors,
+        gears=choice.gears,
+        materials=choice.materials,
+        bus_voltage=choice.bus_voltage,
+        incidence=stated.alpha,
+        wheel_speed_max=choice.wheel_speed_max,
+    )
+
+
+def stated_criterion(specification: Specification) -> Criterion | None:
+    """For the incidence; None: whatever makes the device lightest."""
+    stated = specification.ocs.alpha_criterion
+    return None if stated in {None, LIGHTEST} else Criterion(stated)

@@ -1,0 +1,197 @@
+"""Catalogue files of users: both formats, and every way in which one can be wrong."""
+
+import re
+
+import pytest
+
+from ocs_design.catalogue.gears import known_gears, load_gears
+from ocs_design.catalogue.motors import known_motors, load_motors, motors
+from ocs_design.exceptions import SpecificationError
+
+HEADER = "name,maker,source,mass_kg,kt_nm_per_a,kt_convention,kv_rpm_per_v,resistance_ohm"
+SHEET = {
+    "name": "M",
+    "maker": "me",
+    "source": "bench",
+    "mass_kg": 0.1,
+    "kt_nm_per_a": 0.02,
+    "kt_convention": "six-step",
+    "resistance_ohm": 0.5,
+    "resistance_between": "line-line",
+    "rated_voltage_v": 24,
+    "peak_torque_nm": 0.3,
+}
+
+
+def toml(**changes):
+    stated = {key: value for key, value in (SHEET | changes).items() if value is not None}
+    return "[[motor]]\n" + "\n".join(f"{key} = {value!r}" for key, value in stated.items())
+
+
+def csv(**changes):
+    stated = {key: value for key, value in (SHEET | changes).items() if value is not None}
+    cells = (f'"{value}"' if "," in str(value) else str(value) for value in stated.values())
+    return f"{','.join(stated)}\n{','.join(cells)}\n"
+
+
+@pytest.fixture
+def load(tmp_path):
+    def write_and_load(text, suffix=".toml", read=load_motors):
+        path = tmp_path / f"mine{suffix}"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read(path)
+
+    return write_and_load
+
+
+@pytest.mark.parametrize(("text", "suffix"), [(toml(), ".toml"), (csv(), ".csv")])
+def test_both_formats_say_the_same(load, text, suffix):
+    found = load(text, suffix)["M"]
+    assert (found.mass, found.torque_constant, found.resistance) == (0.1, 0.02, 0.5)
+    assert (found.rotor_inertia, found.speed_max) == (None, None)
+
+
+def test_marks_of_order_and_line_ends_do_not_matter(load):
+    text = csv(source="bench, hall 3").replace("\n", "\r\n").encode("utf-8-sig")
+    assert load(text, ".csv")["M"].source == "bench, hall 3"
+
+
+def test_empty_lines_and_empty_cells_state_nothing(load):
+    text = "name,maker,source,mass_kg\n\n M , me ,bench,\n,,,\n"
+    assert load(text, ".csv")["M"].mass is None
+
+
+def test_a_file_without_motors_is_an_empty_catalogue(load):
+    assert load("") == {}
+    assert load("name,maker,source\n", ".csv") == {}
+
+
+def test_a_users_motor_replaces_the_catalogues(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(toml() + "\n" + toml(name="R80 KV110", mass_kg=0.3))
+    known = known_motors(path)
+    assert len(known) == len(motors()) + 1
+    assert known["R80 KV110"].mass == 0.3
+    assert list(known) == sorted(known)
+    assert known_motors() is motors()
+
+
+FAULTS = {
+    "unknown column": (toml(mas_kg=1.0), r"motor\[1\] \(M\), mas_kg: unknown .*mean mass_kg"),
+    "no number": (toml(mass_kg="heavy"), "mass_kg: 'heavy' is not a number"),
+    "negative": (toml(mass_kg=-1.0), "mass_kg: -1.0 is not positive"),
+    "zero": (toml(mass_kg=0), "mass_kg: 0 is not positive"),
+    "infinite": (toml().replace("0.1", "inf"), "mass_kg: inf is not positive and finite"),
+    "not a number": (csv(mass_kg="nan"), "mass_kg: 'nan' is not positive and finite"),
+    "a truth": (toml().replace("0.1", "true"), "mass_kg: True is not a number"),
+    "a list": (toml(mass_kg=[1]), r"mass_kg: \[1\] is not a number"),
+    "a giant": (toml().replace("0.1", "1" + 400 * "0"), "mass_kg: 1.* is not a number"),
+    "no text": (toml(maker=7), "maker: 7 is not text"),
+    "no source": (toml(source=None), "source: is missing"),
+    "an empty source": (toml(source=""), "source: is missing"),
+    "no name": (csv(name=None), "line 2, name: is missing"),
+    "no convention": (toml(kt_convention=None), "needs its kt_convention: one of six-step, foc"),
+    "a wrong convention": (toml(kt_convention="dq"), "'dq' is none of six-step, foc"),
+    "no terminals": (toml(resistance_between=None), "needs its resistance_between"),
+    "k_t is the other one": (toml(kv_rpm_per_v=413.5), "not six-step; it fits foc; explain"),
+    "k_t is none": (toml(kv_rpm_per_v=300), "k_t Kv is 6.00 .* it fits no convention"),
+    "no-load speed": (toml(no_load_speed_rpm=9000), "9000 rpm, but V, R and k_t make it 11459"),
+    "stall torque": (toml(stall_torque_nm=2.0), "stall torque is 2 N m, but V k_t / R is 0.96"),
+    "stall current": (toml(stall_current_a=20), "stall current is 20 A, but V / R is 48 A"),
+    "peak torque": (toml(peak_current_a=10), "peak torque is 0.3 N m, above k_t times"),
+    "continuous torque": (toml(continuous_torque_nm=0.4), "continuous torque is above"),
+    "twice in a file": (toml() + "\n" + toml(), r"motor\[2\]: 'M' is already .* of motor\[1\]"),
+    "too many cells": (csv() + "a,b,c,d,e,f,g,h,i,j,k\n", "line 3: has 11 cells for 10"),
+    "a column twice": ("name,name\na,b\n", "the column 'name' stands there twice"),
+    "an unknown table": (toml() + "\n[gear]\n", "gear: unknown key; known: motor"),
+    "no array": ("[motor]\nname = 'M'\n", r"write each motor as a \[\[motor\]\] table"),
+    "an array of numbers": ("motor = [1]", r"motor\[1\]: must be a table"),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), FAULTS.values(), ids=FAULTS)
+def test_faults_are_told_with_their_place(load, text, message):
+    suffix = ".csv" if "," in text.splitlines()[0] else ".toml"
+    with pytest.raises(SpecificationError) as caught:
+        load(text, suffix)
+    assert "mine" in caught.value.message
+    assert matches(message, caught.value), caught.value.problems
+
+
+def matches(message, error):
+    return any(re.search(message, problem) for problem in error.problems)
+
+
+UNREADABLE = {
+    "neither": (b"", ".txt", "neither .csv nor .toml"),
+    "no UTF-8": (b"name,maker\nM,\xff\n", ".csv", "line 2: not UTF-8"),
+    "UTF-16": ("name,maker\n".encode("utf-16"), ".csv", "line 1: not UTF-8"),
+    "no TOML": (b"[[motor]\n", ".toml", "is not TOML"),
+    "no column names": (b"\n", ".csv", "has no column names"),
+    "an open quote": (b'name,maker\n"M,me\n', ".csv", "is not CSV"),
+    "a long line": (b"a" * 6000, ".toml", "line 1: over 5000 characters"),
+    "large": (b"#\n" * 600_000, ".toml", "larger than 1 MiB"),
+    "deep": (b"a = " + b"[" * 4000, ".toml", "nests its values too deeply|is not TOML"),
+}
+
+
+@pytest.mark.parametrize(("content", "suffix", "message"), UNREADABLE.values(), ids=UNREADABLE)
+def test_a_file_that_cannot_be_read_is_told(load, content, suffix, message):
+    with pytest.raises(SpecificationError, match=message):
+        load(content, suffix)
+
+
+def test_a_file_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(SpecificationError, match="No such file"):
+        load_motors(tmp_path / "none.csv")
+    (tmp_path / "folder.csv").mkdir()
+    with pytest.raises(SpecificationError, match="cannot read the catalogue"):
+        load_motors(tmp_path / "folder.csv")
+
+
+def test_all_faults_at_once(load):
+    text = f"{HEADER}\nA,me,,x,0.02,,,1\nB,me,bench,-1,,,,\n"
+    with pytest.raises(SpecificationError) as caught:
+        load(text, ".csv")
+    places = [problem.split(":")[0] for problem in caught.value.problems]
+    assert places == [
+        "line 2 (A), mass_kg",
+        "line 2 (A), source",
+        "line 3 (B), mass_kg",
+    ]
+
+
+def test_a_remark_lets_a_contradiction_stand(load):
+    assert load(toml(stall_torque_nm=2.0, remark="measured on the bench"))["M"].remark
+
+
+def test_the_line_of_a_row_counts_its_quoted_line_ends(load):
+    text = 'name,maker,source\nA,me,"two\nlines"\nB,me,\n'
+    with pytest.raises(SpecificationError) as caught:
+        load(text, ".csv")
+    assert caught.value.problems == ("line 4 (B), source: is missing",)
+
+
+GEAR = "[[gear]]\nname = 'G'\nmaker = 'me'\nsource = 'bench'\nkind = 'fixed'\n"
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("efficiency = 1.2", "efficiency: 1.2 is not above 0 and at most 1"),
+        ("reverses = 'perhaps'", "reverses: 'perhaps' is neither yes nor no"),
+        ("ratios = [2, -3]", "ratios: -3 is not positive"),
+        ("teeth = [20.5]", "teeth: .* not whole numbers"),
+        ("inertia_at = 'planet'", "inertia_at: 'planet' is none of motor, wheel"),
+    ],
+)
+def test_faults_of_gears(load, line, message):
+    with pytest.raises(SpecificationError) as caught:
+        load(GEAR + line, read=load_gears)
+    assert matches(message, caught.value)
+
+
+def test_a_users_gear_joins_the_catalogue(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(GEAR)
+    assert known_gears(path)["G"].missing

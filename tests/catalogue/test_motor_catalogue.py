@@ -1,0 +1,119 @@
+"""The motors' figures against what their data sheets print elsewhere."""
+
+import math
+from dataclasses import fields
+
+import pytest
+
+from ocs_design.catalogue.motor_sheet import MOTOR_COLUMNS, MotorSheet
+from ocs_design.catalogue.motors import motor, motors, motors_to_json
+from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.line import drive_line, missing_figures
+from ocs_design.exceptions import SpecificationError
+
+RPM = math.pi / 30.0
+
+# Speed/torque gradient [rpm/(N m)] and mechanical time constant [s], as the makers print them.
+PRINTED = {
+    "EC 90 flat 90 W 323772": (697.0, 22.3e-3),
+    "EC 90 flat 90 W 244879": (466.0, 14.9e-3),
+    "EC 45 flat 70 W 411812": (4260.0, 8.07e-3),
+    "EC 45 flat 50 W 339286": (14_300.0, 20.3e-3),
+    "EC 32 flat 15 W 267121": (54_500.0, 20.0e-3),
+    "4221 G 018 BXTH": (4930.0, 3.56e-3),
+    "4221 G 024 BXTH": (4970.0, 3.59e-3),
+    "4221 G 048 BXTH": (4400.0, 3.18e-3),
+}
+
+
+@pytest.mark.parametrize("name", PRINTED)
+def test_gradient_and_time_constant_are_those_that_the_maker_prints(name):
+    """Neither is in the row: both follow from R, k_t and the rotor's inertia."""
+    found = motor(name)
+    gradient = found.resistance / found.torque_constant**2
+    printed_gradient, printed_time = PRINTED[name]
+    assert gradient / RPM == pytest.approx(printed_gradient, rel=0.015)
+    assert gradient * found.rotor_inertia == pytest.approx(printed_time, rel=0.015)
+
+
+def test_the_worked_example_of_the_theory_is_in_the_catalogue():
+    found = motor("EC 45 flat 70 W 411812")
+    line = drive_line(found, DIRECT, 24.0)
+    assert line.stall_torque == pytest.approx(1.4566, rel=1e-4)
+    assert line.no_load_speed == pytest.approx(650.4, rel=1e-4)
+
+
+def test_sorted_named_and_each_with_a_source():
+    assert list(motors()) == sorted(motors())
+    assert all(name == found.name for name, found in motors().items())
+    assert all(found.source and found.maker for found in motors().values())
+
+
+def test_the_catalogue_cannot_be_changed():
+    with pytest.raises(TypeError):
+        motors()["mine"] = motor("R80 KV110")
+
+
+def test_there_is_something_to_choose_from_for_small_and_for_large_robots():
+    complete = [found for found in motors().values() if not missing_figures(found, DIRECT)]
+    assert sum(found.mass < 0.1 for found in complete) >= 20
+    assert sum(found.peak_torque > 3.0 for found in complete) >= 15
+    assert len(complete) >= 140
+
+
+def test_what_a_source_does_not_give_stays_empty():
+    incomplete = motor("EC 60 flat 100 W 411678")
+    assert incomplete.mass is incomplete.peak_torque is None
+    assert set(missing_figures(incomplete, DIRECT)) == {"mass", "peak torque or current"}
+
+
+def test_a_field_oriented_constant_is_converted():
+    """mj5208: Kv 330, 0.025 N m per ampere of amplitude, 100 A of amplitude at most."""
+    found = motor("mj5208 KV330")
+    assert found.torque_constant == pytest.approx(1.0 / (330.0 * RPM), rel=0.01)
+    assert found.torque_constant * found.peak_current == pytest.approx(0.025 * 100.0, rel=1e-12)
+
+
+def test_a_resistance_between_line_and_star_counts_twice():
+    """The maker prints 0.452 ohm between two lines for what was measured as 0.233 per phase."""
+    assert motor("Antigravity 4004 KV300").resistance == pytest.approx(0.452, rel=0.03)
+
+
+def test_the_short_term_torque_says_what_it_rests_on():
+    assert motor("R80 KV110").peak_basis == "peak torque"
+    by_current = motor("Antigravity MN4006 KV380")
+    assert by_current.peak_basis == "peak current"
+    assert by_current.peak_torque == pytest.approx(16.0 / (380.0 * RPM), rel=1e-12)
+    by_stall = motor("EC 90 flat 90 W 323772")
+    assert (by_stall.peak_basis, by_stall.peak_torque) == ("stall torque", 4.67)
+    assert motor("D5065 KV270").peak_basis == ""
+
+
+def test_motor_constant_per_mass_is_that_of_outrunners():
+    """k_t / sqrt(R) per mass lies within a factor of two of 0.6 for every T-Motor and KDE motor.
+
+    A digit lost in a resistance or a mass would show: it did for three rows of the source.
+    """
+    for found in motors().values():
+        if found.maker in {"T-Motor", "KDE Direct"}:
+            constant = found.torque_constant / math.sqrt(found.resistance) / found.mass
+            assert 0.3 < constant < 1.2, found.name
+
+
+@pytest.mark.parametrize(
+    ("asked", "offered"),
+    [("EC 45 flat 70 W 41181", "EC 45 flat 70 W 411812"), ("r80 kv110", "R80 KV110")],
+)
+def test_an_unknown_name_gets_the_closest(asked, offered):
+    with pytest.raises(SpecificationError) as caught:
+        motor(asked)
+    assert offered in caught.value.hint
+
+
+def test_columns_are_the_fields_of_a_row():
+    assert set(MOTOR_COLUMNS) == {field.name for field in fields(MotorSheet)}
+
+
+def test_json_says_what_is_missing():
+    assert b'"missing": []' in motors_to_json([motor("R80 KV110")])
+    assert b'"mass"' in motors_to_json([motor("4221 G 024 BXTH")]).split(b'"missing"')[1]

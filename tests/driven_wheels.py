@@ -1,0 +1,45 @@
+"""Motors, gears and wheels for tests; figures of no real product but where said."""
+
+from ocs_design.catalogue.materials import Material
+from ocs_design.drive.gear import DIRECT, Gear
+from ocs_design.drive.motor import Motor
+from ocs_design.sizing.margins.driven_wheel import DrivenWheel
+
+STEEL = Material("steel", 8000.0, 215e6, 505e6, 0.29, "test")
+
+EC45 = Motor(
+    name="EC 45 flat 70 W",
+    maker="maxon",
+    mass=0.141,
+    diameter=0.0428,
+    length=0.0268,
+    torque_constant=0.0369,
+    resistance=0.608,
+    rated_voltage=24.0,
+    no_load_speed=639.8,
+    speed_max=1047.2,
+    peak_torque=1.0,
+    peak_current=27.1,
+    continuous_torque=0.128,
+    rotor_inertia=1.81e-5,
+    source="docs/theory.md",
+    confidence="good",
+)
+
+BELT = Gear(
+    name="belt 2:1",
+    ratio=2.0,
+    efficiency=0.9,
+    mass=0.02,
+    inertia=1e-6,
+    motor_speed_max=900.0,
+    wheel_speed_max=500.0,
+    torque_max=2.0,
+    reverses=False,
+    source="test",
+)
+
+
+def driven_wheel(motor=EC45, gear=DIRECT, *, bus_voltage=24.0, material=STEEL):
+    """The rim of the paper, driven."""
+    return DrivenWheel(0.022, 0.030, 0.010, material, motor, gear, bus_voltage)

@@ -1,0 +1,160 @@
+"""`ocs-design pareto` as its users meet it."""
+
+import csv
+import json
+import re
+from pathlib import Path
+
+import pytest
+from commands import SOLO12, environment, everything_in, run, run_process
+
+from ocs_design.pareto import lightest_device, read_task
+from ocs_design.requirement.reading import read_specification
+
+ONE_MOTOR = ("--motor", "Antigravity MN5008 KV400", "--gear", "direct")
+"""Little to choose from makes it quick."""
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Solo12 against time, in a folder and as JSON."""
+    folder = tmp_path_factory.mktemp("pareto") / "front"
+    result = run("pareto", SOLO12, *ONE_MOTOR, "--points", "3", "-o", folder, "--json")
+    return result, folder
+
+
+def test_the_document_and_the_folder_say_the_same(written):
+    result, folder = written
+    assert (result.code, result.stderr) == (0, "")
+    assert json.loads((folder / "front.json").read_text()) == result.document
+    assert everything_in(folder) == [
+        "front.csv",
+        "front.json",
+        "front.svg",
+        "points",
+        *(f"points/0{index}.toml" for index in (1, 2, 3)),
+    ]
+    rows = list(csv.DictReader((folder / "front.csv").read_text().splitlines()))
+    for row, point in zip(rows, result.document["points"], strict=True):
+        assert float(row["time_s"]) == point["value"]
+        assert float(row["mass_kg"]) == point["device"]["mass"]
+
+
+def test_a_point_s_specification_makes_that_very_device(written):
+    result, folder = written
+    for point in result.document["points"]:
+        again = lightest_device(read_task(read_specification(folder / point["file"])))
+        assert vars(again) == point["device"]
+
+
+def test_size_makes_the_device_of_a_point(written, tmp_path):
+    result, folder = written
+    point = result.document["points"][1]
+    sized = run(
+        "size", "--spec", folder / point["file"], "--no-validate", "--json", "-o", tmp_path / "ocs"
+    )
+    assert sized.code == 0
+    design = sized.document
+    assert design["ocs"]["mass_total"] == point["device"]["mass"]
+    assert design["ocs"]["incidence"] == point["device"]["incidence"]
+    assert design["ocs"]["motor"]["name"] == point["device"]["motor"]
+    assert design["ocs"]["flywheel"]["outer_radius"] == point["device"]["outer_radius"]
+
+
+def test_a_criterion_for_the_incidence_holds_in_every_point():
+    result = run(
+        "pareto", SOLO12, *ONE_MOTOR, "--points", "2", "--json", "--alpha-criterion", "pitch-only"
+    )
+    assert result.code in {0, 4}
+    for point in result.document["points"]:
+        assert point["device"] is None or point["device"]["incidence"] == 0.0
+
+
+def test_options_hold_in_every_point(written):
+    result, _ = written
+    devices = [point["device"] for point in result.document["points"]]
+    assert {device["motor"] for device in devices} == {"Antigravity MN5008 KV400"}
+    assert {device["gear"] for device in devices} == {"direct"}
+
+
+def test_words_for_people(tmp_path):
+    result = run(
+        "pareto", SOLO12, *ONE_MOTOR, "--against", "radius", "--from", "40mm", "--to", "60mm",
+        "--points", "3", "-o", tmp_path / "front", "--no-color",
+    )  # fmt: skip
+    assert (result.code, result.stdout) == (0, "")
+    assert "room for the rim, r_max" in result.said
+    assert "as specified 50 mm" in result.said
+    assert f"ocs-design size --spec {tmp_path / 'front' / 'points' / '02.toml'}" in re.sub(
+        r"\s*\n\s*", "", result.stderr
+    ).replace("--spec/", "--spec /")
+    assert "\x1b" not in result.stderr
+
+
+def test_quiet_is_quiet():
+    result = run("pareto", SOLO12, *ONE_MOTOR, "--points", "2", "-q")
+    assert (result.code, result.stdout, result.stderr) == (0, "", "")
+
+
+def test_values_out_of_reach_are_told_and_exit_with_4():
+    result = run("pareto", SOLO12, *ONE_MOTOR, "--from", "20ms", "--to", "30ms", "--points", "2")
+    assert result.code == 4
+    assert "No device" in result.said
+    assert "20 ms:" in result.said
+    assert "30 ms:" in result.said
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "words"),
+    [
+        (("--against", "speed"), 2, "none of time, angle, radius, height, voltage"),
+        (("--maneuver", "somersault"), 2, "no such maneuver"),
+        (("--against", "radius", "--maneuver", "drop"), 2, "not that of a maneuver"),
+        (("--points", "1"), 2, "between 2 and 200"),
+        (("--from", "30mm"), 2, "--from"),
+        (("--from", "2s", "--to", "1s"), 2, "not below"),
+        (("--motor", "none"), 2, "needs motors"),
+        (("--motor", "no such motor"), 3, "no such motor"),
+        (("--r-max", "2mm"), 3, "leaves no room"),
+        (("--package-path", "x"), 2, "NAME=DIR"),
+    ],
+)
+def test_what_makes_no_front(options, code, words):
+    result = run("pareto", SOLO12, *options)
+    assert result.code == code
+    assert words in result.said
+
+
+def test_without_a_robot():
+    result = run("pareto")
+    assert result.code == 2
+    assert "no robot is given" in result.said
+
+
+def test_a_foreign_folder_is_refused_before_any_work(tmp_path):
+    (tmp_path / "letter.txt").write_text("dear")
+    result = run("pareto", SOLO12, "-o", tmp_path, "--force")
+    assert result.code == 3
+    assert "no output of ocs-design" in result.said
+    assert "choose a device" not in result.stderr
+
+
+def test_a_robot_by_hand_and_a_specification_file(tmp_path):
+    spec = tmp_path / "spec.toml"
+    spec.write_text('[motor]\nname = "Antigravity MN5008 KV400"\ngear = "direct"\n')
+    result = run(
+        "pareto", "--mass", "2.5", "--inertia", "0.032,0.055,0.07", "--spec", spec,
+        "--points", "2", "--json",
+    )  # fmt: skip
+    assert result.code == 0
+    assert result.document["points"][1]["device"]["motor"] == "Antigravity MN5008 KV400"
+
+
+def test_drawing_needs_no_display_and_helping_no_numbers(tmp_path):
+    result = run_process(
+        "pareto", SOLO12, *ONE_MOTOR, "--points", "2", "-o", tmp_path / "front",
+        env=environment(COLUMNS="80"),
+    )  # fmt: skip
+    assert result.code == 0
+    assert (Path(tmp_path) / "front" / "front.svg").is_file()
+    assert max(map(len, result.stderr.splitlines())) <= 80 + len(str(tmp_path))

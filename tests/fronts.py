@@ -1,0 +1,52 @@
+"""Fronts of made-up devices, for what is printed and written of them."""
+
+from ocs_design.exceptions import Infeasible
+from ocs_design.pareto import FrontDevice, draw_front, front_values, read_task
+from ocs_design.requirement.froude import SOLO12
+from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sweeps import sweep_of
+
+
+def by_hand():
+    """Solo12's figures without its file."""
+    inertia = (SOLO12.roll_inertia, SOLO12.pitch_inertia, 0.07)
+    return read_task(Specification(robot=RobotSection(mass=2.5, inertia=inertia)))
+
+
+def infeasible(reason="the wheels would have to be larger"):
+    """As the selection raises it."""
+    return Infeasible(
+        reason,
+        binding=("r_max",),
+        required_spin_inertia=2.0,
+        largest_spin_inertia=1.0,
+        relaxations={},
+    )
+
+
+def made_up(task):
+    """Lighter with more time; no device below 0.33 s."""
+    time = sweep_of("time").own(task)
+    if time < 0.33:
+        raise infeasible()
+    mass = 0.03 / time**2
+    return FrontDevice(
+        mass=mass,
+        share=mass / task.robot.mass,
+        motor="Fast [28]" if time < 0.5 else "Slow 40",
+        gear="direct",
+        material="stainless-304",
+        incidence=0.5,
+        outer_radius=0.05,
+        inner_radius=0.045,
+        height=0.01,
+        rim_mass=0.3 * mass,
+        spin_inertia=2.4e-4,
+    )
+
+
+def make_front(task, against="time", choose=made_up, **values):
+    """A front over nine points, or over those of `values`."""
+    sweep = sweep_of(against)
+    wanted = {"low": None, "high": None, "points": 9, **values}
+    return draw_front(task, sweep, front_values(sweep, task, **wanted), choose)

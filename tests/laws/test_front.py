@@ -1,0 +1,44 @@
+"""More time and more room never make a device heavier, nor does a smaller angle."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from commands import SOLO12
+
+from ocs_design.pareto import draw_front, lightest_device, read_task
+from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sweeps import SWEEPS
+
+SETTLED = 1e-9
+"""Relative, to which the fixed point of two equal designs may differ."""
+
+
+@pytest.fixture(scope="module")
+def solo12():
+    return read_task(Specification(robot=RobotSection(file=SOLO12)))
+
+
+def masses(task, against, ratios):
+    """Of the lightest device at each value; inf where there is none."""
+    sweep = SWEEPS[against]
+    front = draw_front(task, sweep, [ratio * sweep.own(task) for ratio in ratios], lightest_device)
+    return [point.device.mass if point.device else np.inf for point in front.points]
+
+
+@pytest.mark.parametrize(("against", "least"), [("time", 0.6), ("radius", 0.6), ("height", 0.21)])
+def test_more_is_never_heavier(solo12, against, least):
+    found = masses(solo12, against, (least, 0.9, 1.0, 1.3))
+    assert all(less >= more * (1.0 - SETTLED) for less, more in pairwise(found))
+    assert found[0] > found[-1]
+
+
+def test_a_larger_angle_is_never_lighter(solo12):
+    found = masses(solo12, "angle", (0.5, 1.0, 1.1, 1.6))
+    assert all(small <= large * (1.0 + SETTLED) for small, large in pairwise(found))
+    assert found[-1] > 1.01 * found[0]
+
+
+def test_a_turn_that_no_motor_can_make_has_no_device(solo12):
+    (mass,) = masses(solo12, "time", (0.05,))
+    assert mass == np.inf

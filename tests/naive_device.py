@@ -1,0 +1,256 @@
+"""What a device can do, worked out the long way: for checks of the selection.
+
+Written from the physics, not from the package: bodies are solid cylinders less their cavities,
+moments are taken about B's origin and moved to the common centre of mass, both wheels and the trunk
+are three coupled equations, and the quickest turn accelerates as long as it can still be braked in
+time. Only the housing's three constants and the data types come from the package.
+"""
+
+from dataclasses import dataclass
+from math import inf, pi, sqrt
+
+import numpy as np
+
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.sizing.housing import CLEARANCE, DENSITY, WALL
+
+USABLE = 0.95
+"""Of voltage and current."""
+PROOF_SPEED = 1.2
+"""At which a rim must hold, over the highest that its drive reaches."""
+LEAST_BORE = 0.01
+
+
+@dataclass(frozen=True)
+class Rims:
+    """Hollow cylinders of one density: outer and inner radius and height [m], shape (n,)."""
+
+    outer: np.ndarray
+    inner: np.ndarray
+    height: np.ndarray
+    density: float
+
+    def take(self, rows):
+        return Rims(self.outer[rows], self.inner[rows], self.height[rows], self.density)
+
+    @property
+    def body(self):
+        whole = solid(self.outer, self.height, self.density)
+        return whole - solid(self.inner, self.height, self.density)
+
+    @property
+    def housing(self):
+        gap = CLEARANCE + WALL
+        across, tall = self.outer + gap, self.height + 2.0 * gap
+        cavity = solid(across - WALL, tall - 2.0 * WALL, DENSITY)
+        return solid(across, tall, DENSITY) - cavity
+
+    @property
+    def reach(self):
+        """From the centre of a housing to its edge [m]."""
+        gap = CLEARANCE + WALL
+        return np.hypot(self.outer + gap, self.height / 2.0 + gap)
+
+
+def solid(radius, height, density):
+    """Mass, inertia about the axis and across it of a solid cylinder, shape (3, n)."""
+    mass = density * pi * radius**2 * height
+    return np.stack([mass, mass * radius**2 / 2.0, mass * (3.0 * radius**2 + height**2) / 12.0])
+
+
+class Drive:
+    """A motor behind a gear at a supply, seen at the wheel; None of its figures is missing."""
+
+    def __init__(self, problem, motor, gear, points=3000):
+        rotor = motor.rotor_inertia or 0.0
+        radius, length = (motor.diameter or 0.0) / 2.0, motor.length or 0.0
+        self.standing = np.array(
+            [
+                motor.mass + gear.mass,
+                motor.mass * radius**2 / 2.0,
+                motor.mass * (3.0 * radius**2 + length**2) / 12.0,
+            ]
+        )
+        # The rotor turns at N W, the other way round if the gear reverses.
+        self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
+        self.rotor_load = gear.ratio**2 * rotor + gear.inertia
+        voltage, k_t = problem.bus_voltage, motor.torque_constant
+        free = voltage / k_t / gear.ratio
+        mechanical = min(
+            min(speed_of(motor), gear.motor_speed_max) / gear.ratio,
+            gear.wheel_speed_max,
+            problem.wheel_speed_max or inf,
+        )
+        self.proof_speed = PROOF_SPEED * min(free, mechanical)
+        self.free = USABLE * free
+        self.top = min(self.free, mechanical)
+        boost = gear.ratio * gear.efficiency
+        self.stall = USABLE * boost * voltage / motor.resistance * k_t
+        self.limit = USABLE * min(boost * motor.peak_torque, gear.torque_max)
+        self._tabulate(points)
+
+    def _tabulate(self, points):
+        """Time up to a peak speed and down to rest, and the angle, both per inertia."""
+        peak = self.free * (1.0 - np.exp(-np.linspace(0.0, 16.0, points) ** 2 / 8.0))
+        peak = np.append(peak[peak < self.top], min(self.top, self.free * (1.0 - 1e-14)))
+        up, down = self._up(peak), self._down(peak)
+        self.time, self.angle, self.peak = up[0] + down[0], up[1] + down[1], peak
+
+    def _up(self, speed):
+        """Time and angle per inertia from rest, min(limit, stall (1 - w / free))."""
+        flat = min(self.limit, self.stall)
+        bend = self.free * (1.0 - flat / self.stall)
+        first = np.minimum(speed, bend)
+        lag = self.free / self.stall
+        later = lag * np.log((self.free - first) / (self.free - np.maximum(speed, first)))
+        on_line = self.free * later - lag * (speed - first)
+        return first / flat + later, first**2 / (2.0 * flat) + on_line
+
+    def _down(self, speed):
+        """Time and angle per inertia to rest, min(limit, stall (1 + w / free))."""
+        bend = self.free * max(self.limit / self.stall - 1.0, 0.0)
+        last = np.minimum(speed, bend)
+        lag = self.free / self.stall
+        late = lag * np.log1p(last / self.free)
+        on_line = lag * last - self.free * late
+        return late + (speed - last) / self.limit, on_line + (speed**2 - last**2) / (
+            2.0 * self.limit
+        )
+
+    def turn(self, time, inertia, final):
+        """Largest angle of wheels within a time, ending at a speed, less that speed times time."""
+        end_time, end_angle = self._down(final)
+        units = time / inertia + end_time
+        peak = np.interp(units, self.time, self.peak)
+        angle = np.interp(units, self.time, self.angle)
+        angle += np.maximum(units - self.time[-1], 0.0) * self.peak[-1] - end_angle
+        return np.where(peak >= final, angle * inertia - final * time, -inf)
+
+
+def speed_of(motor):
+    """That a motor may reach [rad/s]; None if nothing is known."""
+    if motor.speed_max is not None:
+        return motor.speed_max
+    if motor.no_load_speed is not None:
+        return motor.no_load_speed
+    if motor.rated_voltage is None or motor.torque_constant is None:
+        return None
+    return motor.rated_voltage / motor.torque_constant
+
+
+def usable(motor, gear):
+    """Whether all figures are known; a rotor may be unknown where it can only help."""
+    figures = [motor.mass, motor.torque_constant, motor.resistance, motor.peak_torque]
+    if gear.ratio > 1.0 or gear.reverses:
+        figures.append(motor.rotor_inertia)
+    return None not in [*figures, speed_of(motor)]
+
+
+def inertia_on(problem, drive, rims, angle):
+    """Of robot and both modules about roll and pitch through the common centre, braked."""
+    mass, axial, across = rims.body + rims.housing + drive.standing[:, None]
+    robot, place = problem.robot, problem.place
+    x, y, z = (o + d * rims.reach for o, d in zip(place.origin, place.outward, strict=True))
+    whole = robot.mass + 2.0 * mass
+    px, py, pz = robot.com
+    cx = (robot.mass * px + 2.0 * mass * x) / whole
+    cy = robot.mass * py / whole
+    cz = (robot.mass * pz + 2.0 * mass * z) / whole
+    tilted = across + (axial - across) * np.array([np.sin(angle) ** 2, np.cos(angle) ** 2])
+    roll = robot.inertia[0, 0] + robot.mass * (py**2 + pz**2) + 2.0 * mass * (y**2 + z**2)
+    pitch = robot.inertia[1, 1] + robot.mass * (px**2 + pz**2) + 2.0 * mass * (x**2 + z**2)
+    roll = roll + 2.0 * tilted[0] - whole * (cy**2 + cz**2)
+    pitch = pitch + 2.0 * tilted[1] - whole * (cx**2 + cz**2)
+    return np.stack([roll, pitch])
+
+
+def fits(problem, rims, slack=0.0):
+    """Whether rims are within the envelope and hold at the proof speed."""
+    room, more = problem.envelope, 1.0 + slack
+    inside = (rims.outer <= room.outer_radius_max * more) & (
+        rims.inner * more >= np.maximum(room.inner_radius_min, LEAST_BORE * rims.outer)
+    )
+    inside &= (rims.height <= room.height_max * more) & (rims.height * more >= room.height_min)
+    inside &= (rims.outer - rims.inner) * more >= room.wall_min
+    return inside & (rims.body[0] <= room.mass_max * more)
+
+
+def holds(problem, drive, rims, material, slack=0.0):
+    """Whether the hoop stress at the bore is allowed, where the material's figures are known."""
+    if material.yield_strength is None or material.poisson_ratio is None:
+        return np.ones(rims.outer.shape, dtype=bool)
+    nu = material.poisson_ratio
+    squares = (3.0 + nu) * rims.outer**2 + (1.0 - nu) * rims.inner**2
+    stress = material.density * drive.proof_speed**2 / 4.0 * squares
+    return stress * problem.envelope.stress_safety <= material.yield_strength * (1.0 + slack)
+
+
+def asked(maneuver, inertia, standing):
+    """Momentum through the wheels over time, momentum left at the end, and the time."""
+    if isinstance(maneuver, Drop):
+        time = sqrt(2.0 * (maneuver.height - standing) / maneuver.gravity)
+        angles, left = _off_level(maneuver.roll, maneuver.pitch), np.zeros((2, 1))
+    elif isinstance(maneuver, Flip):
+        time, left = maneuver.duration, np.zeros((2, 1))
+        angles = np.array([[0.0], [maneuver.angle]])
+    else:
+        assert isinstance(maneuver, Disturbance)
+        flight = 2.0 * maneuver.takeoff_velocity[1] / maneuver.gravity
+        time = flight - maneuver.onset - maneuver.duration
+        left = np.array(maneuver.torque)[:2, None] * maneuver.duration
+        angles = left * maneuver.duration / 2.0 / inertia
+    return np.abs(inertia * angles), np.abs(left) + 0.0 * inertia, time
+
+
+def _off_level(roll, pitch):
+    """The smallest turn about roll and pitch that levels a trunk, whatever its heading, (2, 1)."""
+    about_x = np.array(
+        [[1.0, 0.0, 0.0], [0.0, np.cos(roll), -np.sin(roll)], [0.0, np.sin(roll), np.cos(roll)]]
+    )
+    about_y = np.array(
+        [[np.cos(pitch), 0.0, np.sin(pitch)], [0.0, 1.0, 0.0], [-np.sin(pitch), 0.0, np.cos(pitch)]]
+    )
+    up = (about_y @ about_x).T @ [0.0, 0.0, 1.0]
+    axis = np.cross(up, [0.0, 0.0, 1.0])[:2]
+    size = np.linalg.norm(axis)
+    return (np.arccos(up[2]) * axis / size)[:, None]
+
+
+def margin(problem, drive, rims, angle):
+    """What wheels can do over what they must, of the worst maneuver; at least 1 if they can."""
+    spin = rims.body[1] + drive.rotor_momentum
+    worst = np.where(spin > 0.0, inf, 0.0)
+    spin = np.maximum(spin, 1e-12)
+    for maneuver in problem.requirement.maneuvers:
+        at = angle if maneuver.incidence is None else np.full_like(angle, maneuver.incidence)
+        can = _maneuver_margin(problem, drive, rims, maneuver, spin, at)
+        worst = np.minimum(worst, can)
+    if problem.requirement.rate_change is not None:
+        rates = inertia_on(problem, drive, rims, angle) * problem.requirement.rate_change
+        reached = 2.0 * np.stack([np.sin(angle), np.cos(angle)]) * spin * drive.top
+        worst = np.minimum(worst, (reached / rates).min(axis=0))
+    return worst
+
+
+def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
+    inertia = inertia_on(problem, drive, rims, angle)
+    through, left, time = asked(maneuver, inertia, problem.requirement.standing_height)
+    shares = np.stack([np.sin(angle), np.cos(angle)])
+    # A cosine of 1e-17 is no lever.
+    levers = np.where(shares > 1e-9, 2.0 * shares * spin, np.where(through > 0.0, 1e-30, 1.0))
+    part, held = through / levers, left / levers
+    # Roll is half the difference of both wheels' angles, pitch half their sum.
+    busy, idle = part[0] + part[1], part[1] - part[0]
+    ratio = np.divide(idle, busy, out=np.ones_like(busy), where=busy > 0.0)
+    # Of  tau = ((I_rim + load) 1 - h^2 A' J^-1 A) dW  the row of the busier wheel.
+    own = (shares**2 / inertia).sum(axis=0)
+    other = (shares**2 / inertia * np.array([[-1.0], [1.0]])).sum(axis=0)
+    load = rims.body[1] + drive.rotor_load - spin**2 * (own + ratio * other)
+    moved = drive.turn(time, np.maximum(load, 1e-15), held.sum(axis=0))
+    enough = np.divide(moved, busy, out=np.where(moved >= 0.0, inf, 0.0), where=busy > 0.0)
+    return np.where(load > 0.0, enough, 0.0)
+
+
+def device_mass(drive, rims):
+    """Of both modules [kg]."""
+    return 2.0 * (rims.body[0] + rims.housing[0] + drive.standing[0])

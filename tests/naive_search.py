@@ -1,0 +1,121 @@
+"""The lightest device by trying them all: every combination on a grid, then ever finer ones."""
+
+from dataclasses import dataclass
+from itertools import product
+from math import inf, log, pi
+
+import numpy as np
+from naive_device import Drive, Rims, device_mass, fits, holds, margin, usable
+
+COARSE = (31, 12, 8, 26)
+FINE = (7, 7, 7, 81)
+"""Points of incidence, outer radius, height and wall."""
+BLOCK = 30_000
+NARROW = 2e-4
+
+
+@dataclass(frozen=True)
+class Device:
+    """One point of a grid: a drive, a material, the incidence [rad], R, h and R - r [m]."""
+
+    mass: float
+    drive: Drive
+    material: object
+    names: tuple[str, str, str]
+    point: np.ndarray
+
+
+def search(problem):
+    """The lightest device of all combinations; None if no grid has any."""
+    found = sorted(_coarse(problem), key=lambda device: device.mass)
+    best = None
+    for device in found:
+        # A coarse grid is rarely a third off; what is more is not worth a finer one.
+        if best is None or device.mass < 1.35 * best.mass:
+            fine = refine(problem, device)
+            best = fine if best is None or fine.mass < best.mass else best
+    return best
+
+
+def _coarse(problem):
+    lightest = inf
+    for motor, gear in product(problem.motors, problem.gears):
+        if not usable(motor, gear):
+            continue
+        drive = Drive(problem, motor, gear)
+        for material in problem.materials:
+            names = (motor.name, gear.name, material.name)
+            axes = _axes(problem)
+            device = _lightest(problem, drive, material, names, axes, 1.35 * lightest)
+            if device is not None:
+                lightest = min(lightest, device.mass)
+                yield device
+
+
+def _axes(problem):
+    """Incidences, outer radii, heights and walls over all that the envelope leaves."""
+    room = problem.envelope
+    angles, radii, heights, walls = COARSE
+    low = max(room.inner_radius_min, 1e-3) + room.wall_min
+    thick = room.outer_radius_max - room.inner_radius_min
+    stated = problem.incidence
+    return (
+        np.linspace(0.0, pi / 2.0, angles) if stated is None else np.array([stated]),
+        np.linspace(low, room.outer_radius_max, radii),
+        np.linspace(room.height_min, room.height_max, heights),
+        np.exp(np.linspace(log(room.wall_min), log(thick), walls)),
+    )
+
+
+def refine(problem, device):
+    """The lightest on grids around a device that narrow while nothing better is on them."""
+    widths = np.array([0.08, 0.12, 0.2, 0.2])
+    while widths[-1] > NARROW:
+        axes = _axes_around(problem, device.point, widths)
+        better = _lightest(
+            problem, device.drive, device.material, device.names, axes, device.mass * (1.0 - 1e-9)
+        )
+        gained = 0.0 if better is None else 1.0 - better.mass / device.mass
+        device = device if better is None else better
+        if gained < 3e-5:
+            widths = widths * 0.7
+    return device
+
+
+def _axes_around(problem, point, widths):
+    """The incidence is moved by angles, all else by ratios; the limits themselves are on them."""
+    room = problem.envelope
+    stated = problem.incidence
+    angles = np.clip(point[0] + np.linspace(-widths[0], widths[0], FINE[0]), 0.0, pi / 2.0)
+    limits = ((0.0, room.outer_radius_max), (room.height_min, room.height_max))
+    limits += ((room.wall_min, inf),)
+    rest = (
+        np.unique(np.clip(at * np.exp(np.linspace(-width, width, count)), *limit))
+        for at, width, count, limit in zip(point[1:], widths[1:], FINE[1:], limits, strict=True)
+    )
+    return (np.unique(angles) if stated is None else np.array([stated]), *rest)
+
+
+def _lightest(problem, drive, material, names, axes, below):
+    """Of all points, the lightest below a mass that can do everything; None if there is none."""
+    angles, *shape = axes
+    outer, height, wall = (values.ravel() for values in np.meshgrid(*shape, indexing="ij"))
+    rims = Rims(outer, outer - wall, height, material.density)
+    mass = device_mass(drive, rims)
+    good = fits(problem, rims) & holds(problem, drive, rims, material) & (mass < below)
+    rows = np.flatnonzero(good)
+    rows = rows[np.argsort(mass[rows], kind="stable")]
+    block = max(BLOCK // angles.size, 1)
+    for start in range(0, rows.size, block):
+        some = rows[start : start + block]
+        each = np.repeat(some, angles.size)
+        can = margin(problem, drive, rims.take(each), np.tile(angles, some.size))
+        able = can.reshape(some.size, angles.size) >= 1.0
+        if able.any():
+            row = int(np.argmax(able.any(axis=1)))
+            # Of several incidences that will do, the one with the most to spare.
+            angle = angles[can.reshape(able.shape)[row].argmax()]
+            at = some[row]
+            point = np.array([angle, outer[at], height[at], wall[at]])
+            return Device(float(mass[at]), drive, material, names, point)
+    return None

@@ -1,0 +1,167 @@
+"""A front as people see it: table, plot, reasons; and as files."""
+
+import csv
+import io
+import sys
+import xml.etree.ElementTree as ET
+from dataclasses import asdict, replace
+from itertools import pairwise
+
+import pytest
+from fronts import by_hand, infeasible, make_front
+from rich.console import Console
+
+from ocs_design.exceptions import MissingToolError, OutputError
+from ocs_design.pareto import front_to_json
+from ocs_design.report.front_figure import front_svg
+from ocs_design.report.front_files import COLUMNS, front_csv, write_front
+from ocs_design.report.pareto import NONE, OWN, print_front
+
+BRAILLE = {chr(code) for code in range(0x2800, 0x2900)}
+
+
+@pytest.fixture(scope="module")
+def front():
+    return make_front(by_hand())
+
+
+def printed(front, width=80, encoding="utf-8"):
+    file = io.TextIOWrapper(io.BytesIO(), encoding, errors="replace", write_through=True)
+    print_front(Console(file=file, width=width, color_system=None, highlight=False), front)
+    return file.buffer.getvalue().decode(encoding)
+
+
+@pytest.mark.parametrize("width", [60, 80, 110])
+def test_nothing_is_wider_than_the_terminal(front, width):
+    assert max(map(len, printed(front, width).splitlines())) <= width
+
+
+def test_the_table_has_every_point(front):
+    text = printed(front)
+    for point in front.points:
+        assert f"{1e3 * point.value:.4g}" in text
+        if point.device:
+            assert f"{1e3 * point.device.mass:.1f}" in text
+    assert "Fast [28]" in text
+    assert "the wheels would have to be larger" in text
+    assert "The time is that of 'drop'" in text
+
+
+def test_the_plot_falls_and_marks_what_has_no_device(front):
+    rows = [line for line in printed(front).splitlines() if "┤" in line]
+    areas = [line.split("┤")[1] for line in rows]
+    drawn = [
+        [column for column, cell in enumerate(row) if cell in BRAILLE and cell != "⠀"]
+        for row in areas
+    ]
+    filled = [row for row in drawn if row]
+    assert len(filled) > 8
+    assert all(min(upper) <= min(lower) for upper, lower in pairwise(filled))
+    axis = next(line for line in printed(front).splitlines() if "└" in line).split("└")[1]
+    assert axis[0] == NONE
+    assert axis.rstrip()[1:].count(NONE) == 0
+    # The own value is the third of nine: a quarter of the way.
+    assert axis.index(OWN) == pytest.approx(len(axis.rstrip()) / 4, abs=1)
+
+
+def test_a_terminal_without_braille_gets_the_table_alone(front):
+    text = printed(front, encoding="ascii")
+    assert "┤" not in text
+    assert "Mass of the device against" not in text
+    assert "stainless-304" in text
+
+
+def test_a_front_without_any_device_says_why():
+    def never(task):
+        raise infeasible("not even [red] wheels")
+
+    text = printed(make_front(by_hand(), choose=never, points=2))
+    assert text.count("not even [red] wheels") == 2
+
+
+def test_the_drawing_is_an_svg_and_the_same_every_time(front):
+    drawing = front_svg(front)
+    root = ET.fromstring(drawing)
+    assert root.tag.endswith("svg")
+    assert drawing == front_svg(front)
+    assert b"<dc:date>" not in drawing
+
+
+def test_the_drawing_does_not_depend_on_the_user_s_own_style(front):
+    import matplotlib as mpl
+
+    before = front_svg(front)
+    with mpl.rc_context({"lines.linewidth": 9.0, "font.size": 30.0}):
+        assert front_svg(front) == before
+        assert mpl.rcParams["font.size"] == 30.0
+
+
+def test_any_name_can_be_drawn(front):
+    assert front_svg(replace(front, robot=r"$\nonsense$ & <b>"))
+
+
+def test_the_table_of_numbers_has_all_digits(front):
+    rows = list(csv.DictReader(io.StringIO(front_csv(front))))
+    assert len(rows) == len(front.points)
+    for row, point in zip(rows, front.points, strict=True):
+        assert float(row["time_s"]) == point.value
+        assert row["specification"] == point.file
+        assert row["reason"] == point.reason
+        if point.device:
+            assert float(row["mass_kg"]) == point.device.mass
+            assert row["motor"] == point.device.motor
+        else:
+            assert row["mass_kg"] == ""
+
+
+def test_every_field_of_a_device_has_its_column(front):
+    assert list(COLUMNS) == list(asdict(front.points[-1].device))
+
+
+def test_the_folder_is_complete(front, tmp_path):
+    folder = tmp_path / "front"
+    assert write_front(front, folder) == ()
+    names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.*"))
+    points = [f"points/{index:02d}.toml" for index in range(1, 10)]
+    assert names == ["front.csv", "front.json", "front.svg", *points]
+    assert (folder / "front.json").read_bytes() == front_to_json(front)
+    assert (folder / "points" / "03.toml").read_text() == front.points[2].specification
+    assert [path.name for path in tmp_path.iterdir()] == ["front"]
+
+
+def test_a_folder_that_exists_is_replaced_only_when_told(front, tmp_path):
+    folder = tmp_path / "front"
+    write_front(front, folder)
+    (folder / "note.txt").write_text("mine")
+    with pytest.raises(OutputError, match="exists already"):
+        write_front(front, folder)
+    assert (folder / "note.txt").exists()
+    write_front(front, folder, force=True)
+    assert not (folder / "note.txt").exists()
+
+
+def test_a_foreign_folder_is_never_replaced(front, tmp_path):
+    (tmp_path / "letter.txt").write_text("dear")
+    with pytest.raises(OutputError, match="no output of ocs-design"):
+        write_front(front, tmp_path, force=True)
+    assert (tmp_path / "letter.txt").exists()
+
+
+def test_without_matplotlib_all_else_is_written(front, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(MissingToolError, match="matplotlib"):
+        front_svg(front)
+    (remark,) = write_front(front, tmp_path / "front")
+    assert "pip install 'ocs-design[plot]'" in remark
+    assert not (tmp_path / "front" / "front.svg").exists()
+    assert (tmp_path / "front" / "front.csv").exists()
+
+
+def test_nothing_is_left_of_a_front_that_could_not_be_written(front, tmp_path, monkeypatch):
+    def interrupted(front):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("ocs_design.report.front_files.front_svg", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_front(front, tmp_path / "front")
+    assert list(tmp_path.iterdir()) == []

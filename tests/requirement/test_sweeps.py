@@ -1,0 +1,139 @@
+"""Each figure varied alone, and all else kept."""
+
+from math import hypot, radians
+
+import pytest
+
+from ocs_design.exceptions import UsageError
+from ocs_design.requirement.maneuver import Disturbance, Drop
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.sweep import Task
+from ocs_design.requirement.sweeps import SWEEPS, sweep_of
+
+ROLLED = """
+[[maneuver]]
+name = "push"
+kind = "disturbance"
+takeoff_velocity = [0, 2.4]
+torque = [0.2, 0.8, 0]
+onset = 0.1
+duration = 0.05
+
+[[maneuver]]
+name = "drop"
+kind = "drop"
+height = 0.8
+roll = "-12deg"
+pitch = "9deg"
+
+[[maneuver]]
+name = "back-flip"
+kind = "flip"
+jump_height = 0.8
+angle = "-360deg"
+duration = 0.75
+"""
+
+
+@pytest.fixture
+def task(solo12):
+    def make(text=""):
+        return Task.of(parse_specification(text, "text"), solo12, 0.5)
+
+    return make
+
+
+def varied(sweep, value, task):
+    """The task with its figure at another value, resolved anew."""
+    return task.with_specification(sweep.at(value, task))
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+@pytest.mark.parametrize("text", ["", ROLLED])
+@pytest.mark.parametrize("ratio", [0.9, 1.0, 1.3])
+def test_the_value_asked_for_is_the_value_got(task, name, text, ratio):
+    sweep, stated = SWEEPS[name], task(text)
+    value = ratio * sweep.own(stated)
+    assert sweep.own(varied(sweep, value, stated)) == pytest.approx(value, rel=1e-14)
+
+
+def test_own_values_of_solo12(task):
+    stated = task()
+    assert SWEEPS["time"].own(stated) == pytest.approx(0.385, abs=5e-4)
+    assert SWEEPS["angle"].own(stated) == pytest.approx(radians(30.0))
+    assert SWEEPS["radius"].own(stated) == 0.05
+    assert SWEEPS["height"].own(stated) == 0.01
+    assert SWEEPS["voltage"].own(stated) == 24.0
+
+
+def test_a_fall_that_takes_longer_starts_higher_and_the_jump_of_a_longer_turn_is_higher(task):
+    longer = varied(SWEEPS["time"], 2.0 * SWEEPS["time"].own(task(ROLLED)), task(ROLLED))
+    push, drop, flip = longer.maneuvers
+    standing = longer.standing_height
+    assert drop.height - standing == pytest.approx(4.0 * (0.8 - standing))
+    assert (drop.roll, drop.pitch) == pytest.approx((radians(-12.0), radians(9.0)))
+    assert flip.duration == pytest.approx(1.5)
+    assert flip.flight_time / flip.duration == pytest.approx(
+        task(ROLLED).maneuvers[2].flight_time / 0.75
+    )
+    assert vars(push) == vars(task(ROLLED).maneuvers[0])
+
+
+def test_a_larger_angle_keeps_direction_and_sign(task):
+    wider = varied(SWEEPS["angle"], 1.5 * hypot(radians(12.0), radians(9.0)), task(ROLLED))
+    push, drop, flip = wider.maneuvers
+    assert (drop.roll, drop.pitch) == pytest.approx((radians(-18.0), radians(13.5)))
+    assert drop.height == 0.8
+    assert flip.angle == pytest.approx(radians(-540.0))
+    assert isinstance(push, Disturbance)
+
+
+def test_one_maneuver_alone(task):
+    sweep = sweep_of("time", "back-flip")
+    assert sweep.own(task(ROLLED)) == 0.75
+    _, drop, flip = varied(sweep, 0.7, task(ROLLED)).maneuvers
+    assert isinstance(drop, Drop)
+    assert drop.height == 0.8
+    assert flip.duration == pytest.approx(0.7)
+
+
+def test_what_else_moves_is_said(task):
+    remarks = " ".join(SWEEPS["time"].remarks(task(ROLLED)))
+    assert remarks == ("The time is that of 'drop'. In the same ratio: back-flip. As stated: push.")
+    alone = " ".join(sweep_of("angle", "back-flip").remarks(task(ROLLED)))
+    assert alone == "The angle is that of 'back-flip'. As stated: push, drop."
+    assert SWEEPS["radius"].remarks(task()) == ()
+
+
+def test_the_paper_s_three_are_written_out(task):
+    """They are no longer scaled from Solo12 then, and asking for them by name would contradict."""
+    stated = task('[requirement]\nmaneuvers = "paper"')
+    specification = SWEEPS["time"].at(0.4, stated)
+    assert len(specification.maneuvers) == 3
+    assert specification.requirement.maneuvers is None
+
+
+@pytest.mark.parametrize(
+    ("name", "maneuver", "text", "message"),
+    [
+        ("speed", "", "", "--against speed: is none of time, angle"),
+        ("radius", "drop", "", "the radius is not that of a maneuver"),
+        ("time", "somersault", "", "there is no such maneuver"),
+        ("time", "disturbance", "", "disturbance has no turn"),
+        (
+            "angle",
+            "",
+            '[requirement]\nmaneuvers = "none"\nrate_change = 2',
+            "the specification has no turn",
+        ),
+    ],
+)
+def test_what_cannot_be_varied(task, name, maneuver, text, message):
+    with pytest.raises(UsageError, match=message):
+        sweep_of(name, maneuver).own(task(text))
+
+
+def test_a_level_drop_has_no_angle_to_scale(task):
+    level = '[[maneuver]]\nname = "fall"\nkind = "drop"\nheight = 0.8\npitch = 0\n'
+    with pytest.raises(UsageError, match="has no turn"):
+        SWEEPS["angle"].own(task(level))

@@ -1,0 +1,146 @@
+"""Currents, heat and energies against closed forms of a wheel on a trunk that stands still."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from driven_wheels import BELT, EC45, driven_wheel
+from scipy.integrate import solve_ivp
+
+from ocs_design.drive.gear import DIRECT
+from ocs_design.exceptions import OcsError
+from ocs_design.sizing.gyrostat import Gyrostat
+from ocs_design.sizing.incidence import module_axes
+from ocs_design.sizing.margins.motion import Motion
+from ocs_design.sizing.margins.supply import bus_power, supply, winding_current
+
+
+def resting_trunk(time, speed, torque):
+    """Both wheels alike, the trunk held."""
+    still = np.zeros((len(time), 3))
+    return Motion(time, np.column_stack([speed] * 2), np.column_stack([torque] * 2), still, still)
+
+
+def spin_up(wheel, time_constants, samples=4001):
+    """Full voltage from rest: W = w_0 (1 - e^(-t/T)), tau = tau_s e^(-t/T), T = I w_0 / tau_s."""
+    line = wheel.line
+    constant = wheel.moved_inertia * line.no_load_speed / line.stall_torque
+    time = np.linspace(0.0, time_constants * constant, samples)
+    decay = np.exp(-time / constant)
+    return resting_trunk(time, line.no_load_speed * (1.0 - decay), line.stall_torque * decay)
+
+
+def kinetic(wheel, motion, index=-1):
+    return 0.5 * wheel.moved_inertia * float(np.sum(motion.wheel_speed[index] ** 2))
+
+
+def test_a_wheel_at_constant_torque():
+    """EC 45 at 0.5 N m for 0.1 s: i = 0.5 / 0.0369 = 13.55 A, heat 0.608 i^2 t = 11.163 J."""
+    wheel = driven_wheel()
+    time = np.linspace(0.0, 0.1, 11)
+    speed = 0.5 / wheel.moved_inertia * time
+    motion = resting_trunk(time, speed, np.full_like(time, 0.5))
+    taken = supply(motion, wheel)
+    assert taken.peak_current == pytest.approx(13.5501, rel=1e-5)
+    assert taken.heat == pytest.approx(11.16325, rel=1e-5)
+    assert taken.heat_both == pytest.approx(2.0 * taken.heat, rel=1e-14)
+    # At the end: V = R i + k_t w, and both motors draw V i / 24 V.
+    current = 0.5 / 0.0369
+    voltage = 0.608 * current + 0.0369 * speed[-1]
+    assert taken.peak_drawn == pytest.approx(2.0 * voltage * current / 24.0, rel=1e-12)
+    assert taken.fed_back == 0.0
+    assert taken.peak_fed_back == 0.0
+    assert taken.drawn == pytest.approx(taken.heat_both + kinetic(wheel, motion), rel=1e-12)
+
+
+@pytest.mark.parametrize("gear", [DIRECT, BELT, replace(BELT, reverses=True)])
+def test_energy_balance_of_a_spin_up(gear):
+    wheel = driven_wheel(gear=gear)
+    motion = spin_up(wheel, time_constants=3.0)
+    taken = supply(motion, wheel)
+    stored = kinetic(wheel, motion)
+    assert taken.drawn == pytest.approx(taken.heat_both + taken.gear_loss + stored, rel=1e-6)
+    assert taken.gear_loss == pytest.approx((1.0 / gear.efficiency - 1.0) * stored, rel=1e-6)
+
+
+def test_constant_voltage_wastes_as_much_as_it_stores():
+    """A known law of the DC motor: up to no-load speed half of the energy drawn is heat."""
+    wheel = driven_wheel()
+    motion = spin_up(wheel, time_constants=20.0, samples=20001)
+    taken = supply(motion, wheel)
+    assert taken.heat_both == pytest.approx(kinetic(wheel, motion), rel=1e-6)
+    assert taken.drawn == pytest.approx(2.0 * taken.heat_both, rel=1e-6)
+
+
+@pytest.mark.parametrize("gear", [DIRECT, BELT])
+def test_energy_balance_of_spinning_up_and_braking(gear):
+    """At rest again nothing is stored: what was drawn and not given back is lost."""
+    wheel = driven_wheel(gear=gear)
+    torque = 0.2 * wheel.line.torque_limit
+    # The jump of the torque stands as two samples at one time.
+    time = np.array([0.0, 0.1, 0.1, 0.2])
+    speed = torque / wheel.moved_inertia * np.array([0.0, 0.1, 0.1, 0.0])
+    motion = resting_trunk(time, speed, torque * np.array([1.0, 1.0, -1.0, -1.0]))
+    taken = supply(motion, wheel)
+    assert taken.fed_back > 0.0
+    # Power changes its sign within an interval: the parts are exact to the step, the sum is exact.
+    assert taken.drawn - taken.fed_back == pytest.approx(
+        taken.heat_both + taken.gear_loss, rel=1e-12
+    )
+    assert taken.fed_back < kinetic(wheel, motion, index=1)
+
+
+def test_a_gear_makes_no_energy():
+    """Driving takes more at the shaft than the wheel gets, braking gives less than it loses."""
+    wheel = driven_wheel(gear=BELT)
+    speed, torque = np.array([100.0, 100.0]), np.array([1e-9, -1e-9])
+    power = bus_power(resting_trunk(np.array([0.0, 1.0]), speed, torque), wheel)
+    assert power == pytest.approx([2e-7 / 0.9, -2e-7 * 0.9], rel=1e-6)
+
+
+def test_a_gear_works_against_the_current_in_both_directions():
+    wheel = driven_wheel(gear=BELT)
+    torque = np.array([[0.1, -0.1]])
+    assert winding_current(torque, wheel) == pytest.approx(torque / (2.0 * 0.9 * 0.0369))
+
+
+def test_a_motor_that_wants_a_figure_is_named():
+    blank = driven_wheel(replace(EC45, resistance=None))
+    with pytest.raises(OcsError, match=r"EC 45 flat 70 W.*resistance"):
+        supply(spin_up(driven_wheel(), time_constants=1.0), blank)
+
+
+@pytest.mark.parametrize("gear", [DIRECT, BELT])
+def test_energy_balance_of_a_tumbling_trunk(gear):
+    """Full voltage on one wheel, half of it backwards on the other, all axes coupled.
+
+    What the motors give each wheel must turn up as kinetic energy of trunk and wheels.
+    """
+    wheel = driven_wheel(gear=gear)
+    body = Gyrostat(
+        np.array([[0.03, 1e-3, 2e-3], [1e-3, 0.0535, 0.0], [2e-3, 0.0, 0.068]]),
+        module_axes(np.radians(30.0)),
+        wheel.spin_inertia,
+        wheel.moved_inertia - wheel.spin_inertia,
+    )
+    line, voltage = wheel.line, np.array([1.0, -0.5])
+
+    def torque(speed):
+        return line.stall_torque * (voltage - speed / line.no_load_speed)
+
+    def change(_, state):
+        rate, speed = state[:3], state[3:]
+        momentum = body.inertia @ rate + body.spin_inertia * body.axes @ speed
+        forces = np.concatenate([-np.cross(rate, momentum), torque(speed)])
+        return np.linalg.solve(body.mass_matrix, forces)
+
+    time = np.linspace(0.0, 0.1, 2001)
+    flown = solve_ivp(change, (0.0, 0.1), np.zeros(5), "DOP853", time, rtol=1e-12, atol=1e-12)
+    speed, rate = flown.y[3:].T, flown.y[:3].T
+    motion = Motion(time, speed, torque(speed), rate, np.gradient(rate, time, axis=0))
+    taken = supply(motion, wheel)
+    final = flown.y[:, -1]
+    kinetic_energy = 0.5 * final @ body.mass_matrix @ final
+    drawn = taken.drawn - taken.fed_back
+    assert drawn == pytest.approx(taken.heat_both + taken.gear_loss + kinetic_energy, rel=1e-6)
+    assert np.linalg.norm(rate[-1]) > 0.5

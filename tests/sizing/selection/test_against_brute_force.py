@@ -1,0 +1,84 @@
+"""The selection against every device on a grid, on a physics of its own (`naive_device`).
+
+Ten robots from 1 kg to 80 kg with random specifications and catalogues. Neither may be heavier than
+the other by more than 0.1 %: the selection because it claims the lightest, the grid because it was
+refined until it has it; a grid that finds nothing lighter than what it cannot do proves little.
+"""
+
+import numpy as np
+import pytest
+from drawn_selections import draw
+from naive_device import Drive, Rims, device_mass, fits, holds, inertia_on, margin
+from naive_search import Device, refine, search
+
+from ocs_design.exceptions import Infeasible
+from ocs_design.sizing.selection.select import select
+
+FAST = (1, 2, 3)
+SLOW = tuple(seed for seed in range(14) if seed not in FAST)
+AGREED = 1e-3
+
+
+def selected(problem):
+    """The lightest device; None if there is none."""
+    try:
+        return select(problem, advise=False).best
+    except Infeasible:
+        return None
+
+
+def rims_of(chosen):
+    shape = (chosen.outer_radius, chosen.inner_radius, chosen.height)
+    return Rims(*(np.array([value]) for value in shape), chosen.material.density)
+
+
+def drive_of(problem, chosen, points=100_000):
+    return Drive(problem, chosen.motor, chosen.gear, points)
+
+
+def check(seed):
+    problem = draw(seed).problem
+    grid, chosen = search(problem), selected(problem)
+    if chosen is None:
+        assert grid is None, f"select misses {grid}"
+        return
+    assert grid is not None
+    assert chosen.mass <= grid.mass * (1.0 + AGREED), grid
+    assert grid.mass <= chosen.mass * (1.0 + AGREED)
+    check_by_itself(problem, chosen)
+    check_neighbours(problem, chosen)
+
+
+def check_by_itself(problem, chosen):
+    """It is what it says, and can do what it must."""
+    drive, rims = drive_of(problem, chosen), rims_of(chosen)
+    angle = np.array([chosen.incidence])
+    assert fits(problem, rims, slack=1e-6).all()
+    assert holds(problem, drive, rims, chosen.material, slack=1e-6).all()
+    assert margin(problem, drive, rims, angle).item() >= 1.0 - 1e-6
+    assert device_mass(drive, rims).item() == pytest.approx(chosen.mass, rel=1e-9)
+    inertia = inertia_on(problem, drive, rims, angle)[:, 0]
+    np.testing.assert_allclose(np.diag(chosen.total.inertia)[:2], inertia, rtol=1e-9)
+    spin = rims.body[1].item() + drive.rotor_momentum
+    assert spin == pytest.approx(chosen.spin_inertia, rel=1e-9)
+
+
+def check_neighbours(problem, chosen):
+    """Finer and finer grids around it find nothing lighter."""
+    point = [chosen.incidence, chosen.outer_radius, chosen.height]
+    point = np.array([*point, chosen.outer_radius - chosen.inner_radius])
+    names = (chosen.motor.name, chosen.gear.name, chosen.material.name)
+    drive = drive_of(problem, chosen, points=10_000)
+    start = Device(chosen.mass, drive, chosen.material, names, point)
+    assert refine(problem, start).mass >= chosen.mass * (1.0 - AGREED)
+
+
+@pytest.mark.parametrize("seed", FAST)
+def test_nothing_lighter_is_on_a_grid(seed):
+    check(seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SLOW)
+def test_nothing_lighter_is_on_more_grids(seed):
+    check(seed)

@@ -1,0 +1,35 @@
+"""Every chosen device does in MuJoCo, with its motor's limits, what it was chosen for."""
+
+import numpy as np
+import pytest
+from drawn_selections import draw
+
+from ocs_design.assembly import assemble_selected
+from ocs_design.planning import plan
+from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.sizing.selection.select import select
+
+POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", POSSIBLE)
+def test_a_chosen_device_passes_with_its_motors_limits(seed):
+    drawn = draw(seed)
+    problem, requirement = drawn.problem, drawn.problem.requirement
+    chosen = select(problem, advise=False).best
+    device = assemble_selected(chosen, problem.bus_voltage)
+    plans = plan(
+        drawn.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height
+    )
+    runs = run_scenarios(
+        drawn.robot,
+        device,
+        requirement.maneuvers,
+        references={
+            name: found.trajectory for name, found in plans.items() if found.trajectory is not None
+        },
+    )
+    for run in runs[::2]:
+        assert run.passed is True, f"{run.scenario}: {run.reason}; {run.note}"
+        assert np.abs(run.series.wheel_torque).max() <= device.motor.torque_limit * (1.0 + 1e-12)

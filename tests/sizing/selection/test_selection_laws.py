@@ -1,0 +1,204 @@
+"""What must hold of a selection whatever its robot: laws on problems drawn at random."""
+
+from dataclasses import replace
+from math import inf, pi
+
+import numpy as np
+import pytest
+from drawn_selections import draw
+
+from ocs_design.exceptions import Infeasible
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.sizing.selection.select import select
+
+POSSIBLE = (3, 4, 6, 11)
+"""Of the drawn problems, some with a device: two with a flip, two with a push."""
+EXACT = 1e-6
+"""To which a mass is settled, relative."""
+
+
+@pytest.fixture(params=POSSIBLE)
+def problem(request):
+    return draw(request.param).problem
+
+
+def mass(problem):
+    """Of the lightest device [kg]; inf where there is none."""
+    try:
+        return select(problem, advise=False).best.mass
+    except Infeasible:
+        return inf
+
+
+def no_heavier(problem, *others):
+    """Each of these is no heavier than the one before."""
+    masses = [mass(each) for each in (problem, *others)]
+    assert np.isfinite(masses[-1])
+    pairs = zip(masses[1:], masses[:-1], strict=True)
+    return all(after <= before * (1.0 + EXACT) for after, before in pairs)
+
+
+def in_more_time(maneuver, standing, times):
+    """The same turn, or the same push, with so many times as long for it."""
+    match maneuver:
+        case Drop():
+            return replace(maneuver, height=standing + (maneuver.height - standing) * times**2)
+        case Flip():
+            return replace(maneuver, duration=maneuver.duration * times)
+        case Disturbance():
+            forward, up = maneuver.takeoff_velocity
+            return replace(maneuver, takeoff_velocity=(forward, up * times))
+
+
+def with_maneuvers(problem, maneuvers):
+    return replace(problem, requirement=replace(problem.requirement, maneuvers=tuple(maneuvers)))
+
+
+def test_more_time_is_no_heavier(problem):
+    standing = problem.requirement.standing_height
+    slower = [
+        with_maneuvers(
+            problem,
+            [in_more_time(each, standing, times) for each in problem.requirement.maneuvers],
+        )
+        for times in (1.05, 1.3)
+    ]
+    assert no_heavier(problem, *slower)
+
+
+def test_less_to_do_is_no_heavier(problem):
+    drop = with_maneuvers(problem, problem.requirement.maneuvers[:1])
+    without_rate = replace(drop, requirement=replace(drop.requirement, rate_change=None))
+    assert no_heavier(problem, drop, without_rate)
+
+
+@pytest.mark.parametrize("name", ["outer_radius_max", "height_max"])
+def test_more_room_is_no_heavier(problem, name):
+    room = problem.envelope
+    wider = [
+        replace(problem, envelope=replace(room, **{name: getattr(room, name) * times}))
+        for times in (1.1, 1.5)
+    ]
+    assert no_heavier(problem, *wider)
+
+
+@pytest.mark.parametrize("name", ["inner_radius_min", "height_min", "wall_min", "stress_safety"])
+def test_lower_limits_are_no_heavier(problem, name):
+    room = problem.envelope
+    lower = replace(problem, envelope=replace(room, **{name: getattr(room, name) * 0.7}))
+    assert no_heavier(problem, lower)
+
+
+@pytest.mark.parametrize("name", ["motors", "gears", "materials"])
+def test_more_to_choose_from_is_no_heavier(problem, name):
+    choices = getattr(problem, name)
+    fewer = [replace(problem, **{name: choices[:count]}) for count in range(1, len(choices) + 1)]
+    assert no_heavier(*fewer)
+
+
+def test_the_lightest_is_that_of_each_combination_by_itself(problem):
+    """Whatever was left out by its bound, no motor, gear or material alone is lighter."""
+    alone = [
+        mass(replace(problem, motors=[motor], gears=[gear], materials=[material]))
+        for motor in problem.motors
+        for gear in problem.gears
+        for material in problem.materials
+    ]
+    ranked = [device.mass for device in select(problem, advise=False).ranking]
+    possible = sorted(each for each in alone if each < inf)[: len(ranked)]
+    assert len(ranked) == min(sum(each < inf for each in alone), 10)
+    assert ranked[0] == pytest.approx(possible[0], rel=EXACT)
+    # Behind the first, up to some percent more than would have to be.
+    assert np.all(np.array(ranked) >= np.array(possible) * (1.0 - EXACT))
+
+
+def test_more_voltage_is_no_heavier_where_no_speed_is_limited(problem):
+    """No limit of speed binds at 60 V more, and no stress: rims may then turn ever faster."""
+    motors = [replace(motor, speed_max=1e6) for motor in problem.motors]
+    gears = [replace(gear, motor_speed_max=inf, wheel_speed_max=inf) for gear in problem.gears]
+    free = replace(
+        problem,
+        motors=motors,
+        gears=gears,
+        wheel_speed_max=None,
+        materials=[replace(kind, yield_strength=None) for kind in problem.materials],
+    )
+    higher = [replace(free, bus_voltage=free.bus_voltage * times) for times in (1.2, 2.0)]
+    assert no_heavier(free, *higher)
+
+
+def test_a_free_incidence_is_no_heavier_than_any(problem):
+    free = mass(replace(problem, incidence=None))
+    fixed = [
+        mass(replace(problem, incidence=float(angle))) for angle in np.linspace(0.0, pi / 2.0, 19)
+    ]
+    assert free <= min(fixed) * (1.0 + EXACT)
+
+
+def test_the_ranking_is_sorted_settled_and_adds_up(problem):
+    ranking = select(problem, advise=False).ranking
+    masses = [device.mass for device in ranking]
+    assert masses == sorted(masses)
+    names = {(d.motor.name, d.gear.name, d.material.name) for d in ranking}
+    assert len(names) == len(ranking) <= 10
+    for device in ranking:
+        assert device.residual < 1e-9
+        total = summed(problem.robot, device)
+        assert device.total.mass == pytest.approx(total[0], rel=1e-12)
+        np.testing.assert_allclose(device.total.com, total[1], rtol=0, atol=1e-12)
+        scale = np.abs(total[2]).max()
+        np.testing.assert_allclose(device.total.inertia, total[2], rtol=0, atol=1e-11 * scale)
+
+
+def summed(robot, device):
+    """Mass, centre of mass and inertia of all bodies, each a cloud of points with its moments.
+
+    A body of revolution is six masses on its axes: the second moments are those of the body.
+    """
+    masses, points = [], []
+    _cloud(masses, points, robot.mass, robot.com, robot.inertia)
+    a = device.incidence
+    axes = (np.array([np.sin(a), np.cos(a), 0.0]), np.array([-np.sin(a), np.cos(a), 0.0]))
+    outer, inner, height = device.outer_radius, device.inner_radius, device.height
+    rim = device.rim_mass
+    moments = (
+        rim * (outer**2 + inner**2) / 2.0,
+        rim * (3.0 * (outer**2 + inner**2) + height**2) / 12.0,
+    )
+    carrier = device.carrier
+    for center, axis in zip(device.centers, axes, strict=True):
+        along = np.outer(axis, axis)
+        for weight, (about, across) in (
+            (rim, moments),
+            (carrier.mass, (carrier.axial_inertia, carrier.transverse_inertia)),
+        ):
+            inertia = about * along + across * (np.eye(3) - along)
+            _cloud(masses, points, weight, center, inertia)
+    weights, places = np.array(masses), np.array(points)
+    com = weights @ places / weights.sum()
+    arms = places - com
+    square = (weights * (arms**2).sum(axis=1)).sum()
+    inertia = square * np.eye(3) - (arms * weights[:, None]).T @ arms
+    return weights.sum(), com, inertia
+
+
+def _cloud(masses, points, mass, com, inertia):
+    """Six point masses with the same mass, centre and inertia."""
+    moments, axes = np.linalg.eigh(inertia)
+    squares = (moments.sum() / 2.0 - moments) / mass
+    for square, axis in zip(squares, axes.T, strict=True):
+        offset = np.sqrt(max(3.0 * square, 0.0)) * axis
+        masses += [mass / 6.0, mass / 6.0]
+        points += [np.asarray(com) + offset, np.asarray(com) - offset]
+
+
+@pytest.mark.parametrize("times", [1.01, 1.05])
+def test_a_stated_spin_inertia_is_kept(problem, times):
+    best = select(problem, advise=False).best
+    # Of the same drive: another one may have less momentum in the same wheel.
+    alone = replace(problem, motors=[best.motor], gears=[best.gear], materials=[best.material])
+    stated = times * best.spin_inertia
+    asking = replace(alone, requirement=replace(alone.requirement, spin_inertia=stated))
+    kept = select(asking, advise=False).best
+    assert kept.spin_inertia == pytest.approx(stated, rel=1e-9)
+    assert kept.mass >= best.mass * (1.0 - EXACT)

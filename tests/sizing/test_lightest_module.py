@@ -1,0 +1,99 @@
+"""Rim and housing together: never heavier than any on a grid, and where there is none, none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from rims import random_problem, rim_problems
+
+from ocs_design.sizing.housing import housing_mass
+from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
+from ocs_design.sizing.rim_closed_form import lightest_rim
+
+GRID = 500
+
+
+def on_a_grid(inertia, limits):
+    """The lightest module of that spin inertia on a grid of radii; inf if there is none."""
+    outer = np.linspace(0.02, 1.0, GRID)[:, None] * limits.outer_radius_max
+    inner = np.linspace(0.01, 1.0, GRID)[None, :-1] * outer
+    height = 2.0 * inertia / (np.pi * limits.density * (outer**4 - inner**4))
+    rim = 2.0 * inertia / (outer**2 + inner**2)
+    nu = limits.poisson_ratio
+    stretch = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
+    fits = (height <= limits.height_max) & (height >= limits.height_min)
+    fits &= (outer - inner >= limits.wall_min) & (inner >= limits.inner_radius_min)
+    fits &= (rim <= limits.mass_max) & (stretch <= limits.stretch_max)
+    return np.where(fits, rim + housing_mass(outer, height), np.inf).min()
+
+
+def test_never_heavier_than_on_a_grid():
+    rng = np.random.default_rng(3)
+    gaps = []
+    for _ in range(60):
+        problem = random_problem(rng)
+        shape = lightest_module(problem.spin_inertia, problem.limits)
+        grid = on_a_grid(problem.spin_inertia, problem.limits)
+        if not np.isfinite(grid):
+            continue
+        gaps.append(float(grid / shape.mass) - 1.0)
+    assert len(gaps) > 20
+    assert min(gaps) > -1e-12
+    assert np.median(gaps) < 2e-3
+
+
+def meets(shape, inertia, limits):
+    inner, outer, height = (float(value) for value in shape[:3])
+    nu, slack = limits.poisson_ratio, 1.0 + 1e-9
+    mass = np.pi * limits.density * height * (outer**2 - inner**2)
+    assert float(shape.rim_mass) == pytest.approx(mass, rel=1e-9)
+    assert mass * (outer**2 + inner**2) / 2.0 == pytest.approx(inertia, rel=1e-9)
+    assert outer <= limits.outer_radius_max * slack
+    assert limits.height_min <= height * slack
+    assert height <= limits.height_max * slack
+    assert outer - inner >= limits.wall_min - 1e-9 * outer
+    assert inner * slack >= max(limits.inner_radius_min, 0.01 * outer)
+    assert mass <= limits.mass_max * slack
+    assert (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2 <= limits.stretch_max * slack
+
+
+@given(rim_problems())
+def test_there_is_one_where_there_is_a_rim(problem):
+    limits = replace(problem.limits, height_min=max(problem.limits.height_min, 1e-5))
+    rim = lightest_rim(problem.spin_inertia, limits)
+    shape = lightest_module(problem.spin_inertia, limits)
+    assert np.isnan(float(shape.mass)) == np.isnan(float(rim.mass))
+    if float(shape.mass) > 0.0:
+        meets(shape, problem.spin_inertia, limits)
+        assert float(shape.rim_mass) >= float(rim.mass) * (1.0 - 1e-9)
+
+
+@given(rim_problems())
+def test_more_spin_inertia_is_no_lighter(problem):
+    inertia = problem.spin_inertia * np.geomspace(0.05, 1.0, 40)
+    mass = lightest_module(inertia, problem.limits).mass
+    mass = mass[np.isfinite(mass)]
+    assert (np.diff(mass) >= -1e-9 * mass[1:]).all()
+
+
+def test_of_a_given_radius():
+    """No other radius is lighter, the nearest is taken where none fits, and flatter is heavier."""
+    rng = np.random.default_rng(5)
+    problem = random_problem(rng)
+    while np.isnan(float(lightest_module(problem.spin_inertia, problem.limits).mass)):
+        problem = random_problem(rng)
+    inertia, limits = problem.spin_inertia, problem.limits
+    best = lightest_module(inertia, limits)
+    radii = best.outer_radius * np.geomspace(0.01, 100.0, 50)
+    others = lightest_module_at(inertia, radii, limits)
+    assert (others.mass >= best.mass * (1.0 - 1e-12)).all()
+    for index in (0, -1):
+        meets(_nth(others, index), inertia, limits)
+    flat = lightest_module_at(inertia, best.outer_radius, limits, 5.0)
+    assert flat.height <= best.height * (1.0 + 1e-12)
+    assert flat.mass >= best.mass * (1.0 - 1e-12)
+
+
+def _nth(shape, index):
+    return type(shape)(*(value[index] for value in shape))

@@ -1,0 +1,45 @@
+"""Reference trajectories made by hand: a turn about a fixed axis, its torque from the gyrostat."""
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.simulation.reference import Turn
+from ocs_design.sizing.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory import Trajectory
+
+
+def from_rest(body: Gyrostat, turn: Turn, *, samples: int = 4001) -> Trajectory:
+    """`turn` with what a gyrostat without momentum needs for it, yaw that comes along included.
+
+    H = I w + h A W = 0 gives the wheels' speeds, and its z row the yaw rate: A has none. Roll and
+    pitch rate are those that move the vertical as the turn asks. Then h A^T w' + (h + a) W' = tau.
+    """
+    time = np.linspace(0.0, turn.duration, samples)
+    vertical = _vertical(turn, time)
+    rate = _rate(body, vertical, np.gradient(vertical, time, axis=0, edge_order=2))
+    share = np.linalg.pinv(body.axes)
+    speed = -rate @ (share @ body.inertia).T / body.spin_inertia
+    acceleration = np.gradient(rate, time, axis=0, edge_order=2)
+    spin_up = np.gradient(speed, time, axis=0, edge_order=2)
+    torque = body.spin_inertia * acceleration @ body.axes
+    torque += (body.spin_inertia + body.armature) * spin_up
+    turned = turn.angle(time) - turn.angle(time[:1])
+    return Trajectory(time, vertical, rate, acceleration, speed, torque, turned, "by hand")
+
+
+def _vertical(turn: Turn, time: FloatArray) -> FloatArray:
+    """Rodrigues' formula for the upward direction, seen from a trunk turned about `turn.axis`."""
+    n, up = turn.axis, np.array([0.0, 0.0, 1.0])
+    angle = -turn.angle(time)[:, None]
+    along = n * (n @ up)
+    return np.cos(angle) * (up - along) + np.sin(angle) * np.cross(n, up) + along
+
+
+def _rate(body: Gyrostat, vertical: FloatArray, change: FloatArray) -> FloatArray:
+    """From `v' = v x w` and `(I w)_z = 0`, state by state."""
+    found = []
+    for (x, y, z), slope in zip(vertical, change, strict=True):
+        cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
+        equations = np.vstack([cross, body.inertia[2] / body.inertia[2, 2]])
+        found.append(np.linalg.lstsq(equations, [*slope, 0.0], rcond=None)[0])
+    return np.array(found)
