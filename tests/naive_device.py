@@ -91,7 +91,7 @@ class Drive:
 
     def _tabulate(self, points):
         """Time up to a peak speed and down to rest, and the angle, both per inertia."""
-        peak = self.free * (1.0 - np.exp(-np.linspace(0.0, 16.0, points) ** 2 / 8.0))
+        peak = self.free * (1.0 - np.exp(-(np.linspace(0.0, 16.0, points) ** 2) / 8.0))
         peak = np.append(peak[peak < self.top], min(self.top, self.free * (1.0 - 1e-14)))
         up, down = self._up(peak), self._down(peak)
         self.time, self.angle, self.peak = up[0] + down[0], up[1] + down[1], peak

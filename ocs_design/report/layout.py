@@ -1,5 +1,6 @@
 """How everything that people read is laid out: headings, facts, tables and notes."""
 
+import sys
 from collections.abc import Iterable, Sequence
 
 from rich import box
@@ -52,6 +53,12 @@ def columns(*names: str, left: int = 1) -> Table:
     for index, name in enumerate(names):
         table.add_column(name, justify="left" if index < left else "right", overflow="fold")
     return table
+
+
+def fits(console: Console, table: Table) -> bool:
+    """Whether a table can be shown without breaking a line."""
+    whole = console.options.update(max_width=sys.maxsize)
+    return console.measure(table, options=whole).maximum <= console.width - INDENT[-1]
 
 
 def show(console: Console, table: Table) -> None:

@@ -6,13 +6,16 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.report.layout import columns, facts, heading, items, note, show
+from ocs_design.drive.gear import DIRECT
+from ocs_design.report.layout import columns, facts, fits, heading, items, note, show
 from ocs_design.report.quantities import grams, rpm
 from ocs_design.selection_record import RankedRecord, RejectionRecord, SelectionRecord
 from ocs_design.sizing.selection.result import TaskDemand
 
+RANKED = ("lightest drives", "mass\ng", "rim", "R\nmm", "h\nmm", "alpha\ndeg")
+"""Columns of the ranking; the last ones are left out where the terminal is too narrow."""
 SHOWN = 5
-"""Runners-up and rejections that the report shows; design.json has all, -v shows them."""
+"""Drives that the report shows; -v shows those of the whole ranking."""
 
 
 def print_selection(console: Console, selection: SelectionRecord, *, verbose: bool = False) -> None:
@@ -28,7 +31,8 @@ def print_selection(console: Console, selection: SelectionRecord, *, verbose: bo
         f"Needed: the least time at {selection.reserve:.0%} of voltage and current; "
         f"{selection.binding_maneuver} asks for the most.",
     )
-    _print_ranking(console, selection.ranking if verbose else selection.ranking[:SHOWN])
+    drives = _drives(selection.ranking)
+    _print_ranking(console, drives if verbose else drives[:SHOWN])
     _print_rejections(console, selection.rejections, verbose=verbose)
     _print_co_design(console, selection)
 
@@ -50,20 +54,36 @@ def _print_tasks(console: Console, tasks: tuple[TaskDemand, ...]) -> None:
 
 
 def _print_ranking(console: Console, ranking: tuple[RankedRecord, ...]) -> None:
-    table = columns(
-        "lightest devices", "gear", "rim", "alpha\ndeg", "R\nmm", "h\nmm", "mass\ng", left=3
-    )
-    for entry in ranking:
-        table.add_row(
-            Text(entry.motor),
-            Text(entry.gear),
-            Text(entry.material),
-            f"{np.degrees(entry.incidence):.1f}",
-            f"{1e3 * entry.outer_radius:.1f}",
-            f"{1e3 * entry.height:.1f}",
-            f"{1e3 * entry.mass:.1f}",
-        )
+    """With as many columns as the terminal has room for."""
+    for count in range(len(RANKED), 1, -1):
+        table = columns(*RANKED[:count])
+        for column in table.columns[2:3]:
+            column.justify = "left"
+        for entry in ranking:
+            table.add_row(*map(Text, _ranked(entry)[:count]))
+        if fits(console, table):
+            break
     show(console, table)
+
+
+def _ranked(entry: RankedRecord) -> tuple[str, ...]:
+    direct = entry.gear == DIRECT.name
+    return (
+        entry.motor if direct else f"{entry.motor}, {entry.gear}",
+        f"{1e3 * entry.mass:.1f}",
+        entry.material,
+        f"{1e3 * entry.outer_radius:.1f}",
+        f"{1e3 * entry.height:.1f}",
+        f"{np.degrees(entry.incidence):.1f}",
+    )
+
+
+def _drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
+    """The lightest of each motor and gear: what other materials make of them is nothing new."""
+    best: dict[tuple[str, str], RankedRecord] = {}
+    for entry in ranking:
+        best.setdefault((entry.motor, entry.gear), entry)
+    return tuple(best.values())
 
 
 def _print_rejections(

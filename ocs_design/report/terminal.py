@@ -52,15 +52,16 @@ def print_solution(console: Console, design: OcsDesign) -> None:
     """Joint by joint, and how the optimum was found."""
     if design.robot.posture:
         print_joints(console, design.robot)
-    sizing = design.sizing
+    sizing, chosen = design.sizing, design.selection is not None
+    gap = () if chosen else (("relative duality gap", f"{sizing.gap:.1e}"),)
     heading(console, "Solution")
     facts(
         console,
         [
             ("status", sizing.status),
             ("method", sizing.method),
-            ("objective", f"{sizing.objective!r} kg, one rim"),
-            ("relative duality gap", f"{sizing.gap:.1e}"),
+            ("objective", f"{sizing.objective!r} kg, {'both modules' if chosen else 'one rim'}"),
+            *gap,
             ("fixed point", f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"),
             *((f"price of {name}", f"{price!r}") for name, price in sizing.shadow_prices.items()),
         ],
@@ -158,7 +159,8 @@ def _print_limits(console: Console, design: OcsDesign) -> None:
     if not sizing.binding:
         note(console, "Nothing: the rim lies inside all limits.")
         return
-    table = columns("limit", "worth for one rim")
+    part = "rim" if design.selection is None else "module"
+    table = columns("limit", f"worth for one {part}")
     for name in sizing.binding:
         table.add_row(name, _price(name, sizing.shadow_prices.get(name)))
     show(console, table)

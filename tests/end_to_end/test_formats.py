@@ -13,6 +13,8 @@ from commands import SOLO12, run
 # Stated, so that nothing hangs on what only one of the formats knows.
 ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
 ROOM = (*ROOM, "--wall-min", "2mm", "--wheel-mass-max", "250g")
+# What a robot is does not hang on how its wheels are driven, and the bound alone takes no time.
+BOUND = ("--motor", "none")
 NO_MANEUVERS = "[requirement]\nmaneuvers = 'none'\nrate_change = '6.3 rad/s'\n"
 
 
@@ -96,7 +98,7 @@ def mjcf(solo12):
 
 def design(*arguments, stdin=b""):
     """What `size` finds for it, without flights."""
-    result = run("size", *arguments, "--no-validate", "--json", stdin=stdin)
+    result = run("size", *arguments, "--motor", "none", "--no-validate", "--json", stdin=stdin)
     assert result.code == 0, result.stdout
     return json.loads(result.stdout)
 
@@ -118,19 +120,21 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_every_format_gives_the_same_design(folder, mjcf):
+@pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.slow)])
+def test_every_format_gives_the_same_design(folder, mjcf, motor):
+    driven = ("--motor", motor)
     text = Path(SOLO12).read_bytes()
     (folder / "a.urdf.gz").write_bytes(gzip.compress(text))
     (folder / "robot").write_text(mjcf)
     (folder / "b.xml.gz").write_bytes(gzip.compress(mjcf.encode()))
-    expected = design(SOLO12, "-o", "urdf")
+    expected = design(SOLO12, *driven, "-o", "urdf")
     assert expected["robot"]["posture_name"] == "stand"
     found = {
-        "gzip": design("a.urdf.gz", "-o", "gzip"),
-        "standard input": design("-", "-o", "stdin", stdin=text),
-        "MJCF": design("robot", "-o", "mjcf"),
-        "MJCF, gzip": design("b.xml.gz", "-o", "mjcf-gzip"),
-        "MJCF, standard input": design("-", "-o", "mjcf-stdin", stdin=mjcf.encode()),
+        "gzip": design("a.urdf.gz", *driven, "-o", "gzip"),
+        "standard input": design("-", *driven, "-o", "stdin", stdin=text),
+        "MJCF": design("robot", *driven, "-o", "mjcf"),
+        "MJCF, gzip": design("b.xml.gz", *driven, "-o", "mjcf-gzip"),
+        "MJCF, standard input": design("-", *driven, "-o", "mjcf-stdin", stdin=mjcf.encode()),
     }
     for name, each in found.items():
         check_same(each, expected)
@@ -141,9 +145,10 @@ def test_every_format_gives_the_same_design(folder, mjcf):
     assert found["standard input"]["robot"]["source"] == "-"
 
 
-def test_the_exported_robot_can_be_read_again(folder):
+@pytest.mark.parametrize("motor", ["none", "EC 90 flat 90 W 323772"])
+def test_the_exported_robot_can_be_read_again(folder, motor):
     """It is a robot like any other, only its device's names are taken."""
-    design(SOLO12, "-o", "first")
+    design(SOLO12, "--motor", motor, "-o", "first")
     for name in ("solo12_ocs.urdf", "solo12_ocs.xml"):
         result = run("inspect", folder / "first" / "robot" / name, "--json")
         assert result.code == 0

@@ -64,10 +64,20 @@ OPTIONS = [
     "--wheel-mass-max",
     "--position",
     "--material",
+    "--motor",
+    "--gear",
+    "--bus-voltage",
     "--joint",
     "--posture",
     "--trunk",
 ]
+# One drive: how the choice among all of them goes is no matter of what is typed, but of minutes.
+DRIVES = st.sampled_from(
+    [
+        ("--motor=none",),
+        ("--motor=EC 90 flat 90 W 323772", "--gear=direct", "--material=brass-c360"),
+    ]
+)
 VALUES = st.one_of(
     QUANTITIES,
     st.floats(),
@@ -104,19 +114,47 @@ def check_exit(folder, *arguments):
     mass=QUANTITIES,
     inertia=INERTIAS,
     options=st.dictionaries(st.sampled_from(OPTIONS), QUANTITIES, max_size=3),
+    drive=DRIVES,
 )
-@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--r-max": "1e-300"})
-@example(mass="1e-300", inertia="1e-300,1e-300,1e-300", options={})
-@example(mass="1e300", inertia="1e300,1e300,1e300", options={})
-@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--wheel-speed-max": "1e-300"})
-@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--wheel-speed-max": "1e300"})
-@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--rate-change": "1e300"})
-@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--rate-change": "1e-300"})
-@example(mass="2.5", inertia="0.03,0.05,0.07", options={"--wheel-mass-max": "1e-300"})
-def test_robots_by_hand(folder, mass, inertia, options):
+@example(
+    mass="2.5", inertia="0.03,0.05,0.07", options={"--r-max": "1e-300"}, drive=("--motor=none",)
+)
+@example(mass="1e-300", inertia="1e-300,1e-300,1e-300", options={}, drive=("--motor=none",))
+@example(mass="1e300", inertia="1e300,1e300,1e300", options={}, drive=("--motor=none",))
+@example(
+    mass="2.5",
+    inertia="0.03,0.05,0.07",
+    options={"--wheel-speed-max": "1e-300"},
+    drive=("--motor=none",),
+)
+@example(
+    mass="2.5",
+    inertia="0.03,0.05,0.07",
+    options={"--wheel-speed-max": "1e300"},
+    drive=("--motor=none",),
+)
+@example(
+    mass="2.5",
+    inertia="0.03,0.05,0.07",
+    options={"--rate-change": "1e300"},
+    drive=("--motor=none",),
+)
+@example(
+    mass="2.5",
+    inertia="0.03,0.05,0.07",
+    options={"--rate-change": "1e-300"},
+    drive=("--motor=none",),
+)
+@example(
+    mass="2.5",
+    inertia="0.03,0.05,0.07",
+    options={"--wheel-mass-max": "1e-300"},
+    drive=("--motor=none",),
+)
+def test_robots_by_hand(folder, mass, inertia, options, drive):
     typed = [f"{name}={value}" for name, value in options.items()]
     by_hand = (f"--mass={mass}", f"--inertia={inertia}")
-    check_exit(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
+    check_exit(folder, "size", *by_hand, *drive, *typed, "--no-validate", "-q", "-o", "out")
 
 
 @settings(FUZZ, max_examples=10)
@@ -129,14 +167,15 @@ def test_robots_by_hand(folder, mass, inertia, options):
         st.floats(-12.0, 12.0).map(lambda n: f"{10.0**n:.6g}"),
         max_size=2,
     ),
+    drive=DRIVES,
 )
-def test_robots_that_can_exist_of_any_size(folder, moments, size, density, options):
+def test_robots_that_can_exist_of_any_size(folder, moments, size, density, options, drive):
     """From a grain of dust to a mountain, with limits from a hair's breadth to the moon's way."""
     mass = 10.0 ** (density + 3.0 * size)
     inertia = ",".join(f"{mass * 10.0 ** (2.0 * size) * moment:.6g}" for moment in moments)
     typed = [f"{name}={value}" for name, value in options.items()]
     by_hand = (f"--mass={mass:.6g}", f"--inertia={inertia}")
-    check_exit(folder, "size", *by_hand, *typed, "--no-validate", "-q", "-o", "out")
+    check_exit(folder, "size", *by_hand, *drive, *typed, "--no-validate", "-q", "-o", "out")
 
 
 def toml(value):
@@ -162,15 +201,17 @@ def toml(value):
         max_size=5,
     ),
     kind=st.sampled_from([*MANEUVER_KINDS, "salto", None]),
+    drive=DRIVES,
 )
-def test_specifications(folder, stated, maneuver, kind):
+def test_specifications(folder, stated, maneuver, kind, drive):
     lines = [f"{path} = {toml(value)}" for path, value in stated.items()]
     if kind is not None:
         lines += ["[[maneuver]]", f"kind = {toml(kind)}"]
         lines += [f"{name} = {toml(value)}" for name, value in maneuver.items()]
     (folder / "s.toml").write_text("\n".join(lines))
     by_hand = ("--mass", "2.5", "--inertia", "0.03,0.05,0.07")
-    check_exit(folder, "size", "--spec", "s.toml", *by_hand, "--no-validate", "-q", "-o", "out")
+    typed = ("--spec", "s.toml", *by_hand, *drive)
+    check_exit(folder, "size", *typed, "--no-validate", "-q", "-o", "out")
 
 
 @pytest.mark.slow
@@ -189,5 +230,6 @@ def test_flights_of_robots_by_hand(folder, moments, scale, speed, torque):
         f"--inertia={','.join(f'{0.05 * size * moment:.6g}' for moment in moments)}",
         f"--wheel-speed-max={10.0**speed:.6g}",
         f"--torque-max={10.0**torque * size:.6g}",
+        "--motor=none",
     )
     check_exit(folder, "size", *typed, "-q", "-o", "out")

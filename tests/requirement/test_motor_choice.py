@@ -76,7 +76,10 @@ def test_own_motors_join_the_catalogue(tmp_path):
 @pytest.mark.parametrize(
     ("specification", "words"),
     [
-        (Specification(motor=MotorSection(name="R80")), ("motor.name", "Did you mean", "R80 KV110")),
+        (
+            Specification(motor=MotorSection(name="R80")),
+            ("motor.name", "Did you mean", "R80 KV110"),
+        ),
         (Specification(motor=MotorSection(name="%%%")), ("motor.name", "catalogue motors")),
         (Specification(motor=MotorSection(gear="no gear")), ("motor.gear", "no gear")),
         (

@@ -10,8 +10,8 @@ from selections import random_problem
 from ocs_design.exceptions import Infeasible
 from ocs_design.sizing.selection.select import select
 
-FAST = (0, 11, 16)
-"""Among them one in which only a smaller module than the lightest can be carried (11)."""
+FAST = (16,)
+"""Of the others, in 0, 11, 17 and 22 the lightest module is too large to be carried."""
 
 
 def compare(seed):
@@ -34,12 +34,16 @@ def compare(seed):
     assert does_all(problem, drive, found.material, angle, *rim, slack=2e-5).all()
 
 
+OWN_WEIGHT = (0, 11, 17, 22)
+"""Problems near the edge, where a device can hardly carry itself."""
+
+
 @pytest.mark.parametrize("seed", FAST)
 def test_no_lighter_device_on_a_grid(seed):
     compare(seed)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [seed for seed in range(24) if seed not in FAST])
+@pytest.mark.parametrize("seed", [seed for seed in OWN_WEIGHT if seed not in FAST])
 def test_no_lighter_device_on_many_grids(seed):
     compare(seed)

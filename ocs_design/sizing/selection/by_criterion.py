@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import pi
 
+from ocs_design.exceptions import Infeasible
 from ocs_design.sizing.incidence import Criterion, incidence_by_criterion
 from ocs_design.sizing.selection.momenta import design_momenta
 from ocs_design.sizing.selection.problem import SelectionProblem
@@ -45,7 +46,10 @@ def select_by(
 
 
 def _settled_angle(problem: SelectionProblem, winner: Candidate, criterion: Criterion) -> float:
-    """The incidence [rad] that the criterion sets for the device that it makes of these parts."""
+    """The incidence [rad] that the criterion sets for the device that it makes of these parts.
+
+    Where they make no device on the way there, it is the first one at which they do not.
+    """
     alone = replace(
         problem, motors=(winner.motor,), gears=(winner.gear,), materials=(winner.material,)
     )
@@ -56,7 +60,11 @@ def _settled_angle(problem: SelectionProblem, winner: Candidate, criterion: Crit
         change, angle = abs(following - angle), following
         if change < _SETTLED:
             break
-        found = select(replace(alone, incidence=min(angle, pi / 2.0))).best
+        try:
+            found = select(replace(alone, incidence=min(angle, pi / 2.0)), advise=False).best
+        except Infeasible:
+            # Not of these parts, then: whether of others, the whole selection tells.
+            break
     return angle
 
 

@@ -68,17 +68,28 @@ class FixedPoint(NamedTuple):
     margin: FloatArray
     residual: FloatArray
 
+    def take(self, rows: NDArray[np.intp]) -> "FixedPoint":
+        """The candidates of these rows."""
+        return FixedPoint(
+            spin_inertia=self.spin_inertia[rows],
+            angle=self.angle[rows],
+            shapes=ModuleShape(*(values[rows] for values in self.shapes)),
+            possible=self.possible[rows],
+            margin=self.margin[rows],
+            residual=self.residual[rows],
+        )
+
     def put(self, rows: NDArray[np.intp], others: "FixedPoint") -> "FixedPoint":
         """With other candidates in these rows."""
         return FixedPoint(
-            spin_inertia=_put(self.spin_inertia, rows, others.spin_inertia),
-            angle=_put(self.angle, rows, others.angle),
+            spin_inertia=put_rows(self.spin_inertia, rows, others.spin_inertia),
+            angle=put_rows(self.angle, rows, others.angle),
             shapes=ModuleShape(
-                *(_put(a, rows, b) for a, b in zip(self.shapes, others.shapes, strict=True))
+                *(put_rows(a, rows, b) for a, b in zip(self.shapes, others.shapes, strict=True))
             ),
-            possible=_put(self.possible, rows, others.possible),
-            margin=_put(self.margin, rows, others.margin),
-            residual=_put(self.residual, rows, others.residual),
+            possible=put_rows(self.possible, rows, others.possible),
+            margin=put_rows(self.margin, rows, others.margin),
+            residual=put_rows(self.residual, rows, others.residual),
         )
 
 
@@ -149,6 +160,15 @@ def fixed_point(
     return FixedPoint(spin, design.angle, shapes, settled, margin, residual), iterations
 
 
+def put_rows(
+    values: NDArray[Number], rows: NDArray[np.intp], others: NDArray[Number]
+) -> NDArray[Number]:
+    """A copy with other values in these rows."""
+    copy = values.copy()
+    copy[rows] = others
+    return copy
+
+
 def _step(
     problem: SelectionProblem, lot: Lot, spin: FloatArray, shapes: ModuleShape, design: Design
 ) -> _Step:
@@ -183,15 +203,6 @@ def _best(tried: Reach) -> NDArray[np.intp]:
     middle = score.shape[1] // 2
     score[:, middle] *= 1.0 - 1e-15
     return np.asarray(np.argmin(score, axis=1))
-
-
-def _put(
-    values: NDArray[Number], rows: NDArray[np.intp], others: NDArray[Number]
-) -> NDArray[Number]:
-    """A copy with other values in these rows."""
-    copy = values.copy()
-    copy[rows] = others
-    return copy
 
 
 def _along_secant(

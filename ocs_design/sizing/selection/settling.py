@@ -10,21 +10,58 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.rim_closed_form import smallest_spin_inertia
-from ocs_design.sizing.selection.fixed_point import Design, FixedPoint, Tolerance, fixed_point
+from ocs_design.sizing.selection.fixed_point import (
+    Design,
+    FixedPoint,
+    Tolerance,
+    fixed_point,
+    put_rows,
+)
 from ocs_design.sizing.selection.lot import Lot
 from ocs_design.sizing.selection.problem import SelectionProblem
 
-# Of the logarithm of a radius, around the best so far.
-_POINTS = np.linspace(-1.0, 1.0, 7)
-# How far around: each time a little beyond the neighbours of the best so far. First as shares of
-# all radii, then as they are.
-_COARSE, _CLOSER = (1.0, 0.4, 0.15), (0.1, 0.04, 0.016, 0.006, 0.0025, 0.001)
-# Of the logarithm of a flatness, which goes with the radius: either alone may be too much.
-_FEW_POINTS = np.array([-1.0, 0.0, 1.0])
+
+class _Around(NamedTuple):
+    """Where to look around the best design so far.
+
+    Attributes:
+        span: how far, of the logarithm of the radius; ten times as far of the flatness.
+        radii, flatnesses: how many of each; a radius or a flatness alone may be too much.
+    """
+
+    span: float
+    radii: int
+    flatnesses: int
+
+    @property
+    def steps(self) -> tuple[FloatArray, FloatArray]:
+        """Of the logarithms of radius and flatness, every one with each other, shape (k,)."""
+        flat = 10.0 * self.span * np.linspace(-1.0, 1.0, self.flatnesses)
+        pairs = np.meshgrid(
+            self.span * np.linspace(-1.0, 1.0, self.radii),
+            flat if self.flatnesses > 1 else np.zeros(1),
+            indexing="ij",
+        )
+        return pairs[0].ravel(), pairs[1].ravel()
+
+
+# Each time a little beyond the neighbours of the best so far: first over shares of all radii...
+_COARSE = (_Around(1.0, 7, 1), _Around(0.4, 7, 1), _Around(0.15, 7, 1))
+# ... then over what they are, for few with more points at once, as calls of numpy cost the same.
+_CLOSER = (
+    _Around(0.1, 7, 3),
+    _Around(0.04, 7, 3),
+    *(_Around(span, 11, 5) for span in (0.016, 6e-3, 2.2e-3, 8e-4, 3e-4, 1e-4, 4e-5)),
+)
+# Over what is not possible yet is given up.
+_HOPELESS = 0.01
+# By how much the mass may fall as the design is closed in on, over the span.
+_FALL = 0.5
 # Half the range of incidences around a design that is about settled [rad].
 _NEAR = 0.01
 _ROUGH = Tolerance(residual=1e-7, width=0.05)
@@ -86,14 +123,16 @@ def settle(problem: SelectionProblem, lot: Lot, outset: Outset) -> Settled:
     radius, span = _radii(problem, lot, start)
     design = Design(radius, np.ones_like(start), outset.angle, outset.width)
     search = _Search(problem, lot, start, design)
-    for share in _COARSE:
-        search.close_in(share * span, share * outset.width, np.zeros(1))
+    for around in _COARSE:
+        search.close_in(around, scale=span, width=around.span * outset.width)
     point, iterations = search.point(np.zeros_like(start))
     return Settled(lot, outset, search.design, point, iterations)
 
 
 def refine(problem: SelectionProblem, settled: Settled, lightest: float) -> Settled:
     """The same, with what may be the lightest device of all to about 1e-6 of its mass.
+
+    To 1e-4, where three maneuvers ask for the same and no dimension can be mended alone.
 
     Args:
         problem: robot, requirement and place.
@@ -106,13 +145,18 @@ def refine(problem: SelectionProblem, settled: Settled, lightest: float) -> Sett
         return settled
     lot, design = settled.lot.take(rows), Design(*(column[rows] for column in settled.design))
     start = np.maximum(settled.outset.spin_inertia[rows], lot.least_spin_inertia)
-    search, width = _Search(problem, lot, start, design), settled.outset.width[rows]
-    width = np.minimum(width, _NEAR)
-    for span in _CLOSER:
-        share = span / _CLOSER[0]
-        search.close_in(np.full_like(width, span), share * width, share * _FEW_POINTS)
-    point, _ = search.point(1e-3 * width)
-    return replace(settled, point=settled.point.put(rows, point))
+    width = np.minimum(settled.outset.width[rows], _NEAR) / _CLOSER[0].span
+    search, active = _Search(problem, lot, start, design), np.arange(rows.size)
+    for around in _CLOSER:
+        some = search.take(active)
+        mass = some.close_in(around, np.ones(active.size), around.span * width[active])
+        search.put(active, some)
+        keep = mass <= (1.0 + _FALL * around.span) * mass.min()
+        # What is not possible yet may be, looked at more closely.
+        active = active[keep | ((mass >= _BEYOND / 2.0) & (around.span > _HOPELESS))]
+    point, _ = search.point(_CLOSER[-1].span * width)
+    better = np.flatnonzero(point.possible)
+    return replace(settled, point=settled.point.put(rows[better], point.take(better)))
 
 
 def _radii(problem: SelectionProblem, lot: Lot, start: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -135,27 +179,42 @@ class _Search:
     start: FloatArray
     design: Design
 
-    def close_in(self, span: FloatArray, width: FloatArray, flatness: FloatArray) -> None:
+    def take(self, rows: NDArray[np.intp]) -> "_Search":
+        """The candidates of these rows."""
+        design = Design(*(column[rows] for column in self.design))
+        return _Search(self.problem, self.lot.take(rows), self.start[rows], design)
+
+    def put(self, rows: NDArray[np.intp], others: "_Search") -> None:
+        """Their designs back."""
+        columns = zip(self.design, others.design, strict=True)
+        self.design = Design(*(put_rows(own, rows, other) for own, other in columns))
+
+    def close_in(self, around: _Around, scale: FloatArray, width: FloatArray) -> FloatArray:
         """Take the best of several designs around, or the closest to possible.
 
         Args:
-            span: of the logarithm of the radius, shape (n,).
+            around: where to look.
+            scale: of its span, shape (n,).
             width: of the incidence [rad], shape (n,).
-            flatness: steps of its logarithm, shape (k,).
+
+        Returns:
+            Mass of each candidate [kg], shape (n,); large where none is possible.
         """
-        radii, flat = np.meshgrid(_POINTS, flatness, indexing="ij")
+        radii, flatnesses = around.steps
         times = radii.size
         each = Design(*(np.repeat(column, times) for column in self.design._replace(width=width)))
-        each = each._replace(
-            radius=each.radius * np.exp(np.outer(span, radii).ravel()),
-            flatness=np.maximum(each.flatness * np.exp(np.tile(flat.ravel(), span.size)), 1.0),
-        )
+        radius = each.radius * np.exp(np.outer(scale, radii).ravel())
+        flatness = each.flatness * np.exp(np.tile(flatnesses, scale.size))
+        each = each._replace(radius=radius, flatness=np.maximum(flatness, 1.0))
         start, lot = np.repeat(self.start, times), self.lot.repeated(times)
         point, _ = fixed_point(self.problem, lot, start, each, _ROUGH)
         with np.errstate(divide="ignore"):
-            score = np.where(point.possible, point.shapes.mass, _BEYOND / point.margin)
-        at = np.argmin(score.reshape(-1, times), axis=1) + times * np.arange(self.start.size)
+            mass = lot.drives.mass + point.shapes.mass
+            score = np.where(point.possible, mass, _BEYOND / point.margin)
+        at = np.argmin(score.reshape(-1, times), axis=1) + times * np.arange(scale.size)
         self.design = Design(each.radius[at], each.flatness[at], point.angle[at], width)
+        best: FloatArray = score[at]
+        return best
 
     def point(self, width: FloatArray) -> tuple[FixedPoint, int]:
         """What the best so far come to, to all digits."""

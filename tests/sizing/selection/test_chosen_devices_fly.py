@@ -9,7 +9,7 @@ from ocs_design.planning import plan
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.sizing.selection.select import select
 
-POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10)
+POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 11)
 
 
 @pytest.mark.slow

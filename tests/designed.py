@@ -1,0 +1,29 @@
+"""Devices for Solo12's figures, designed with one motor or with none."""
+
+from functools import cache
+
+from fronts import by_hand
+
+from ocs_design.designing import design_device
+from ocs_design.requirement.specification import (
+    FlywheelSection,
+    MotorSection,
+    OcsSection,
+    Specification,
+)
+
+MOTOR = "AT2814 KV1200"
+
+
+@cache
+def designed(motor=MOTOR, alpha=None, criterion=None):
+    """The task and what came of it."""
+    task = by_hand()
+    given = Specification(
+        robot=task.specification.robot,
+        motor=MotorSection(name=motor, gear=None if motor == "none" else "direct"),
+        flywheel=FlywheelSection(material="steel-4140-normalized"),
+        ocs=OcsSection(alpha=alpha, alpha_criterion=criterion),
+    )
+    task = task.with_specification(given)
+    return task, design_device(given, task.robot, task.resolved)

@@ -1,0 +1,94 @@
+"""The incidence by a criterion is that of the robot with the very device that came of it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from drawn_selections import draw
+from naive_device import Drive, Rims, inertia_on
+
+from ocs_design.exceptions import Infeasible
+from ocs_design.sizing.incidence import Criterion
+from ocs_design.sizing.selection.by_criterion import select_by
+from ocs_design.sizing.selection.select import select
+
+DRAWN = (4,)
+EXACT = 1e-6
+"""To which a mass is settled, relative."""
+EQUAL_RATE, SIMULTANEOUS = Criterion.EQUAL_RATE, Criterion.SIMULTANEOUS
+
+
+@pytest.fixture(scope="module", params=DRAWN)
+def problem(request):
+    return replace(draw(request.param).problem, incidence=None)
+
+
+@pytest.fixture(scope="module")
+def found(problem):
+    criteria = (None, EQUAL_RATE, SIMULTANEOUS)
+    return {criterion: select_by(problem, criterion).best for criterion in criteria}
+
+
+def worked_out(problem, device):
+    """Inertia about roll and pitch with the device on, by hand."""
+    drive = Drive(problem, device.motor, device.gear)
+    sizes = (device.outer_radius, device.inner_radius, device.height)
+    rims = Rims(*(np.array([size]) for size in sizes), device.material.density)
+    return inertia_on(problem, drive, rims, np.array([device.incidence]))[:, 0]
+
+
+def largest_momenta(problem, inertia):
+    """On roll and on pitch, by the formulas of each kind of maneuver."""
+    both = np.diag([*inertia, 0.0])
+    found = [np.zeros(2)]
+    found.extend(
+        maneuver.momentum(both, problem.requirement.standing_height)
+        for maneuver in problem.requirement.maneuvers
+        if maneuver.incidence is None
+    )
+    found.append(inertia * (problem.requirement.rate_change or 0.0))
+    return np.max(found, axis=0)
+
+
+def test_equal_rate_is_that_of_robot_and_device(problem, found):
+    """tan(alpha) = I_roll / I_pitch: the same momentum per inertia on both axes."""
+    device = found[EQUAL_RATE]
+    roll, pitch = worked_out(problem, device)
+    assert device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
+
+
+def test_simultaneous_is_that_of_robot_and_device(problem, found):
+    """tan(alpha) = (h_roll / h_pitch)^(1/3)."""
+    device = found[SIMULTANEOUS]
+    roll, pitch = largest_momenta(problem, worked_out(problem, device))
+    assert device.incidence == pytest.approx(np.arctan(np.cbrt(roll / pitch)), abs=1e-8)
+
+
+def test_a_criterion_is_never_lighter_than_what_is_lightest(found):
+    lightest = found[None].mass
+    for criterion in (EQUAL_RATE, SIMULTANEOUS):
+        assert found[criterion].mass >= lightest * (1.0 - EXACT)
+
+
+def test_of_all_devices_at_that_incidence_it_is_the_lightest(problem, found):
+    for criterion in (EQUAL_RATE, SIMULTANEOUS):
+        device = found[criterion]
+        there = select(replace(problem, incidence=device.incidence)).best
+        assert (there.motor, there.gear, there.material) == (
+            device.motor,
+            device.gear,
+            device.material,
+        )
+        assert there.mass == pytest.approx(device.mass, rel=EXACT)
+
+
+def test_a_stated_incidence_goes_first(problem):
+    stated = replace(problem, incidence=0.5)
+    assert select_by(stated, EQUAL_RATE).best.incidence == 0.5
+
+
+def test_what_no_motor_can_do_there_is_said_of_all_of_them():
+    """At the incidence that its lightest device leads to, not even that one can do it."""
+    problem = replace(draw(15).problem, incidence=None)
+    with pytest.raises(Infeasible, match=f"None of {len(problem.motors)} motors"):
+        select_by(problem, Criterion.WEIGHTED, advise=False)

@@ -1,0 +1,159 @@
+"""What limits cost, against optimising the module anew on another path."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from drawn_selections import draw
+from naive_device import Drive, Rims, asked
+from rims import STEEL
+from scipy.optimize import minimize
+
+from ocs_design.requirement.maneuver import Drop, Flip
+from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.selection.sized import sized_selection
+
+FIELD = {
+    "r_max": "outer_radius_max",
+    "h_max": "height_max",
+    "wall_min": "wall_min",
+    "h_min": "height_min",
+}
+STEP = 1e-3
+"""Relative, of a limit: central differences are then right to about its square."""
+
+
+def stressed(problem, safety):
+    """Of steel alone, and that far from its strength."""
+    room = replace(problem.envelope, stress_safety=safety)
+    return replace(problem, envelope=room, materials=(STEEL,))
+
+
+PROBLEMS = {
+    "wide and tall": draw(2).problem,
+    "thin": draw(4).problem,
+    "stressed": stressed(draw(1).problem, 8.0),
+    "crowded": stressed(draw(4).problem, 15.0),
+}
+
+
+@pytest.fixture(scope="module", params=PROBLEMS)
+def answer(request):
+    problem = replace(PROBLEMS[request.param], incidence=0.4)
+    best = select(problem).best
+    return problem, best, sized_selection(problem, best)
+
+
+def lightest_mass(problem, device, room, stress):
+    """Of one rim with its housing, over outer and inner radius in parts of the design's."""
+    drive = Drive(problem, device.motor, device.gear)
+    inertia = device.spin_inertia - drive.rotor_momentum
+    density, nu = device.material.density, device.material.poisson_ratio
+    radius = device.outer_radius
+
+    def rims(x):
+        outer, inner = radius * x
+        height = 2.0 * inertia / (np.pi * density * (outer**4 - inner**4))
+        return Rims(outer, inner, height, density)
+
+    def mass(x):
+        return rims(x).body[0] + rims(x).housing[0]
+
+    def spare(x):
+        rim = rims(x)
+        squares = (3.0 + nu) * rim.outer**2 + (1.0 - nu) * rim.inner**2
+        stressed = density * drive.proof_speed**2 / 4.0 * squares
+        return np.array(
+            [
+                1.0 - rim.outer / room.outer_radius_max,
+                rim.inner / room.inner_radius_min - 1.0,
+                1.0 - rim.height / room.height_max,
+                rim.height / room.height_min - 1.0,
+                (rim.outer - rim.inner) / room.wall_min - 1.0,
+                1.0 - rim.body[0] / room.mass_max,
+                1.0 - stressed / stress,
+            ]
+        )
+
+    whole = mass(np.array([1.0, device.inner_radius / radius]))
+    starts = ([1.0, device.inner_radius / radius], [0.97, 0.8], [0.97, 0.5])
+    found = [
+        minimize(
+            lambda x: mass(x) / whole,
+            start,
+            method="SLSQP",
+            constraints={"type": "ineq", "fun": spare},
+            options={"ftol": 1e-15, "maxiter": 500},
+        )
+        for start in starts
+    ]
+    return whole * min(each.fun for each in found if spare(each.x).min() > -1e-9)
+
+
+def allowed_stress(problem, device):
+    return device.material.yield_strength / problem.envelope.stress_safety
+
+
+def masses_around(problem, device, name):
+    """With the limit a little less and a little more, and the limit's own value."""
+    room, stress = problem.envelope, allowed_stress(problem, device)
+    factors = (1.0 - STEP, 1.0 + STEP)
+    if name == "hoop_stress":
+        found = [lightest_mass(problem, device, room, stress * by) for by in factors]
+        return found, stress
+    value = getattr(room, FIELD[name])
+    rooms = [replace(room, **{FIELD[name]: value * by}) for by in factors]
+    return [lightest_mass(problem, device, each, stress) for each in rooms], value
+
+
+def test_prices_are_what_one_more_of_a_limit_is_worth(answer):
+    problem, device, sized = answer
+    assert sized.shadow_prices
+    for name, price in sized.shadow_prices.items():
+        (less, more), value = masses_around(problem, device, name)
+        expected = (more - less) / (2.0 * STEP * value)
+        assert price == pytest.approx(expected, rel=1e-4), name
+
+
+def test_what_binds_has_a_price_if_it_is_a_limit(answer):
+    _, device, sized = answer
+    assert set(sized.shadow_prices) == set(device.binding) - {"housing"}
+
+
+def test_the_wheel_may_turn_as_fast_as_reserve_and_mechanics_allow(answer):
+    problem, device, sized = answer
+    top = Drive(problem, device.motor, device.gear).top
+    assert sized.wheel_speed_max == pytest.approx(top, rel=1e-12)
+
+
+def test_demands_are_those_of_the_inertia_with_the_device(answer):
+    """Turns: 2 I theta / T and 4 I theta / T^2, of the busier wheel (docs/theory.md)."""
+    problem, device, sized = answer
+    inertia = np.diag(device.total.inertia)[:2]
+    levers = 2.0 * np.array([np.sin(device.incidence), np.cos(device.incidence)])
+    turns = [
+        maneuver
+        for maneuver in problem.requirement.maneuvers
+        if maneuver.incidence is None and isinstance(maneuver, (Drop, Flip))
+    ]
+    demands = {demand.source: demand for demand in sized.demands}
+    assert turns
+    for turn in turns:
+        height = problem.requirement.standing_height
+        swept, _, time = asked(turn, inertia[:, None], height)
+        momentum = 2.0 * swept[:, 0] / time
+        np.testing.assert_allclose(demands[turn.name].momentum, momentum, rtol=1e-9, atol=1e-15)
+        torque = (2.0 * momentum / time / levers).sum()
+        assert demands[turn.name].torque == pytest.approx(torque, rel=1e-9)
+
+
+def test_a_rate_change_is_a_demand_of_each_axis(answer):
+    problem, _, _ = answer
+    asking = replace(problem, requirement=replace(problem.requirement, rate_change=0.1))
+    device = select(asking).best
+    demands = {each.source: each for each in sized_selection(asking, device).demands}
+    for axis, name in enumerate(("roll", "pitch")):
+        expected = np.zeros(2)
+        expected[axis] = 0.1 * device.total.inertia[axis, axis]
+        found = demands[f"rate change, {name}"].momentum
+        np.testing.assert_allclose(found, expected, rtol=1e-12)

@@ -1,0 +1,55 @@
+"""From a command's parameters to what was stated."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from ocs_design.cli_stated import stated_package_paths, stated_specification
+from ocs_design.exceptions import UsageError
+
+
+def stated(**parameters):
+    return stated_specification(SimpleNamespace(params={"spec": None, **parameters}))
+
+
+def test_nothing_stated_is_an_empty_specification():
+    specification = stated(robot=None, motor=None, joint=(), co_design=False)
+    assert specification.motor.name is None
+    assert specification.ocs.co_design is None
+    assert specification.robot.joints is None
+
+
+def test_options_are_keys_by_their_names():
+    specification = stated(
+        robot="dog.urdf", motor="none", r_max="40 mm", co_design=True, joint=("knee=90 deg",)
+    )
+    assert specification.robot.file == "dog.urdf"
+    assert specification.motor.name == "none"
+    assert specification.flywheel.r_max == pytest.approx(0.04)
+    assert specification.ocs.co_design is True
+    assert specification.robot.joints == {"knee": pytest.approx(1.5707963267948966)}
+
+
+def test_what_is_declined_is_false():
+    assert stated(no_validate=True).validation.enabled is False
+    assert stated(no_validate=False).validation.enabled is None
+
+
+def test_an_option_goes_over_the_file_and_leaves_the_rest(tmp_path):
+    file = tmp_path / "spec.toml"
+    file.write_text('[motor]\nname = "MN4010 KV580"\nbus_voltage = "48 V"\n')
+    specification = stated(spec=str(file), motor="none")
+    assert (specification.motor.name, specification.motor.bus_voltage) == ("none", 48.0)
+
+
+def test_package_paths_are_pairs():
+    assert stated_package_paths(None) == {}
+    found = stated_package_paths(["a=/opt/a", "b=/opt/with=sign"])
+    assert found == {"a": Path("/opt/a"), "b": Path("/opt/with=sign")}
+
+
+@pytest.mark.parametrize("text", ["alone", "=folder", "name="])
+def test_what_is_no_pair_is_refused(text):
+    with pytest.raises(UsageError, match="is not NAME=DIR"):
+        stated_package_paths([text])
