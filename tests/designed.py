@@ -6,13 +6,12 @@ from fronts import by_hand
 
 from ocs_design.designing import design_device
 from ocs_design.requirement.specification import (
-    FlywheelSection,
     MotorSection,
     OcsSection,
     Specification,
 )
 
-MOTOR = "AT2814 KV1200"
+MOTOR = "EC 45 flat 70 W 411812"
 
 
 @cache
@@ -22,7 +21,6 @@ def designed(motor=MOTOR, alpha=None, criterion=None):
     given = Specification(
         robot=task.specification.robot,
         motor=MotorSection(name=motor, gear=None if motor == "none" else "direct"),
-        flywheel=FlywheelSection(material="steel-4140-normalized"),
         ocs=OcsSection(alpha=alpha, alpha_criterion=criterion),
     )
     task = task.with_specification(given)

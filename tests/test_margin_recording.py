@@ -37,11 +37,11 @@ def recorded(runs=(), plans=None, motor=None):
 def planned(speed):
     turning = np.broadcast_to([speed, 0.0], (TIME.size, 2))
     still = np.zeros((TIME.size, 3))
-    upright = np.broadcast_to([1.0, 0.0, 0.0, 0.0], (TIME.size, 4))
+    upright = np.broadcast_to([0.0, 0.0, 1.0], (TIME.size, 3))
     return Reference(
         Trajectory(
-            time=TIME, attitude=upright, rate=still, acceleration=still, wheel_speed=turning,
-            wheel_torque=0.0 * turning, note="",
+            time=TIME, vertical=upright, rate=still, acceleration=still, wheel_speed=turning,
+            wheel_torque=0.0 * turning, turned=0.0 * TIME, note="",
         ),
         "",
         None,
