@@ -95,6 +95,7 @@ def device_demands(
 
     @cache
     def inertia_at(angle: float) -> FloatArray:
+        """Of the whole with its wheels at this incidence [kg m^2], shape (3, 3)."""
         return braked_total(problem, shape, angle).inertia
 
     found: list[SpinDemand] = []

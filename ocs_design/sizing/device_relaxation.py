@@ -55,6 +55,7 @@ def device_changes(problem: DeviceProblem) -> dict[Limit, float]:
     """For each limit that can mend the device alone, the value that just does (SI)."""
 
     def mends(limit: Limit, value: float) -> bool:
+        """Whether there is a device with this limit changed."""
         return isinstance(find_fixed_point(with_limit(problem, limit, value)), FixedPoint)
 
     values = {limit: _value(problem, limit) for limit in _limits_set(problem)}

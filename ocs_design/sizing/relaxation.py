@@ -41,6 +41,7 @@ def rim_changes(problem: RimProblem) -> dict[Limit, float]:
     """For each limit that can mend the rim alone, the value that just does (SI)."""
 
     def mends(limit: Limit, value: float) -> bool:
+        """Whether there is a rim with this limit changed."""
         return is_feasible(with_limit(problem, limit, value))
 
     values = {limit: limit.value(problem.envelope) for limit in limits_set(problem)}

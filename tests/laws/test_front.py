@@ -10,8 +10,8 @@ from ocs_design.pareto import draw_front, lightest_device, read_task
 from ocs_design.requirement.specification import RobotSection, Specification
 from ocs_design.requirement.sweeps import SWEEPS
 
-SETTLED = 1e-4
-"""Relative, to which the selection finds the lightest of one drive: it searches three figures."""
+SETTLED = 1e-9
+"""Relative, to which the selection finds the lightest of one drive."""
 
 
 @pytest.fixture(scope="module")

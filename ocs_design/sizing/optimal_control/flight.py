@@ -105,6 +105,7 @@ def after_push(gyrostat: Gyrostat, asked: Boundary) -> FloatArray:
     step = asked.push_duration / _PUSH_STEPS
 
     def slope(now: FloatArray) -> FloatArray:
+        """Rates of change of vertical and rate under the push: Euler's equation."""
         vertical, rate = now[:3], now[3:]
         torque = asked.push + _cross(inertia @ rate, rate)
         return np.append(_cross(vertical, rate), np.linalg.solve(inertia, torque))

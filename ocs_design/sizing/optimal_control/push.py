@@ -19,6 +19,7 @@ def start_state(asked: Boundary, plant: Plant) -> ca.SX:
         inverse, torque = ca.inv(inertia), ca.SX(asked.push)
 
         def slope(now: ca.SX) -> ca.SX:
+            """Rates of change of vertical and rate: Euler's equation."""
             vertical, rate = now[:3], now[3:]
             free = torque - ca.cross(rate, inertia @ rate)
             return ca.vertcat(ca.cross(vertical, rate), inverse @ free)

@@ -28,6 +28,7 @@ class Part(NamedTuple):
 
     Attributes:
         name: of the maneuver, or "the rate change".
+        incidence: at which it is done [rad], shape (k,).
         time: asked for [s]; inf: none is set.
         needed: smallest spin inertia that does it [kg m^2], shape (n, k); inf: none does.
         late: time with the largest wheel over that asked for, shape (n, k), or momentum asked for
@@ -36,6 +37,7 @@ class Part(NamedTuple):
     """
 
     name: str
+    incidence: FloatArray
     time: float
     needed: FloatArray
     late: FloatArray
@@ -120,18 +122,19 @@ def _parts(
         shares = np.broadcast_to(shares_of(at), (*shape, 2))
         whole = np.broadcast_to(inertia, shares.shape)
         height = problem.requirement.standing_height
-        yield _maneuver(maneuver, height, drives, whole, shares=shares, largest=largest)
+        yield _maneuver(maneuver, at, height, drives, whole, shares=shares, largest=largest)
     rate = problem.requirement.rate_change
     if rate is not None:
         shares = np.broadcast_to(shares_of(angles), (*shape, 2))
         needed = needed_by_rate(rate, drives, inertia, shares)
         late = needed / largest[:, None]
         reason = np.where(np.isinf(needed), SlewReason.AXIS, SlewReason.SPEED)
-        yield Part("the rate change", np.inf, needed, late, reason)
+        yield Part("the rate change", angles, np.inf, needed, late, reason)
 
 
 def _maneuver(
     maneuver: Maneuver,
+    incidence: FloatArray,
     standing_height: float,
     drives: DriveTable,
     inertia: FloatArray,
@@ -145,4 +148,4 @@ def _maneuver(
     needed = smallest_spin_inertia(task, line, armature)[0]
     taken = pair_slew_time(task, largest[:, None], line, armature)[0]
     late = np.divide(taken, time, out=np.full(taken.shape, np.inf), where=time > 0.0)
-    return Part(maneuver.name, time, needed, late, slew_reason(task, line)[0])
+    return Part(maneuver.name, incidence, time, needed, late, slew_reason(task, line)[0])

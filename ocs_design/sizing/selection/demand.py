@@ -51,6 +51,37 @@ def reach(
         spin_inertia: of their wheels [kg m^2], shape (n,).
         angle: incidences of the design [rad], shape (n, k).
     """
+    by_design, turned = _parts(requirement, drives, trunk, spin_inertia, angle)
+    return _worst(by_design, angle.shape), _worst(turned, (len(drives), 1))
+
+
+def margins(
+    requirement: Requirement,
+    drives: DriveTable,
+    trunk: TrunkInertia,
+    spin_inertia: FloatArray,
+    angle: FloatArray,
+) -> FloatArray:
+    """Of each part of the requirement, see `Reach`, shape (n, parts); one incidence per drive.
+
+    Args:
+        requirement: maneuvers and rate change.
+        drives: n of them, each on its own `trunk`.
+        spin_inertia: of their wheels [kg m^2], shape (n,).
+        angle: incidence of the design [rad], shape (n,).
+    """
+    by_design, turned = _parts(requirement, drives, trunk, spin_inertia, angle[:, None])
+    return np.column_stack([part.margin for part in (*by_design, *turned)])
+
+
+def _parts(
+    requirement: Requirement,
+    drives: DriveTable,
+    trunk: TrunkInertia,
+    spin_inertia: FloatArray,
+    angle: FloatArray,
+) -> tuple[list[Reach], list[Reach]]:
+    """Those that are done at the design's incidence, (n, k), and those at their own, (n, 1)."""
     shares, spin = shares_of(angle), spin_inertia[:, None]
     inertia = trunk.at(shares)
     free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
@@ -66,7 +97,7 @@ def reach(
             turned += _tried(
                 [maneuver], height, drives, spin_inertia=spin, inertia=trunk.at(own), shares=own
             )
-    return _worst(by_design, angle.shape), _worst(turned, spin.shape)
+    return by_design, turned
 
 
 def _tried(

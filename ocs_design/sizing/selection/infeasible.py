@@ -62,9 +62,11 @@ def single_changes(problem: SelectionProblem) -> dict[Limit, float]:
     }
 
     def mends(limit: Limit, value: float) -> bool:
+        """Whether there is a device with this limit changed."""
         return is_possible(with_limit(problem, limit, value))
 
     def hopeful(limit: Limit) -> bool:
+        """Whether the largest change would do."""
         return mends(limit, limit.loosened(values[limit], _MOST_CHANGE))
 
     hopes = {limit: value for limit, value in values.items() if hopeful(limit)}

@@ -96,8 +96,15 @@ def _rejection(problem: SelectionProblem, tried: Attempt, row: int, angle: int) 
     reason, detail = _reason(problem, tried, part, row, angle)
     motor, gear = (problem.motors[tried.drives.motor[row]], problem.gears[tried.drives.gear[row]])
     beyond = float(tried.needed[row, angle] / max(tried.largest[row], _NOTHING))
-    shortfall = min(float(tried.late[row, angle]), beyond) - 1.0
-    return Rejection(motor.name, reason, f"{detail} ({gear.name})", shortfall)
+    needed = float(part.needed[row, angle])
+    return Rejection(
+        motor=motor.name,
+        reason=reason,
+        detail=f"{detail} ({gear.name})",
+        shortfall=min(float(tried.late[row, angle]), beyond) - 1.0,
+        needed=needed if np.isfinite(needed) else None,
+        largest=max(float(tried.largest[row]), 0.0),
+    )
 
 
 def _reason(
@@ -107,7 +114,7 @@ def _reason(
     needed, late = float(part.needed[row, angle]), float(part.late[row, angle])
     wheel = f"{part.name} needs a wheel of {needed:.3g} kg m^2"
     if part.reason[row, angle] == SlewReason.AXIS:
-        at = np.degrees(tried.incidence[angle])
+        at = np.degrees(part.incidence[angle])
         return Reason.INCIDENCE, f"{part.name} asks for an axis out of reach at {at:.4g} deg"
     if not late > 1.0:
         return _too_fast_or_heavy(problem, tried, row, wheel, needed)

@@ -129,12 +129,17 @@ class Rejection:
         detail: the same with figures.
         shortfall: by how much it fails: time with the largest wheel that fits over the time given,
             or wheel needed over the largest, whichever is less, over 1; inf if not known.
+        needed: spin inertia of the smallest wheel that would do [kg m^2]; None: none would, however
+            large, or it is not known.
+        largest: of the largest wheel that fits, its rotor included [kg m^2]; None: not looked at.
     """
 
     motor: str
     reason: Reason
     detail: str
     shortfall: float
+    needed: float | None = None
+    largest: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

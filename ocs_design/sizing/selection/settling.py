@@ -23,6 +23,7 @@ from ocs_design.sizing.selection.fixed_point import (
     put_rows,
 )
 from ocs_design.sizing.selection.lot import Lot
+from ocs_design.sizing.selection.polishing import polish
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 
@@ -53,11 +54,7 @@ class _Around(NamedTuple):
 # Each time a little beyond the neighbours of the best so far: first over shares of all radii...
 _COARSE = (_Around(1.0, 7, 1), _Around(0.4, 7, 1), _Around(0.15, 7, 1))
 # ... then over what they are, for few with more points at once, as calls of numpy cost the same.
-_CLOSER = (
-    _Around(0.1, 7, 3),
-    _Around(0.04, 7, 3),
-    *(_Around(span, 11, 5) for span in (0.016, 6e-3, 2.2e-3, 8e-4, 3e-4, 1e-4, 4e-5)),
-)
+_CLOSER = (_Around(0.1, 7, 3), _Around(0.04, 7, 3), _Around(0.016, 11, 5), _Around(6e-3, 11, 5))
 # Over what is not possible yet is given up.
 _HOPELESS = 0.01
 # By how much the mass may fall as the design is closed in on, over the span.
@@ -122,17 +119,15 @@ def settle(problem: SelectionProblem, lot: Lot, outset: Outset) -> Settled:
     start = np.maximum(outset.spin_inertia, lot.least_spin_inertia)
     radius, span = _radii(problem, lot, start)
     design = Design(radius, np.ones_like(start), outset.angle, outset.width)
-    search = _Search(problem, lot, start, design)
+    search = _Search.at(problem, lot, start, design)
     for around in _COARSE:
         search.close_in(around, scale=span, width=around.span * outset.width)
-    point, iterations = search.point(np.zeros_like(start))
+    point, iterations = search.to_all_digits()
     return Settled(lot, outset, search.design, point, iterations)
 
 
 def refine(problem: SelectionProblem, settled: Settled, lightest: float) -> Settled:
-    """The same, with what may be the lightest device of all to about 1e-6 of its mass.
-
-    To 1e-4, where three maneuvers ask for the same and no dimension can be mended alone.
+    """The same, with what may be the lightest device of all to all digits.
 
     Args:
         problem: robot, requirement and place.
@@ -146,17 +141,30 @@ def refine(problem: SelectionProblem, settled: Settled, lightest: float) -> Sett
     lot, design = settled.lot.take(rows), Design(*(column[rows] for column in settled.design))
     start = np.maximum(settled.outset.spin_inertia[rows], lot.least_spin_inertia)
     width = np.minimum(settled.outset.width[rows], _NEAR) / _CLOSER[0].span
-    search, active = _Search(problem, lot, start, design), np.arange(rows.size)
+    search = _Search.at(problem, lot, start, design._replace(width=width))
+    active = np.arange(rows.size)
     for around in _CLOSER:
         some = search.take(active)
-        mass = some.close_in(around, np.ones(active.size), around.span * width[active])
+        some.close_in(around, np.ones(active.size), around.span * width[active])
         search.put(active, some)
-        keep = mass <= (1.0 + _FALL * around.span) * mass.min()
+        keep = some.score <= (1.0 + _FALL * around.span) * search.score.min()
         # What is not possible yet may be, looked at more closely.
-        active = active[keep | ((mass >= _BEYOND / 2.0) & (around.span > _HOPELESS))]
-    point, _ = search.point(_CLOSER[-1].span * width)
-    better = np.flatnonzero(point.possible)
-    return replace(settled, point=settled.point.put(rows[better], point.take(better)))
+        active = active[keep | ((some.score >= _BEYOND / 2.0) & (around.span > _HOPELESS))]
+    found = search.take(active)
+    return replace(settled, point=_polished(settled.point, problem, found, rows[active]))
+
+
+def _polished(
+    point: FixedPoint, problem: SelectionProblem, found: "_Search", rows: NDArray[np.intp]
+) -> FixedPoint:
+    """What is settled, with lighter devices in these rows wherever there are any."""
+    for at, row in enumerate(rows):
+        one = np.array([at])
+        polished = polish(problem, found.lot.take(one), found.point.take(one))
+        heavier = point.possible[row] & (point.shapes.mass[row] <= polished.shapes.mass[0])
+        if polished.possible[0] and not heavier:
+            point = point.put(np.array([row]), polished)
+    return point
 
 
 def _radii(problem: SelectionProblem, lot: Lot, start: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -172,33 +180,51 @@ def _radii(problem: SelectionProblem, lot: Lot, start: FloatArray) -> tuple[Floa
 
 @dataclass(eq=False)
 class _Search:
-    """Candidates, where to start from, and the best designs so far."""
+    """Candidates, where to start from, and the best designs so far.
+
+    Attributes:
+        problem: robot, requirement and place.
+        lot: the candidates. start: lower bounds of their spin inertias [kg m^2], shape (n,).
+        design: the best so far. point: what they come to.
+        score: their masses [kg], shape (n,); large where they cannot be, the closer to it the less.
+    """
 
     problem: SelectionProblem
     lot: Lot
     start: FloatArray
     design: Design
+    point: FixedPoint
+    score: FloatArray
+
+    @classmethod
+    def at(
+        cls, problem: SelectionProblem, lot: Lot, start: FloatArray, design: Design
+    ) -> "_Search":
+        """Begin with these designs."""
+        point, _ = fixed_point(problem, lot, start, design, _ROUGH)
+        found = design._replace(angle=point.angle)
+        return cls(problem, lot, start, found, point, _score(lot, point))
 
     def take(self, rows: NDArray[np.intp]) -> "_Search":
         """The candidates of these rows."""
         design = Design(*(column[rows] for column in self.design))
-        return _Search(self.problem, self.lot.take(rows), self.start[rows], design)
+        lot, point = self.lot.take(rows), self.point.take(rows)
+        return _Search(self.problem, lot, self.start[rows], design, point, self.score[rows])
 
     def put(self, rows: NDArray[np.intp], others: "_Search") -> None:
         """Their designs back."""
         columns = zip(self.design, others.design, strict=True)
         self.design = Design(*(put_rows(own, rows, other) for own, other in columns))
+        self.point = self.point.put(rows, others.point)
+        self.score = put_rows(self.score, rows, others.score)
 
-    def close_in(self, around: _Around, scale: FloatArray, width: FloatArray) -> FloatArray:
-        """Take the best of several designs around, or the closest to possible.
+    def close_in(self, around: _Around, scale: FloatArray, width: FloatArray) -> None:
+        """Take the best of several designs around wherever it is better than the best so far.
 
         Args:
             around: where to look.
             scale: of its span, shape (n,).
             width: of the incidence [rad], shape (n,).
-
-        Returns:
-            Mass of each candidate [kg], shape (n,); large where none is possible.
         """
         radii, flatnesses = around.steps
         times = radii.size
@@ -206,17 +232,21 @@ class _Search:
         radius = each.radius * np.exp(np.outer(scale, radii).ravel())
         flatness = each.flatness * np.exp(np.tile(flatnesses, scale.size))
         each = each._replace(radius=radius, flatness=np.maximum(flatness, 1.0))
-        start, lot = np.repeat(self.start, times), self.lot.repeated(times)
-        point, _ = fixed_point(self.problem, lot, start, each, _ROUGH)
-        with np.errstate(divide="ignore"):
-            mass = lot.drives.mass + point.shapes.mass
-            score = np.where(point.possible, mass, _BEYOND / point.margin)
-        at = np.argmin(score.reshape(-1, times), axis=1) + times * np.arange(scale.size)
-        self.design = Design(each.radius[at], each.flatness[at], point.angle[at], width)
-        best: FloatArray = score[at]
-        return best
+        tried = _Search.at(
+            self.problem, self.lot.repeated(times), np.repeat(self.start, times), each
+        )
+        best = np.argmin(tried.score.reshape(-1, times), axis=1) + times * np.arange(scale.size)
+        better = np.flatnonzero(tried.score[best] < self.score)
+        self.put(better, tried.take(best[better]))
+        self.design = self.design._replace(width=width)
 
-    def point(self, width: FloatArray) -> tuple[FixedPoint, int]:
-        """What the best so far come to, to all digits."""
-        design = self.design._replace(width=width)
+    def to_all_digits(self) -> tuple[FixedPoint, int]:
+        """What the best so far come to at their incidence, and the iterations it took."""
+        design = self.design._replace(width=np.zeros_like(self.score))
         return fixed_point(self.problem, self.lot, self.start, design, _FINE)
+
+
+def _score(lot: Lot, point: FixedPoint) -> FloatArray:
+    with np.errstate(divide="ignore"):
+        mass = lot.drives.mass + point.shapes.mass
+        return np.where(point.possible, mass, _BEYOND / point.margin)
