@@ -1,4 +1,4 @@
-"""Draws the picture of the README: Solo12 with its device, standing.
+"""Draws the pictures of these pages: Solo12 with its device, standing, and a wheel on paper.
 
 MUJOCO_GL=egl python docs/draw.py        or MUJOCO_GL=osmesa; needs OpenGL and Pillow
 """
@@ -12,6 +12,9 @@ from PIL import Image
 
 from ocs_design import design_ocs
 from ocs_design.design_file import OcsDesign
+from ocs_design.drawing.wheel import WheelDrawing
+from ocs_design.drawing.wheel_sheet import draw_wheel
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
 from ocs_design.requirement.specification import (
     RobotSection,
     Specification,
@@ -20,7 +23,28 @@ from ocs_design.requirement.specification import (
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs" / "_static" / "solo12-ocs.png"
+DRAWING = ROOT / "docs" / "_static" / "wheel.svg"
 WIDTH, HEIGHT, OVERSAMPLING = 900, 560, 2
+
+WHEEL = WheelDrawing(
+    wheel=Wheel(
+        Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0),
+        Hub(
+            web_thickness=0.0015,
+            radius=0.0115,
+            height=0.005,
+            bore_radius=0.003,
+            material="aluminium-6061-t6",
+            density=2710.0,
+            bolts=HoleRing(radius=0.008, count=4, hole_radius=0.0017),
+        ),
+    ),
+    robot="solo12",
+    identity="an example",
+    tool="ocs-design",
+    speed=750.0,
+)
+"""An example that shows everything a sheet has."""
 
 
 def main() -> None:
@@ -38,7 +62,8 @@ def main() -> None:
     pose(data, outcome.design)
     mujoco.mj_forward(model, data)
     draw(model, data).save(PICTURE, optimize=True)
-    print(f"wrote {PICTURE.relative_to(ROOT)}")
+    DRAWING.write_bytes(draw_wheel(WHEEL)["svg"])
+    print(f"wrote {PICTURE.relative_to(ROOT)} and {DRAWING.relative_to(ROOT)}")
 
 
 def light(spec: mujoco.MjSpec) -> None:

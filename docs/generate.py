@@ -184,6 +184,7 @@ def filled(text: str, kinds: Mapping[str, Callable[[str], str]]) -> str:
     """The page with the blocks of these kinds filled in; others are left as they are."""
 
     def fill(block: re.Match[str]) -> str:
+        """The block with its body made anew."""
         make = kinds.get(block["kind"])
         body = block["body"] if make is None else make(block["argument"])
         return f"{block['begin']}{body}{block['end']}"

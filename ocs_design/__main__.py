@@ -1,5 +1,47 @@
-"""`python -m ocs_design`."""
+"""`ocs-design` and `python -m ocs_design`: to be told to end is an interrupt at any moment."""
 
-from ocs_design.cli import main
+import os
+import signal
+import sys
+import time
+from types import FrameType
 
-main()
+from ocs_design.exceptions import INTERRUPTED
+
+# Seconds; impatient people press twice, and what is being tidied up is not to be left half done.
+_SAME_INTERRUPT = 1.0
+
+
+class _Interrupts:
+    """Makes interrupts of signals, one of those that come at once."""
+
+    def __init__(self) -> None:
+        self._last = -_SAME_INTERRUPT
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:  # noqa: ARG002  a handler's
+        before, self._last = self._last, time.monotonic()
+        if self._last - before >= _SAME_INTERRUPT:
+            raise KeyboardInterrupt
+
+
+def main() -> None:
+    """Run the command line and end with its exit code."""
+    interrupts = _Interrupts()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, interrupts)
+    try:
+        # Importing it takes a tenth of a second, in which people change their mind.
+        from ocs_design.cli import main as run  # noqa: PLC0415
+
+        code = run()
+    except KeyboardInterrupt:
+        code = INTERRUPTED
+    if code == INTERRUPTED:
+        print("interrupted; nothing half done is left", file=sys.stderr, flush=True)
+        # CPython ends by the signal if that came in an `eval`, whatever code it is to end with.
+        os._exit(code)
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main()

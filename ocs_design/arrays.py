@@ -8,9 +8,24 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
+Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]
+
 
 def frozen(values: ArrayLike | Sequence[float]) -> FloatArray:
     """A read-only copy of `values` as float64, so that frozen dataclasses are frozen throughout."""
     array = np.array(values, dtype=np.float64)
     array.setflags(write=False)
     return array
+
+
+def vector(values: FloatArray) -> Vector:
+    """Three numbers as a tuple."""
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def matrix(values: FloatArray) -> Matrix:
+    """Three rows as tuples."""
+    first, second, third = (vector(row) for row in values)
+    return first, second, third

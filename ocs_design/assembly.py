@@ -5,21 +5,23 @@ from dataclasses import replace
 
 from ocs_design.arrays import FloatArray
 from ocs_design.catalogue.materials import Material
-from ocs_design.design import Device, Flywheel, Module, Motor
+from ocs_design.design import Device, Flywheel, Module, Motor, Web
 from ocs_design.drive.line import DriveLine, armature, rotor_share
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.cylinder import (
-    cylinder_mass,
-    cylinder_spin_inertia,
-    cylinder_transverse_inertia,
-    hoop_stress,
-    stored_energy,
-)
+from ocs_design.sizing.cylinder import hoop_stress, stored_energy
 from ocs_design.sizing.device_sizing import DeviceSizing
 from ocs_design.sizing.incidence import module_axes
 from ocs_design.sizing.margins.driven_wheel import DrivenWheel
 from ocs_design.sizing.selection.result import Candidate
+from ocs_design.sizing.web import (
+    WEB_DENSITY,
+    WEB_MATERIAL,
+    WEB_THICKNESS,
+    Hub,
+    web_mass,
+    wheel_body,
+)
 
 
 def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
@@ -46,6 +48,7 @@ def assemble_selected(candidate: Candidate, bus_voltage: float) -> Device:
         candidate.motor,
         candidate.gear,
         bus_voltage,
+        hub=candidate.hub,
     )
     return assemble_driven(
         wheel, candidate.carrier, candidate.incidence, candidate.centers, candidate.line
@@ -77,7 +80,7 @@ def assemble_driven(
     return Device(
         incidence,
         _modules(incidence, centers),
-        _flywheel(cylinder, wheel.material, speed, motor.rotor_inertia),
+        _flywheel(cylinder, wheel.material, speed, motor.rotor_inertia, wheel.hub),
         motor,
         carrier,
     )
@@ -100,6 +103,7 @@ def _driven_motor(wheel: DrivenWheel, line: DriveLine) -> Motor:
         gear_efficiency=gear.efficiency,
         gear_mass=gear.mass,
         bus_voltage=wheel.bus_voltage,
+        rated_voltage=motor.rated_voltage,
         speed_max=_finite(float(line.speed_max)),
         armature=armature(rotor, gear),
         torque_constant=motor.torque_constant,
@@ -125,24 +129,32 @@ def _flywheel(
     material: Material,
     wheel_speed: float,
     rotor_share: float,
+    hub: Hub | None = None,
 ) -> Flywheel:
     """Of the rim's inner and outer radius and height [m], with what the rotor adds [kg m^2]."""
     inner, outer, height = cylinder
     stress = _hoop_stress(inner, outer, material, wheel_speed)
-    spin_inertia = cylinder_spin_inertia(*cylinder, material.density) + rotor_share
+    body = wheel_body(*cylinder, material.density, hub)
+    spin_inertia = body.axial_inertia + rotor_share
     return Flywheel(
         inner_radius=inner,
         outer_radius=outer,
         height=height,
         material=material.name,
         density=material.density,
-        mass=cylinder_mass(*cylinder, material.density),
+        mass=body.mass,
         spin_inertia=spin_inertia,
-        transverse_inertia=cylinder_transverse_inertia(*cylinder, material.density),
+        transverse_inertia=body.transverse_inertia,
         hoop_stress=stress,
         stress_margin=_ratio(material.yield_strength, stress),
         stored_energy=float(stored_energy(spin_inertia, wheel_speed)),
+        web=None if hub is None else _web(inner, hub),
     )
+
+
+def _web(bore: float, hub: Hub) -> Web:
+    mass = web_mass(bore) + hub.mass
+    return Web(WEB_MATERIAL, WEB_DENSITY, WEB_THICKNESS, mass, hub)
 
 
 def _assumed_motor(resolved: Resolved) -> Motor:

@@ -5,7 +5,6 @@ Heavy modules are imported inside the commands: that costs seconds, and `--help`
 
 import gc
 import os
-import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,6 +14,7 @@ import typer
 
 from ocs_design import cli_errors
 from ocs_design import cli_options as opt
+from ocs_design.cli_export import export
 from ocs_design.cli_pareto import pareto
 from ocs_design.cli_stated import stated_package_paths, stated_specification
 
@@ -27,10 +27,9 @@ app = typer.Typer(
 )
 
 
-def main() -> None:
-    """Entry point of `ocs-design`; to be told to end is an interrupt, so that it tidies up."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    sys.exit(cli_errors.run(app, sys.argv[1:]))
+def main() -> int:
+    """Run what was typed; the exit code."""
+    return cli_errors.run(app, sys.argv[1:])
 
 
 @contextmanager
@@ -63,34 +62,9 @@ def _no_command(
 
 
 @app.command()
+@opt.with_options(opt.TASK_OPTIONS)
 def size(
     context: typer.Context,
-    robot: opt.RobotFile = None,
-    mass: opt.Mass = None,
-    inertia: opt.Inertia = None,
-    spec: opt.Spec = None,
-    trunk: opt.Trunk = None,
-    posture: opt.Posture = None,
-    joint: opt.Joints = None,
-    package_path: opt.PackagePaths = None,
-    rate_change: opt.RateChange = None,
-    wheel_speed_max: opt.WheelSpeedMax = None,
-    torque_max: opt.TorqueMax = None,
-    alpha: opt.Alpha = None,
-    alpha_criterion: opt.AlphaCriterion = None,
-    position: opt.Position = None,
-    r_max: opt.RMax = None,
-    r_min: opt.RMin = None,
-    h_max: opt.HMax = None,
-    h_min: opt.HMin = None,
-    wall_min: opt.WallMin = None,
-    wheel_mass_max: opt.WheelMassMax = None,
-    material: opt.MaterialName = None,
-    motor: opt.MotorName = None,
-    bus_voltage: opt.BusVoltage = None,
-    gear: opt.GearName = None,
-    motors: opt.MotorsFile = None,
-    gears: opt.GearsFile = None,
     co_design: opt.CoDesign = False,
     no_validate: opt.NoValidate = False,
     seed: opt.Seed = None,
@@ -123,7 +97,7 @@ def size(
     outcome = design_ocs(
         specification,
         out=out,
-        package_paths=stated_package_paths(package_path),
+        package_paths=stated_package_paths(context),
         force=force,
         strict=strict,
         steps=steps,
@@ -139,16 +113,9 @@ def size(
 
 
 @app.command()
+@opt.with_options(opt.ROBOT_OPTIONS)
 def inspect(
     context: typer.Context,
-    robot: opt.RobotFile = None,
-    mass: opt.Mass = None,
-    inertia: opt.Inertia = None,
-    spec: opt.Spec = None,
-    trunk: opt.Trunk = None,
-    posture: opt.Posture = None,
-    joint: opt.Joints = None,
-    package_path: opt.PackagePaths = None,
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
     no_color: opt.NoColor = False,
@@ -160,7 +127,7 @@ def inspect(
 
     inspection = inspect_robot(
         stated_specification(context),
-        package_paths=stated_package_paths(package_path),
+        package_paths=stated_package_paths(context),
         strict=strict,
     )
     if as_json:
@@ -206,6 +173,7 @@ def bound(
         print_bound(make_console(color=not no_color), answer)
 
 
+app.command()(export)
 app.command()(pareto)
 
 

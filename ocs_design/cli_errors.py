@@ -7,10 +7,9 @@ from collections.abc import Sequence
 
 import typer
 
-from ocs_design.exceptions import OcsError, SpecificationError
+from ocs_design.exceptions import INTERRUPTED, OcsError, SpecificationError
 
 SCHEMA_VERSION = 1
-INTERRUPTED = 130
 BROKEN_PIPE = 141
 
 
@@ -27,14 +26,12 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
     except typer.TyperException as error:
         return _report_usage(error, as_json=as_json, color=color)
     except (typer.Abort, KeyboardInterrupt):
-        result = INTERRUPTED
+        return INTERRUPTED
     except (BrokenPipeError, SystemExit) as error:
         # Typer and rich make a plain exit of the first.
         if not isinstance(error.__context__ or error, BrokenPipeError):
             raise
         return _fall_silent()
-    if result == INTERRUPTED:
-        print("interrupted; nothing was written", file=sys.stderr)
     return result if isinstance(result, int) else 0
 
 

@@ -1,11 +1,15 @@
 """Options that commands share, each declared once; texts are read by the specification's table."""
 
+import functools
+import inspect
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
 import typer
 
 Text: TypeAlias = str | None
+Command: TypeAlias = Callable[..., None]
 
 RobotFile: TypeAlias = Annotated[
     str | None,
@@ -105,6 +109,14 @@ WallMin: TypeAlias = Annotated[
 WheelMassMax: TypeAlias = Annotated[
     Text, typer.Option("--wheel-mass-max", metavar="MASS", help="Largest mass of one rim.")
 ]
+WebKind: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--web",
+        metavar="disc|none",
+        help="What joins a rim to its motor: a thin disc with a hub (default), or massless spokes.",
+    ),
+]
 MaterialName: TypeAlias = Annotated[
     Text,
     typer.Option(
@@ -165,10 +177,72 @@ AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON document on standard output.")
 ]
 Strict: TypeAlias = Annotated[
-    bool, typer.Option("--strict", help="Warnings about the robot are errors.")
+    bool, typer.Option("--strict", help="Warnings are errors.")
 ]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 Verbose: TypeAlias = Annotated[
     bool, typer.Option("-v", "--verbose", help="Also print the posture and how it was solved.")
 ]
 NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]
+
+ROBOT_OPTIONS: Mapping[str, object] = {
+    "robot": RobotFile,
+    "mass": Mass,
+    "inertia": Inertia,
+    "spec": Spec,
+    "trunk": Trunk,
+    "posture": Posture,
+    "joint": Joints,
+    "package_path": PackagePaths,
+}
+"""What names a robot, by the name of the parameter."""
+
+TASK_OPTIONS: Mapping[str, object] = {
+    **ROBOT_OPTIONS,
+    "rate_change": RateChange,
+    "wheel_speed_max": WheelSpeedMax,
+    "torque_max": TorqueMax,
+    "alpha": Alpha,
+    "alpha_criterion": AlphaCriterion,
+    "position": Position,
+    "r_max": RMax,
+    "r_min": RMin,
+    "h_max": HMax,
+    "h_min": HMin,
+    "wall_min": WallMin,
+    "wheel_mass_max": WheelMassMax,
+    "web": WebKind,
+    "material": MaterialName,
+    "motor": MotorName,
+    "bus_voltage": BusVoltage,
+    "gear": GearName,
+    "motors": MotorsFile,
+    "gears": GearsFile,
+}
+"""The same, and what the device must do and may be."""
+
+
+def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
+    """Declare these options on a command too, before its own and each left out by default.
+
+    They are not handed on: `cli_stated` reads them from the command's context, its first parameter.
+    """
+
+    def declared(command: Command) -> Command:
+        """The command with the signature that Typer makes options from."""
+
+        @functools.wraps(command)
+        def run(**given: object) -> None:
+            """What is handed on is the context and the command's own options."""
+            command(**{name: value for name, value in given.items() if name not in shared})
+
+        context, *own = inspect.signature(command).parameters.values()
+        kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        added = [
+            inspect.Parameter(name, kind, default=None, annotation=shared[name]) for name in shared
+        ]
+        run.__dict__["__signature__"] = inspect.Signature([context, *added, *own])
+        run.__annotations__ = {**command.__annotations__, **shared}
+        return run
+
+    return declared

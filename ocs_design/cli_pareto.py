@@ -2,77 +2,59 @@
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import typer
 
 from ocs_design import cli_options as opt
 from ocs_design.cli_stated import stated_package_paths, stated_specification
 
+Against: TypeAlias = Annotated[
+    str,
+    typer.Option(
+        "--against", metavar="NAME", help="time, angle, radius, height or voltage is varied."
+    ),
+]
+Low: TypeAlias = Annotated[
+    str | None, typer.Option("--from", metavar="VALUE", help="Lowest value, e.g. 300ms.")
+]
+High: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--to",
+        metavar="VALUE",
+        help="Highest value. Default of both: around the specification's own.",
+    ),
+]
+Points: TypeAlias = Annotated[int, typer.Option("--points", metavar="N", help="How many values.")]
+ManeuverName: TypeAlias = Annotated[
+    str,
+    typer.Option(
+        "--maneuver",
+        metavar="NAME",
+        help="Vary the time or angle of this one alone. Default: of all, in one ratio.",
+    ),
+]
+FrontFolder: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--out",
+        metavar="DIR",
+        help="Write the front and the specification of each point into this folder.",
+    ),
+]
 
+
+@opt.with_options(opt.TASK_OPTIONS)
 def pareto(
     context: typer.Context,
-    robot: opt.RobotFile = None,
-    against: Annotated[
-        str,
-        typer.Option(
-            "--against", metavar="NAME", help="time, angle, radius, height or voltage is varied."
-        ),
-    ] = "time",
-    low: Annotated[
-        str | None, typer.Option("--from", metavar="VALUE", help="Lowest value, e.g. 300ms.")
-    ] = None,
-    high: Annotated[
-        str | None,
-        typer.Option(
-            "--to",
-            metavar="VALUE",
-            help="Highest value. Default of both: around the specification's own.",
-        ),
-    ] = None,
-    points: Annotated[int, typer.Option("--points", metavar="N", help="How many values.")] = 9,
-    maneuver: Annotated[
-        str,
-        typer.Option(
-            "--maneuver",
-            metavar="NAME",
-            help="Vary the time or angle of this one alone. Default: of all, in one ratio.",
-        ),
-    ] = "",
-    mass: opt.Mass = None,
-    inertia: opt.Inertia = None,
-    spec: opt.Spec = None,
-    trunk: opt.Trunk = None,
-    posture: opt.Posture = None,
-    joint: opt.Joints = None,
-    package_path: opt.PackagePaths = None,
-    rate_change: opt.RateChange = None,
-    wheel_speed_max: opt.WheelSpeedMax = None,
-    torque_max: opt.TorqueMax = None,
-    alpha: opt.Alpha = None,
-    alpha_criterion: opt.AlphaCriterion = None,
-    position: opt.Position = None,
-    r_max: opt.RMax = None,
-    r_min: opt.RMin = None,
-    h_max: opt.HMax = None,
-    h_min: opt.HMin = None,
-    wall_min: opt.WallMin = None,
-    wheel_mass_max: opt.WheelMassMax = None,
-    material: opt.MaterialName = None,
-    motor: opt.MotorName = None,
-    bus_voltage: opt.BusVoltage = None,
-    gear: opt.GearName = None,
-    motors: opt.MotorsFile = None,
-    gears: opt.GearsFile = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--out",
-            metavar="DIR",
-            help="Write the front and the specification of each point into this folder.",
-        ),
-    ] = None,
+    against: Against = "time",
+    low: Low = None,
+    high: High = None,
+    points: Points = 9,
+    maneuver: ManeuverName = "",
+    out: FrontFolder = None,
     force: opt.Force = False,
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
@@ -102,12 +84,9 @@ def pareto(
         check_target(out, force=force)
     console = make_console(color=not no_color)
     steps = Steps(console, quiet=quiet or as_json)
+    specification, paths = stated_specification(context), stated_package_paths(context)
     with steps.step("read the robot") as step:
-        task = read_task(
-            stated_specification(context),
-            package_paths=stated_package_paths(package_path),
-            strict=strict,
-        )
+        task = read_task(specification, package_paths=paths, strict=strict)
         step.note = task.robot.name
     values = front_values(sweep, task, low=low, high=high, points=points)
     with steps.step(f"choose a device for each of {points} values") as step:

@@ -26,7 +26,7 @@ def stated_specification(context: typer.Context) -> "Specification":
     return merge(base, specification_from_options(_options(context.params)))
 
 
-def stated_package_paths(texts: list[str] | None) -> Mapping[str, Path]:
+def stated_package_paths(context: typer.Context) -> Mapping[str, Path]:
     """`NAME=DIR` pairs of `--package-path`.
 
     Raises:
@@ -35,7 +35,7 @@ def stated_package_paths(texts: list[str] | None) -> Mapping[str, Path]:
     from ocs_design.exceptions import UsageError
 
     found = {}
-    for text in texts or []:
+    for text in context.params["package_path"] or ():
         name, separator, folder = text.partition("=")
         if not (name and separator and folder):
             raise UsageError(

@@ -6,28 +6,49 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.drive.gear import DIRECT
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.incidence import module_axes
+from ocs_design.sizing.web import Hub
 
 NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
 """Of the assumed motor, which weighs nothing."""
 
 
 @dataclass(frozen=True)
-class Flywheel:
-    """A hollow cylinder that spins about its z axis.
+class Web:
+    """What joins a rim to its motor, in one piece: a disc in its middle plane and a hub.
 
     Attributes:
-        inner_radius, outer_radius, height: [m].
         material: name in the catalogue. density: [kg/m^3].
-        mass: of the rim [kg].
+        thickness: of the disc, which fills the rim's bore [m].
+        mass: with the hub and its holes [kg].
+        hub: in its middle.
+    """
+
+    material: str
+    density: float
+    thickness: float
+    mass: float
+    hub: Hub
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """A hollow cylinder on a web that spins about its z axis.
+
+    Attributes:
+        inner_radius, outer_radius, height: of the rim [m].
+        material: of the rim, name in the catalogue. density: [kg/m^3].
+        mass: of the whole wheel [kg].
         spin_inertia: angular momentum about the spin axis per speed relative to the trunk, the
             motor's rotor included [kg m^2].
-        transverse_inertia: of the rim about any axis across it through its centre of mass
-            [kg m^2].
+        transverse_inertia: of the wheel about any axis across it through its centre of mass,
+            without the rotor [kg m^2].
         hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
         stress_margin: yield strength over hoop stress; None if the strength is not known.
         stored_energy: at the highest wheel speed [J].
+        web: None: massless spokes.
     """
 
     inner_radius: float
@@ -41,6 +62,12 @@ class Flywheel:
     hoop_stress: float | None
     stress_margin: float | None
     stored_energy: float
+    web: Web | None = None
+
+    @property
+    def rim_mass(self) -> float:
+        """Of the rim alone [kg]."""
+        return self.mass - (0.0 if self.web is None else self.web.mass)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +106,7 @@ class Motor:
         gear_efficiency: of the torque, 0..1, taken as a loss both ways.
         gear_mass: [kg].
         bus_voltage: [V].
+        rated_voltage: that the motor is made for [V].
         speed_max: mechanical, of wheel, gear and motor [rad/s].
         armature: what the motor accelerates beyond the spin inertia of the wheel, at the wheel
             [kg m^2]; 0 without a gear.
@@ -104,6 +132,7 @@ class Motor:
     torque_constant: float | None = None
     resistance: float | None = None
     continuous_torque: float | None = None
+    rated_voltage: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +155,7 @@ class Device:
 
     @property
     def mass(self) -> float:
-        """Of both modules: rims, motors, gears and housings [kg]."""
+        """Of both modules: wheels, motors, gears and housings [kg]."""
         return 2.0 * (self.flywheel.mass + self.carrier.mass)
 
     @property
@@ -141,3 +170,7 @@ class Device:
             replace(module, axis=axis) for module, axis in zip(self.modules, axes.T, strict=True)
         ]
         return replace(self, incidence=incidence, modules=(turned[0], turned[1]))
+
+    def as_flown(self, maneuver: Maneuver) -> "Device":
+        """At the maneuver's own incidence, if it has one."""
+        return self if maneuver.incidence is None else self.at_incidence(maneuver.incidence)

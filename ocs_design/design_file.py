@@ -11,29 +11,14 @@ from typing import Literal
 
 import msgspec
 
-from ocs_design.arrays import FloatArray
+from ocs_design.arrays import Matrix, Vector
 from ocs_design.design import NO_CARRIER, Flywheel, Motor
 from ocs_design.exceptions import OcsError
-from ocs_design.robot.robot import Robot
+from ocs_design.robot_record import RobotRecord
 from ocs_design.selection_record import SelectionRecord
 from ocs_design.sizing.carrier import Carrier
 
 SCHEMA_VERSION = 1
-
-Vector = tuple[float, float, float]
-Matrix = tuple[Vector, Vector, Vector]
-
-
-def vector(values: FloatArray) -> Vector:
-    """Three numbers as a tuple."""
-    x, y, z = (float(value) for value in values)
-    return x, y, z
-
-
-def matrix(values: FloatArray) -> Matrix:
-    """Three rows as tuples."""
-    first, second, third = (vector(row) for row in values)
-    return first, second, third
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,46 +27,6 @@ class Tool:
 
     name: str
     version: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class RobotRecord:
-    """The robot alone, in the frame of its trunk; see `robot.Robot`."""
-
-    name: str
-    source: str
-    sha256: str
-    format: str
-    trunk: str
-    floating_base: str
-    posture_name: str
-    posture: Mapping[str, float]
-    legs: tuple[str, ...]
-    standing_height: float | None
-    mass: float
-    com: Vector
-    inertia: Matrix
-    warnings: tuple[str, ...]
-
-    @classmethod
-    def of(cls, robot: Robot) -> "RobotRecord":
-        """The record of a robot that was read."""
-        return cls(
-            name=robot.name,
-            source=robot.source,
-            sha256=robot.sha256,
-            format=str(robot.format),
-            trunk=robot.trunk,
-            floating_base=robot.floating_base,
-            posture_name=robot.posture_name,
-            posture=dict(robot.posture),
-            legs=tuple(leg.name for leg in robot.legs),
-            standing_height=robot.standing_height,
-            mass=robot.mass,
-            com=vector(robot.com),
-            inertia=matrix(robot.inertia),
-            warnings=robot.warnings,
-        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,10 +84,28 @@ class ModuleRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class ClearanceRecord:
-    """See `simulation.clearance.Clearance`."""
+    """See `mounting.Clearance`."""
 
     part: str
     distance: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReachRecord:
+    """See `robot.obstacles.reach.Reach`."""
+
+    part: str
+    joints: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MountingRecord:
+    """See `mounting.Mounting`, whose `nearest` is the `clearance` of the device."""
+
+    landing: ClearanceRecord | None
+    reachable: tuple[ReachRecord, ...]
+    com_shift: Vector
+    inertia_change: Vector
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,6 +127,8 @@ class OcsRecord:
     flywheel: Flywheel
     motor: Motor
     carrier: Carrier = NO_CARRIER
+    warnings: tuple[str, ...] = ()
+    mounting: MountingRecord | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,8 +9,8 @@ from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import LIGHTEST, Specification
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.device_sizing import size_device
+from ocs_design.sizing.free_place import stated_place
 from ocs_design.sizing.incidence import Criterion
-from ocs_design.sizing.placement import place_at, place_on_top
 from ocs_design.sizing.selection.by_criterion import select_by
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, Selection
@@ -92,7 +92,7 @@ def _by_bound(specification: Specification, robot: Robot, resolved: Resolved) ->
         resolved.requirement,
         resolved.envelope,
         resolved.material,
-        place_on_top(robot) if stated.position is None else place_at(stated.position),
+        stated_place(stated.position, robot, resolved.envelope),
         incidence=stated.alpha,
         criterion=criterion,
     )

@@ -8,6 +8,9 @@ is a bug and keeps its traceback.
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
+INTERRUPTED = 130
+"""Exit code of a command that was told to end: what shells make of an interrupt."""
+
 
 class OcsError(Exception):
     """Base of all expected errors.
@@ -75,13 +78,20 @@ class OutputError(OcsError):
     kind = "output"
 
 
+class PartError(OcsError):
+    """A part of such sizes cannot be made."""
+
+    kind = "part"
+
+
 class Infeasible(OcsError):
     """No design meets the specification.
 
     Attributes:
         binding: names of the constraints that together forbid a design.
         largest_spin_inertia: the largest spin inertia that the limits allow [kg m^2].
-        required_spin_inertia: what was asked for [kg m^2].
+        required_spin_inertia: what was asked for [kg m^2]; None: no wheel would do, however large,
+            or what is in the way is no matter of the wheel.
         relaxations: for each constraint that can mend it alone, the limit that would just do (SI).
     """
 
@@ -93,7 +103,7 @@ class Infeasible(OcsError):
         message: str,
         *,
         binding: Sequence[str],
-        required_spin_inertia: float,
+        required_spin_inertia: float | None,
         largest_spin_inertia: float,
         relaxations: Mapping[str, float],
         hint: str = "",

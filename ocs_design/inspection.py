@@ -7,10 +7,12 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from ocs_design.design_file import SCHEMA_VERSION, RobotRecord, vector
+from ocs_design.arrays import vector
+from ocs_design.design_file import SCHEMA_VERSION
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.stance.sensitivity import PostureRow, posture_sensitivity
+from ocs_design.robot_record import RobotRecord
 from ocs_design.sizing.incidence import Criterion, heading_drift, incidence_by_criterion
 
 

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 from ocs_design.design import Device
 from ocs_design.design_file import MarginRecord
 from ocs_design.designing import Choice, Designed
-from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.margins.driven_wheel import DrivenWheel
@@ -72,18 +71,15 @@ def _of_drive(
         chosen.gear,
         choice.problem.bus_voltage,
         float("inf") if stated is None else stated,
+        chosen.hub,
     )
     maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
     return worst(
         {
-            name: margins(motion, _as_flown(device, maneuvers[name]).axes, wheel)
+            name: margins(motion, device.as_flown(maneuvers[name]).axes, wheel)
             for name, motion in motions.items()
         }
     )
-
-
-def _as_flown(device: Device, maneuver: Maneuver) -> Device:
-    return device if maneuver.incidence is None else device.at_incidence(maneuver.incidence)
 
 
 def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) -> Iterator[Margin]:

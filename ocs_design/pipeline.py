@@ -1,6 +1,5 @@
 """The whole chain on one page: read, require, size, export, prove, record."""
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
@@ -10,25 +9,19 @@ from typing import TYPE_CHECKING
 from ocs_design.design import Device
 from ocs_design.design_file import OcsDesign, design_to_json
 from ocs_design.designing import Designed, design_device
+from ocs_design.device_warnings import device_warnings
 from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
-from ocs_design.export.mjcf import export_robot_mjcf
-from ocs_design.export.snippets import (
-    export_snippet_mjcf,
-    export_snippet_urdf,
-    export_snippet_xacro,
-)
-from ocs_design.export.stl import MILLIMETRES, export_stl
+from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
+from ocs_design.export.naming import safe_name
 from ocs_design.export.time_series import export_time_series
-from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.mounting import mounting_of, placement_warnings
 from ocs_design.recording import record_design
 from ocs_design.report.console import Steps
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import NO_MOTOR, Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
-from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.clearance import nearest_part
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.scenario import Options, Run, run_scenarios
@@ -78,7 +71,7 @@ def design_ocs(
         out: the folder; None: `<name>-ocs` in the working directory.
         package_paths: folder of each package that `package://` addresses name.
         force: replace an existing output folder, once the new one is complete.
-        strict: warnings about the robot are errors.
+        strict: warnings are errors.
         steps: where progress goes; None: nowhere.
 
     Raises:
@@ -95,13 +88,25 @@ def design_ocs(
         resolved = resolve(specification, robot, extent)
         designed = design_device(specification, robot, resolved)
         device = designed.device
-        clearance = nearest_part(robot, device)
+        device_warnings(device, robot.mass, strict=strict)
+        mounting = mounting_of(
+            robot, device, resolved.requirement.maneuvers, designed.sized.total
+        )
+        remarks_on_place = placement_warnings(
+            mounting,
+            robot,
+            device,
+            resolved.envelope,
+            stated=specification.ocs.position is not None,
+            strict=strict,
+        )
         step.note = _what_was_sized(designed)
     with steps.step("plan the maneuvers"):
         plans = _plan(robot, designed, resolved)
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
-            remarks = _export(robot, device, staging)
+            subject = Subject.of(robot, device, safe_name(robot.name))
+            remarks = export_formats(subject, USUAL_FORMATS, staging)
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         runs: tuple[Run, ...] = ()
         if specification.validation.enabled is not False:
@@ -116,17 +121,14 @@ def design_ocs(
             designed,
             runs,
             plans=plans,
-            clearance=clearance,
+            mounting=mounting,
+            warnings=remarks_on_place,
             seed=specification.validation.seed or 0,
             files=file_hashes(staging),
+            package_paths=package_paths,
         )
         (staging / DESIGN_FILE).write_bytes(design_to_json(design))
     return Outcome(design, folder, robot, device, runs)
-
-
-def safe_name(name: str) -> str:
-    """A robot's name as a file name."""
-    return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
 
 
 def load_solvers(specification: Specification) -> None:
@@ -157,20 +159,6 @@ def _plan(robot: Robot, designed: Designed, resolved: Resolved) -> Mapping[str, 
         requirement.maneuvers,
         requirement.standing_height,
     )
-
-
-def _export(robot: Robot, device: Device, folder: Path) -> tuple[str, ...]:
-    """Write parts and robot files; what MuJoCo's model has otherwise than the robot's file."""
-    name, remarks = safe_name(robot.name), Remarks()
-    for subfolder in ("cad", "robot", "snippets"):
-        (folder / subfolder).mkdir()
-    export_stl(device.flywheel, folder / "cad" / "flywheel.stl", units_per_metre=MILLIMETRES)
-    export_robot_urdf(robot, device, folder / "robot" / f"{name}_ocs.urdf")
-    export_robot_mjcf(robot, device, folder / "robot" / f"{name}_ocs.xml", remarks)
-    export_snippet_urdf(device, robot, folder / "snippets" / "ocs.urdf")
-    export_snippet_xacro(device, robot, folder / "snippets" / "ocs.urdf.xacro")
-    export_snippet_mjcf(device, robot, folder / "snippets" / "ocs.xml")
-    return remarks.sentences()
 
 
 def _fly(

@@ -10,7 +10,6 @@ from ocs_design.drive.line import DriveLine
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.cylinder import cylinder_spin_inertia
 from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.optimal_control.reference import Reference, reference
 from ocs_design.sizing.selection.candidate import braked
@@ -30,7 +29,7 @@ def plan(
     line = drive_line_of(device)
     return {
         maneuver.name: reference(
-            gyrostat_of(robot, _as_flown(device, maneuver)), line, maneuver, standing_height
+            gyrostat_of(robot, device.as_flown(maneuver)), line, maneuver, standing_height
         )
         for maneuver in maneuvers
     }
@@ -41,7 +40,7 @@ def gyrostat_of(robot: MassProperties, device: Device) -> Gyrostat:
     wheel = device.flywheel
     rim = Carrier(
         wheel.mass,
-        cylinder_spin_inertia(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density),
+        wheel.spin_inertia - device.motor.rotor_inertia,
         wheel.transverse_inertia,
     )
     centers = np.stack([module.position for module in device.modules])
@@ -58,7 +57,3 @@ def drive_line_of(device: Device) -> DriveLine:
         torque_limit=inf if motor.torque_limit is None else motor.torque_limit,
         speed_max=inf if motor.speed_max is None else motor.speed_max,
     )
-
-
-def _as_flown(device: Device, maneuver: Maneuver) -> Device:
-    return device if maneuver.incidence is None else device.at_incidence(maneuver.incidence)

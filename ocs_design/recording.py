@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ocs_design import __version__
+from ocs_design.arrays import matrix, vector
 from ocs_design.design_file import (
     SCHEMA_VERSION,
     AxisInertia,
@@ -14,24 +16,25 @@ from ocs_design.design_file import (
     DemandRecord,
     ManeuverRecord,
     ModuleRecord,
+    MountingRecord,
     OcsDesign,
     OcsRecord,
+    ReachRecord,
     RequirementRecord,
-    RobotRecord,
     SizingRecord,
     Tool,
     ValidationRecord,
-    matrix,
-    vector,
 )
 from ocs_design.designing import Designed
+from ocs_design.device_warnings import device_warnings
 from ocs_design.margin_recording import record_margins
+from ocs_design.mounting import Clearance, Mounting
 from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
+from ocs_design.robot_record import RobotRecord
 from ocs_design.selection_recording import record_selection
-from ocs_design.simulation.clearance import Clearance
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.housing import CLEARANCE, WALL
 from ocs_design.sizing.incidence import Criterion, heading_drift
@@ -54,18 +57,20 @@ def record_design(
     runs: Sequence[Run],
     *,
     plans: Mapping[str, "Reference"],
-    clearance: Clearance | None,
+    mounting: Mounting | None,
+    warnings: tuple[str, ...] = (),
     seed: int,
     files: Mapping[str, str],
+    package_paths: Mapping[str, Path] | None = None,
 ) -> OcsDesign:
     """The whole artefact."""
     return OcsDesign(
         schema_version=SCHEMA_VERSION,
         tool=Tool(name="ocs-design", version=__version__),
         seed=seed,
-        robot=RobotRecord.of(robot),
+        robot=RobotRecord.of(robot, package_paths),
         requirement=_requirement(resolved, designed.sized),
-        ocs=_ocs(designed, clearance),
+        ocs=_ocs(robot, designed, mounting, warnings),
         sizing=_sizing(designed.sized),
         selection=None if designed.choice is None else record_selection(designed.choice),
         margins=record_margins(resolved, designed, runs, plans),
@@ -113,7 +118,9 @@ def _demand(demand: SpinDemand) -> DemandRecord:
     )
 
 
-def _ocs(designed: Designed, clearance: Clearance | None) -> OcsRecord:
+def _ocs(
+    robot: Robot, designed: Designed, mounting: Mounting | None, warnings: tuple[str, ...]
+) -> OcsRecord:
     device, sized = designed.device, designed.sized
     drift = heading_drift(sized.total.inertia)
     left, right = device.modules
@@ -132,11 +139,28 @@ def _ocs(designed: Designed, clearance: Clearance | None) -> OcsRecord:
             ModuleRecord(name="left", axis=vector(left.axis), position=vector(left.position)),
             ModuleRecord(name="right", axis=vector(right.axis), position=vector(right.position)),
         ),
-        clearance=None if clearance is None else ClearanceRecord(**asdict(clearance)),
+        clearance=None if mounting is None else _clearance(mounting.nearest),
         flywheel=device.flywheel,
         motor=device.motor,
         carrier=device.carrier,
+        warnings=(*device_warnings(device, robot.mass), *warnings),
+        mounting=None if mounting is None else _mounting(mounting),
     )
+
+
+def _mounting(mounting: Mounting) -> MountingRecord:
+    return MountingRecord(
+        landing=_clearance(mounting.landing),
+        reachable=tuple(
+            ReachRecord(part=reach.part, joints=dict(reach.joints)) for reach in mounting.reachable
+        ),
+        com_shift=vector(mounting.com_shift),
+        inertia_change=vector(mounting.inertia_change),
+    )
+
+
+def _clearance(clearance: Clearance | None) -> ClearanceRecord | None:
+    return None if clearance is None else ClearanceRecord(**asdict(clearance))
 
 
 def _by_name(angles: Mapping[Criterion, float]) -> Mapping[str, float]:

@@ -18,6 +18,10 @@ ROOT = Path(__file__).parents[1]
 SOLO12 = str(ROOT / "examples" / "solo12.urdf")
 PROGRAM = (sys.executable, "-m", "ocs_design")
 
+# Bound alone: the quickest way to size, where what is tested has nothing to do with motors.
+BOUND = ("--motor", "none")
+BY_HAND = ("--mass", "2.5", "--inertia", "0.032,0.055,0.07")
+
 
 @dataclass(frozen=True)
 class Result:

@@ -75,6 +75,7 @@ def draw(seed):
         bus_voltage=voltage,
         incidence=rng.choice([None, None, rng.uniform(0.2, 0.9)]),
         wheel_speed_max=rng.choice([None, None, 1.5 * scale.speed]),
+        web=seed % 2 == 0,
     )
     return Drawn(robot, problem)
 

@@ -3,7 +3,7 @@
 Written from the physics, not from the package: bodies are solid cylinders less their cavities,
 moments are taken about B's origin and moved to the common centre of mass, both wheels and the trunk
 are three coupled equations, and the quickest turn accelerates as long as it can still be braked in
-time. Only the housing's three constants and the data types come from the package.
+time. Only the figures of housing, web and hub and the data types come from the package.
 """
 
 from dataclasses import dataclass
@@ -13,6 +13,7 @@ import numpy as np
 
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.housing import CLEARANCE, DENSITY, WALL
+from ocs_design.sizing.web import LIGAMENT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
 
 USABLE = 0.95
 """Of voltage and current."""
@@ -39,6 +40,10 @@ class Rims:
         return whole - solid(self.inner, self.height, self.density)
 
     @property
+    def web(self):
+        return solid(self.inner, WEB_THICKNESS, WEB_DENSITY)
+
+    @property
     def housing(self):
         gap = CLEARANCE + WALL
         across, tall = self.outer + gap, self.height + 2.0 * gap
@@ -58,6 +63,21 @@ def solid(radius, height, density):
     return np.stack([mass, mass * radius**2 / 2.0, mass * (3.0 * radius**2 + height**2) / 12.0])
 
 
+def hub_body(hub):
+    """Beyond the web that it stands in, less its bore."""
+    boss = solid(hub.radius, hub.height, WEB_DENSITY) - solid(
+        hub.radius, WEB_THICKNESS, WEB_DENSITY
+    )
+    return boss - solid(hub.bore_radius, hub.height, WEB_DENSITY)
+
+
+def wheel_of(chosen):
+    """Mass, inertia about the axis and across it of a selected wheel, without its rotor."""
+    size = (chosen.outer_radius, chosen.inner_radius, chosen.height)
+    rims = Rims(*size, chosen.material.density)
+    return rims.body if chosen.hub is None else rims.body + rims.web + hub_body(chosen.hub)
+
+
 class Drive:
     """A motor behind a gear at a supply, seen at the wheel; None of its figures is missing."""
 
@@ -71,6 +91,9 @@ class Drive:
                 motor.mass * (3.0 * radius**2 + length**2) / 12.0,
             ]
         )
+        self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
+        if problem.web:
+            self.hub, self.hub_radius = hub_body(hub_of(motor)), hub_of(motor).radius + LIGAMENT
         # The rotor turns at N W, the other way round if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
         self.rotor_load = gear.ratio**2 * rotor + gear.inertia
@@ -117,6 +140,14 @@ class Drive:
             2.0 * self.limit
         )
 
+    def wheel(self, rims):
+        """Rim, web and hub: mass, inertia about the axis and across it, shape (3, n)."""
+        return rims.body + rims.web + self.hub[:, None] if self.webbed else rims.body
+
+    def seat(self, density):
+        """Of a rim of that density the least height, for its web [m]."""
+        return WEB_THICKNESS * max(1.0, WEB_DENSITY / density) + SHOULDER if self.webbed else 0.0
+
     def turn(self, time, inertia, final):
         """Largest angle of wheels within a time, ending at a speed, less that speed times time."""
         end_time, end_angle = self._down(final)
@@ -148,7 +179,7 @@ def usable(motor, gear):
 
 def inertia_on(problem, drive, rims, angle):
     """Of robot and both modules about roll and pitch through the common centre, braked."""
-    mass, axial, across = rims.body + rims.housing + drive.standing[:, None]
+    mass, axial, across = drive.wheel(rims) + rims.housing + drive.standing[:, None]
     robot, place = problem.robot, problem.place
     x, y, z = (o + d * rims.reach for o, d in zip(place.origin, place.outward, strict=True))
     whole = robot.mass + 2.0 * mass
@@ -176,13 +207,17 @@ def fits(problem, rims, slack=0.0):
 
 
 def holds(problem, drive, rims, material, slack=0.0):
-    """Whether the hoop stress at the bore is allowed, where the material's figures are known."""
+    """Whether a rim leaves room for web and hub, and stands the stress at its bore if known."""
+    more = 1.0 + slack
+    seated = (rims.inner * more >= drive.hub_radius) & (
+        rims.height * more >= drive.seat(material.density)
+    )
     if material.yield_strength is None or material.poisson_ratio is None:
-        return np.ones(rims.outer.shape, dtype=bool)
+        return seated
     nu = material.poisson_ratio
     squares = (3.0 + nu) * rims.outer**2 + (1.0 - nu) * rims.inner**2
     stress = material.density * drive.proof_speed**2 / 4.0 * squares
-    return stress * problem.envelope.stress_safety <= material.yield_strength * (1.0 + slack)
+    return seated & (stress * problem.envelope.stress_safety <= material.yield_strength * more)
 
 
 def asked(maneuver, inertia, standing):
@@ -218,7 +253,7 @@ def _off_level(roll, pitch):
 
 def margin(problem, drive, rims, angle):
     """What wheels can do over what they must, of the worst maneuver; at least 1 if they can."""
-    spin = rims.body[1] + drive.rotor_momentum
+    spin = drive.wheel(rims)[1] + drive.rotor_momentum
     worst = np.where(spin > 0.0, inf, 0.0)
     spin = np.maximum(spin, 1e-12)
     for maneuver in problem.requirement.maneuvers:
@@ -245,7 +280,7 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     # Of  tau = ((I_rim + load) 1 - h^2 A' J^-1 A) dW  the row of the busier wheel.
     own = (shares**2 / inertia).sum(axis=0)
     other = (shares**2 / inertia * np.array([[-1.0], [1.0]])).sum(axis=0)
-    load = rims.body[1] + drive.rotor_load - spin**2 * (own + ratio * other)
+    load = drive.wheel(rims)[1] + drive.rotor_load - spin**2 * (own + ratio * other)
     moved = drive.turn(time, np.maximum(load, 1e-15), held.sum(axis=0))
     enough = np.divide(moved, busy, out=np.where(moved >= 0.0, inf, 0.0), where=busy > 0.0)
     return np.where(load > 0.0, enough, 0.0)
@@ -253,4 +288,4 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
 
 def device_mass(drive, rims):
     """Of both modules [kg]."""
-    return 2.0 * (rims.body[0] + rims.housing[0] + drive.standing[0])
+    return 2.0 * (drive.wheel(rims)[0] + rims.housing[0] + drive.standing[0])

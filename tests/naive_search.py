@@ -45,14 +45,14 @@ def _coarse(problem):
         drive = Drive(problem, motor, gear)
         for material in problem.materials:
             names = (motor.name, gear.name, material.name)
-            axes = _axes(problem)
+            axes = _axes(problem, drive.seat(material.density))
             device = _lightest(problem, drive, material, names, axes, 1.35 * lightest)
             if device is not None:
                 lightest = min(lightest, device.mass)
                 yield device
 
 
-def _axes(problem):
+def _axes(problem, seat):
     """Incidences, outer radii, heights and walls over all that the envelope leaves."""
     room = problem.envelope
     angles, radii, heights, walls = COARSE
@@ -62,7 +62,7 @@ def _axes(problem):
     return (
         np.linspace(0.0, pi / 2.0, angles) if stated is None else np.array([stated]),
         np.linspace(low, room.outer_radius_max, radii),
-        np.linspace(room.height_min, room.height_max, heights),
+        np.linspace(max(room.height_min, seat), room.height_max, heights),
         np.exp(np.linspace(log(room.wall_min), log(thick), walls)),
     )
 
@@ -71,7 +71,8 @@ def refine(problem, device):
     """The lightest on grids around a device that narrow while nothing better is on them."""
     widths = np.array([0.08, 0.12, 0.2, 0.2])
     while widths[-1] > NARROW:
-        axes = _axes_around(problem, device.point, widths)
+        seat = device.drive.seat(device.material.density)
+        axes = _axes_around(problem, device.point, widths, seat)
         better = _lightest(
             problem, device.drive, device.material, device.names, axes, device.mass * (1.0 - 1e-9)
         )
@@ -82,12 +83,12 @@ def refine(problem, device):
     return device
 
 
-def _axes_around(problem, point, widths):
+def _axes_around(problem, point, widths, seat):
     """The incidence is moved by angles, all else by ratios; the limits themselves are on them."""
     room = problem.envelope
     stated = problem.incidence
     angles = np.clip(point[0] + np.linspace(-widths[0], widths[0], FINE[0]), 0.0, pi / 2.0)
-    limits = ((0.0, room.outer_radius_max), (room.height_min, room.height_max))
+    limits = ((0.0, room.outer_radius_max), (max(room.height_min, seat), room.height_max))
     limits += ((room.wall_min, inf),)
     rest = (
         np.unique(np.clip(at * np.exp(np.linspace(-width, width, count)), *limit))

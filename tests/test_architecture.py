@@ -35,6 +35,11 @@ def test_reading_a_robot_needs_no_simulator_and_no_solver():
     assert loaded.isdisjoint({"mujoco", "cvxpy", "trimesh", "casadi"})
 
 
+def test_a_part_needs_no_cad_kernel_until_it_is_written():
+    loaded = modules_loaded_by("import ocs_design.parts.foot, ocs_design.parts.step")
+    assert loaded.isdisjoint({"OCP", "manifold3d", "trimesh", "mujoco", "cvxpy"})
+
+
 def test_every_module_stands_in_the_layers():
     """`exhaustive` would catch it too, but only where import-linter is installed."""
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"][
@@ -54,7 +59,8 @@ def test_files_stay_readable():
     """One purpose a file: at most 300 lines."""
     too_long = {
         str(path.relative_to(ROOT)): lines
-        for path in PACKAGE.rglob("*.py")
+        for folder in (PACKAGE, ROOT / "tests")
+        for path in folder.rglob("*.py")
         if (lines := len(path.read_text().splitlines())) > 300
     }
     assert not too_long

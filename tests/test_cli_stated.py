@@ -43,13 +43,17 @@ def test_an_option_goes_over_the_file_and_leaves_the_rest(tmp_path):
     assert (specification.motor.name, specification.motor.bus_voltage) == ("none", 48.0)
 
 
+def package_paths(*texts):
+    return stated_package_paths(SimpleNamespace(params={"package_path": texts}))
+
+
 def test_package_paths_are_pairs():
-    assert stated_package_paths(None) == {}
-    found = stated_package_paths(["a=/opt/a", "b=/opt/with=sign"])
+    assert package_paths() == {}
+    found = package_paths("a=/opt/a", "b=/opt/with=sign")
     assert found == {"a": Path("/opt/a"), "b": Path("/opt/with=sign")}
 
 
 @pytest.mark.parametrize("text", ["alone", "=folder", "name="])
 def test_what_is_no_pair_is_refused(text):
     with pytest.raises(UsageError, match="is not NAME=DIR"):
-        stated_package_paths([text])
+        package_paths(text)

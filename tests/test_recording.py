@@ -11,7 +11,7 @@ from ocs_design.recording import HOUSING_ASSUMED, record_design
 def recorded(request):
     task, found = designed(request.param)
     design = record_design(
-        task.robot, task.resolved, found, (), plans={}, clearance=None, seed=3, files={}
+        task.robot, task.resolved, found, (), plans={}, mounting=None, seed=3, files={}
     )
     return task, found, design
 

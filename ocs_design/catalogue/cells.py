@@ -52,6 +52,7 @@ def choice(words: type[C]) -> Callable[[object], C]:
     """One of an enumeration's values."""
 
     def read(raw: object) -> C:
+        """A `Reader` of these words."""
         if not isinstance(raw, str) or raw not in set(words):
             raise ValueError(f"{shortened(raw)} is none of {', '.join(words)}")
         return words(raw)

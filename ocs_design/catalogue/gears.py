@@ -2,16 +2,15 @@
 
 from collections.abc import Iterable, Mapping
 from functools import cache
-from importlib.resources import as_file, files
 from pathlib import Path
-from types import MappingProxyType
 
 import msgspec
 
 from ocs_design.catalogue.cells import read_cells
+from ocs_design.catalogue.entries import extended, load_entries, packaged
 from ocs_design.catalogue.gear_sheet import GEAR_COLUMNS, GearSheet
-from ocs_design.catalogue.names import entry, merged, named_twice
-from ocs_design.catalogue.table import Row, read_rows, refuse
+from ocs_design.catalogue.names import entry
+from ocs_design.catalogue.table import Row
 from ocs_design.drive.gear import Gear
 
 REQUIRED_COLUMNS = frozenset({"name", "maker", "kind", "source"})
@@ -20,17 +19,16 @@ REQUIRED_COLUMNS = frozenset({"name", "maker", "kind", "source"})
 @cache
 def gears() -> Mapping[str, GearSheet]:
     """Every gear of the catalogue by name, sorted; read and checked on the first call."""
-    with as_file(files("ocs_design.catalogue").joinpath("gears.csv")) as path:
-        return load_gears(path)
+    return packaged("gears.csv", load_gears)
 
 
 def known_gears(file: Path | None = None) -> Mapping[str, GearSheet]:
     """The catalogue and the gears of a user's file, which replace those of the same name.
 
     Raises:
-        SpecificationError: see `load_gears`.
+        SpecificationError: see `load_entries`.
     """
-    return gears() if file is None else MappingProxyType(merged(gears(), load_gears(file)))
+    return extended(gears(), file, load_gears)
 
 
 def gear(name: str, known: Mapping[str, GearSheet] | None = None) -> GearSheet:
@@ -43,17 +41,12 @@ def gear(name: str, known: Mapping[str, GearSheet] | None = None) -> GearSheet:
 
 
 def load_gears(path: Path) -> Mapping[str, GearSheet]:
-    """Every gear of a CSV or TOML file by name, sorted (docs/catalogue.md has the columns).
+    """Every gear of a CSV or TOML file by name, sorted.
 
     Raises:
-        SpecificationError: it cannot be read, or has faults, all of which are listed.
+        SpecificationError: see `load_entries`.
     """
-    faults: list[str] = []
-    rows = read_rows(path, "gear", faults)
-    sheets = [sheet for row in rows if (sheet := _sheet(row, faults)) is not None]
-    faults.extend(named_twice(rows))
-    refuse(path, faults)
-    return MappingProxyType({sheet.name: sheet for sheet in sorted(sheets, key=lambda s: s.name)})
+    return load_entries(path, "gear", _sheet)
 
 
 def stages(sheets: Iterable[GearSheet]) -> tuple[Gear, ...]:

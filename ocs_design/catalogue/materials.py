@@ -75,6 +75,7 @@ def material(name: str) -> Material:
 
 def _material(row: Mapping[str, str]) -> Material:
     def figure(column: str) -> float | None:
+        """None where the source gives none."""
         return float(row[column]) if row[column] else None
 
     return Material(

@@ -2,17 +2,17 @@
 
 from collections.abc import Iterable, Mapping
 from functools import cache
-from importlib.resources import as_file, files
 from pathlib import Path
 from types import MappingProxyType
 
 import msgspec
 
 from ocs_design.catalogue.cells import read_cells
+from ocs_design.catalogue.entries import extended, load_entries, packaged
 from ocs_design.catalogue.motor_checks import contradictions, incomplete
 from ocs_design.catalogue.motor_sheet import MOTOR_COLUMNS, MotorSheet
-from ocs_design.catalogue.names import entry, merged, named_twice
-from ocs_design.catalogue.table import Row, read_rows, refuse
+from ocs_design.catalogue.names import entry
+from ocs_design.catalogue.table import Row
 from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.line import missing_figures
 from ocs_design.drive.motor import Motor
@@ -23,17 +23,16 @@ REQUIRED_COLUMNS = frozenset({"name", "maker", "source"})
 @cache
 def motors() -> Mapping[str, Motor]:
     """Every motor of the catalogue by name, sorted; read and checked on the first call."""
-    with as_file(files("ocs_design.catalogue").joinpath("motors.csv")) as path:
-        return load_motors(path)
+    return packaged("motors.csv", load_motors)
 
 
 def known_motors(file: Path | None = None) -> Mapping[str, Motor]:
     """The catalogue and the motors of a user's file, which replace those of the same name.
 
     Raises:
-        SpecificationError: see `load_motors`.
+        SpecificationError: see `load_entries`.
     """
-    return motors() if file is None else MappingProxyType(merged(motors(), load_motors(file)))
+    return extended(motors(), file, load_motors)
 
 
 def motor(name: str, known: Mapping[str, Motor] | None = None) -> Motor:
@@ -46,10 +45,10 @@ def motor(name: str, known: Mapping[str, Motor] | None = None) -> Motor:
 
 
 def load_motors(path: Path) -> Mapping[str, Motor]:
-    """Every motor of a CSV or TOML file by name, sorted (docs/catalogue.md has the columns).
+    """Every motor of a CSV or TOML file by name, sorted.
 
     Raises:
-        SpecificationError: it cannot be read, or has faults, all of which are listed.
+        SpecificationError: see `load_entries`.
     """
     sheets = load_motor_sheets(path)
     return MappingProxyType({name: sheets[name].motor() for name in sheets})
@@ -59,14 +58,9 @@ def load_motor_sheets(path: Path) -> Mapping[str, MotorSheet]:
     """The same as stated, in the units and conventions of the file.
 
     Raises:
-        SpecificationError: see `load_motors`.
+        SpecificationError: see `load_entries`.
     """
-    faults: list[str] = []
-    rows = read_rows(path, "motor", faults)
-    sheets = [sheet for row in rows if (sheet := _sheet(row, faults)) is not None]
-    faults.extend(named_twice(rows))
-    refuse(path, faults)
-    return MappingProxyType({sheet.name: sheet for sheet in sorted(sheets, key=lambda s: s.name)})
+    return load_entries(path, "motor", _sheet)
 
 
 def _sheet(row: Row, faults: list[str]) -> MotorSheet | None:

@@ -1,18 +1,15 @@
 """A catalogue's file, CSV or TOML, as rows of raw cells."""
 
 import csv
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from ocs_design.exceptions import SpecificationError
+from ocs_design.text_files import TextKind
 
-LARGEST_FILE = 1 << 20
-"""Bytes; a thousand motors take a quarter of it."""
-
-LONGEST_LINE = 5000
-"""Characters; the TOML reader takes minutes for a key of ten thousand dots."""
+# A thousand motors take a quarter of a mebibyte.
+_FILE = TextKind("catalogue", 1 << 20, 5000, "Check the path.", "maker = 'maxon'")
 
 
 @dataclass(frozen=True)
@@ -45,38 +42,14 @@ def read_rows(path: Path, kind: str, faults: list[str]) -> tuple[Row, ...]:
         raise SpecificationError(
             f"{path}: is neither .csv nor .toml", hint="A catalogue is one of these two."
         )
-    text = _text(path)
+    text = _FILE.read(path)
     if suffix == ".csv":
         return tuple(_csv_rows(text, str(path), faults))
     return tuple(_toml_rows(text, str(path), kind, faults))
 
 
-def _text(path: Path) -> str:
-    """The file's text, of a bounded size."""
-    try:
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        reason = error.strerror or "it cannot be opened"
-        raise SpecificationError(
-            f"cannot read the catalogue {path}: {reason}", hint="Check the path."
-        ) from error
-    if len(content) > LARGEST_FILE:
-        raise SpecificationError(f"{path} is larger than 1 MiB: that is no catalogue")
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise SpecificationError(
-            f"{path}, line {line}: not UTF-8", hint="Save the file as UTF-8."
-        ) from error
-    for number, line_text in enumerate(text.splitlines(), 1):
-        if len(line_text) > LONGEST_LINE:
-            raise SpecificationError(f"{path}, line {number}: over {LONGEST_LINE} characters long")
-    return text
-
-
 def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
+    _FILE.check_lines(text, name)
     reader = csv.reader(text.splitlines(keepends=True), strict=True)
     try:
         columns = [column.strip() for column in next(reader, [])]
@@ -111,15 +84,7 @@ def _csv_row(columns: Sequence[str], cells: Sequence[str], line: int, faults: li
 
 
 def _toml_rows(text: str, name: str, kind: str, faults: list[str]) -> Iterator[Row]:
-    try:
-        content = tomllib.loads(text)
-    except RecursionError as error:
-        raise SpecificationError(f"{name} nests its values too deeply") from error
-    except ValueError as error:
-        # TOMLDecodeError, or the plain ValueError of a whole number with thousands of digits.
-        raise SpecificationError(
-            f"{name} is not TOML: {error}", hint="Text stands in quotes, as in maker = 'maxon'."
-        ) from error
+    content = _FILE.parse_toml(text, name)
     faults.extend(f"{key}: unknown key; known: {kind}" for key in content if key != kind)
     tables = content.get(kind, [])
     if not isinstance(tables, list):

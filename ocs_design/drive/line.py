@@ -90,7 +90,6 @@ def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
     wheel and no faster, it adds at least as much to the momentum as to what must be accelerated.
     """
     helps = gear.ratio <= 1.0 and not gear.reverses
-    helps = gear.ratio <= 1.0 and not gear.reverses
     figures = {
         "mass": motor.mass,
         "torque constant": motor.torque_constant,

@@ -1,11 +1,19 @@
 """Names of the device's parts in every exported file, and the check that they are free."""
 
+import re
 from collections.abc import Iterable
 
 from ocs_design.design import Device, Module
 from ocs_design.exceptions import RobotError
 
 PREFIX = "ocs_"
+IMU = f"{PREFIX}imu"
+"""Site in MJCF, at the base frame B."""
+
+
+def safe_name(name: str) -> str:
+    """A robot's name as a file name."""
+    return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
 
 
 def flywheel_name(module: Module) -> str:
@@ -21,6 +29,21 @@ def joint_name(module: Module) -> str:
 def carrier_name(module: Module) -> str:
     """Of what stands still: link and fixed joint in URDF, body in MJCF."""
     return f"{PREFIX}{module.name}_motor"
+
+
+def velocity_sensor(module: Module) -> str:
+    """Sensor in MJCF, of the wheel's speed relative to the trunk [rad/s]."""
+    return f"{joint_name(module)}_velocity"
+
+
+def torque_sensor(module: Module) -> str:
+    """Sensor in MJCF, of the motor's torque on the wheel [N m]."""
+    return f"{joint_name(module)}_torque"
+
+
+def imu_sensors() -> tuple[str, str]:
+    """Sensors in MJCF, of B's attitude as a quaternion and of its rate [rad/s]."""
+    return f"{IMU}_attitude", f"{IMU}_rate"
 
 
 def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None:

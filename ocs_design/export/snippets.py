@@ -1,5 +1,6 @@
 """The device alone, to paste, include or attach."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from textwrap import indent
 
@@ -17,10 +18,22 @@ from ocs_design.export.device_urdf import (
 )
 from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
 from ocs_design.export.motor import largest_torque
-from ocs_design.export.naming import PREFIX, carrier_name, flywheel_name, joint_name
+from ocs_design.export.naming import (
+    IMU,
+    PREFIX,
+    carrier_name,
+    flywheel_name,
+    imu_sensors,
+    joint_name,
+    joint_names,
+    torque_sensor,
+    velocity_sensor,
+)
+from ocs_design.export.ros2_control import MOCK_PLUGIN, ros2_control_urdf
+from ocs_design.export.seat import Seat, trunk_link
+from ocs_design.export.snippet_sdf import export_snippet_sdf
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_placement
-from ocs_design.robot.robot import Robot
 from ocs_design.robot.rotations import rpy_from_rotation
 from ocs_design.robot.spec.frames import quaternion
 
@@ -33,25 +46,40 @@ _MACRO_PLACE = {
 """Of what stands still, in terms of the xacro macro's arguments."""
 
 
-def export_snippet_urdf(device: Device, robot: Robot, path: Path) -> Path:
+def export_snippets(device: Device, seat: Seat, folder: Path) -> None:
+    """Write all of them.
+
+    Args:
+        device: to write.
+        seat: that carries it.
+        folder: that takes the files.
+    """
+    export_snippet_urdf(device, seat, folder / "ocs.urdf")
+    export_snippet_xacro(device, seat, folder / "ocs.urdf.xacro")
+    export_snippet_ros2_control(device, folder / "ocs_ros2_control.urdf")
+    export_snippet_mjcf(device, seat, folder / "ocs.xml")
+    export_snippet_sdf(device, seat, folder / "ocs.sdf")
+
+
+def export_snippet_urdf(device: Device, seat: Seat, path: Path) -> Path:
     """Write links and joints to paste into a URDF.
 
     Args:
         device: to write.
-        robot: that carries it.
+        seat: that carries it.
         path: of the text.
     """
-    base = "" if robot.mount is None else mount_urdf(robot.mount)
-    values = {**_names(robot), "device": base + device_urdf(device, robot.trunk)}
+    base = "" if seat.mount is None else mount_urdf(seat.mount)
+    values = {**_names(seat), "device": base + device_urdf(device, seat.trunk)}
     return _write(path, fill("ocs.urdf", values))
 
 
-def export_snippet_xacro(device: Device, robot: Robot, path: Path) -> Path:
+def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
     """Write a xacro macro `ocs`; arguments as in `export_snippet_urdf`."""
     left, right = device.modules
-    rotation = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
+    rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
     values = {
-        **_names(robot),
+        **_names(seat),
         "base_rpy": numbers(rpy_from_rotation(rotation)),
         **inertial_values(flywheel_inertial(device)),
         "incidence": numbers(device.incidence),
@@ -60,20 +88,36 @@ def export_snippet_xacro(device: Device, robot: Robot, path: Path) -> Path:
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
         "carrier": indent(carrier_urdf(device, _MACRO_PLACE), "  "),
+        "plugin": MOCK_PLUGIN,
+        "ros2_control": indent(_macro_ros2_control(device), "    "),
     }
     return _write(path, fill("ocs.urdf.xacro", values))
 
 
-def export_snippet_mjcf(device: Device, robot: Robot, path: Path) -> Path:
+def _macro_ros2_control(device: Device) -> str:
+    """In terms of the macro's arguments."""
+    joints = [f"${{prefix}}{joint}" for joint in joint_names(device)]
+    return ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
+
+
+def export_snippet_ros2_control(device: Device, path: Path) -> Path:
+    """Write the wheels' motors for ros2_control, to paste into a URDF that has the device."""
+    element = ros2_control_urdf(device, joint_names(device))
+    return _write(path, fill("ocs_ros2_control.urdf", {"ros2_control": element}))
+
+
+def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
     """Write a model to attach to a MJCF robot; arguments as in `export_snippet_urdf`."""
     modules = "".join(_module_mjcf(device, module) for module in device.modules)
     motors = "".join(f"    {_motor_mjcf(device, module)}\n" for module in device.modules)
-    rotation = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
+    rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
     values = {
-        **_names(robot),
+        **_names(seat),
         "base_quaternion": numbers(quaternion(rotation)),
         "modules": modules,
         "motors": motors,
+        "imu": IMU.removeprefix(PREFIX),
+        "sensors": "".join(f"    {sensor}\n" for sensor in _sensors_mjcf(device)),
     }
     return _write(path, fill("ocs.xml", values))
 
@@ -108,8 +152,23 @@ def _motor_mjcf(device: Device, module: Module) -> str:
     return f'<motor name="{name}" joint="{name}"{limits}/>'
 
 
-def _names(robot: Robot) -> dict[str, str]:
-    trunk = robot.trunk if robot.mount is None else robot.mount.link
+def _sensors_mjcf(device: Device) -> Iterator[str]:
+    """As `sensors.add_sensors` does it; attaching puts the prefix in front of the names."""
+    for module in device.modules:
+        joint = joint_name(module).removeprefix(PREFIX)
+        for tag, name in (
+            ("jointvel", velocity_sensor(module)),
+            ("jointactuatorfrc", torque_sensor(module)),
+        ):
+            yield f'<{tag} name="{name.removeprefix(PREFIX)}" joint="{joint}"/>'
+    attitude, rate = (name.removeprefix(PREFIX) for name in imu_sensors())
+    site = IMU.removeprefix(PREFIX)
+    yield f'<framequat name="{attitude}" objtype="site" objname="{site}"/>'
+    yield f'<gyro name="{rate}" site="{site}"/>'
+
+
+def _names(seat: Seat) -> dict[str, str]:
+    trunk = trunk_link(seat)
     return {"parent": quoted(trunk), "parent_in_comment": in_comment(trunk)}
 
 

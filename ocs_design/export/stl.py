@@ -1,82 +1,47 @@
-"""The flywheel's rim as a closed mesh in binary STL."""
+"""The flywheel in binary STL: whole for robot files, piece by piece for the workshop."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
 from ocs_design.design import Flywheel
+from ocs_design.export.made_wheel import made_wheel
+from ocs_design.parts.mesh import Mesh, part_mesh
+from ocs_design.parts.stl import METRES, MILLIMETRES, mesh_stl
+from ocs_design.parts.wheel_parts import wheel_parts
 
-METRES = 1.0
-MILLIMETRES = 1000.0
-SECTIONS = 256
-"""Sections of the rim: 1.4 degrees each."""
-
-_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-_HEADER = b"ocs-design flywheel".ljust(80)
+__all__ = ["METRES", "MILLIMETRES", "export_stl", "stl_bytes", "wheel_meshes"]
 
 
 def export_stl(flywheel: Flywheel, path: Path, *, units_per_metre: float) -> Path:
-    """Write the rim; see `stl_bytes`."""
+    """Write the whole wheel; see `stl_bytes`."""
     path.write_bytes(stl_bytes(flywheel, units_per_metre=units_per_metre))
     return path
 
 
 def stl_bytes(flywheel: Flywheel, *, units_per_metre: float) -> bytes:
-    """The rim, its centre at the origin and its spin axis along z.
+    """The whole wheel, its centre at the origin and its spin axis along z.
 
     Args:
-        flywheel: a hollow cylinder; a bore of zero makes it a disc.
+        flywheel: a bore of zero makes its rim a disc.
         units_per_metre: STL has no unit; `MILLIMETRES` for printing, `METRES` for robot files.
     """
-    corners = units_per_metre * rim_triangles(flywheel)
-    edges = corners[:, 1:] - corners[:, :1]
-    normals = np.cross(edges[:, 0], edges[:, 1])
-    facets = np.zeros(len(corners), _FACET)
-    facets["normal"] = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    facets["corners"] = corners
-    return _HEADER + len(facets).to_bytes(4, "little") + facets.tobytes()
+    whole = _together(list(wheel_meshes(flywheel).values()))
+    return mesh_stl(whole, "flywheel", units_per_metre=units_per_metre)
 
 
-def rim_triangles(flywheel: Flywheel) -> FloatArray:
-    """Corners of the rim's triangles [m], counter-clockwise from outside, shape (n, 3, 3).
-
-    Inscribed polygons would weigh less than the circles; radii larger by
-    `sqrt(x / sin x)`, `x = 2 pi / n`, give each circle its own area, and the moments of
-    inertia to about 1e-9.
-    """
-    profile = _profile(flywheel)
-    step = 2.0 * np.pi / SECTIONS
-    angles = step * np.arange(SECTIONS)
-    radii = profile[:, 0] * np.sqrt(step / np.sin(step))
-    ring = np.column_stack([np.cos(angles), np.sin(angles)])
-    plane = radii[:, None, None] * ring
-    height = np.broadcast_to(profile[:, 1, None, None], (*plane.shape[:2], 1))
-    vertices = np.concatenate([plane, height], axis=2)
-    following = np.roll(vertices, -1, axis=1)
-    quads = [
-        (vertices[i], following[i], following[j], vertices[j]) for i, j in _sides(len(profile))
-    ]
-    triangles = [
-        np.stack(three, axis=1) for a, b, c, d in quads for three in ((a, b, c), (a, c, d))
-    ]
-    found: FloatArray = np.concatenate(triangles)
-    return np.asarray(found[_has_area(found)])
+def wheel_meshes(flywheel: Flywheel) -> Mapping[str, Mesh]:
+    """Each piece as it is made, by its name."""
+    return {part.name: part_mesh(part) for part in wheel_parts(made_wheel(flywheel))}
 
 
-def _profile(flywheel: Flywheel) -> FloatArray:
-    """Radius and z of the cross-section's corners, counter-clockwise, shape (4, 2)."""
-    inner, outer, half = flywheel.inner_radius, flywheel.outer_radius, flywheel.height / 2.0
-    return np.array([[inner, -half], [outer, -half], [outer, half], [inner, half]])
-
-
-def _sides(count: int) -> list[tuple[int, int]]:
-    return [(i, (i + 1) % count) for i in range(count)]
-
-
-def _has_area(triangles: FloatArray) -> NDArray[np.bool_]:
-    """False for what a bore of zero collapses to a point or a line."""
-    edges = triangles[:, 1:] - triangles[:, :1]
-    doubled: FloatArray = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    return doubled > 0.0
+def _together(meshes: list[Mesh]) -> Mesh:
+    """Several closed surfaces in one."""
+    counts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate(
+            [mesh.triangles + start for mesh, start in zip(meshes, counts, strict=False)]
+        ),
+    )

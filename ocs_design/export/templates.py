@@ -44,4 +44,5 @@ def in_comment(text: str) -> str:
 
 def numbers(values: ArrayLike) -> str:
     """Numbers with spaces between them, each in the fewest digits that read back the same."""
-    return " ".join(repr(float(value)) for value in np.ravel(values))
+    # Zero has no sign: people wonder at -0.0.
+    return " ".join(repr(float(value) + 0.0) for value in np.ravel(values))

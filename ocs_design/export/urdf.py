@@ -1,6 +1,6 @@
 """The whole robot with its device as a URDF."""
 
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from ocs_design.design import Device
 from ocs_design.export.device_urdf import device_urdf, mount_urdf
@@ -46,6 +46,20 @@ def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
     path.write_bytes(insert_before_end(content, heading + elements))
     export_wheel_mesh(device, path.parent)
     return path
+
+
+def urdf_remarks(robot: Robot) -> tuple[str, ...]:
+    """What somebody must know who opens the written URDF, one sentence each."""
+    if robot.format is not Format.URDF:
+        return ()
+    meshes = {mesh.get("filename", "") for mesh in parse_xml(robot.content, Remarks()).iter("mesh")}
+    relative = [name for name in meshes if "://" not in name and not PurePath(name).is_absolute()]
+    if not relative:
+        return ()
+    return (
+        f"the URDF with the device names {len(relative)} of its meshes relative to the robot's own "
+        "file, as that does: to see them, copy it and its meshes folder beside that file",
+    )
 
 
 def export_wheel_mesh(device: Device, folder: Path) -> Path:

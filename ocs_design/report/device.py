@@ -6,22 +6,23 @@ import numpy as np
 from rich.console import Console
 
 from ocs_design.design import Motor
-from ocs_design.design_file import ClearanceRecord, OcsDesign, OcsRecord
+from ocs_design.design_file import OcsDesign, OcsRecord
 from ocs_design.drive.gear import DIRECT
-from ocs_design.report.layout import columns, facts, heading, note, show
+from ocs_design.report.layout import columns, facts, heading, items, note, print_warnings, show
+from ocs_design.report.mounting import could_hit, mounted
 from ocs_design.report.quantities import (
     degrees,
     grams,
     inertia,
-    millimetres,
     rpm,
     signed,
     tenths,
 )
 
-OVERLAP = (
-    "warning: a wheel overlaps that part, and nothing in the simulation would notice: choose "
-    "another place with --position X,Y,Z"
+_OVERRATED = (
+    "{motor.name} is rated for {motor.rated_voltage:g} V and fed with {motor.bus_voltage:g} V: its "
+    "speed is limited as above; whether winding and controller stand the voltage is for their "
+    "makers to say."
 )
 
 
@@ -30,8 +31,10 @@ def print_device(console: Console, design: OcsDesign) -> None:
     ocs = design.ocs
     heading(console, "Device: two flywheels" + ("" if ocs.motor.bus_voltage else ", no motors yet"))
     facts(console, [*_wheel(design), *_masses(design), *_drive(ocs.motor), *_stand(ocs)])
-    if ocs.clearance is not None and ocs.clearance.distance < 0.0:
-        note(console, OVERLAP, style="bold yellow")
+    print_warnings(console, ocs.warnings)
+    items(console, could_hit(ocs), style="yellow")
+    if _beyond_its_rating(ocs.motor):
+        note(console, _OVERRATED.format(motor=ocs.motor), style="yellow")
     table = columns("incidence by criterion", "deg", "robot alone")
     for name, angle in ocs.incidence_by_criterion.items():
         before = ocs.incidence_by_criterion_robot_alone.get(name)
@@ -53,6 +56,10 @@ def _wheel(design: OcsDesign) -> Iterator[tuple[str, str]]:
     rotor = "" if ocs.motor.rotor_inertia == 0.0 else f", {ocs.motor.rotor_inertia:.2e} its rotor's"
     yield "incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"
     yield "rim", f"R {outer}  r {inner}  h {height} mm, {wheel.material}"
+    if wheel.web is not None:
+        web, hub = wheel.web, wheel.web.hub
+        sizes = f"{tenths(web.thickness)} mm, hub R {tenths(hub.radius)}  h {tenths(hub.height)} mm"
+        yield "web", f"{sizes}, {web.material}"
     yield "spin inertia", f"{inertia(ocs.spin_inertia)} each{rotor}"
     yield "transverse inertia", f"{inertia(wheel.transverse_inertia)} each"
 
@@ -61,7 +68,8 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
     ocs = design.ocs
     share = f"{ocs.mass_total / design.robot.mass:.1%} of the robot"
     parts = {
-        "rim": ocs.flywheel.mass,
+        "rim": ocs.flywheel.rim_mass,
+        "web": 0.0 if ocs.flywheel.web is None else ocs.flywheel.web.mass,
         "motor": ocs.motor.mass,
         "gear": ocs.motor.gear_mass,
         "housing": ocs.carrier.mass - ocs.motor.mass - ocs.motor.gear_mass,
@@ -86,21 +94,19 @@ def _drive(motor: Motor) -> Iterator[tuple[str, str]]:
     yield "drive at the wheel", ", ".join(limits)
 
 
+def _beyond_its_rating(motor: Motor) -> bool:
+    if motor.bus_voltage is None or motor.rated_voltage is None:
+        return False
+    return motor.bus_voltage > motor.rated_voltage
+
+
 def _stand(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     position = ", ".join(map(tenths, ocs.modules[0].position))
     yield "left wheel at", f"{position} mm; the right one mirrored in y"
-    yield "nearest part", _clearance(ocs.clearance)
+    yield from mounted(ocs)
     roll, pitch = ocs.heading_drift
     yield (
         "heading drift",
         f"{signed(roll)} rad of yaw per rad of roll, {signed(pitch)} per rad of pitch "
         "(cannot be commanded)",
     )
-
-
-def _clearance(clearance: ClearanceRecord | None) -> str:
-    if clearance is None:
-        return "not checked: the robot has no collision geometry"
-    gap = millimetres(abs(clearance.distance))
-    how = f"{gap} away" if clearance.distance >= 0.0 else f"overlapping by {gap}"
-    return f"{clearance.part}, {how} (nominal posture; what moves is not checked)"

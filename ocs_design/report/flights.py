@@ -1,6 +1,6 @@
 """The proof by simulation in the terminal, and what was written."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -64,16 +64,28 @@ def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:
 
 def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
     """What was written, and the verdict in one line."""
-    heading(console, f"Written to {folder}/")
-    rows = [("design.json", "everything in this report, and the hashes of the other files")]
-    folders: dict[str, list[str]] = {}
-    for name in design.files:
-        folder_name, _, file = name.rpartition("/")
-        folders.setdefault(folder_name, []).append(file)
-    rows += [(f"{name}/", _listed(files)) for name, files in sorted(folders.items())]
-    facts(console, rows)
+    print_files(console, str(folder), "everything in this report", design.files)
     console.print()
     console.print(_summary([run.passed for run in design.validation if run.ocs]))
+
+
+def print_files(console: Console, folder: str, held: str, files: Iterable[str]) -> None:
+    """What a folder got, by the folders in it.
+
+    Args:
+        console: to print on.
+        folder: that it was written to.
+        held: what its design.json holds.
+        files: paths in that folder, without the design itself.
+    """
+    heading(console, f"Written to {folder}/")
+    rows = [("design.json", f"{held}, and the hashes of the other files")]
+    folders: dict[str, list[str]] = {}
+    for name in files:
+        folder_name, _, file = name.rpartition("/")
+        folders.setdefault(folder_name, []).append(file)
+    rows += [(f"{name}/", _listed(names)) for name, names in sorted(folders.items())]
+    facts(console, rows)
 
 
 def _listed(files: Sequence[str]) -> str:

@@ -105,9 +105,9 @@ def _print_co_design(console: Console, selection: SelectionRecord) -> None:
     heading(console, "Co-design: all dimensions together with the maneuvers, in 3-D")
     rows = [("solver", f"{found.status}, {found.iterations} iterations")]
     if found.mass is not None:
-        gain = 1.0 - found.mass / found.selected_mass
+        change = found.mass / found.selected_mass - 1.0
         rows.append(
-            ("device", f"{grams(found.mass)} against {grams(found.selected_mass)} ({gain:+.2%})")
+            ("device", f"{grams(found.mass)} against {grams(found.selected_mass)} ({change:+.2%})")
         )
     if found.violation is not None:
         rows.append(("violation", f"{found.violation:.1e} on a ten times finer grid, relative"))

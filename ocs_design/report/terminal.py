@@ -1,13 +1,13 @@
 """The story of a design in the terminal: what was read, asked, found, proved and written."""
 
-from collections.abc import Iterator
 
 import numpy as np
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.design_file import MarginRecord, OcsDesign, RobotRecord
+from ocs_design.design_file import MarginRecord, OcsDesign
 from ocs_design.report.device import print_device
+from ocs_design.report.doubts import doubts
 from ocs_design.report.flights import print_flights
 from ocs_design.report.layout import (
     columns,
@@ -26,14 +26,13 @@ from ocs_design.report.quantities import (
     tenths,
 )
 from ocs_design.report.selection import print_selection
+from ocs_design.robot_record import RobotRecord
 from ocs_design.sizing.margins.margin import Margin
 
 TURNS = (
     "Turns are sized for constant torque one way and then the other, a peak rate of 2 theta / T: "
     "the least torque that does it. More torque may do with up to half the wheel: the flights tell."
 )
-SAME_ANGLE = 1e-9
-"""Incidences that differ by less are equal [rad]."""
 
 
 def print_design(console: Console, design: OcsDesign) -> None:
@@ -128,29 +127,10 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
     show(console, table)
     if design.selection is None:
         note(console, TURNS)
-    items(console, _doubts(design), style="yellow")
+    items(console, doubts(design), style="yellow")
     if requirement.assumptions:
         heading(console, "Assumed, because nothing else was stated")
         items(console, requirement.assumptions)
-
-
-def _doubts(design: OcsDesign) -> Iterator[str]:
-    """What the design cannot do, or does in another state than it is delivered in."""
-    limit, stated = design.ocs.motor.torque_limit, design.requirement.spin_inertia_by_hand
-    for demand in design.requirement.demands:
-        if limit is not None and demand.torque > limit:
-            yield (
-                f"{demand.source}: needs at least {demand.torque:.3g} N m a wheel, more than the "
-                f"{limit:.3g} N m allowed: no wheel, however large, makes this turn in time"
-            )
-        if stated is not None and demand.spin_inertia > stated:
-            yield f"{demand.source}: asks for more spin inertia than the {stated:.3e} kg m2 stated"
-        if abs(demand.incidence - design.ocs.incidence) > SAME_ANGLE:
-            yield (
-                f"{demand.source}: sized and flown with both modules turned by hand to "
-                f"{degrees(demand.incidence)}, not at the {degrees(design.ocs.incidence)} that "
-                "the files have"
-            )
 
 
 def _print_limits(console: Console, design: OcsDesign) -> None:

@@ -69,6 +69,8 @@ def _assumed_room(flywheel: FlywheelSection, envelope: Envelope, scale: Scale) -
 def _without_motor(
     specification: Specification, requirement: Requirement, envelope: Envelope, chosen: Material
 ) -> Iterator[str]:
+    if specification.flywheel.web is None:
+        yield "Web: a thin disc of aluminium with a hub joins each rim to its motor."
     if specification.flywheel.material in {None, AUTO}:
         yield f"Material: {chosen.name}, {chosen.density:g} kg/m3."
     yield from _assumed_strength(specification.flywheel, envelope, chosen)
@@ -90,6 +92,8 @@ def _choosing(
         yield f"Motor: the lightest device of {len(choice.motors)} motors in the catalogue."
     if stated.gear in {None, AUTO}:
         yield f"Gear: none, or one of {len(choice.gears) - 1} stages in the catalogue."
+    if specification.flywheel.web is None:
+        yield "Web: a thin disc of aluminium with a hub joins each rim to its motor."
     if specification.flywheel.material in {None, AUTO}:
         yield f"Material: one of {len(choice.materials)} whose strength is known."
     yield from _assumed_strength(specification.flywheel, envelope, choice.materials[0])

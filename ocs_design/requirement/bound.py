@@ -180,6 +180,7 @@ def spin_demands(
     def demand(
         source: str, momentum: FloatArray, at: float, torque: FloatArray | None = None
     ) -> SpinDemand:
+        """Of this momentum [N m s] and, where a time is set, least torque [N m] on the trunk."""
         least = spin_inertia_for(momentum, at, requirement.wheel_speed_max)
         per_motor = 0.0 if torque is None else per_wheel(torque, at)
         return SpinDemand(source, at, momentum, least, per_motor)

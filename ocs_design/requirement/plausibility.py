@@ -8,7 +8,7 @@ from ocs_design.requirement.contradictions import without_motor
 from ocs_design.requirement.envelope import Envelope
 from ocs_design.requirement.motor_choice import unknown_names
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import AUTO, Specification
+from ocs_design.requirement.specification import AUTO, FlywheelSection, Specification
 from ocs_design.robot.robot import Robot
 from ocs_design.units import format_quantity
 
@@ -24,7 +24,7 @@ def implausible(
     return (
         *_oversized(specification, robot, robot_size),
         *_wrong_side(specification.ocs.position),
-        *_empty_room(envelope),
+        *_empty_room(specification.flywheel, envelope),
         *_impossible(requirement, robot),
         *_unknown_material(specification.flywheel.material),
         *unknown_names(specification),
@@ -64,19 +64,26 @@ def _wrong_side(position: tuple[float, ...] | None) -> Iterator[str]:
         )
 
 
-def _empty_room(envelope: Envelope) -> Iterator[str]:
+def _empty_room(stated: FlywheelSection, envelope: Envelope) -> Iterator[str]:
     """Stated and assumed limits that leave no room between them."""
     radius, bore = envelope.outer_radius_max, envelope.inner_radius_min
     if bore >= radius:
         yield (
-            f"flywheel: r_max, {format_quantity(radius, 'mm')}, leaves no room over r_min, "
-            f"{format_quantity(bore, 'mm')}"
+            f"flywheel: r_max, {format_quantity(radius, 'mm')}{_assumed(stated.r_max)}, leaves no "
+            f"room over r_min, "
+            f"{format_quantity(bore, 'mm')}{_assumed(stated.r_min)}"
         )
     if envelope.height_min > envelope.height_max:
         yield (
-            f"flywheel: h_max, {format_quantity(envelope.height_max, 'mm')}, is below h_min, "
-            f"{format_quantity(envelope.height_min, 'mm')}"
+            f"flywheel: h_max, {format_quantity(envelope.height_max, 'mm')}"
+            f"{_assumed(stated.h_max)}, is below h_min, "
+            f"{format_quantity(envelope.height_min, 'mm')}{_assumed(stated.h_min)}"
         )
+
+
+def _assumed(stated: float | None) -> str:
+    """Behind the figure of a limit that the user may not know of."""
+    return " (assumed: state it too)" if stated is None else ""
 
 
 def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:

@@ -1,6 +1,5 @@
 """Reads specification files, strictly: all faults at once, each with its key's path."""
 
-import tomllib
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
@@ -14,12 +13,12 @@ from ocs_design.requirement.faults import Faults
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
 from ocs_design.requirement.maneuver_table import MANEUVER_KINDS, ManeuverKind
 from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
+from ocs_design.text_files import TextKind
 
-LARGEST_FILE = 1 << 16
-"""Bytes; a specification takes a few thousand."""
-
-LONGEST_LINE = 1000
-"""Characters; the TOML reader takes minutes for a key of ten thousand dots."""
+# A specification takes a few thousand bytes.
+_FILE = TextKind(
+    "specification", 1 << 16, 1000, "check the path given with --spec", "r_max = '30mm'"
+)
 
 
 def read_specification(path: Path) -> Specification:
@@ -28,7 +27,7 @@ def read_specification(path: Path) -> Specification:
     Raises:
         SpecificationError: it cannot be read, is not TOML, or has faults, all of which are listed.
     """
-    specification = parse_specification(_text(path), str(path))
+    specification = parse_specification(_FILE.read(path), str(path))
     robot, motor = specification.robot, specification.motor
     return replace(
         specification,
@@ -48,7 +47,7 @@ def parse_specification(text: str, name: str) -> Specification:
     Raises:
         SpecificationError: see `read_specification`.
     """
-    content = _toml(text, name)
+    content = _FILE.parse_toml(text, name)
     faults = Faults()
     specification = _specification(content, faults)
     faults.extend(contradictions(specification))
@@ -56,43 +55,6 @@ def parse_specification(text: str, name: str) -> Specification:
         count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
         raise SpecificationError(f"{name} has {count}:", problems=faults)
     return specification
-
-
-def _text(path: Path) -> str:
-    """The file's text, of a bounded size."""
-    try:
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        reason = error.strerror or "it cannot be opened"
-        raise SpecificationError(
-            f"cannot read the specification {path}: {reason}",
-            hint="check the path given with --spec",
-        ) from error
-    if len(content) > LARGEST_FILE:
-        raise SpecificationError(f"{path} is larger than 64 KiB: that is no specification")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise SpecificationError(
-            f"{path}, line {line}: not UTF-8", hint="TOML is UTF-8: save the file so."
-        ) from error
-
-
-def _toml(text: str, name: str) -> Mapping[str, object]:
-    for number, line in enumerate(text.splitlines(), 1):
-        if len(line) > LONGEST_LINE:
-            raise SpecificationError(f"{name}, line {number}: over {LONGEST_LINE} characters long")
-    try:
-        return tomllib.loads(text)
-    except RecursionError as error:
-        raise SpecificationError(f"{name} nests its values too deeply") from error
-    except ValueError as error:
-        # TOMLDecodeError, or the plain ValueError of a whole number with thousands of digits.
-        raise SpecificationError(
-            f"{name} is not TOML: {error}", hint="Text stands in quotes, as in r_max = '30mm'."
-        ) from error
 
 
 def _specification(content: Mapping[str, object], faults: Faults) -> Specification:

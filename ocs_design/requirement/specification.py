@@ -42,6 +42,14 @@ NO_MOTOR = "none"
 FASTEST_BARE = 4000.0
 """[rad/s], 38,000 rpm: a larger wheel speed without a unit was meant in rpm."""
 
+DISC = "disc"
+"""A rim's web: a thin disc of aluminium with a hub."""
+
+NO_WEB = "none"
+"""In place of a web: massless spokes, as in the paper."""
+
+WEBS = (DISC, NO_WEB)
+
 PROJECTIONS = ("pseudo-inverse", "transpose")
 """How a torque on the trunk becomes torques of the wheels (docs/theory.md, The control law)."""
 
@@ -145,6 +153,9 @@ class FlywheelSection:
     ] = None
     material: Annotated[
         str | None, Key(Text(), "material of a rim, from the catalogue, or auto")
+    ] = None
+    web: Annotated[
+        str | None, Key(Choice(WEBS), "how a rim is joined to its motor; none: massless spokes")
     ] = None
     stress_safety: Annotated[
         float | None, Key(Number(), "yield strength over hoop stress at the highest speed")

@@ -79,12 +79,20 @@ def trunk_top(tree: Tree, trunk: str) -> float:
 
     Without shapes: the height of the trunk body's centre of mass.
     """
+    return trunk_extent(tree, trunk, np.array([0.0, 0.0, 1.0]))
+
+
+def trunk_extent(tree: Tree, trunk: str, direction: FloatArray) -> float:
+    """How far the trunk body's shapes reach along a unit vector of B [m].
+
+    Without shapes: its centre of mass.
+    """
     body = tree.bodies[tree.body_of_link[trunk]]
     base = body.links[trunk]
-    up = base.rotation[:, 2]
-    reach = extent_of(solid_shapes(body), up)
-    top = float(up @ body.mass_properties.com) if reach is None else reach
-    return top - float(up @ base.position)
+    along = base.rotation @ direction
+    reach = extent_of(solid_shapes(body), along)
+    farthest = float(along @ body.mass_properties.com) if reach is None else reach
+    return farthest - float(along @ base.position)
 
 
 def size(tree: Tree, posture: Mapping[str, float], trunk: str) -> float:

@@ -48,6 +48,7 @@ def empty_recording(times: FloatArray, lengths: NDArray[np.int64]) -> Recording:
     k, n = len(times), len(lengths)
 
     def unknown(*shape: int) -> FloatArray:
+        """One such value per time and world."""
         return np.full((k, n, *shape), np.nan)
 
     impulse = unknown(3)

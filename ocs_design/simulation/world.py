@@ -135,9 +135,7 @@ class WorldBuilder:
     def _build(
         self, maneuver: Maneuver, wheels: Wheels, trajectory: Trajectory | None, *, level: bool
     ) -> World:
-        device = self._device
-        if maneuver.incidence is not None:
-            device = device.at_incidence(maneuver.incidence)
+        device = self._device.as_flown(maneuver)
         model = compile_scene(self._scene, self._robot, device, wheels, maneuver.gravity)
         data = mujoco.MjData(model)
         standing = _stand(self._robot, model, data)

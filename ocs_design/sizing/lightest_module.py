@@ -1,19 +1,26 @@
-"""The lightest rim together with its housing, in closed form but for one root, for many at once.
+"""The lightest rim with its web and housing, in closed form but for one root, for many at once.
 
 The lightest rim of a spin inertia I is as large as it may be (`rim_closed_form`), but its housing
-grows with it. With a = R^2, b = r^2, k = 2 I / (pi rho) and h = k / (a^2 - b^2) both weigh
+grows with it. The web is a disc that fills the bore, of a thickness that counts like t of the rim's
+material. With a = R^2, b = r^2 and k = 2 I / (pi rho),
 
-    m = 2 I / (a + b) + m_housing(R, h)
+    k = h (a^2 - b^2) + t b^2,    m = pi rho (h (a - b) + t b) + m_housing(R, h),
 
-At a given R this is convex in b, and at its best where, with C = dm_housing/dh,
+in which h (a - b) + t b = (k + t a b) / (a + b). At a given R, with C = dm_housing/dh,
 
-    (a - b)^2 = 2 q b,  q = C / (pi rho),  so that  b = a + q - sqrt(q (2 a + q)),
+    dm/db = pi rho (k - t a^2) / (a + b)^2 (2 q b / (a - b)^2 - 1),  q = C / (pi rho).
 
-whatever I is, or at the bound of b next to it (`module_radii`). Over R it has a single valley: with
+The rim is taller than t, so that k > t a^2, and the mass is at its best where
+
+    (a - b)^2 = 2 q b,  so that  b = a + q - sqrt(q (2 a + q)),
+
+whatever I and the web are, or at the bound of b next to it (`module_radii`). Over R the mass of rim
+and housing has a single valley: with
 u = a - b and v = a + b everything but the least wall is a posynomial of (R, h, u, v), and the
 smallest of a geometric program is a convex function of log R (Boyd, Kim, Vandenberghe, Hassibi, A
-tutorial on geometric programming, Optim. Eng. 8, 2007). The least wall bends it a little; the tests
-compare with a grid. So the best R is where the slope changes sign, or an end of the interval.
+tutorial on geometric programming, Optim. Eng. 8, 2007). The least wall and the web bend it a
+little; the tests compare with a grid. So the best R is where the slope changes sign, or an end of
+the interval.
 """
 
 from typing import NamedTuple
@@ -43,23 +50,24 @@ class ModuleShape(NamedTuple):
 
     Attributes:
         inner_radius, outer_radius, height: of the rim [m], all of one shape.
-        rim_mass, housing_mass: [kg].
+        rim_mass, web_mass, housing_mass: [kg].
     """
 
     inner_radius: FloatArray
     outer_radius: FloatArray
     height: FloatArray
     rim_mass: FloatArray
+    web_mass: FloatArray
     housing_mass: FloatArray
 
     @property
     def mass(self) -> FloatArray:
-        """Of rim and housing [kg]."""
-        return self.rim_mass + self.housing_mass
+        """Of rim, web and housing [kg]."""
+        return self.rim_mass + self.web_mass + self.housing_mass
 
 
 def lightest_module(spin_inertia: ArrayLike, limits: RimLimits) -> ModuleShape:
-    """The lightest rim of each spin inertia [kg m^2] with its housing; see the module's text."""
+    """The lightest wheel of each spin inertia [kg m^2] with its housing; see the module's text."""
     inertia = np.asarray(spin_inertia, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         low, high, fits = _radii(inertia, limits)
@@ -103,14 +111,16 @@ def _shape(
     flatness: float | FloatArray = 1.0,
 ) -> ModuleShape:
     """Of modules of given outer radii."""
-    square = outer_radius**2
+    square, per_height = outer_radius**2, np.pi * limits.density
     bore, _ = _best_bore(inertia, outer_radius, limits, flatness)
-    height = 2.0 * inertia / (np.pi * limits.density * (square**2 - bore**2))
+    of_rim = 2.0 * inertia / per_height - limits.web * bore**2
+    height = of_rim / (square**2 - bore**2)
     values = (
         np.sqrt(bore),
         outer_radius,
         height,
-        2.0 * inertia / (square + bore),
+        per_height * of_rim / (square + bore),
+        per_height * limits.web * bore,
         housing_mass(outer_radius, height),
     )
     return ModuleShape(*(np.where(fits, value, np.nan) for value in values))
@@ -138,11 +148,14 @@ def _slope(inertia: FloatArray, outer_radius: FloatArray, limits: RimLimits) -> 
     """dm/dR along the best bore [kg/m]."""
     square = outer_radius**2
     bore, along = _best_bore(inertia, outer_radius, limits)
-    per_height = housing_mass_per_height(outer_radius)
-    height = 2.0 * inertia / (np.pi * limits.density * (square**2 - bore**2))
-    stretch = 2.0 * per_height * height / (square**2 - bore**2)
-    rim = -2.0 * inertia / (square + bore) ** 2
-    by_square, by_bore = rim - stretch * square, rim + stretch * bore
+    per_height, density = housing_mass_per_height(outer_radius), np.pi * limits.density
+    full = 2.0 * inertia / density
+    # Of the rim alone, and of what it has beyond a disc of the web's thickness.
+    of_rim, beyond = full - limits.web * bore**2, full - limits.web * square**2
+    apart, across = square**2 - bore**2, (square + bore) ** 2
+    height = of_rim / apart
+    by_square = -density * of_rim / across - 2.0 * per_height * height * square / apart
+    by_bore = beyond * (2.0 * per_height * bore / apart**2 - density / across)
     shell = housing_mass_per_radius(outer_radius, height)
     slope: FloatArray = by_square * 2.0 * outer_radius + by_bore * along + shell
     return slope
@@ -188,7 +201,7 @@ def _lower_bounds(inertia: FloatArray, outer: FloatArray, limits: RimLimits) -> 
         _bore_at_height(inertia, outer, limits, limits.height_min),
         (limits.inner_radius_min**2 + zero, zero),
         ((BORE_SHARE * outer) ** 2, 2.0 * BORE_SHARE**2 * outer),
-        (2.0 * inertia / limits.mass_max - outer**2, -2.0 * outer),
+        _bore_at_mass(inertia, outer, limits),
     ]
 
 
@@ -196,10 +209,19 @@ def _bore_at_height(
     inertia: FloatArray, outer: FloatArray, limits: RimLimits, height: float | FloatArray
 ) -> Bound:
     """b at which a rim of radius R has that height; zero where even a full one is taller."""
-    square = outer * outer
-    spread = 2.0 * inertia / (np.pi * limits.density * np.asarray(height))
-    bore = np.sqrt(np.maximum(square * square - spread, 0.0))
-    return bore, np.where(bore > 0.0, 2.0 * square * outer / bore, 0.0)
+    square, over = outer * outer, np.asarray(height) - limits.web
+    beyond = 2.0 * inertia / (np.pi * limits.density) - limits.web * square**2
+    bore = np.sqrt(np.maximum(square**2 - beyond / over, 0.0))
+    along = 2.0 * square * outer * (1.0 + limits.web / over)
+    return bore, np.where(bore > 0.0, along / bore, 0.0)
+
+
+def _bore_at_mass(inertia: FloatArray, outer: FloatArray, limits: RimLimits) -> Bound:
+    """b at which a rim of radius R has the largest mass: t b^2 + m b = k - m a, m per pi rho."""
+    over = 2.0 * inertia / limits.mass_max - outer**2
+    web = limits.web * np.pi * limits.density / limits.mass_max
+    root = np.sqrt(np.maximum(1.0 + 4.0 * web * over, 1e-300))
+    return 2.0 * over / (1.0 + root), -2.0 * outer / root
 
 
 def _most(bounds: list[Bound], sign: float) -> Bound:

@@ -35,7 +35,10 @@ class Place:
 
     def left(self, outer_radius: Real, height: Real) -> tuple[Real, Real, Real]:
         """Centre of the left module in B [m], of numbers, arrays or CasADi's symbols alike."""
-        reach = sphere_radius(outer_radius, height)
+        return self.left_of_reach(sphere_radius(outer_radius, height))
+
+    def left_of_reach(self, reach: Real) -> tuple[Real, Real, Real]:
+        """Likewise, by the radius of its sphere [m]."""
         (x, y, z), (along_x, along_y, along_z) = self.origin, self.outward
         return x + along_x * reach, y + along_y * reach, z + along_z * reach
 
@@ -52,7 +55,7 @@ def place_on_top(robot: Robot) -> Place:
     """On top of the trunk over the centre of mass, symmetric to the sagittal plane.
 
     Each module may be turned to any incidence without touching the trunk or the other one. Other
-    parts of the robot are not looked at: give a position where something stands on the trunk.
+    parts of the robot are not looked at: see `free_place`.
     """
     # To the micrometre, so that no rounding error of the centre of mass reaches the files.
     forward = round(float(robot.com[0]), 6) + 0.0

@@ -83,10 +83,14 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
 
 
 def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
-    """Of the narrowest, thinnest and flattest rim that the lower limits leave [kg m^2]."""
+    """Of the narrowest, thinnest and flattest rim that the lower limits leave [kg m^2].
+
+    With its web, if it has one.
+    """
     bore = np.maximum(limits.inner_radius_min, limits.wall_min * BORE_SHARE / (1.0 - BORE_SHARE))
     spread = (bore + limits.wall_min) ** 4 - bore**4
-    return np.asarray(np.pi * limits.density * limits.height_min * spread / 2.0, dtype=np.float64)
+    full = limits.height_min * spread + limits.web * bore**4
+    return np.asarray(np.pi * limits.density * full / 2.0, dtype=np.float64)
 
 
 def flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:

@@ -19,6 +19,8 @@ class RimLimits:
         stretch_max: largest (3 + nu) R^2 + (1 - nu) r^2 that the allowed hoop stress admits, which
             is 4 sigma / (rho w^2) [m^2]; inf: not limited.
         poisson_ratio: nu; of no account where the hoop stress is not limited.
+        web: thickness of a disc of the rim's material that weighs as much as the web, which fills
+            the bore [m]; 0: massless spokes.
     """
 
     density: float | FloatArray
@@ -30,6 +32,7 @@ class RimLimits:
     mass_max: float | FloatArray
     stretch_max: float | FloatArray
     poisson_ratio: float | FloatArray
+    web: float | FloatArray = 0.0
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from wheels import EC45, EC45_BODY, braked_inertia, driven_device, geared
 from ocs_design.exceptions import RobotError
 from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
 from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
     export_snippet_mjcf,
     export_snippet_urdf,
@@ -80,7 +81,7 @@ def check_whole(seen, robot, device):
 
 def test_mujoco_sees_the_whole_robot(device, tmp_path):
     robot = read_robot(SOLO12)
-    path = export_robot_mjcf(robot, device, tmp_path / "robot.xml")
+    path = export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml")
     check_whole(seen_by_mujoco(path, robot), robot, device)
 
 
@@ -96,7 +97,9 @@ def test_all_kinds_of_robots_carry_their_motors(path, tmp_path):
     text = export_robot_urdf(robot, device, tmp_path / "robot.urdf").read_text()
     check_whole(seen_by_pinocchio(text, robot), robot, device)
     check_whole(
-        seen_by_mujoco(export_robot_mjcf(robot, device, tmp_path / "robot.xml"), robot),
+        seen_by_mujoco(
+            export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"), robot
+        ),
         robot,
         device,
     )
@@ -108,7 +111,7 @@ def test_a_robot_by_hand_carries_them_in_full(device, tmp_path):
 
 
 def test_the_wheel_has_its_momentum_and_the_joint_its_armature(device, tmp_path):
-    path = export_robot_mjcf(BLOCK, device, tmp_path / "robot.xml")
+    path = export_robot_mjcf(robot_model(BLOCK, device), tmp_path / "robot.xml")
     model = mujoco.MjModel.from_xml_path(str(path))
     full = np.empty((model.nv, model.nv))
     data = mujoco.MjData(model)
@@ -202,7 +205,9 @@ def test_the_slower_of_voltage_and_mechanics_is_the_joints_limit(tmp_path, top, 
 def test_without_mass_there_is_no_motor_body(tmp_path):
     device = driven_device(carrier=replace(EC45_BODY, mass=0.0))
     assert "_motor" not in export_robot_urdf(BLOCK, device, tmp_path / "a.urdf").read_text()
-    model = mujoco.MjModel.from_xml_path(str(export_robot_mjcf(BLOCK, device, tmp_path / "a.xml")))
+    model = mujoco.MjModel.from_xml_path(
+        str(export_robot_mjcf(robot_model(BLOCK, device), tmp_path / "a.xml"))
+    )
     assert not [i for i in range(model.nbody) if model.body(i).name.endswith("_motor")]
 
 
@@ -228,4 +233,4 @@ def test_a_body_of_that_name_is_a_clash_in_mjcf(tmp_path):
     )
     robot = read_robot(tmp_path / "in.xml", trunk="trunk", posture="zero")
     with pytest.raises(RobotError, match="body named 'ocs_left_motor'"):
-        export_robot_mjcf(robot, driven_device(), tmp_path / "out.xml")
+        export_robot_mjcf(robot_model(robot, driven_device()), tmp_path / "out.xml")

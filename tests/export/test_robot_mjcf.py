@@ -10,13 +10,16 @@ from robots import SOLO12
 from scipy.spatial.transform import Rotation
 from wheels import paper_device
 
-from ocs_design.export.mjcf import export_robot_mjcf, robot_with_device
+from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 
 
 def read_again(robot, device, folder):
-    return mujoco.MjModel.from_xml_path(str(export_robot_mjcf(robot, device, folder / "robot.xml")))
+    return mujoco.MjModel.from_xml_path(
+        str(export_robot_mjcf(robot_model(robot, device), folder / "robot.xml"))
+    )
 
 
 def check_wheels(model, device, trunk):
@@ -61,7 +64,7 @@ EXACT = (
 
 
 def compiled(robot, device):
-    return robot_with_device(robot, device).compile()
+    return robot_model(robot, device).compiled
 
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
@@ -106,7 +109,7 @@ def test_keyframes_keep_the_robots_values(tmp_path):
 def test_an_mjcf_robot_has_the_inertia_that_was_read(tmp_path):
     (tmp_path / "in.xml").write_text(MJCF)
     robot = read_robot(tmp_path / "in.xml", joints={"swing": 0.3, "slide": 0.05})
-    export_robot_mjcf(robot, paper_device(), tmp_path / "out.xml")
+    export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "out.xml")
     again = read_robot(
         tmp_path / "out.xml", trunk=robot.trunk, posture="zero", joints=robot.posture
     )
@@ -159,7 +162,7 @@ def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
     )
     (tmp_path / "out").mkdir()
     robot = read_robot(tmp_path / "in" / "robot.xml", posture="zero")
-    export_robot_mjcf(robot, paper_device(), tmp_path / "out" / "robot.xml")
+    export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "out" / "robot.xml")
     shutil.rmtree(tmp_path / "in")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "robot.xml"))
     assert model.nmesh == 3
@@ -179,8 +182,8 @@ def test_it_simulates_as_it_stands(tmp_path):
 
 def test_bytes_are_the_same_every_time(tmp_path):
     robot, device = read_robot(SOLO12), paper_device()
-    first = export_robot_mjcf(robot, device, tmp_path / "a.xml").read_bytes()
-    assert export_robot_mjcf(robot, device, tmp_path / "b.xml").read_bytes() == first
+    first = export_robot_mjcf(robot_model(robot, device), tmp_path / "a.xml").read_bytes()
+    assert export_robot_mjcf(robot_model(robot, device), tmp_path / "b.xml").read_bytes() == first
 
 
 def test_wheels_look_like_rims_and_touch_like_cylinders(tmp_path):

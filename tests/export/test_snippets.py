@@ -13,6 +13,7 @@ from robots import ROBOTS, SOLO12
 from wheels import motor, paper_device
 
 from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
     export_snippet_mjcf,
     export_snippet_urdf,
@@ -170,7 +171,9 @@ def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
 
 def test_mjcf_of_a_robot_with_y_up_has_its_wheels_in_its_base_frame(tmp_path):
     robot, device = read_robot(HUMAN), paper_device()
-    model = mujoco.MjModel.from_xml_path(str(export_robot_mjcf(robot, device, tmp_path / "h.xml")))
+    model = mujoco.MjModel.from_xml_path(
+        str(export_robot_mjcf(robot_model(robot, device), tmp_path / "h.xml"))
+    )
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     trunk = data.body(robot.mount.link)

@@ -106,6 +106,6 @@ def test_a_co_design_says_what_it_gained():
         violation=2e-7, remark="The co-designed device is taken.",
     )  # fmt: skip
     text = " ".join(printed(replace(SELECTION, co_design=found)))
-    assert "330.0 g against 336.7 g (+1.99%)" in text
+    assert "330.0 g against 336.7 g (-1.99%)" in text
     assert "2.0e-07 on a ten times finer grid" in text
     assert "The co-designed device is taken." in text

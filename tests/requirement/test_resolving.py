@@ -112,8 +112,10 @@ def test_gravity_goes_to_the_default_maneuvers(solo12):
         ("[flywheel]\nh_max = 10", "flywheel.h_max: 10 m is larger"),
         ("[flywheel]\nwheel_mass_max = 102", "did you mean 102g?"),
         ("[ocs]\nposition = [0, 100, 0]", "y = 100 m is off the robot"),
-        ("[flywheel]\nr_max = '4mm'", "r_max, 4 mm, leaves no room over r_min, 5 mm"),
-        ("[flywheel]\nh_max = '1mm'", "h_max, 1 mm, is below h_min, 2 mm"),
+        ("[flywheel]\nr_max = '4mm'", "flywheel: r_max, 4 mm, leaves no room over r_min, "
+         "5 mm (assumed: state it too)"),
+        ("[flywheel]\nh_max = '1mm'", "h_max, 1 mm, is below h_min, 2 mm (assumed: state it too)"),
+        ("[flywheel]\nr_min = '60mm'", "r_max, 50 mm (assumed: state it too), leaves no room"),
         ("[requirement]\nmaneuvers = 'none'", "nothing is asked for"),
         ("[flywheel]\nmaterial = 'stainless'", "flywheel.material: there is no material"),
         ("[[maneuver]]\nkind='drop'\nname='d'\nheight='10cm'\npitch=1", "there is no fall"),

@@ -57,6 +57,7 @@ FULL = Specification(
         wheel_mass_max=0.25,
         material="auto",
         stress_safety=2.5,
+        web="none",
     ),
     motor=MotorSection(
         name="auto", bus_voltage=24.0, gear="direct", motors="m.csv", gears="g.toml", torque_max=1.1

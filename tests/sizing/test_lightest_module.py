@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 from rims import random_problem, rim_problems
 
 from ocs_design.sizing.housing import housing_mass
@@ -18,23 +19,33 @@ def on_a_grid(inertia, limits):
     """The lightest module of that spin inertia on a grid of radii; inf if there is none."""
     outer = np.linspace(0.02, 1.0, GRID)[:, None] * limits.outer_radius_max
     inner = np.linspace(0.01, 1.0, GRID)[None, :-1] * outer
-    height = 2.0 * inertia / (np.pi * limits.density * (outer**4 - inner**4))
-    rim = 2.0 * inertia / (outer**2 + inner**2)
+    web = np.pi * limits.density * limits.web * inner**2
+    left = inertia - web * inner**2 / 2.0
+    height = 2.0 * left / (np.pi * limits.density * (outer**4 - inner**4))
+    rim = 2.0 * left / (outer**2 + inner**2)
     nu = limits.poisson_ratio
     stretch = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
     fits = (height <= limits.height_max) & (height >= limits.height_min)
     fits &= (outer - inner >= limits.wall_min) & (inner >= limits.inner_radius_min)
     fits &= (rim <= limits.mass_max) & (stretch <= limits.stretch_max)
-    return np.where(fits, rim + housing_mass(outer, height), np.inf).min()
+    return np.where(fits, rim + web + housing_mass(outer, height), np.inf).min()
 
 
-def test_never_heavier_than_on_a_grid():
+def with_web(limits, share):
+    """A web of that share of the least height, which is at least that of a thin sheet."""
+    height = max(limits.height_min, 1e-4) if share else limits.height_min
+    return replace(limits, height_min=height, web=share * height)
+
+
+@pytest.mark.parametrize("web", [0.0, 0.3, 0.9])
+def test_never_heavier_than_on_a_grid(web):
     rng = np.random.default_rng(3)
     gaps = []
     for _ in range(60):
         problem = random_problem(rng)
-        shape = lightest_module(problem.spin_inertia, problem.limits)
-        grid = on_a_grid(problem.spin_inertia, problem.limits)
+        limits = with_web(problem.limits, web)
+        shape = lightest_module(problem.spin_inertia, limits)
+        grid = on_a_grid(problem.spin_inertia, limits)
         if not np.isfinite(grid):
             continue
         gaps.append(float(grid / shape.mass) - 1.0)
@@ -48,7 +59,10 @@ def meets(shape, inertia, limits):
     nu, slack = limits.poisson_ratio, 1.0 + 1e-9
     mass = np.pi * limits.density * height * (outer**2 - inner**2)
     assert float(shape.rim_mass) == pytest.approx(mass, rel=1e-9)
-    assert mass * (outer**2 + inner**2) / 2.0 == pytest.approx(inertia, rel=1e-9)
+    web = float(shape.web_mass)
+    assert web == pytest.approx(np.pi * limits.density * limits.web * inner**2, rel=1e-9)
+    whole = mass * (outer**2 + inner**2) / 2.0 + web * inner**2 / 2.0
+    assert whole == pytest.approx(inertia, rel=1e-9)
     assert outer <= limits.outer_radius_max * slack
     assert limits.height_min <= height * slack
     assert height <= limits.height_max * slack
@@ -69,10 +83,21 @@ def test_there_is_one_where_there_is_a_rim(problem):
         assert float(shape.rim_mass) >= float(rim.mass) * (1.0 - 1e-9)
 
 
-@given(rim_problems())
-def test_more_spin_inertia_is_no_lighter(problem):
+@given(rim_problems(), st.floats(0.01, 0.95))
+def test_a_web_leaves_the_limits_met(problem, share):
+    """Wherever a grid finds a wheel there is one, and it is no heavier."""
+    limits = with_web(problem.limits, share)
+    shape = lightest_module(problem.spin_inertia, limits)
+    found, grid = float(shape.mass), on_a_grid(problem.spin_inertia, limits)
+    assert grid == np.inf or found <= grid * (1.0 + 1e-9)
+    if found > 0.0:
+        meets(shape, problem.spin_inertia, limits)
+
+
+@given(rim_problems(), st.sampled_from([0.0, 0.5]))
+def test_more_spin_inertia_is_no_lighter(problem, web):
     inertia = problem.spin_inertia * np.geomspace(0.05, 1.0, 40)
-    mass = lightest_module(inertia, problem.limits).mass
+    mass = lightest_module(inertia, with_web(problem.limits, web)).mass
     mass = mass[np.isfinite(mass)]
     assert (np.diff(mass) >= -1e-9 * mass[1:]).all()
 
@@ -97,3 +122,16 @@ def test_of_a_given_radius():
 
 def _nth(shape, index):
     return type(shape)(*(value[index] for value in shape))
+
+
+@pytest.mark.parametrize("web", [0.0, 0.5])
+def test_limits_that_are_none_hold_nothing(web):
+    """Neither an unlimited hoop stress nor an unlimited mass, alone or together."""
+    rng = np.random.default_rng(7)
+    limits = with_web(random_problem(rng).limits, web)
+    disc = np.pi * limits.density * limits.height_max * limits.outer_radius_max**4 / 2.0
+    ample = replace(limits, mass_max=1e3 * disc / limits.outer_radius_max**2, stretch_max=1.0)
+    for names in ([], ["stretch_max"], ["mass_max"], ["stretch_max", "mass_max"]):
+        free = replace(ample, **dict.fromkeys(names, np.inf))
+        shape, grid = lightest_module(0.4 * disc, free), on_a_grid(0.4 * disc, free)
+        assert float(shape.mass) <= grid < np.inf

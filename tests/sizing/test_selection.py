@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pinocchio
 import pytest
+from naive_device import wheel_of
 from selections import random_problem
 
 from ocs_design.drive.gear import DIRECT
@@ -14,7 +15,6 @@ from ocs_design.exceptions import Infeasible, UsageError
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing import housing
-from ocs_design.sizing.cylinder import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.sizing.incidence import module_axes
 from ocs_design.sizing.selection.infeasible import BUS_VOLTAGE, PRECISION, TIME, with_limit
 from ocs_design.sizing.selection.result import Reason
@@ -42,10 +42,9 @@ def solved(request):
 def by_pinocchio(problem, found, incidence):
     """Robot and device, each module a rim in a carrier, joined by Pinocchio."""
     total = pinocchio.Inertia(problem.robot.mass, problem.robot.com, problem.robot.inertia)
-    size = (found.inner_radius, found.outer_radius, found.height, found.material.density)
     carrier = found.carrier
     bodies = [
-        (found.rim_mass, cylinder_spin_inertia(*size), cylinder_transverse_inertia(*size)),
+        tuple(wheel_of(found)),
         (carrier.mass, carrier.axial_inertia, carrier.transverse_inertia),
     ]
     for center, axis in zip(found.centers, module_axes(incidence).T, strict=True):
@@ -66,11 +65,10 @@ def test_the_winner_from_scratch(solved):
     np.testing.assert_allclose(found.total.inertia, total.inertia, rtol=1e-9, atol=1e-12)
     mass = motor.mass + gear.mass + housing.housing_mass(found.outer_radius, found.height)
     assert found.carrier.mass == pytest.approx(mass, rel=1e-12)
-    assert found.mass == pytest.approx(2.0 * (found.rim_mass + mass), rel=1e-12)
+    assert found.mass == pytest.approx(2.0 * (wheel_of(found)[0] + mass), rel=1e-12)
 
-    size = (found.inner_radius, found.outer_radius, found.height, found.material.density)
     share = rotor_share(motor.rotor_inertia, gear)
-    assert found.spin_inertia == pytest.approx(cylinder_spin_inertia(*size) + share, rel=1e-9)
+    assert found.spin_inertia == pytest.approx(wheel_of(found)[1] + share, rel=1e-9)
     line = drive_line(motor, gear, problem.bus_voltage)
     cap = problem.wheel_speed_max or np.inf
     line = replace(line, speed_max=min(line.speed_max, cap)).reserved()

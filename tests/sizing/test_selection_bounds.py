@@ -124,7 +124,7 @@ def test_no_device_falls_below_its_bound(seed):
 
     rows = np.repeat(np.arange(len(drives)), 60)
     material = rng.integers(0, 2, rows.size)
-    lot = lot_of(drives.take(rows), material, problem.materials, problem.envelope)
+    lot = lot_of(problem, drives.take(rows), material)
     angle = rng.uniform(0.0, np.pi / 2.0, rows.size)
     if problem.incidence is not None:
         angle[:] = problem.incidence

@@ -69,6 +69,7 @@ def _package_index(find_package: FindPackage) -> Iterator[None]:
 
 def _folder_of(find_package: FindPackage) -> Callable[[str], str]:
     def get_package_share_directory(name: str) -> str:
+        """In place of ament's function of this name."""
         folder = find_package(name)
         if folder is None:
             raise LookupError(f"package {name!r} was not found")

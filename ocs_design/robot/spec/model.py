@@ -44,13 +44,10 @@ def build_spec(robot: Robot, *, visuals: bool = True) -> BuiltModel:
             meshes are reduced to their convex hulls, all that MuJoCo lets touch.
     """
     remarks = Remarks()
-    if robot.format is Format.MJCF:
-        spec = _spec_from_mjcf(robot, remarks)
-    else:
-        spec = spec_from_tree(robot.tree, remarks, visuals=visuals)
+    spec = plain_spec(robot, remarks, visuals=visuals)
     # MuJoCo 4.0.0's sparse Newton solver is wrong.
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    model = _compiled(spec, robot, remarks)
+    model = compile_spec(spec, robot, remarks)
     if not visuals:
         reduce_to_hulls(spec, model)
     add_missing_feet(spec, model, robot)
@@ -58,7 +55,21 @@ def build_spec(robot: Robot, *, visuals: bool = True) -> BuiltModel:
     return BuiltModel(spec, remarks.sentences())
 
 
-def _compiled(spec: mujoco.MjSpec, robot: Robot, remarks: Remarks) -> mujoco.MjModel:
+def plain_spec(robot: Robot, remarks: Remarks, *, visuals: bool) -> mujoco.MjSpec:
+    """The robot as its file has it, but for its base, which is free.
+
+    Args:
+        robot: as read.
+        remarks: takes what had to be changed for MuJoCo.
+        visuals: whether to load what is only to look at; an MJCF robot keeps it in any case.
+    """
+    if robot.format is Format.MJCF:
+        return _spec_from_mjcf(robot, remarks)
+    return spec_from_tree(robot.tree, remarks, visuals=visuals)
+
+
+def compile_spec(spec: mujoco.MjSpec, robot: Robot, remarks: Remarks) -> mujoco.MjModel:
+    """What a spec of `plain_spec` compiles to; meshes that MuJoCo refuses are taken out of it."""
     try:
         return compiled(spec)
     except RobotError:

@@ -18,6 +18,7 @@ def mujoco_warnings_to(remarks: Remarks) -> Iterator[None]:
     """Turn what MuJoCo warns of while parsing and compiling into remarks."""
 
     def tell(text: str) -> None:
+        """Keep it on one line."""
         remarks.add(f"MuJoCo: {' '.join(text.split())}")
 
     before = mujoco.get_mju_user_warning()

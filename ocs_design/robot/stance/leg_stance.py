@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from ocs_design.arrays import FloatArray
 from ocs_design.robot.stance.chain import Chain, ChainPose
@@ -116,6 +115,9 @@ class StanceProblem:
         return values
 
     def _refined(self, start: FloatArray) -> Stance:
+        # Half a second to import, and a robot in a known posture does without.
+        from scipy.optimize import least_squares  # noqa: PLC0415
+
         columns = list(self.plane.columns)
         solution = least_squares(
             self._residual,

@@ -5,6 +5,7 @@ Everything that a robot file can get wrong below the level of links and joints e
 """
 
 from collections.abc import Sequence
+from reprlib import repr as shortened
 from xml.etree import ElementTree as ET
 from xml.parsers.expat import ErrorString, errors
 
@@ -68,9 +69,18 @@ def _explained(content: bytes, error: ET.ParseError) -> RobotError:
             hint="write the values out in place of nested <!ENTITY> definitions",
         )
     return RobotError(
-        f"line {line}, column {column + 1}: the XML is broken: {reason}",
+        f"line {line}, column {column + 1}: the XML is broken: {reason}{_excerpt(content, line)}",
         hint="check that the file is complete and that every tag is closed",
     )
+
+
+def _excerpt(content: bytes, line: int) -> str:
+    """What stands there, as far as that can be told without knowing the encoding."""
+    lines = content.splitlines()
+    text = lines[line - 1].strip() if line <= len(lines) else b""
+    if not text or not text.isascii() or b"\0" in text:
+        return ""
+    return f" in {shortened(text.decode('ascii'))}"
 
 
 def unexpanded_xacro() -> RobotError:

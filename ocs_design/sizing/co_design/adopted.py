@@ -10,10 +10,11 @@ from ocs_design.sizing.co_design.device import (
     braked_total,
     carrier_of,
     centers_of,
-    rim_of,
     spin_inertia,
+    wheel_of,
 )
 from ocs_design.sizing.co_design.problem import CoDesign, CoDesignProblem, DeviceShape
+from ocs_design.sizing.cylinder import cylinder_mass
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.binding import binding_limits
 from ocs_design.sizing.selection.result import Candidate, TaskDemand
@@ -27,7 +28,8 @@ def adopted(problem: CoDesignProblem, found: CoDesign) -> Candidate:
     """
     if not found.adopted:
         return problem.selected
-    shape, rim = found.shape, rim_of(problem, found.shape)
+    shape, wheel = found.shape, wheel_of(problem, found.shape)
+    rim_mass = _rim_mass(problem, shape)
     carrier = carrier_of(problem, shape)
     return replace(
         problem.selected,
@@ -36,7 +38,8 @@ def adopted(problem: CoDesignProblem, found: CoDesign) -> Candidate:
         inner_radius=shape.inner_radius,
         outer_radius=shape.outer_radius,
         height=shape.height,
-        rim_mass=rim.mass,
+        rim_mass=rim_mass,
+        web_mass=wheel.mass - rim_mass,
         housing_mass=carrier.mass - problem.drive.mass,
         carrier=carrier,
         total=braked_total(problem, shape),
@@ -91,8 +94,13 @@ def _of_rate_change(problem: CoDesignProblem, shape: DeviceShape) -> Iterator[Ta
 
 def _binding(problem: CoDesignProblem, shape: DeviceShape) -> tuple[str, ...]:
     """Names of the limits that the rim touches."""
-    rim, carrier = rim_of(problem, shape), carrier_of(problem, shape)
+    carrier = carrier_of(problem, shape)
     sizes = (shape.inner_radius, shape.outer_radius, shape.height)
-    masses = (rim.mass, carrier.mass - problem.drive.mass)
+    masses = (_rim_mass(problem, shape), 0.0, carrier.mass - problem.drive.mass)
     module = ModuleShape(*(np.array([value]) for value in (*sizes, *masses)))
-    return binding_limits(module, problem.limits, 0)
+    return binding_limits(module, problem.limits, problem.selection.envelope, 0)
+
+
+def _rim_mass(problem: CoDesignProblem, shape: DeviceShape) -> float:
+    density = problem.selected.material.density
+    return cylinder_mass(shape.inner_radius, shape.outer_radius, shape.height, density)

@@ -7,20 +7,16 @@ from ocs_design.arrays import FloatArray
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.carrier import Carrier, housed
 from ocs_design.sizing.co_design.problem import CoDesignProblem, DeviceShape
-from ocs_design.sizing.cylinder import (
-    cylinder_mass,
-    cylinder_spin_inertia,
-    cylinder_transverse_inertia,
-)
 from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.housing import housing_height, housing_outer_radius
 from ocs_design.sizing.incidence import module_axes
 from ocs_design.sizing.selection.candidate import braked
+from ocs_design.sizing.web import wheel_body
 
 
 def device_mass(problem: CoDesignProblem, shape: DeviceShape) -> float:
-    """Of both modules: rims, housings, motors, gears [kg]."""
-    return float(2.0 * (rim_of(problem, shape).mass + carrier_of(problem, shape).mass))
+    """Of both modules: wheels, housings, motors, gears [kg]."""
+    return float(2.0 * (wheel_of(problem, shape).mass + carrier_of(problem, shape).mass))
 
 
 def gyrostat(problem: CoDesignProblem, shape: DeviceShape) -> Gyrostat:
@@ -35,12 +31,12 @@ def gyrostat(problem: CoDesignProblem, shape: DeviceShape) -> Gyrostat:
 
 def spin_inertia(problem: CoDesignProblem, shape: DeviceShape) -> float:
     """h of one wheel, rotor included [kg m^2]."""
-    return rim_of(problem, shape).axial_inertia + problem.selected.rotor_share
+    return wheel_of(problem, shape).axial_inertia + problem.selected.rotor_share
 
 
 def braked_total(problem: CoDesignProblem, shape: DeviceShape) -> MassProperties:
     """Robot and both modules as one rigid body in B."""
-    bodies = (rim_of(problem, shape), carrier_of(problem, shape))
+    bodies = (wheel_of(problem, shape), carrier_of(problem, shape))
     return braked(problem.selection.robot, bodies, centers_of(problem, shape), shape.incidence)
 
 
@@ -50,15 +46,10 @@ def centers_of(problem: CoDesignProblem, shape: DeviceShape) -> FloatArray:
     return problem.selection.place(radius, height)
 
 
-def rim_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:
-    """One rim as a body of revolution, like a carrier."""
-    density = problem.selected.material.density
-    sizes = (shape.inner_radius, shape.outer_radius, shape.height, density)
-    return Carrier(
-        mass=cylinder_mass(*sizes),
-        axial_inertia=cylinder_spin_inertia(*sizes),
-        transverse_inertia=cylinder_transverse_inertia(*sizes),
-    )
+def wheel_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:
+    """One wheel as a body of revolution, like a carrier."""
+    chosen, sizes = problem.selected, (shape.inner_radius, shape.outer_radius, shape.height)
+    return wheel_body(*sizes, chosen.material.density, chosen.hub)
 
 
 def carrier_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:

@@ -2,17 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import cast
+from typing import Protocol, cast
 
 import casadi as ca
 import numpy as np
 
 from ocs_design.sizing.co_design.problem import CoDesignProblem
-from ocs_design.sizing.cylinder import (
-    cylinder_mass,
-    cylinder_spin_inertia,
-    cylinder_transverse_inertia,
-)
+from ocs_design.sizing.cylinder import cylinder_mass
 from ocs_design.sizing.housing import (
     housing_axial_inertia,
     housing_height,
@@ -22,6 +18,15 @@ from ocs_design.sizing.housing import (
 )
 from ocs_design.sizing.optimal_control.plant import Plant, moments
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
+from ocs_design.sizing.web import wheel_body
+
+
+class _Wheel(Protocol):
+    """A body of revolution of symbols."""
+
+    mass: ca.SX
+    axial_inertia: ca.SX
+    transverse_inertia: ca.SX
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,12 +47,12 @@ class FreeDevice:
     def module_mass(self) -> ca.SX:
         """Of one module in all [kg]."""
         shell = _of_symbols(housing_mass)(self.outer_radius, self.height)
-        return self.rim_mass + shell + self.problem.drive.mass
+        return self._wheel.mass + shell + self.problem.drive.mass
 
     @property
     def spin_inertia(self) -> ca.SX:
         """h, rotor included [kg m^2]."""
-        return _of_symbols(cylinder_spin_inertia)(*self._rim) + self.problem.selected.rotor_share
+        return self._wheel.axial_inertia + self.problem.selected.rotor_share
 
     def inertia(self, incidence: ca.SX) -> ca.SX:
         """Of robot and device, braked: xx, yy, zz, xy, xz, yz [kg m^2], (6, 1).
@@ -95,6 +100,12 @@ class FreeDevice:
         return ca.vertcat(*rows)
 
     @property
+    def _wheel(self) -> "_Wheel":
+        """See `wheel_body`."""
+        form = cast(Callable[..., _Wheel], wheel_body)
+        return form(*self._rim, self.problem.selected.hub)
+
+    @property
     def _rim(self) -> tuple[ca.SX, ca.SX, ca.SX, float]:
         density = self.problem.selected.material.density
         return self.inner_radius, self.outer_radius, self.height, density
@@ -111,13 +122,12 @@ class FreeDevice:
     def _own_inertia(self) -> tuple[ca.SX, ca.SX]:
         """Of one module about its axis and across it, braked [kg m^2]."""
         outer, tall, drive = self.outer_radius, self.height, self.problem.drive
-        rim = _of_symbols(cylinder_spin_inertia)(*self._rim)
-        rim_across = _of_symbols(cylinder_transverse_inertia)(*self._rim)
+        wheel = self._wheel
         shell = _of_symbols(housing_axial_inertia)(outer, tall)
         shell_across = _of_symbols(housing_transverse_inertia)(outer, tall)
         return (
-            rim + shell + drive.axial_inertia,
-            rim_across + shell_across + drive.transverse_inertia,
+            wheel.axial_inertia + shell + drive.axial_inertia,
+            wheel.transverse_inertia + shell_across + drive.transverse_inertia,
         )
 
 

@@ -8,6 +8,7 @@ from ocs_design.sizing.optimal_control.solution import FineGrid
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
+from ocs_design.sizing.web import limits_with_web
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,8 @@ class CoDesignProblem:
     def limits(self) -> RimLimits:
         """Of one rim, scalars."""
         chosen, room = self.selected, self.selection.envelope
-        return RimProblem(chosen.spin_inertia, room, chosen.material, chosen.overspeed).limits
+        limits = RimProblem(chosen.spin_inertia, room, chosen.material, chosen.overspeed).limits
+        return limits if chosen.hub is None else limits_with_web(limits, chosen.hub.radius)
 
     @property
     def line(self) -> DriveLine:

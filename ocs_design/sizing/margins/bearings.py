@@ -33,7 +33,10 @@ def _moment(
     """Of one wheel, shape (n,)."""
     along = motion.rate @ axis
     across = motion.acceleration - np.outer(motion.acceleration @ axis, axis)
-    excess = (wheel.axial_inertia - wheel.transverse_inertia) * along
+    own = wheel.body.transverse_inertia
+    excess = (wheel.axial_inertia - own) * along
     momentum = excess + wheel.spin_inertia * wheel_speed
-    moment = wheel.transverse_inertia * across + momentum[:, None] * np.cross(motion.rate, axis)
+    moment = own * across + momentum[:, None] * np.cross(
+        motion.rate, axis
+    )
     return np.asarray(np.linalg.norm(moment, axis=1))

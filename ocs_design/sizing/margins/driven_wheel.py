@@ -8,17 +8,15 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.drive.gear import Gear
 from ocs_design.drive.line import DriveLine, armature, drive_line, rotor_share
 from ocs_design.drive.motor import Motor
-from ocs_design.sizing.cylinder import (
-    cylinder_spin_inertia,
-    cylinder_transverse_inertia,
-    hoop_stress,
-)
+from ocs_design.sizing.carrier import Carrier
+from ocs_design.sizing.cylinder import hoop_stress
 from ocs_design.sizing.selection.drive_table import OVERSPEED
+from ocs_design.sizing.web import Hub, wheel_body
 
 
 @dataclass(frozen=True, eq=False)
 class DrivenWheel:
-    """Rim, motor, gear and supply of one module.
+    """Wheel, motor, gear and supply of one module.
 
     Attributes:
         inner_radius, outer_radius, height: of the rim [m].
@@ -26,6 +24,7 @@ class DrivenWheel:
         motor, gear: that drive it.
         bus_voltage: [V].
         wheel_speed_max: stated highest speed of the wheel [rad/s]; inf: none.
+        hub: in the middle of the wheel's web; None: massless spokes.
     """
 
     inner_radius: float
@@ -36,6 +35,7 @@ class DrivenWheel:
     gear: Gear
     bus_voltage: float
     wheel_speed_max: float = inf
+    hub: Hub | None = None
 
     @cached_property
     def line(self) -> DriveLine:
@@ -48,33 +48,25 @@ class DrivenWheel:
         return replace(line, speed_max=min(float(line.speed_max), self.wheel_speed_max))
 
     @property
-    def rim_inertia(self) -> float:
-        """Of the rim about its axis [kg m^2]."""
-        return cylinder_spin_inertia(
-            self.inner_radius, self.outer_radius, self.height, self.material.density
-        )
-
-    @property
-    def transverse_inertia(self) -> float:
-        """Of the rim across its axis [kg m^2]; that of the rotor is not known and left out."""
-        return cylinder_transverse_inertia(
-            self.inner_radius, self.outer_radius, self.height, self.material.density
-        )
+    def body(self) -> Carrier:
+        """Rim, web and hub; what is known of the rotor's transverse inertia is nothing."""
+        size = (self.inner_radius, self.outer_radius, self.height)
+        return wheel_body(*size, self.material.density, self.hub)
 
     @property
     def spin_inertia(self) -> float:
-        """Momentum per wheel speed, of rim and rotor [kg m^2]."""
-        return self.rim_inertia + rotor_share(self._rotor_inertia, self.gear)
+        """Momentum per wheel speed, of wheel and rotor [kg m^2]."""
+        return self.body.axial_inertia + rotor_share(self._rotor_inertia, self.gear)
 
     @property
     def moved_inertia(self) -> float:
-        """What the motor accelerates, of rim, gear and rotor [kg m^2]."""
+        """What the motor accelerates, of wheel, gear and rotor [kg m^2]."""
         return self.spin_inertia + armature(self._rotor_inertia, self.gear)
 
     @property
     def axial_inertia(self) -> float:
-        """Of rim and rotor about the wheel's axis while they do not turn on the trunk [kg m^2]."""
-        return self.rim_inertia + self._rotor_inertia
+        """Of wheel and rotor about its axis while they do not turn on the trunk [kg m^2]."""
+        return self.body.axial_inertia + self._rotor_inertia
 
     @property
     def _rotor_inertia(self) -> float:

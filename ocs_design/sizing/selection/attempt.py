@@ -21,6 +21,7 @@ from ocs_design.sizing.selection.bounds import RimFloor, cells_of, least_inertia
 from ocs_design.sizing.selection.demand import columns, needed_by_rate, pair_task, shares_of
 from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.web import web_axial_inertia
 
 
 class Part(NamedTuple):
@@ -80,7 +81,7 @@ def attempt(problem: SelectionProblem, floor: RimFloor, drives: DriveTable) -> A
     cells = cells_of(problem.incidence)
     angles = np.array([(cell.low + cell.high) / 2.0 for cell in cells])
     unlimited = replace(problem.envelope, mass_max=np.inf)
-    largest = largest_rim(problem, problem.envelope) + drives.rotor_share
+    largest = largest_wheel(problem, problem.envelope) + drives.beside_rim
     stated = problem.requirement.spin_inertia
     if stated is not None:
         largest = np.full_like(largest, stated)
@@ -88,13 +89,15 @@ def attempt(problem: SelectionProblem, floor: RimFloor, drives: DriveTable) -> A
         drives=drives,
         incidence=angles,
         largest=largest,
-        weighty=largest_rim(problem, unlimited) + drives.rotor_share,
+        weighty=largest_wheel(problem, unlimited) + drives.beside_rim,
         parts=tuple(_parts(problem, floor, drives, angles, largest)),
     )
 
 
-def largest_rim(problem: SelectionProblem, room: Envelope) -> float:
+def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
     """Spin inertia of the largest rim of any material, whatever its hoop stress [kg m^2].
+
+    With its web, without its hub.
 
     As wide and tall as may be, and as thick as its mass allows; if it must be thicker, lower.
     """
@@ -104,7 +107,8 @@ def largest_rim(problem: SelectionProblem, room: Envelope) -> float:
     square = np.maximum(outer**2 - room.mass_max / layer, bore**2)
     inner = np.minimum(np.sqrt(square), outer - room.wall_min)
     mass = np.minimum(layer * (outer**2 - inner**2), room.mass_max)
-    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0, 0.0)
+    web = web_axial_inertia(inner) if problem.web else 0.0
+    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + web, 0.0)
     return float(inertia.max(initial=0.0))
 
 

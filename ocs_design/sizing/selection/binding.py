@@ -1,7 +1,10 @@
 """Which limits hold the mass of a module up."""
 
+from dataclasses import fields
+
 import numpy as np
 
+from ocs_design.requirement.envelope import Envelope
 from ocs_design.sizing.cylinder import cylinder_mass
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.rim_problem import RimLimits
@@ -9,35 +12,43 @@ from ocs_design.sizing.rim_problem import RimLimits
 HOUSING = "housing"
 """Stands for the radius where no limit holds it: a larger rim is lighter, its housing heavier."""
 
-_TOUCHING = 1e-6
+# Relative; a hundredth of what can be turned.
+HUB, WEB = "hub", "web"
+"""Stand for the bore and the height where the hub and the web ask for more than was specified."""
+
+_TOUCHING = 1e-5
 
 
-def binding_limits(shapes: ModuleShape, limits: RimLimits, row: int) -> tuple[str, ...]:
+def binding_limits(
+    shapes: ModuleShape, limits: RimLimits, room: Envelope, row: int
+) -> tuple[str, ...]:
     """Names of the limits that one module touches, as in the specification.
 
     Args:
         shapes: of the modules. limits: of their rims.
+        room: as specified, without what web and hub take.
         row: which module.
     """
     inner, outer, height = (float(value[row]) for value in shapes[:3])
-    density, stretch, nu = (
-        float(np.broadcast_to(value, shapes.mass.shape)[row])
-        for value in (limits.density, limits.stretch_max, limits.poisson_ratio)
-    )
+    at = {
+        field.name: float(np.broadcast_to(getattr(limits, field.name), shapes.mass.shape)[row])
+        for field in fields(limits)
+    }
+    nu = at["poisson_ratio"]
     stretched = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
+    bore = HUB if at["inner_radius_min"] > room.inner_radius_min else "r_min"
+    flat = WEB if at["height_min"] > room.height_min else "h_min"
     touched = {
-        "r_max": (outer, limits.outer_radius_max),
-        "h_max": (height, limits.height_max),
-        "hoop_stress": (stretched, stretch),
-        "wheel_mass_max": (cylinder_mass(inner, outer, height, density), limits.mass_max),
-        "r_min": (inner, limits.inner_radius_min),
-        "h_min": (height, limits.height_min),
-        "wall_min": (outer - inner, limits.wall_min),
+        "r_max": (outer, at["outer_radius_max"]),
+        "h_max": (height, at["height_max"]),
+        "hoop_stress": (stretched, at["stretch_max"]),
+        "wheel_mass_max": (cylinder_mass(inner, outer, height, at["density"]), at["mass_max"]),
+        bore: (inner, at["inner_radius_min"]),
+        flat: (height, at["height_min"]),
+        "wall_min": (outer - inner, at["wall_min"]),
     }
     names = tuple(
-        name
-        for name, (value, limit) in touched.items()
-        if abs(value - float(np.asarray(limit))) <= _TOUCHING * value
+        name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
     )
-    radius_is_held = {"r_max", "hoop_stress"} & set(names) or {"h_min", "wall_min"} <= set(names)
+    radius_is_held = {"r_max", "hoop_stress"} & set(names) or {flat, "wall_min"} <= set(names)
     return names if radius_is_held else (*names, HOUSING)

@@ -32,6 +32,7 @@ from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.lot import rim_limits
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.trunk import Modules, least_trunk_inertia
+from ocs_design.sizing.web import hub_of
 
 CELLS = 18
 """Of the incidence: 5 deg each."""
@@ -56,7 +57,9 @@ class RimFloor:
     def of(cls, problem: SelectionProblem) -> "RimFloor":
         """Of rims that turn slowly: no hoop stress adds to their mass."""
         kinds = np.repeat(np.arange(len(problem.materials)), _RIMS)
-        limits = rim_limits(problem.envelope, problem.materials, kinds, np.full(kinds.size, 1e-3))
+        hubs = [hub_of(motor).radius for motor in problem.motors] if problem.web else [0.0]
+        narrow = np.full(kinds.size, min(hubs))
+        limits = rim_limits(problem, kinds, np.full(kinds.size, 1e-3), narrow)
         least = smallest_spin_inertia(limits) * _OFF_THE_EDGE
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
@@ -127,12 +130,14 @@ def least_inertia(
 ) -> FloatArray:
     """Of the robot with modules of at least that spin inertia [kg m^2], shape (n, 2)."""
     room = problem.envelope
-    rim = np.maximum(spin_inertia - drives.rotor_share, floor.spin_inertia[:, 0].min())
+    rim = np.maximum(spin_inertia - drives.beside_rim, floor.spin_inertia[:, 0].min())
     mass = drives.mass + np.where(np.isfinite(rim), floor.at(rim).min(axis=0), 0.0)
     radius = max(room.inner_radius_min + room.wall_min, room.wall_min / (1.0 - BORE_SHARE))
     least = Modules(
         mass=np.where(np.isfinite(mass), mass, drives.mass),
-        axial_inertia=drives.axial_inertia + np.where(np.isfinite(rim), rim, 0.0),
+        axial_inertia=drives.axial_inertia
+        + drives.hub_share
+        + np.where(np.isfinite(rim), rim, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
         transverse_inertia=drives.transverse_inertia + np.where(np.isfinite(rim), rim, 0.0) / 2.0,
         outer_radius=np.full(rim.shape, housing_outer_radius(radius)),
@@ -147,6 +152,6 @@ def least_inertia(
 
 def least_masses(floor: RimFloor, drives: DriveTable, spin_inertia: FloatArray) -> FloatArray:
     """Of whole devices [kg] in every material, shape (materials, n); inf: there is none."""
-    rim = spin_inertia - drives.rotor_share
+    rim = spin_inertia - drives.beside_rim
     lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
     return 2.0 * (drives.mass + lightest)

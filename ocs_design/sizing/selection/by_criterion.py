@@ -7,7 +7,7 @@ from ocs_design.exceptions import Infeasible
 from ocs_design.sizing.incidence import Criterion, incidence_by_criterion
 from ocs_design.sizing.selection.momenta import design_momenta
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.result import Candidate, Selection
+from ocs_design.sizing.selection.result import Candidate, Reason, Rejection, Selection
 from ocs_design.sizing.selection.select import select
 
 _SETTLED = 1e-10
@@ -22,7 +22,9 @@ def select_by(
 
     The criterion looks at robot and device together, so that the incidence is settled for one
     device at a time: for the lightest, then the selection is made anew at that incidence until the
-    same device wins.
+    same device wins. Where none wins at its own incidence, the lightest of those that won at
+    another's leads, each at its own; what would be lighter there is not at its own incidence, and
+    has fallen out. Where none of them can be at its own, the last selection stands.
 
     Args:
         problem: its own incidence goes first.
@@ -36,19 +38,29 @@ def select_by(
         return select(problem, advise=advise)
     angle = incidence_by_criterion(problem.robot.inertia)[criterion]
     selection = select(replace(problem, incidence=angle), advise=advise)
-    for _ in range(_WINNERS_MAX):
+    winners: list[Candidate] = []
+    own: list[Candidate] = []
+    while len(winners) < _WINNERS_MAX and not _among(winners, selection.best):
         winner = selection.best
-        angle = _settled_angle(problem, winner, criterion)
+        angle, settled = _settled(problem, winner, criterion)
         selection = select(replace(problem, incidence=angle), advise=advise)
         if _same(selection.best, winner):
-            break
-    return selection
+            return selection
+        winners.append(winner)
+        own += [] if settled is None else [settled]
+    if not own:
+        return selection
+    lightest = min(own, key=lambda candidate: candidate.mass)
+    there = select(replace(problem, incidence=lightest.incidence), advise=advise)
+    return _led_by(lightest, there)
 
 
-def _settled_angle(problem: SelectionProblem, winner: Candidate, criterion: Criterion) -> float:
-    """The incidence [rad] that the criterion sets for the device that it makes of these parts.
+def _settled(
+    problem: SelectionProblem, winner: Candidate, criterion: Criterion
+) -> tuple[float, Candidate | None]:
+    """The incidence [rad] that the criterion sets for the device of these parts, and that device.
 
-    Where they make no device on the way there, it is the first one at which they do not.
+    Where they make no device on the way there, the first incidence at which they do not, and None.
     """
     alone = replace(
         problem, motors=(winner.motor,), gears=(winner.gear,), materials=(winner.material,)
@@ -64,8 +76,32 @@ def _settled_angle(problem: SelectionProblem, winner: Candidate, criterion: Crit
             found = select(replace(alone, incidence=min(angle, pi / 2.0)), advise=False).best
         except Infeasible:
             # Not of these parts, then: whether of others, the whole selection tells.
-            break
-    return angle
+            return angle, None
+    return angle, found
+
+
+def _led_by(chosen: Candidate, selection: Selection) -> Selection:
+    """The same with this device as the best; motors that are lighter there fall out.
+
+    Args:
+        chosen: at its own incidence.
+        selection: at that incidence.
+    """
+    heavier = [entry for entry in selection.ranking if entry.mass > chosen.mass]
+    ranking = (chosen, *(entry for entry in heavier if not _same(entry, chosen)))
+    listed = {entry.motor.name for entry in ranking}
+    lighter = {entry.motor.name: entry.mass for entry in reversed(selection.ranking)}
+    fallen = [
+        Rejection(name, Reason.INCIDENCE, f"{1e3 * mass:.0f} g, at another than its own", 0.0)
+        for name, mass in lighter.items()
+        if name not in listed
+    ]
+    others = [rejection for rejection in selection.rejections if rejection.motor not in listed]
+    return replace(selection, ranking=ranking, rejections=(*fallen, *others))
+
+
+def _among(winners: list[Candidate], one: Candidate) -> bool:
+    return any(_same(one, winner) for winner in winners)
 
 
 def _same(one: Candidate, other: Candidate) -> bool:

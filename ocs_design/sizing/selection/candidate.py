@@ -11,7 +11,6 @@ from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
 from ocs_design.requirement.bound import AXES
 from ocs_design.robot.mass_properties import MassProperties, combine
 from ocs_design.sizing.carrier import Carrier, drive_carrier, housed
-from ocs_design.sizing.cylinder import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.sizing.housing import housing_height, housing_outer_radius
 from ocs_design.sizing.incidence import module_axes
 from ocs_design.sizing.selection.binding import binding_limits
@@ -20,6 +19,7 @@ from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, TaskDemand
 from ocs_design.sizing.selection.settling import Settled
+from ocs_design.sizing.web import hub_of, wheel_body
 
 
 def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidate:
@@ -27,15 +27,12 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
     drives = settled.lot.drives
     motor, gear = problem.motors[drives.motor[row]], problem.gears[drives.gear[row]]
     material = problem.materials[settled.lot.material[row]]
-    inner, outer, height, rim_mass, housing_mass = (float(v[row]) for v in settled.point.shapes)
+    inner, outer, height, rim_mass, _, housing_mass = (float(v[row]) for v in settled.point.shapes)
+    hub = hub_of(motor) if problem.web else None
     carrier = housed(drive_carrier(motor, gear), outer, height)
     centers = problem.place(housing_outer_radius(outer), housing_height(height))
-    rim = Carrier(
-        rim_mass,
-        cylinder_spin_inertia(inner, outer, height, material.density),
-        cylinder_transverse_inertia(inner, outer, height, material.density),
-    )
-    modules = (rim, carrier)
+    wheel = wheel_body(inner, outer, height, material.density, hub)
+    modules = (wheel, carrier)
     incidence, spin = float(settled.point.angle[row]), float(settled.point.spin_inertia[row])
     return Candidate(
         motor=motor,
@@ -48,7 +45,9 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
         inner_radius=inner,
         outer_radius=outer,
         height=height,
+        hub=hub,
         rim_mass=rim_mass,
+        web_mass=wheel.mass - rim_mass,
         housing_mass=housing_mass,
         carrier=carrier,
         line=_line(drives, row),
@@ -66,7 +65,7 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
                 spin_inertia=spin,
             )
         ),
-        binding=binding_limits(settled.point.shapes, settled.lot.limits, row),
+        binding=binding_limits(settled.point.shapes, settled.lot.limits, problem.envelope, row),
         residual=float(settled.point.residual[row]),
         iterations=settled.iterations,
     )

@@ -18,6 +18,7 @@ from ocs_design.drive.line import (
 from ocs_design.drive.motor import Motor
 from ocs_design.sizing.carrier import drive_carrier
 from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.web import NO_HUB, hub_of
 
 OVERSPEED = 1.2
 """Speed at which a rim is proved, over the highest that it can get to."""
@@ -29,9 +30,11 @@ class DriveTable:
 
     Attributes:
         motor, gear: their indices in the problem's sequences.
-        mass: of motor and gear [kg].
-        axial_inertia, transverse_inertia: of motor and gear, see `Carrier` [kg m^2].
-        rotor_share: of the spin inertia [kg m^2].
+        mass: of motor, gear and the wheel's hub [kg].
+        axial_inertia: of motor and gear, see `Carrier` [kg m^2].
+        transverse_inertia: of these and the hub [kg m^2].
+        rotor_share, hub_share: of the spin inertia [kg m^2].
+        hub_radius: [m]; 0 without a web.
         armature: what the motor accelerates beyond the spin inertia [kg m^2].
         stall_torque, no_load_speed, torque_limit, speed_max: see `DriveLine`, nothing held back.
     """
@@ -42,6 +45,8 @@ class DriveTable:
     axial_inertia: FloatArray
     transverse_inertia: FloatArray
     rotor_share: FloatArray
+    hub_share: FloatArray
+    hub_radius: FloatArray
     armature: FloatArray
     stall_torque: FloatArray
     no_load_speed: FloatArray
@@ -54,6 +59,11 @@ class DriveTable:
     def take(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> "DriveTable":
         """The drives of these rows."""
         return DriveTable(*(getattr(self, field.name)[rows] for field in fields(self)))
+
+    @property
+    def beside_rim(self) -> FloatArray:
+        """What of the spin inertia rim and web need not have [kg m^2]."""
+        return self.rotor_share + self.hub_share
 
     @property
     def line(self) -> DriveLine:
@@ -91,8 +101,7 @@ def drive_table(problem: SelectionProblem, pairs: NDArray[np.intp]) -> DriveTabl
         pairs: indices of motor and gear, whose figures are known, shape (n, 2).
     """
     rows = [
-        (m, g, *_figures(problem.motors[m], problem.gears[g], problem.bus_voltage))
-        for m, g in pairs.tolist()
+        (m, g, *_figures(problem, problem.motors[m], problem.gears[g])) for m, g in pairs.tolist()
     ]
     columns = np.array(rows, dtype=np.float64).reshape(-1, len(fields(DriveTable))).T.copy()
     if problem.wheel_speed_max is not None:
@@ -100,14 +109,16 @@ def drive_table(problem: SelectionProblem, pairs: NDArray[np.intp]) -> DriveTabl
     return DriveTable(columns[0].astype(np.intp), columns[1].astype(np.intp), *columns[2:])
 
 
-def _figures(motor: Motor, gear: Gear, bus_voltage: float) -> tuple[float, ...]:
-    line, carrier = drive_line(motor, gear, bus_voltage), drive_carrier(motor, gear)
-    rotor = motor.rotor_inertia or 0.0
+def _figures(problem: SelectionProblem, motor: Motor, gear: Gear) -> tuple[float, ...]:
+    line, carrier = drive_line(motor, gear, problem.bus_voltage), drive_carrier(motor, gear)
+    rotor, hub = motor.rotor_inertia or 0.0, hub_of(motor) if problem.web else NO_HUB
     return (
-        carrier.mass,
+        carrier.mass + hub.mass,
         carrier.axial_inertia,
-        carrier.transverse_inertia,
+        carrier.transverse_inertia + hub.transverse_inertia,
         rotor_share(rotor, gear),
+        hub.axial_inertia,
+        hub.radius,
         armature(rotor, gear),
         float(line.stall_torque),
         float(line.no_load_speed),

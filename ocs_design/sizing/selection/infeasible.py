@@ -1,15 +1,14 @@
 """No motor can do it: what is missing, and the smallest single changes that would do."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-
-import numpy as np
+from math import inf
 
 from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.maneuver import Maneuver, Slew
-from ocs_design.sizing.limits import RIM_LIMITS, Limit, smallest_changes
-from ocs_design.sizing.selection.attempt import largest_rim
+from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED, Limit, smallest_changes
+from ocs_design.sizing.selection.attempt import largest_wheel
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.rejections import promising_gears, rejections
 from ocs_design.sizing.selection.result import Reason, Rejection
@@ -21,11 +20,14 @@ PRECISION = 0.03
 BUS_VOLTAGE = Limit("bus_voltage", "bus_voltage", "bus_voltage", True, "V", 1.0)
 TIME = Limit("time", "time for every maneuver", "", True, "times what is given", 1.0)
 
-_ENVELOPE = tuple(limit for limit in RIM_LIMITS if limit.name in {"r_max", "h_max"})
 # Changes are looked for with the motors that come closest; only what they can do is promised.
 _CLOSEST = 8
-# A limit changed more than this is another project.
+# A limit changed more than this is another project...
 _MOST_CHANGE = 10.0
+# ... and so is a mass changed more than by ten times every length.
+_MOST_MASS_CHANGE = _MOST_CHANGE**3
+# What no change of a limit mends.
+_NO_LIMIT = {Reason.FIGURES, Reason.INCIDENCE}
 
 
 def infeasible(found: Found, *, advise: bool) -> Infeasible:
@@ -34,19 +36,23 @@ def infeasible(found: Found, *, advise: bool) -> Infeasible:
     reasons = rejections(found, ())
     closest = sorted(range(len(reasons)), key=lambda index: _distance(reasons[index]))
     nearest = reasons[closest[0]]
-    changes = single_changes(_narrowed(found, closest[:_CLOSEST])) if advise else {}
+    narrowed = _narrowed(found, closest[:_CLOSEST])
+    looking = advise and nearest.reason not in _NO_LIMIT
+    changes = single_changes(narrowed) if looking else {}
     many = f"none of {len(reasons)} motors" if len(reasons) > 1 else f"motor {nearest.motor}"
     verdict = "can do it" if len(reasons) > 1 else "cannot do it"
     comes = f"; {nearest.motor} comes closest" if len(reasons) > 1 else ""
-    needed = found.spin_inertia[closest[0]]
+    largest = nearest.largest
+    if largest is None:
+        largest = largest_wheel(problem, problem.envelope)
     return Infeasible(
         f"{many[0].upper()}{many[1:]} {verdict} at {problem.bus_voltage:g} V{comes}: "
         f"{nearest.detail}.",
         binding=[str(nearest.reason)],
-        required_spin_inertia=float(needed[np.isfinite(needed)].max(initial=0.0)),
-        largest_spin_inertia=largest_rim(problem, problem.envelope),
+        required_spin_inertia=nearest.needed,
+        largest_spin_inertia=largest,
         relaxations={limit.name: value for limit, value in changes.items()},
-        hint=_advice(changes) if advise else "",
+        hint=" ".join(_advice(narrowed, nearest.reason, changes)) if advise else "",
     )
 
 
@@ -55,28 +61,37 @@ def single_changes(problem: SelectionProblem) -> dict[Limit, float]:
 
     Each is proved by selecting again.
     """
-    values = {
-        **{limit: limit.value(problem.envelope) for limit in _ENVELOPE},
-        BUS_VOLTAGE: problem.bus_voltage,
-        TIME: 1.0,
-    }
 
     def mends(limit: Limit, value: float) -> bool:
         """Whether there is a device with this limit changed."""
         return is_possible(with_limit(problem, limit, value))
 
-    def hopeful(limit: Limit) -> bool:
+    def hopeful(limit: Limit, value: float) -> bool:
         """Whether the largest change would do."""
-        return mends(limit, limit.loosened(values[limit], _MOST_CHANGE))
+        most = _MOST_MASS_CHANGE if limit.name == "wheel_mass_max" else _MOST_CHANGE
+        return 0.0 < value < inf and mends(limit, limit.loosened(value, most))
 
-    hopes = {limit: value for limit, value in values.items() if hopeful(limit)}
+    hopes = {limit: value for limit, value in _limits(problem).items() if hopeful(limit, value)}
     return smallest_changes(hopes, mends, PRECISION)
+
+
+def _limits(problem: SelectionProblem) -> dict[Limit, float]:
+    """Every limit that may be in the way, as it is [SI]."""
+    speed = {} if problem.wheel_speed_max is None else {WHEEL_SPEED: problem.wheel_speed_max}
+    return {
+        **{limit: limit.value(problem.envelope) for limit in RIM_LIMITS},
+        **speed,
+        BUS_VOLTAGE: problem.bus_voltage,
+        TIME: 1.0,
+    }
 
 
 def with_limit(problem: SelectionProblem, limit: Limit, value: float) -> SelectionProblem:
     """The same problem with one limit changed."""
     if limit is BUS_VOLTAGE:
         return replace(problem, bus_voltage=value)
+    if limit is WHEEL_SPEED:
+        return replace(problem, wheel_speed_max=value)
     if limit is TIME:
         requirement = problem.requirement
         slower = tuple(slowed(maneuver, value) for maneuver in requirement.maneuvers)
@@ -131,12 +146,32 @@ def _narrowed(found: Found, motors: Sequence[int]) -> SelectionProblem:
     )
 
 
-def _advice(changes: Mapping[Limit, float]) -> str:
-    """The changes as a sentence."""
-    if not changes:
-        return (
+def _advice(
+    problem: SelectionProblem, reason: Reason, changes: Mapping[Limit, float]
+) -> Iterator[str]:
+    """What would do, in sentences; `problem` is that of the closest motors."""
+    if reason is Reason.FIGURES:
+        yield (
+            "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state "
+            "its figures in a file of your own with --motors."
+        )
+        return
+    if changes:
+        texts = [limit.loose_text(value) for limit, value in changes.items()]
+        yield f"Any one of these alone would do: {'; '.join(texts)}."
+    freed = problem.incidence is not None and is_possible(replace(problem, incidence=None))
+    if freed:
+        yield (
+            "At another incidence there is a device: leave out --alpha and --alpha-criterion, or "
+            "choose --alpha-criterion lightest."
+        )
+    elif reason is Reason.INCIDENCE:
+        yield (
+            "Wheels at 0 deg cannot roll the trunk, wheels at 90 deg cannot pitch it: ask for one "
+            "of both, or for another incidence, here or of that maneuver."
+        )
+    elif not changes:
+        yield (
             f"No single limit would do, not even changed {_MOST_CHANGE:.0f}-fold: "
             "loosen several, ask for less, or add stronger motors."
         )
-    texts: Sequence[str] = [limit.loose_text(value) for limit, value in changes.items()]
-    return f"Any one of these alone would do: {'; '.join(texts)}."

@@ -85,7 +85,8 @@ class _Programme:
         """Spin inertias of the wheels [kg m^2], and what they turn."""
         dimensions = (shapes.inner_radius, shapes.outer_radius, shapes.height)
         rim = cylinder_spin_inertia(*dimensions, 1.0) * np.asarray(lot.limits.density)
-        spin = rim + lot.drives.rotor_share
+        web = shapes.web_mass * shapes.inner_radius**2 / 2.0
+        spin = rim + web + lot.drives.beside_rim
         modules = lot.modules(spin, shapes)
         return spin, trunk_inertia(self.problem.robot, self.problem.place, modules)
 
@@ -93,8 +94,10 @@ class _Programme:
         outer, height, wall = np.exp(points[:, :3]).T
         # A wall is at most the radius; one that is thicker is refused as too small a bore.
         inner = np.maximum(outer - wall, BORE_SHARE * outer / 2.0)
-        mass = cylinder_mass(inner, outer, height, 1.0) * np.asarray(self.lot.limits.density)
-        return ModuleShape(inner, outer, height, mass, housing_mass(outer, height))
+        density = np.asarray(self.lot.limits.density)
+        mass = cylinder_mass(inner, outer, height, 1.0) * density
+        web = np.pi * density * self.lot.limits.web * inner**2
+        return ModuleShape(inner, outer, height, mass, web, housing_mass(outer, height))
 
     def _room(self, shapes: ModuleShape) -> FloatArray:
         """By how much rims stay within their limits, as logarithms, shape (k, limits)."""

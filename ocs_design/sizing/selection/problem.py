@@ -26,6 +26,7 @@ class SelectionProblem:
         bus_voltage: of the motors' supply [V].
         incidence: of the wheel axes [rad]; None: the best.
         wheel_speed_max: stated highest speed of a wheel [rad/s]; None: what the drive can do.
+        web: whether wheels have a web and a hub; massless spokes otherwise.
     """
 
     robot: MassProperties
@@ -38,3 +39,4 @@ class SelectionProblem:
     bus_voltage: float
     incidence: float | None = None
     wheel_speed_max: float | None = None
+    web: bool = True

@@ -134,9 +134,11 @@ def _too_fast_or_heavy(
     """A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia."""
     kinds = np.arange(len(problem.materials))
     overspeed = np.full(kinds.size, tried.drives.overspeed[row])
-    limits = rim_limits(problem.envelope, problem.materials, kinds, overspeed)
+    limits = rim_limits(
+        problem, kinds, overspeed, np.full(kinds.size, tried.drives.hub_radius[row])
+    )
     least = smallest_spin_inertia(limits) * (1.0 + 1e-9)
-    rims = np.maximum(needed - tried.drives.rotor_share[row], least)
+    rims = np.maximum(needed - tried.drives.beside_rim[row], least)
     if not (lightest_module(rims, limits).mass > 0.0).any():
         rpm = overspeed[0] * 30.0 / np.pi
         return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"

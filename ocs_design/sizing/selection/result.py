@@ -10,6 +10,7 @@ from ocs_design.drive.line import DriveLine
 from ocs_design.drive.motor import Motor
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.carrier import Carrier
+from ocs_design.sizing.web import Hub, wheel_body
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,8 @@ class Candidate:
         spin_inertia: of each wheel, the rotor's share included [kg m^2].
         rotor_share: s N J_r of it. armature: what the motor accelerates beyond it [kg m^2].
         inner_radius, outer_radius, height: of the rim [m].
-        rim_mass, housing_mass: of one module [kg].
+        hub: in the middle of a wheel's web; None: massless spokes.
+        rim_mass: of one module [kg]. web_mass: with the hub. housing_mass: likewise.
         carrier: what stands still of one module: motor, gear and housing.
         line: of the drive at the wheel, nothing held back.
         overspeed: at which the hoop stress is limited [rad/s].
@@ -69,7 +71,9 @@ class Candidate:
     inner_radius: float
     outer_radius: float
     height: float
+    hub: Hub | None
     rim_mass: float
+    web_mass: float
     housing_mass: float
     carrier: Carrier
     line: DriveLine
@@ -83,8 +87,14 @@ class Candidate:
 
     @property
     def mass(self) -> float:
-        """Of both modules: rims, motors, gears and housings [kg]."""
-        return 2.0 * (self.rim_mass + self.carrier.mass)
+        """Of both modules: wheels, motors, gears and housings [kg]."""
+        return 2.0 * (self.rim_mass + self.web_mass + self.carrier.mass)
+
+    @property
+    def wheel(self) -> Carrier:
+        """One wheel, without what turns in the motor."""
+        size = (self.inner_radius, self.outer_radius, self.height)
+        return wheel_body(*size, self.material.density, self.hub)
 
     @property
     def binding_maneuver(self) -> str:

@@ -178,7 +178,7 @@ def _settle_best(
         if not some.size:
             break
         material, row = np.unravel_index(some, bound.shape)
-        lot = lot_of(drives.take(row), material, problem.materials, problem.envelope)
+        lot = lot_of(problem, drives.take(row), material)
         # A little beyond the best cell, as a bound need not lie where the best incidence does.
         spread = (angles[row, 1] - angles[row, 0]) / 2.0
         middle = angles[row].mean(axis=1)

@@ -172,7 +172,7 @@ def _radii(problem: SelectionProblem, lot: Lot, start: FloatArray) -> tuple[Floa
 
     A larger wheel than that of the start may be needed, and may have a larger radius.
     """
-    rim = np.maximum(start - lot.drives.rotor_share, smallest_spin_inertia(lot.limits))
+    rim = np.maximum(start - lot.drives.beside_rim, smallest_spin_inertia(lot.limits))
     high = problem.envelope.outer_radius_max
     low = np.minimum(smallest_radius(rim, lot.limits), high)
     return np.sqrt(low * high), np.log(high / low) / 2.0

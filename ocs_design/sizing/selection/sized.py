@@ -5,15 +5,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from ocs_design.arrays import FloatArray
 from ocs_design.requirement.bound import SpinDemand, per_wheel
-from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.incidence import incidence_by_criterion
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
+from ocs_design.sizing.selection.candidate import braked
 from ocs_design.sizing.selection.momenta import design_momenta
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.sized import Sized
+from ocs_design.sizing.web import limits_with_web
 
 METHOD = "branch and bound over the catalogue, each module in closed form"
 
@@ -43,7 +45,7 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
         incidence_by_criterion_robot=incidence_by_criterion(
             robot, design_momenta(requirement, robot)
         ),
-        demands=_demands(requirement, chosen),
+        demands=_demands(problem, chosen),
         total=chosen.total,
         status="optimal",
         method=METHOD,
@@ -56,13 +58,15 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
     )
 
 
-def _demands(requirement: Requirement, chosen: Candidate) -> tuple[SpinDemand, ...]:
-    """What the motors' figures make of each part of the requirement."""
+def _demands(problem: SelectionProblem, chosen: Candidate) -> tuple[SpinDemand, ...]:
+    """What the motors' figures make of each part of the requirement, at its own incidence."""
+    requirement = problem.requirement
     maneuvers = {maneuver.name: maneuver for maneuver in requirement.maneuvers}
-    inertia, height = chosen.total.inertia, requirement.standing_height
+    height = requirement.standing_height
     found = []
     for demand in chosen.demands:
         maneuver = maneuvers.get(demand.source)
+        inertia = _inertia(problem, chosen, demand.incidence)
         if maneuver is None:
             axis = np.array([demand.source.endswith(name) for name in ("roll", "pitch")])
             momentum = axis * np.diag(inertia)[:2] * (requirement.rate_change or 0.0)
@@ -76,10 +80,18 @@ def _demands(requirement: Requirement, chosen: Candidate) -> tuple[SpinDemand, .
     return tuple(found)
 
 
+def _inertia(problem: SelectionProblem, chosen: Candidate, incidence: float) -> FloatArray:
+    """Of robot and device, braked, with the modules turned to this incidence [kg m^2]."""
+    modules = (chosen.wheel, chosen.carrier)
+    return braked(problem.robot, modules, chosen.centers, incidence).inertia
+
+
 def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, float]:
     """By central differences of the closed form, at the spin inertia that was found."""
-    rim_inertia = chosen.spin_inertia - chosen.rotor_share
+    hub_share = 0.0 if chosen.hub is None else chosen.hub.axial_inertia
+    rim_inertia = chosen.spin_inertia - chosen.rotor_share - hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
+    limits = rim.limits if chosen.hub is None else limits_with_web(rim.limits, chosen.hub.radius)
     prices = {}
     for name in chosen.binding:
         field = _LIMIT_OF_NAME.get(name)
@@ -87,7 +99,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
             per_unit = 1.0
             if name == "hoop_stress":
                 per_unit = rim.stretch_max / rim.hoop_stress_max
-            prices[name] = _slope(rim_inertia, rim.limits, field) * per_unit
+            prices[name] = _slope(rim_inertia, limits, field) * per_unit
     return prices
 
 

@@ -1,10 +1,10 @@
 """The selection that a specification asks for."""
 
 from ocs_design.requirement.resolving import Resolved
-from ocs_design.requirement.specification import LIGHTEST, Specification
+from ocs_design.requirement.specification import LIGHTEST, NO_WEB, Specification
 from ocs_design.robot.robot import Robot
+from ocs_design.sizing.free_place import stated_place
 from ocs_design.sizing.incidence import Criterion
-from ocs_design.sizing.placement import place_at, place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 
@@ -20,13 +20,14 @@ def selection_problem(
         robot=robot.mass_properties,
         requirement=resolved.requirement,
         envelope=resolved.envelope,
-        place=place_on_top(robot) if stated.position is None else place_at(stated.position),
+        place=stated_place(stated.position, robot, resolved.envelope),
         motors=choice.motors,
         gears=choice.gears,
         materials=choice.materials,
         bus_voltage=choice.bus_voltage,
         incidence=stated.alpha,
         wheel_speed_max=choice.wheel_speed_max,
+        web=specification.flywheel.web != NO_WEB,
     )
 
 

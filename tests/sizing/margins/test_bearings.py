@@ -66,7 +66,7 @@ def test_against_the_momentum_of_a_solid_wheel_in_the_world(side):
     wheel = driven_wheel(motor=EC45)
     t, step = 0.4, 1e-4
     axis = AXES[:, side]
-    inertia = np.diag([wheel.transverse_inertia] * 2 + [wheel.axial_inertia])
+    inertia = np.diag([wheel.body.transverse_inertia] * 2 + [wheel.axial_inertia])
     torque = (momentum(t + step, axis, inertia, step) - momentum(t - step, axis, inertia, step)) / (
         2.0 * step
     )

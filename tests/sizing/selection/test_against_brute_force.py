@@ -1,8 +1,9 @@
 """The selection against every device on a grid, on a physics of its own (`naive_device`).
 
-Robots from 1 kg to 80 kg with random specifications and catalogues, from two sources. Neither may be heavier than
-the other by more than 0.1 %: the selection because it claims the lightest, the grid because it was
-refined until it has it; a grid that finds nothing lighter than what it cannot do proves little.
+Robots from 1 kg to 80 kg with random specifications and catalogues, from two sources. Neither may
+be heavier than the other by more than 0.1 %: the selection because it claims the lightest, the grid
+because it was refined until it has it; a grid that finds nothing lighter than what it cannot do
+proves little.
 """
 
 import numpy as np
@@ -62,7 +63,7 @@ def check_by_itself(problem, chosen):
     assert device_mass(drive, rims).item() == pytest.approx(chosen.mass, rel=1e-9)
     inertia = inertia_on(problem, drive, rims, angle)[:, 0]
     np.testing.assert_allclose(np.diag(chosen.total.inertia)[:2], inertia, rtol=1e-9)
-    spin = rims.body[1].item() + drive.rotor_momentum
+    spin = drive.wheel(rims)[1].item() + drive.rotor_momentum
     assert spin == pytest.approx(chosen.spin_inertia, rel=1e-9)
 
 

@@ -9,7 +9,9 @@ from naive_device import Drive, Rims, inertia_on
 
 from ocs_design.exceptions import Infeasible
 from ocs_design.sizing.incidence import Criterion
+from ocs_design.sizing.selection import by_criterion
 from ocs_design.sizing.selection.by_criterion import select_by
+from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.select import select
 
 DRAWN = (4,)
@@ -92,3 +94,36 @@ def test_what_no_motor_can_do_there_is_said_of_all_of_them():
     problem = replace(draw(15).problem, incidence=None)
     with pytest.raises(Infeasible, match=f"None of {len(problem.motors)} motors"):
         select_by(problem, Criterion.WEIGHTED, advise=False)
+
+
+def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(problem, monkeypatch):
+    """Two devices, each of which wins at the other's incidence only: heavy at its own."""
+    base = select(replace(problem, incidence=0.5)).best
+    angles, masses = {"a": 0.4, "b": 0.6}, {"a": 0.10, "b": 0.12}
+
+    def device(name, incidence):
+        """Lighter by 0.05 kg away from its own incidence."""
+        off = abs(incidence - angles[name]) > 1e-6
+        rim = (masses[name] - 0.05 * off) / 2.0 - base.carrier.mass
+        motor = replace(base.motor, name=name)
+        return replace(base, motor=motor, incidence=incidence, rim_mass=rim, web_mass=0.0)
+
+    def choose(asked, *, advise=True):
+        """All that are asked for, lightest first."""
+        names = {motor.name for motor in asked.motors} & set(angles) or set(angles)
+        found = sorted((device(name, asked.incidence) for name in names), key=lambda d: d.mass)
+        return replace(lightest, ranking=tuple(found), rejections=())
+
+    def settled(problem, winner, criterion):
+        """As the criterion would have it."""
+        angle = angles[winner.motor.name]
+        return angle, device(winner.motor.name, angle)
+
+    lightest = select(replace(problem, incidence=0.5))
+    monkeypatch.setattr(by_criterion, "select", choose)
+    monkeypatch.setattr(by_criterion, "_settled", settled)
+    found = select_by(problem, EQUAL_RATE)
+    assert (found.best.motor.name, found.best.incidence) == ("a", 0.4)
+    assert found.best.mass == pytest.approx(0.10)
+    (other,) = found.rejections
+    assert (other.motor, other.reason) == ("b", Reason.INCIDENCE)

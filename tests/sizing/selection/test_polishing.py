@@ -18,14 +18,14 @@ def lot_for(problem, chosen):
     """The chosen drive and material alone."""
     pair = np.array([[problem.motors.index(chosen.motor), problem.gears.index(chosen.gear)]])
     material = np.array([problem.materials.index(chosen.material)])
-    return lot_of(drive_table(problem, pair), material, problem.materials, problem.envelope)
+    return lot_of(problem, drive_table(problem, pair), material)
 
 
 def beside(chosen, factors, turn):
     """A start with other radii and height, turned by an angle [rad]; its masses do not matter."""
     bore, radius, height = factors
     sizes = (chosen.inner_radius * bore, chosen.outer_radius * radius, chosen.height * height)
-    shapes = ModuleShape(*(np.array([size]) for size in (*sizes, 1.0, 1.0)))
+    shapes = ModuleShape(*(np.array([size]) for size in (*sizes, 1.0, 0.0, 1.0)))
     nothing = np.zeros(1)
     angle = np.array([chosen.incidence + turn])
     return FixedPoint(nothing, angle, shapes, np.zeros(1, dtype=bool), nothing, nothing)
@@ -42,7 +42,9 @@ def test_the_start_does_not_matter(seed, factors, turn):
     turn = turn if problem.incidence is None else 0.0
     found = polish(problem, lot_for(problem, chosen), beside(chosen, factors, turn))
     assert found.possible.all()
-    mass = 2.0 * (found.shapes.mass[0] + chosen.carrier.mass - chosen.housing_mass)
+    rest = chosen.mass / 2.0 - chosen.rim_mass - chosen.web_mass - chosen.housing_mass
+    hub = 0.0 if chosen.hub is None else chosen.hub.mass
+    mass = 2.0 * (found.shapes.mass[0] + rest + hub)
     assert mass == pytest.approx(chosen.mass, rel=1e-9)
     assert found.margin[0] >= 1.0 - 1e-9
     assert found.residual[0] < 1e-9

@@ -6,6 +6,7 @@ from math import inf, pi
 import numpy as np
 import pytest
 from drawn_selections import draw
+from naive_device import wheel_of
 
 from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
@@ -170,17 +171,12 @@ def summed(robot, device):
     _cloud(masses, points, robot.mass, robot.com, robot.inertia)
     a = device.incidence
     axes = (np.array([np.sin(a), np.cos(a), 0.0]), np.array([-np.sin(a), np.cos(a), 0.0]))
-    outer, inner, height = device.outer_radius, device.inner_radius, device.height
-    rim = device.rim_mass
-    moments = (
-        rim * (outer**2 + inner**2) / 2.0,
-        rim * (3.0 * (outer**2 + inner**2) + height**2) / 12.0,
-    )
+    wheel, *moments = wheel_of(device)
     carrier = device.carrier
     for center, axis in zip(device.centers, axes, strict=True):
         along = np.outer(axis, axis)
         for weight, (about, across) in (
-            (rim, moments),
+            (wheel, moments),
             (carrier.mass, (carrier.axial_inertia, carrier.transverse_inertia)),
         ):
             inertia = about * along + across * (np.eye(3) - along)

@@ -1,0 +1,72 @@
+"""Where the modules go on every legged robot of example-robot-data, and what that takes.
+
+    python benchmarks/placement.py [PART_OF_A_NAME ...]
+
+Prints a Markdown table for devices without motors: what is in the way on top over the centre of
+mass, where the left module of the largest size goes instead, and how far the designed device is
+from the nearest link in the nominal posture and while the legs give way.
+"""
+
+import sys
+import time
+
+import numpy as np
+from legged_robots import LEGGED, ROBOTS
+
+from ocs_design.designing import design_device
+from ocs_design.exceptions import OcsError
+from ocs_design.mounting import Clearance, mounting_of
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.specification import (
+    NO_MOTOR,
+    MotorSection,
+    RobotSection,
+    Specification,
+)
+from ocs_design.robot.bounds import size
+from ocs_design.robot.obstacles.obstacles import obstacles_of
+from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.free_place import Sizes, place_free
+
+
+def main() -> None:
+    print("| robot | in the way | where | left at [mm] | nearest [mm] | legs give way [mm] | s |")
+    print("|---|---|---|---|---|---|---|")
+    for name in LEGGED:
+        if not sys.argv[1:] or any(word in name for word in sys.argv[1:]):
+            print(f"| {name.rpartition('/')[2]} | {row(name)} |", flush=True)
+
+
+def row(name: str) -> str:
+    path = ROBOTS / f"{name}.urdf"
+    specification = Specification(
+        robot=RobotSection(file=str(path)), motor=MotorSection(name=NO_MOTOR)
+    )
+    robot = read_robot(path)
+    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    start = time.perf_counter()
+    obstacles_of(robot)
+    found = place_free(robot, resolved.envelope)
+    seconds = time.perf_counter() - start
+    center = found.place.left_of_reach(Sizes.of(resolved.envelope).largest)
+    at = ", ".join(f"{1e3 * float(value):.0f}" for value in np.array(center))
+    where = f"{found.face} the trunk" if found.free else "none is free"
+    try:
+        designed = design_device(specification, robot, resolved)
+    except OcsError as error:
+        return f"{found.blocked_by} | {where} | {at} | {error.kind} | | {seconds:.2f}"
+    start = time.perf_counter()
+    mounting = mounting_of(
+        robot, designed.device, resolved.requirement.maneuvers, designed.sized.total
+    )
+    seconds += time.perf_counter() - start
+    clearances = f"{told(mounting.nearest)} | {told(mounting.landing)}"
+    return f"{found.blocked_by} | {where} | {at} | {clearances} | {seconds:.2f}"
+
+
+def told(clearance: Clearance | None) -> str:
+    return "-" if clearance is None else f"{clearance.part} {1e3 * clearance.distance:.1f}"
+
+
+if __name__ == "__main__":
+    main()

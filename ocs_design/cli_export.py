@@ -1,0 +1,79 @@
+"""`ocs-design export`: parse, call, print. No arithmetic."""
+
+import sys
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+import typer
+
+from ocs_design import cli_options as opt
+from ocs_design.cli_stated import stated_package_paths
+
+DesignFile: TypeAlias = Annotated[
+    Path, typer.Argument(metavar="DESIGN", help="design.json, or the folder that it lies in.")
+]
+ExportFolder: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("-o", "--out", metavar="DIR", help="Output folder. Default: <name>-ocs-export."),
+]
+Formats: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--formats",
+        metavar="NAMES",
+        help="stl, bom, drawing, urdf, mjcf, glb, snippets (these are the default), 3mf, step, "
+        "printed, pictures, with commas between them; or all.",
+    ),
+]
+OtherRobot: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--robot",
+        metavar="FILE",
+        help="The robot's file, where it has moved or is to be another than was sized for.",
+    ),
+]
+
+
+def export(
+    context: typer.Context,
+    design: DesignFile,
+    out: ExportFolder = None,
+    formats: Formats = None,
+    robot: OtherRobot = None,
+    package_path: opt.PackagePaths = None,
+    force: opt.Force = False,
+    as_json: opt.AsJson = False,
+    strict: opt.Strict = False,
+    quiet: opt.Quiet = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """Write parts, robot files and snippets again from a design.json.
+
+    They are the files that `ocs-design size` wrote, byte for byte. Files of the whole robot need
+    the robot's own file as it was, and its meshes. In the design's own folder, with --force, only
+    what is made anew is replaced.
+    """
+    from ocs_design.export.formats import formats_named
+    from ocs_design.exporting import export_order, exported_to_json, read_order
+    from ocs_design.report.console import Steps, make_console
+    from ocs_design.report.export import print_export
+
+    chosen = formats_named([name for text in formats or () for name in text.split(",")])
+    console = make_console(color=not no_color)
+    steps = Steps(console, quiet=quiet or as_json)
+    with steps.step("read the design and its robot") as step:
+        order = read_order(
+            design,
+            chosen,
+            robot_file=robot,
+            package_paths=stated_package_paths(context),
+            strict=strict,
+        )
+        step.note = order.subject.name
+    with steps.step("write " + ", ".join(each.name for each in chosen)):
+        exported = export_order(order, out or order.default_folder, force=force)
+    if as_json:
+        sys.stdout.buffer.write(exported_to_json(exported))
+    elif not quiet:
+        print_export(console, exported)

@@ -1,0 +1,128 @@
+"""What a design looks like: the wheel, a module, and the robot with both."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from ocs_design.catalogue.motors import motors
+from ocs_design.design import Device
+from ocs_design.export.rendering import Scene, render_views
+from ocs_design.export.robot_model import RobotModel
+from ocs_design.parts.mesh import Mesh, part_mesh, solid_mesh
+from ocs_design.parts.solids import hollow_cylinder
+from ocs_design.parts.wheel import Wheel
+from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.robot.robot import Robot
+from ocs_design.sizing.housing import WALL, housing_height, housing_outer_radius
+
+Color = tuple[float, float, float, float]
+
+STEEL: Color = (0.55, 0.57, 0.6, 1.0)
+ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
+SHELL: Color = (0.25, 0.45, 0.75, 0.3)
+MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
+
+_MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
+"""Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """A mesh in its color, in the module's frame."""
+
+    mesh: Mesh
+    color: Color
+
+
+def draw_pictures(
+    device: Device, wheel: Wheel, robot: Robot, model: RobotModel
+) -> dict[str, bytes]:
+    """PNG by name: `wheel`, `module` where there is more than the wheel, and `robot`.
+
+    Args:
+        device: to draw. wheel: each of its two, as it is made.
+        robot: that carries it, for its posture. model: of both.
+
+    Raises:
+        MissingToolError: OpenGL does not work here.
+    """
+    turning, carrier = _wheel(wheel), _carrier(device)
+    scenes = {"wheel": shown_scene(turning)}
+    if carrier:
+        scenes["module"] = shown_scene([*turning, *carrier])
+    scenes["robot"] = robot_scene(robot, model)
+    return render_views(scenes)
+
+
+def shown_scene(shown: Sequence[Shown]) -> Scene:
+    """Parts alone, as they stand on the robot at no incidence."""
+    spec = mujoco.MjSpec()
+    _whiten(spec)
+    body = spec.worldbody.add_body(quat=_MODULE_ON_ROBOT)
+    for index, part in enumerate(shown):
+        name = f"part{index}"
+        spec.add_mesh(
+            name=name,
+            uservert=part.mesh.vertices.ravel(),
+            userface=part.mesh.triangles.ravel().astype(np.int32),
+        )
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, rgba=part.color)
+    model = spec.compile()
+    return Scene(model, model.qpos0)
+
+
+def _whiten(spec: mujoco.MjSpec) -> None:
+    """A white sky, which shows through what one can look into."""
+    spec.add_texture(
+        name="white",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT,
+        rgb1=(1.0, 1.0, 1.0),
+        width=16,
+        height=16,
+    )
+
+
+def robot_scene(robot: Robot, model: RobotModel) -> Scene:
+    """In the nominal posture."""
+    qpos = np.array(model.compiled.qpos0)
+    for joint, value in robot.posture.items():
+        qpos[model.compiled.joint(joint).qposadr[0]] = value
+    return Scene(model.compiled, qpos)
+
+
+def _wheel(wheel: Wheel) -> list[Shown]:
+    """The rim, and in a color of its own what carries it."""
+    return [
+        Shown(part_mesh(part), color)
+        for part, color in zip(wheel_parts(wheel), (STEEL, ALUMINIUM), strict=False)
+    ]
+
+
+def _carrier(device: Device) -> list[Shown]:
+    """Motor, where its size is known, and housing."""
+    if device.carrier.mass == 0.0:
+        return []
+    return [*_motor(device), *_housing(device)]
+
+
+def _motor(device: Device) -> list[Shown]:
+    motor = motors().get(device.motor.name)
+    if motor is None or motor.diameter is None or motor.length is None:
+        return []
+    half = motor.length / 2.0
+    return [Shown(solid_mesh(hollow_cylinder(0.0, motor.diameter / 2.0, -half, half)), MOTOR)]
+
+
+def _housing(device: Device) -> list[Shown]:
+    """A drum one can look into."""
+    radius = housing_outer_radius(device.flywheel.outer_radius)
+    half = housing_height(device.flywheel.height) / 2.0
+    solids = (
+        hollow_cylinder(radius - WALL, radius, -half, half),
+        hollow_cylinder(0.0, radius - WALL, -half, WALL - half),
+        hollow_cylinder(0.0, radius - WALL, half - WALL, half),
+    )
+    return [Shown(solid_mesh(solid), SHELL) for solid in solids]

@@ -1,0 +1,89 @@
+"""What the workshop gets: the wheel's pieces, and what is printed around it."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TypeVar
+
+from ocs_design.design import Device
+from ocs_design.export.made_wheel import made_wheel
+from ocs_design.export.stl import MILLIMETRES, wheel_meshes
+from ocs_design.parts.fasteners import screw
+from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.mesh import part_mesh
+from ocs_design.parts.part import Part
+from ocs_design.parts.stl import mesh_stl
+from ocs_design.parts.threemf import threemf_bytes
+from ocs_design.parts.wheel_parts import wheel_parts
+
+LID_SCREW = "M2"
+
+Piece = TypeVar("Piece")
+
+
+def export_pieces_stl(device: Device, folder: Path) -> None:
+    """`flywheel.stl`, or one file for each of its pieces, in millimetres."""
+    for name, mesh in _by_file(wheel_meshes(device.flywheel)).items():
+        (folder / f"{name}.stl").write_bytes(mesh_stl(mesh, name, units_per_metre=MILLIMETRES))
+
+
+def export_pieces_3mf(device: Device, folder: Path) -> None:
+    """`flywheel.3mf` with all pieces of the wheel."""
+    (folder / "flywheel.3mf").write_bytes(threemf_bytes(wheel_meshes(device.flywheel)))
+
+
+def export_pieces_step(device: Device, folder: Path) -> None:
+    """`flywheel.step`, or one file for each of its pieces.
+
+    Raises:
+        MissingToolError: Open CASCADE is not installed.
+    """
+    # An extra, which takes seconds to import.
+    from ocs_design.parts.step import step_bytes  # noqa: PLC0415
+
+    parts = {part.name: part for part in wheel_parts(made_wheel(device.flywheel))}
+    for name, part in _by_file(parts).items():
+        (folder / f"{name}.step").write_bytes(step_bytes(part))
+
+
+def export_printed(device: Device, folder: Path) -> str:
+    """Drum, lid and foot of one module as STL, and all of them in `housing.3mf`.
+
+    Returns:
+        What they weigh against what the design counts.
+    """
+    parts = printed_parts(device)
+    meshes = {part.name: part_mesh(part) for part in parts}
+    for name, mesh in meshes.items():
+        path = folder / f"housing_{name}.stl"
+        path.write_bytes(mesh_stl(mesh, name, units_per_metre=MILLIMETRES))
+    (folder / "housing.3mf").write_bytes(threemf_bytes(meshes))
+    return _weighed(parts, device)
+
+
+def printed_parts(device: Device) -> tuple[Part, Part, Part]:
+    """Drum, lid and foot around one wheel; its motor's holes are drilled to the motor.
+
+    Raises:
+        PartError: they cannot be made.
+    """
+    wheel = device.flywheel
+    housing = Housing(wheel.outer_radius, wheel.height, lid_screw=screw(LID_SCREW))
+    return (*housing_parts(housing), foot_part(Foot(housing)))
+
+
+def _weighed(parts: tuple[Part, ...], device: Device) -> str:
+    masses = {part.name: 1e3 * part.mass_properties().mass for part in parts}
+    counted = 1e3 * (device.carrier.mass - device.motor.mass - device.motor.gear_mass)
+    shell = sum(mass for name, mass in masses.items() if name != "foot")
+    return (
+        f"printed parts of one module: drum and lid {shell:.1f} g, where the design counts "
+        f"{counted:.1f} g; the foot's {masses['foot']:.1f} g are not in the design"
+    )
+
+
+def _by_file(pieces: Mapping[str, Piece]) -> dict[str, Piece]:
+    """A wheel of one piece is the flywheel itself."""
+    if len(pieces) == 1:
+        return {"flywheel": next(iter(pieces.values()))}
+    return {f"flywheel_{name}": piece for name, piece in pieces.items()}

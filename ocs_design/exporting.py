@@ -1,0 +1,203 @@
+"""`ocs-design export`: every file again from `design.json`."""
+
+import shutil
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import msgspec
+
+from ocs_design.design_file import OcsDesign, design_to_json, read_design
+from ocs_design.exceptions import RobotError
+from ocs_design.export.folder import DESIGN_FILE, file_hashes, staged_folder
+from ocs_design.export.formats import FORMATS, USUAL_FORMATS, Format, Subject, export_formats
+from ocs_design.export.naming import safe_name
+from ocs_design.recorded import device_of, robot_of, seat_of
+from ocs_design.robot.files.source import STANDARD_INPUT, read_source
+from ocs_design.robot.robot import Format as RobotFormat
+from ocs_design.robot.robot import Robot
+from ocs_design.robot_record import RobotRecord
+
+SCHEMA_VERSION = 1
+
+_WHERE = (
+    "say where it is with --robot FILE, or leave out the robot's files: "
+    f"--formats {','.join(each.name for each in USUAL_FORMATS if not each.needs_robot)}"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Order:
+    """What to write.
+
+    Attributes:
+        path: of the `design.json`. design: what is in it.
+        subject: to write. formats: to write it in.
+        warnings: about the robot, which were not there when the device was sized.
+    """
+
+    path: Path
+    design: OcsDesign
+    subject: Subject
+    formats: tuple[Format, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def default_folder(self) -> Path:
+        """Where it is written if nothing else is said, in the working directory."""
+        return Path(f"{self.subject.name}-ocs-export")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exported:
+    """What was written.
+
+    Attributes:
+        folder: that it was written to.
+        files: SHA-256 of each file that was made, by its path in the folder.
+        warnings: one sentence each.
+    """
+
+    schema_version: int
+    folder: str
+    files: Mapping[str, str]
+    warnings: tuple[str, ...]
+
+
+def read_order(
+    path: Path,
+    formats: tuple[Format, ...],
+    *,
+    robot_file: Path | None = None,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Order:
+    """Read a design, and its robot where a format needs it.
+
+    Args:
+        path: of a `design.json`, or of the folder that it lies in.
+        formats: that are wanted.
+        robot_file: of the robot, in place of the one that the design names. It may be another
+            file than the device was sized for, which is told.
+        package_paths: folders of packages, over those that the design names.
+        strict: warnings about the robot are errors.
+
+    Raises:
+        OcsError: the design or the robot cannot be read, or the robot has changed.
+    """
+    path = path / DESIGN_FILE if path.is_dir() else path
+    design = read_design(path)
+    device, name = device_of(design.ocs), safe_name(design.robot.name)
+    if not any(each.needs_robot for each in formats):
+        return Order(path, design, Subject(name, device, seat_of(design.robot), None), formats, ())
+    robot = _read_robot(design.robot, path, robot_file, package_paths or {})
+    warnings = _new_warnings(robot, design.robot)
+    if strict and warnings:
+        raise RobotError("--strict: " + "; ".join(warnings), hint="mend the robot's file")
+    return Order(path, design, Subject.of(robot, device, name), formats, warnings)
+
+
+def export_order(order: Order, folder: Path, *, force: bool = False) -> Exported:
+    """Write it.
+
+    The folder gets a `design.json` too, with the hashes of what is there. In the design's own
+    folder everything else stays as it is.
+
+    Args:
+        order: see `read_order`.
+        folder: to write.
+        force: replace an existing folder, once the new one is complete.
+
+    Raises:
+        OutputError: it cannot be written, or exists already.
+    """
+    with staged_folder(folder, force=force) as staging:
+        remarks = export_formats(order.subject, order.formats, staging)
+        made = file_hashes(staging)
+        if _same(folder, order.path.parent):
+            _keep(order, staging)
+        design = replace(order.design, files=file_hashes(staging))
+        (staging / DESIGN_FILE).write_bytes(design_to_json(design))
+    known = order.design.robot.warnings
+    return Exported(
+        schema_version=SCHEMA_VERSION,
+        folder=str(folder),
+        files=made,
+        warnings=(*order.warnings, *(remark for remark in remarks if remark not in known)),
+    )
+
+
+def exported_to_json(exported: Exported) -> bytes:
+    """What was written, as indented JSON."""
+    return msgspec.json.format(msgspec.json.encode(exported), indent=2) + b"\n"
+
+
+def _keep(order: Order, staging: Path) -> None:
+    """Bring along what the design's folder has else, but no file of a format made anew."""
+    whole = set(USUAL_FORMATS) <= set(order.formats)
+    outdated = set(order.design.files) if whole else set()
+    folders = {each.folder for each in FORMATS}
+    source = order.path.parent
+    for path in sorted(source.rglob("*")):
+        place = path.relative_to(source)
+        is_outdated = place.as_posix() in outdated and place.parts[0] in folders
+        if path.is_file() and place.name != DESIGN_FILE and not is_outdated:
+            target = staging / place
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if not target.exists():
+                shutil.copy2(path, target)
+
+
+def _same(folder: Path, other: Path) -> bool:
+    return folder.exists() and folder.samefile(other)
+
+
+def _read_robot(
+    record: RobotRecord,
+    design: Path,
+    robot_file: Path | None,
+    package_paths: Mapping[str, Path],
+) -> Robot:
+    bases = (Path(), design.absolute().parent.parent)
+    folders = {name: _first(text, bases) for name, text in record.package_paths.items()}
+    source = _source(record, bases) if robot_file is None else robot_file
+    return robot_of(record, source, {**folders, **package_paths})
+
+
+def _source(record: RobotRecord, bases: Collection[Path]) -> Path:
+    """The file that the device was sized for, as it was then.
+
+    Raises:
+        RobotError: it is gone, has changed, or was no file.
+    """
+    if record.format == RobotFormat.MANUAL:
+        return Path(record.source)
+    if record.source == STANDARD_INPUT:
+        raise RobotError("the robot was read from standard input", hint=_WHERE)
+    found = [base / record.source for base in bases if (base / record.source).is_file()]
+    if not found:
+        raise RobotError(f"{record.source}: the robot's file is not there any more", hint=_WHERE)
+    for path in found:
+        if read_source(path).sha256 == record.sha256:
+            return path
+    raise RobotError(
+        f"{found[0]}: the robot's file has changed since the device was sized for it",
+        hint=f"size it again, or put the device on it as it is with --robot {found[0]}",
+    )
+
+
+def _first(text: str, bases: Collection[Path]) -> Path:
+    """A folder as it was given, against the first base that has it."""
+    return next((base / text for base in bases if (base / text).is_dir()), Path(text))
+
+
+def _new_warnings(robot: Robot, record: RobotRecord) -> tuple[str, ...]:
+    """What the robot has otherwise than the one that the device was sized for."""
+    told = tuple(warning for warning in robot.warnings if warning not in record.warnings)
+    if robot.sha256 == record.sha256:
+        return told
+    return (
+        f"{robot.source}: not the file that the device was sized for; mass {robot.mass:.4g} kg, "
+        f"then {record.mass:.4g} kg",
+        *told,
+    )

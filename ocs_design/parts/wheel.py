@@ -1,0 +1,201 @@
+"""The wheel as it is made: a rim on a thin web with a hub, and whether it can be."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import inf, pi, sin
+
+from ocs_design.exceptions import PartError
+from ocs_design.parts.outline import circle, ring_of_points
+from ocs_design.parts.solids import Prism
+
+CHAMFER = 0.3e-3
+"""Of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""
+
+CHAMFER_SHARE = 0.25
+"""Of a chamfer in the rim's wall and height, at most: so half of each face stays."""
+
+WEB_THICKNESS = 1.5e-3
+"""[m]; thinner ones sing on the lathe, and weigh little less."""
+
+LIGAMENT = 1.0e-3
+"""Material between a hole and the next edge or hole, at least [m]."""
+
+HUB_HEIGHT = 6.0e-3
+"""[m]: one and a half times the diameter of a 4 mm shaft, so that the wheel sits straight."""
+
+HUB_WALL = 2.0e-3
+"""Around the bore and around bolts, at least [m]: room for a M2 grub screw's thread."""
+
+
+@dataclass(frozen=True)
+class HoleRing:
+    """Equal holes around the axis, the first of them straight up, at -y.
+
+    Attributes:
+        radius: of the circle that their centres are on [m].
+        count: of holes, evenly spaced.
+        hole_radius: of each [m].
+        depth: of each [m]; inf: through.
+    """
+
+    radius: float
+    count: int
+    hole_radius: float
+    depth: float = inf
+
+    def prisms(self, low: float, high: float) -> Iterator[Prism]:
+        """The holes between two heights [m]."""
+        for centre in ring_of_points(self.radius, self.count).tolist():
+            yield Prism(circle(self.hole_radius, centre), low, high)
+
+    @property
+    def spacing(self) -> float:
+        """Material between neighbours [m]."""
+        if self.count == 1:
+            return inf
+        return 2.0 * (self.radius * sin(pi / self.count) - self.hole_radius)
+
+
+@dataclass(frozen=True)
+class Rim:
+    """A hollow cylinder around z, its middle at z = 0.
+
+    Attributes:
+        inner_radius, outer_radius, height: [m].
+        material: name. density: [kg/m^3].
+        chamfer: of its four edges, as asked for [m]; see `made_chamfer`.
+        balancing: blind holes, the same in both faces; None: none.
+    """
+
+    inner_radius: float
+    outer_radius: float
+    height: float
+    material: str
+    density: float
+    chamfer: float = CHAMFER
+    balancing: HoleRing | None = None
+
+    @property
+    def made_chamfer(self) -> float:
+        """Not more than a share of wall and height [m]."""
+        wall = self.outer_radius - self.inner_radius
+        return min(self.chamfer, CHAMFER_SHARE * wall, CHAMFER_SHARE * self.height)
+
+
+@dataclass(frozen=True)
+class Hub:
+    """A thin disc that carries the rim at its edge, with a cylinder in its middle, both at z = 0.
+
+    Attributes:
+        web_thickness: [m].
+        radius, height: of the cylinder [m].
+        bore_radius: of the hole for the shaft [m]; 0: none.
+        material: name. density: [kg/m^3].
+        bolts: through holes in the cylinder; None where the motor's are not known.
+        lightening: through holes in the web; None: none.
+    """
+
+    web_thickness: float
+    radius: float
+    height: float
+    bore_radius: float
+    material: str
+    density: float
+    bolts: HoleRing | None = None
+    lightening: HoleRing | None = None
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """Rim and hub; the rim alone where `hub` is None.
+
+    Raises:
+        PartError: it cannot be made; see `wheel_faults`.
+    """
+
+    rim: Rim
+    hub: Hub | None = None
+
+    def __post_init__(self) -> None:
+        faults = list(wheel_faults(self))
+        if faults:
+            raise PartError(
+                "the wheel cannot be made: " + "; ".join(faults),
+                hint=f"leave {1e3 * LIGAMENT:g} mm between holes and edges, "
+                "or design the rim alone, without a web",
+            )
+
+    @property
+    def one_piece(self) -> bool:
+        """Whether it is turned from one material."""
+        return self.hub is None or self.hub.material == self.rim.material
+
+
+def hub_radius(bore_radius: float, bolts: HoleRing | None) -> float:
+    """That leaves `HUB_WALL` around the bore, and around the bolts [m]."""
+    reach = 0.0 if bolts is None else bolts.radius + bolts.hole_radius
+    return max(bore_radius, reach) + HUB_WALL
+
+
+def hub_for(
+    rim: Rim, bore_radius: float, bolts: HoleRing | None, material: str, density: float
+) -> Hub:
+    """Of the usual sizes, and never higher than the rim."""
+    thickness = min(WEB_THICKNESS, rim.height - 2.0 * rim.made_chamfer)
+    return Hub(
+        web_thickness=thickness,
+        radius=hub_radius(bore_radius, bolts),
+        height=max(thickness, min(HUB_HEIGHT, rim.height)),
+        bore_radius=bore_radius,
+        material=material,
+        density=density,
+        bolts=bolts,
+    )
+
+
+def wheel_faults(wheel: Wheel) -> Iterator[str]:
+    """Why it cannot be made, each as a clause."""
+    rim, hub = wheel.rim, wheel.hub
+    if not 0.0 <= rim.inner_radius < rim.outer_radius:
+        yield "its rim's inner radius is not below the outer one"
+    if rim.height <= 0.0 or rim.chamfer < 0.0:
+        yield "its rim has no height, or a negative chamfer"
+    edge = rim.made_chamfer
+    if rim.balancing is not None:
+        yield from _ring_faults(
+            rim.balancing, rim.inner_radius + edge, rim.outer_radius - edge, "balancing"
+        )
+        if 2.0 * rim.balancing.depth + LIGAMENT > rim.height:
+            yield "its balancing holes meet in the middle"
+    if hub is not None:
+        yield from _hub_faults(rim, hub)
+
+
+def _hub_faults(rim: Rim, hub: Hub) -> Iterator[str]:
+    if not 0.0 <= hub.bore_radius < hub.radius:
+        yield "its bore is not narrower than its hub"
+    if not hub.radius + LIGAMENT <= rim.inner_radius:
+        yield (
+            f"its hub of {1e3 * hub.radius:.4g} mm radius leaves no web in the rim's "
+            f"{1e3 * rim.inner_radius:.4g} mm"
+        )
+    if not 0.0 < hub.web_thickness <= rim.height - 2.0 * rim.made_chamfer:
+        yield f"its web of {1e3 * hub.web_thickness:.3g} mm is thicker than the rim is high"
+    if hub.height < hub.web_thickness:
+        yield "its hub is lower than the web is thick"
+    if hub.bolts is not None:
+        yield from _ring_faults(hub.bolts, hub.bore_radius, hub.radius, "bolt")
+    if hub.lightening is not None:
+        yield from _ring_faults(hub.lightening, hub.radius, rim.inner_radius, "lightening")
+
+
+def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Iterator[str]:
+    """Of holes between two edges."""
+    if ring.count < 1 or ring.hole_radius <= 0.0 or ring.depth <= 0.0:
+        yield f"its {name} holes have no number, size or depth"
+    elif ring.radius - ring.hole_radius < inner + LIGAMENT:
+        yield f"its {name} holes reach the edge inside them"
+    elif ring.radius + ring.hole_radius > outer - LIGAMENT:
+        yield f"its {name} holes reach the edge around them"
+    elif ring.spacing < LIGAMENT:
+        yield f"its {name} holes reach each other"

@@ -1,0 +1,13 @@
+"""What `ocs-design export` wrote."""
+
+from rich.console import Console
+
+from ocs_design.exporting import Exported
+from ocs_design.report.flights import print_files
+from ocs_design.report.layout import print_warnings
+
+
+def print_export(console: Console, exported: Exported) -> None:
+    """Warnings, and the files by their folders."""
+    print_warnings(console, exported.warnings)
+    print_files(console, exported.folder, "the design as it was", exported.files)

@@ -1,0 +1,165 @@
+"""What joins a rim to its motor: a thin web and a hub, turned from one piece of aluminium.
+
+The web is a disc in the wheel's middle plane that fills the rim's bore, the hub a cylinder around
+the axis with a bore and bolt holes, both symmetric to that plane. Functions of the rim's bore r [m]
+take scalars or arrays and are built of operators alone, for CasADi's symbols too.
+"""
+
+from dataclasses import dataclass, replace
+from math import pi
+from typing import TypeVar
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.drive.motor import Motor
+from ocs_design.sizing.carrier import Carrier
+from ocs_design.sizing.cylinder import (
+    cylinder_mass,
+    cylinder_spin_inertia,
+    cylinder_transverse_inertia,
+)
+from ocs_design.sizing.rim_problem import RimLimits
+
+WEB_THICKNESS = 1.5e-3
+"""[m]: thinner ones sing on the lathe, and weigh little less."""
+
+WEB_MATERIAL = "aluminium-6061-t6"
+"""In the catalogue of materials."""
+
+WEB_DENSITY = 2710.0
+"""Of that [kg/m^3]: Hibbeler, Mechanics of Materials, Appendix C."""
+
+SHOULDER = 0.5e-3
+"""By how much a rim is taller than its web, at least [m]: it is seated on its edge."""
+
+LIGAMENT = 1.0e-3
+"""Of web between hub and rim, at least [m]."""
+
+HUB_HEIGHT = 5.0e-3
+"""[m]: a grub screw of M2 with its thread on either side, or the heads of bolts below flush."""
+
+HUB_WALL = 2.0e-3
+"""Around bore and bolts, at least [m]: room for the thread of a grub screw of M2."""
+
+PILOT_BORE = 3.0e-3
+"""Diameter where the motor's shaft is not in the catalogue [m]: to be opened to fit."""
+
+Real = TypeVar("Real", float, FloatArray)
+
+
+@dataclass(frozen=True)
+class Hub:
+    """A cylinder in the web's middle with a bore and a ring of through holes.
+
+    Attributes:
+        radius, height: [m].
+        bore_radius: [m].
+        bolts: how many; 0: the motor's are not in the catalogue.
+        bolt_circle_radius, bolt_hole_radius: [m]; 0 without bolts.
+    """
+
+    radius: float
+    height: float
+    bore_radius: float
+    bolts: int = 0
+    bolt_circle_radius: float = 0.0
+    bolt_hole_radius: float = 0.0
+
+    @property
+    def mass(self) -> float:
+        """Beyond that of a web without holes [kg]."""
+        holes = self.bore_radius**2 + self.bolts * self.bolt_hole_radius**2
+        beyond = self.radius**2 * (self.height - WEB_THICKNESS)
+        return WEB_DENSITY * pi * (beyond - holes * self.height)
+
+    @property
+    def axial_inertia(self) -> float:
+        """About the axis, beyond that of a web without holes [kg m^2]."""
+        bolt = self.bolt_hole_radius**2
+        bolts = self.bolts * bolt * (bolt / 2.0 + self.bolt_circle_radius**2)
+        beyond = self.radius**4 / 2.0 * (self.height - WEB_THICKNESS)
+        return WEB_DENSITY * pi * (beyond - (self.bore_radius**4 / 2.0 + bolts) * self.height)
+
+    @property
+    def transverse_inertia(self) -> float:
+        """Across the axis, beyond that of a web without holes [kg m^2].
+
+        Three and more holes in a ring have the same about every axis across it.
+        """
+        bolt = _across(self.bolt_hole_radius, self.height)
+        bolt += pi * self.bolt_hole_radius**2 * self.height * self.bolt_circle_radius**2 / 2.0
+        solid = _across(self.radius, self.height) - _across(self.radius, WEB_THICKNESS)
+        holes = _across(self.bore_radius, self.height) + self.bolts * bolt
+        return WEB_DENSITY * (solid - holes)
+
+
+NO_HUB = Hub(radius=0.0, height=0.0, bore_radius=0.0)
+"""Of massless spokes: it weighs nothing."""
+
+
+def hub_of(motor: Motor) -> Hub:
+    """Of a wheel on this motor.
+
+    Without its shaft and bolts in the catalogue it has a pilot bore, and is as wide as the bolt
+    circles that motors of that diameter have.
+    """
+    wide = 5.5e-3 + 0.15 * (motor.diameter or 0.03)
+    return Hub(radius=wide, height=HUB_HEIGHT, bore_radius=PILOT_BORE / 2.0)
+
+
+def wheel_body(
+    inner_radius: float, outer_radius: float, height: float, density: float, hub: Hub | None
+) -> Carrier:
+    """A rim with its web and hub; None: with massless spokes. Without what turns in the motor.
+
+    Args:
+        inner_radius, outer_radius, height, density: of the rim [m, kg/m^3].
+        hub: in the middle of its web.
+    """
+    rim = (inner_radius, outer_radius, height, density)
+    mass, axial = cylinder_mass(*rim), cylinder_spin_inertia(*rim)
+    transverse = cylinder_transverse_inertia(*rim)
+    if hub is None:
+        return Carrier(mass, axial, transverse)
+    return Carrier(
+        mass=mass + web_mass(inner_radius) + hub.mass,
+        axial_inertia=axial + web_axial_inertia(inner_radius) + hub.axial_inertia,
+        transverse_inertia=transverse
+        + web_transverse_inertia(inner_radius)
+        + hub.transverse_inertia,
+    )
+
+
+def limits_with_web(limits: RimLimits, hub_radius: float | FloatArray) -> RimLimits:
+    """Limits of rims that are seated on a web around a hub of that radius [m].
+
+    They are taller than the web, and than as much of it if it were of their own material.
+    """
+    web = WEB_THICKNESS * WEB_DENSITY / np.asarray(limits.density)
+    return replace(
+        limits,
+        inner_radius_min=np.maximum(limits.inner_radius_min, hub_radius + LIGAMENT),
+        height_min=np.maximum(limits.height_min, np.maximum(WEB_THICKNESS, web) + SHOULDER),
+        web=web,
+    )
+
+
+def web_mass(bore: Real) -> Real:
+    """Of the disc in a rim of bore radius r, without hub and holes [kg]."""
+    return pi * WEB_DENSITY * WEB_THICKNESS * bore**2
+
+
+def web_axial_inertia(bore: Real) -> Real:
+    """About the axis: m r^2 / 2 [kg m^2]."""
+    return web_mass(bore) * bore**2 / 2.0
+
+
+def web_transverse_inertia(bore: Real) -> Real:
+    """Across the axis: m (3 r^2 + t^2) / 12 [kg m^2]."""
+    return web_mass(bore) * (3.0 * bore**2 + WEB_THICKNESS**2) / 12.0
+
+
+def _across(radius: float, height: float) -> float:
+    """Of a cylinder of density 1 [m^5]."""
+    return pi * radius**2 * height * (3.0 * radius**2 + height**2) / 12.0

@@ -1,0 +1,143 @@
+"""Wheels to draw, and what must hold of a sheet."""
+
+import math
+
+from hypothesis import assume
+from hypothesis import strategies as st
+
+from ocs_design.drawing.sheet import Circle, Line, Text
+from ocs_design.drawing.wheel import WheelDrawing
+from ocs_design.exceptions import PartError
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
+
+MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e", "tool": "ocs-design 0.1.0"}
+
+HUB = Hub(0.0015, 0.012, 0.008, 0.004, "EN AW-6082", 2700.0, HoleRing(0.008, 4, 0.0017))
+
+FLAT = WheelDrawing(
+    wheel=Wheel(Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0), HUB),
+    speed=750.0,
+    **MADE_FOR,
+)
+"""A thin ring on a web with a motor's bolt circle."""
+
+HOLED = WheelDrawing(
+    wheel=Wheel(
+        Rim(0.03, 0.04, 0.01, "EN AW-6082", 2700.0, 0.0012, HoleRing(0.035, 12, 0.0015, 0.003)),
+        Hub(
+            web_thickness=0.0015,
+            radius=0.010,
+            height=0.012,
+            bore_radius=0.003,
+            material="EN AW-6082",
+            density=2700.0,
+            bolts=HoleRing(0.0065, 3, 0.0016),
+            lightening=HoleRing(0.020, 6, 0.006),
+        ),
+    ),
+    speed=None,
+    **MADE_FOR,
+)
+"""One piece, with every kind of hole."""
+
+
+@st.composite
+def rings(draw, inner, outer, depth=math.inf):
+    """With a millimetre to the edges and between the holes; None without the room."""
+    room = outer - inner - 0.0021
+    if room < 0.0002 or draw(st.booleans()):
+        return None
+    hole = draw(st.floats(0.1, 0.45)) * room
+    radius = draw(st.floats(inner + 0.001 + hole, outer - 0.001 - hole))
+    most = math.pi / math.asin(min(1.0, (hole + 0.0006) / radius))
+    return HoleRing(radius, draw(st.integers(1, min(12, max(1, int(most))))), hole, depth)
+
+
+@st.composite
+def hubs(draw, rim):
+    radius = rim.inner_radius * draw(st.floats(0.15, 0.8))
+    bore = radius * draw(st.floats(0.1, 0.8) | st.just(0.0))
+    return Hub(
+        web_thickness=rim.height * draw(st.floats(0.05, 0.5)),
+        radius=radius,
+        height=rim.height * draw(st.floats(0.5, 4.0)),
+        bore_radius=bore,
+        material=draw(st.sampled_from(["EN AW-6082", "steel", "x" * 90])),
+        density=2700.0,
+        bolts=draw(rings(bore, radius)),
+        lightening=draw(rings(radius, rim.inner_radius)),
+    )
+
+
+@st.composite
+def rims(draw):
+    """From a watch's to a mill's, from a foil to a roller."""
+    outer = 10.0 ** draw(st.floats(-3.0, 0.7))
+    inner = outer * draw(st.floats(0.07, 0.97) | st.just(0.0))
+    height = outer * 10.0 ** draw(st.floats(-1.5, 0.5))
+    return Rim(
+        inner,
+        outer,
+        height,
+        draw(st.sampled_from(["steel", "tungsten-alloy-class-4", "w" * 80])),
+        draw(st.floats(1000.0, 20000.0)),
+        draw(st.sampled_from([0.0, 0.0003, 0.01])),
+        draw(rings(inner, outer, depth=0.2 * height)),
+    )
+
+
+@st.composite
+def drawings(draw):
+    """Of any wheel that can be made."""
+    rim = draw(rims())
+    carried = rim.inner_radius > 0.2 * rim.outer_radius and draw(st.booleans())
+    try:
+        wheel = Wheel(rim, draw(hubs(rim)) if carried else None)
+    except PartError:
+        assume(False)
+    return WheelDrawing(
+        wheel=wheel,
+        robot=draw(st.sampled_from(["solo12", "a" * 300, '<&">', "机器人", "R2-D2 \\)("])),
+        identity="9f3c0a1b2d4e",
+        tool="ocs-design 0.1.0",
+        speed=draw(st.none() | st.floats(1.0, 1e4)),
+    )
+
+
+def texts(items):
+    return [item for item in items if isinstance(item, Text) and item.text]
+
+
+def overlap(one, other):
+    """Whether two boxes share more than an edge."""
+    return all(max(one[i], other[i]) < min(one[i + 2], other[i + 2]) - 1e-9 for i in range(2))
+
+
+def covers(item, box):
+    """Whether a line or a circle runs through a box."""
+    if isinstance(item, Line):
+        return _clipped(item.start, item.end, box)
+    if isinstance(item, Circle):
+        return _ring_meets(item, box)
+    return False
+
+
+def _clipped(start, end, box):
+    """Liang and Barsky's clipping: what of the segment is within the box."""
+    first, last = 0.0, 1.0
+    for i in range(2):
+        way = end[i] - start[i]
+        if way == 0.0:
+            if not box[i] < start[i] < box[i + 2]:
+                return False
+            continue
+        near, far = sorted(((box[i] - start[i]) / way, (box[i + 2] - start[i]) / way))
+        first, last = max(first, near), min(last, far)
+    return first < last
+
+
+def _ring_meets(circle, box):
+    x, y = circle.center
+    near = [max(box[i] - c, 0.0, c - box[i + 2]) for i, c in enumerate((x, y))]
+    far = [max(c - box[i], box[i + 2] - c) for i, c in enumerate((x, y))]
+    return math.hypot(*near) < circle.radius < math.hypot(*far)

@@ -1,0 +1,39 @@
+"""A device that is too heavy to be wanted is said to be, and refused where warnings are errors."""
+
+import re
+
+import pytest
+from commands import everything_in, run
+
+from ocs_design.catalogue.motors import motors
+from ocs_design.device_warnings import HEAVY
+
+BULKY = ("size", "--mass", "1.2", "--inertia", "0.1,0.15,0.18", "--no-validate")
+"""As hard to turn as a robot of three times its mass."""
+
+
+def test_a_heavy_device_is_warned_of(folder):
+    result = run(*BULKY, "-o", "out")
+    assert result.code == 0
+    share = re.search(r"warning: the device weighs [\d.]+ kg, (\d+)% of the robot", result.said)
+    assert float(share[1]) / 100.0 > HEAVY
+    assert f"({share[1]}." in result.said
+
+
+def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
+    result = run(*BULKY, "--strict", "--json")
+    error = result.document["error"]
+    assert (result.code, error["kind"]) == (3, "specification")
+    assert "of the robot" in error["message"]
+    assert everything_in(folder) == []
+
+
+@pytest.mark.parametrize(("voltage", "remarked"), [("24V", True), ("16.8V", False)])
+def test_a_motor_fed_beyond_its_rating_is_remarked(folder, voltage, remarked):
+    name = "AT2814 KV1050"
+    assert motors()[name].rated_voltage == 16.8
+    given = ("--motor", name, "--bus-voltage", voltage, "--no-validate", "-o", "out")
+    result = run("size", "--mass", "1.2", "--inertia", "0.02,0.03,0.035", *given)
+    assert result.code == 0, result.said
+    words = f"{name} is rated for 16.8 V and fed with 24 V: its speed is limited"
+    assert (words in result.said) is remarked

@@ -1,0 +1,82 @@
+"""Disks that are full or read-only, and runs that fail: what was there stays as it was."""
+
+import errno
+import os
+import re
+import shutil
+import subprocess
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from commands import BOUND, SOLO12, everything_in, run
+
+from ocs_design.export.folder import file_hashes
+
+
+@contextmanager
+def small_disk(folder, kib):
+    """A disk of that size at `folder`, where the system lets us mount one."""
+    mount = shutil.which("mount")
+    made = mount and subprocess.run(
+        [mount, "-t", "tmpfs", "-o", f"size={kib}k", "none", str(folder)],
+        capture_output=True,
+        check=False,
+    )
+    if not made or made.returncode:
+        pytest.skip("a disk of its own can be mounted by root only")
+    try:
+        yield lambda *options: subprocess.run([mount, *options, str(folder)], check=True)
+    finally:
+        subprocess.run(["umount", str(folder)], check=True)
+
+
+def test_a_full_disk(folder):
+    (folder / "disk").mkdir()
+    with small_disk(folder / "disk", kib=256):
+        result = run("size", SOLO12, *BOUND, "--no-validate", "-o", "disk/out")
+        assert (result.code, result.stdout) == (3, "")
+        assert re.search("No space left on device.*free some space", result.said)
+        assert everything_in(folder) == ["disk"]
+
+
+def test_a_disk_that_fills_up_anywhere(folder, monkeypatch):
+    written = []
+
+    def write_bytes(path, content, original=Path.write_bytes):
+        written.append(path)
+        if len(written) == 5:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+        return original(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", write_bytes)
+    result = run("size", SOLO12, *BOUND, "--no-validate", "--json")
+    assert result.code == 3
+    assert result.document["error"]["kind"] == "output"
+    assert str(written[-1]) in result.document["error"]["message"]
+    assert everything_in(folder) == []
+
+
+def test_a_parent_that_is_read_only(folder):
+    parent = folder / "locked"
+    parent.mkdir()
+    if os.geteuid() == 0:
+        with small_disk(parent, kib=64) as mount:
+            mount("-o", "remount,ro")
+            result = run("size", SOLO12, *BOUND, "-o", "locked/out")
+    else:
+        parent.chmod(0o555)
+        result = run("size", SOLO12, *BOUND, "-o", "locked/out")
+    assert result.code == 3
+    assert re.search(
+        "cannot be written to choose a folder that you may write to with -o", result.said
+    )
+    assert everything_in(folder) == ["locked"]
+
+
+def test_a_failing_run_keeps_the_output_that_it_was_to_replace(folder):
+    assert run("size", SOLO12, *BOUND, "--no-validate", "-o", "out").code == 0
+    before = file_hashes(folder)
+    weak = ("--motor", "Antigravity 4004 KV300")
+    assert run("size", SOLO12, *weak, "-o", "out", "--force").code == 4
+    assert file_hashes(folder) == before

@@ -1,0 +1,299 @@
+"""`export`: the same files again, from `design.json` and the robot's own file alone."""
+
+import gzip
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from unittest import mock
+
+import mujoco
+import pytest
+import trimesh
+from commands import BOUND, BY_HAND, ROOT, SOLO12, everything_in, run
+from exported import MJCF, pinocchio_model
+from products import FILES
+from robots import ROBOTS
+
+from ocs_design.export.formats import FORMATS
+
+HUMAN = next(ROBOTS.rglob("human.urdf"))
+MADE = ("cad", "robot", "snippets")
+QUICK = (*BOUND, "--no-validate", "-q")
+XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="base"><inertial><mass value="2"/>
+    <inertia ixx="0.03" iyy="0.05" izz="0.07" ixy="0" ixz="0" iyz="0"/></inertial>
+    <visual><geometry><mesh filename="package://parts/cube.stl"/></geometry></visual></link>
+</robot>"""
+
+
+def files_in(folder):
+    """Content of every file below `folder`, by its path."""
+    paths = (path for path in Path(folder).rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+
+
+def made_in(folder):
+    """What `export` answers for."""
+    return {name: content for name, content in files_in(folder).items() if name.startswith(MADE)}
+
+
+def sized(*arguments, stdin=b""):
+    """A design in the folder `ocs` of the working directory."""
+    result = run("size", *arguments, *QUICK, "-o", "ocs", stdin=stdin)
+    assert result.code == 0, result.stderr
+    return Path("ocs")
+
+
+@pytest.fixture
+def solo12(folder):
+    """A design for a copy of Solo12 that tests may harm, in the working directory."""
+    shutil.copy(SOLO12, "solo12.urdf")
+    return sized("solo12.urdf")
+
+
+def test_every_file_is_what_size_wrote(product, folder):
+    result = run("export", product.folder, "-o", "again")
+    assert (result.code, result.stdout) == (0, "")
+    again = files_in("again")
+    assert set(again) == {"design.json", *(name for name in FILES if name.startswith(MADE))}
+    assert made_in("again") == made_in(product.folder)
+    assert list(json.loads(again["design.json"])["files"]) == sorted(made_in("again"))
+
+
+def robot_by_hand():
+    return sized(*BY_HAND, "--rate-change", "6rad/s", "--wheel-speed-max", "7200rpm")
+
+
+def robot_in_mjcf():
+    Path("in.xml").write_text(MJCF)
+    return sized("in.xml", "--rate-change", "1rad/s", "--trunk", "trunk")
+
+
+def robot_with_y_up():
+    return sized(HUMAN)
+
+
+def robot_gzipped():
+    Path("solo.urdf.gz").write_bytes(gzip.compress(Path(SOLO12).read_bytes()))
+    return sized("solo.urdf.gz", "--posture", "zero", "--joint", "FL_KFE=-0.5")
+
+
+def robot_with_meshes_elsewhere():
+    """Their place is recorded, for it stands in no file of the robot's."""
+    (Path("hidden") / "p").mkdir(parents=True)
+    trimesh.creation.box((0.1, 0.1, 0.1)).export("hidden/p/cube.stl")
+    Path("r.urdf").write_text(XACRO.replace(' xmlns:xacro="http://www.ros.org/wiki/xacro"', ""))
+    return sized("r.urdf", "--rate-change", "1rad/s", "--package-path", "parts=hidden/p")
+
+
+@pytest.mark.parametrize(
+    "make",
+    [robot_by_hand, robot_in_mjcf, robot_with_y_up, robot_gzipped, robot_with_meshes_elsewhere],
+)
+def test_it_is_the_same_for_a(folder, make):
+    source = make()
+    assert run("export", source, "-o", "again", "-q").code == 0
+    assert made_in("again") == made_in(source)
+
+
+def test_the_robot_is_found_from_anywhere(solo12, folder, monkeypatch):
+    """Its path is relative to where `size` ran, which is beside the design's folder."""
+    (folder / "elsewhere").mkdir()
+    monkeypatch.chdir(folder / "elsewhere")
+    assert run("export", folder / "ocs", "-o", "again", "-q").code == 0
+    assert made_in("again") == made_in(folder / "ocs")
+
+
+def test_parts_and_snippets_need_no_robot(solo12):
+    Path("solo12.urdf").unlink()
+    result = run("export", solo12, "-o", "again")
+    assert result.code == 3
+    assert "solo12.urdf: the robot's file is not there any more" in result.said
+    assert not Path("again").exists()
+    cure = "--formats stl,bom,snippets"
+    assert cure in result.said
+    assert run("export", solo12, "-o", "again", "-q", *cure.split()).code == 0
+    original, again = made_in(solo12), made_in("again")
+    assert again == {name: original[name] for name in original if not name.startswith("robot")}
+
+
+def test_the_seat_of_a_robot_with_y_up_is_in_the_design(folder):
+    shutil.copy(HUMAN, "h.urdf")
+    source = sized("h.urdf")
+    Path("h.urdf").unlink()
+    assert run("export", source, "-o", "again", "-q", "--formats", "snippets").code == 0
+    for name, content in made_in("again").items():
+        assert content == made_in(source)[name]
+
+
+def test_a_robot_that_has_moved_is_named(solo12):
+    Path("solo12.urdf").rename("moved.urdf")
+    result = run("export", solo12, "-o", "again", "--robot", "moved.urdf", "--json")
+    assert result.code == 0
+    assert result.document["warnings"] == []
+    assert made_in("again") == made_in(solo12)
+
+
+def test_a_robot_that_has_changed_is_refused_until_it_is_named(solo12):
+    changed = Path("solo12.urdf").read_text().replace("</robot>", "<!-- new -->\n</robot>")
+    Path("solo12.urdf").write_text(changed)
+    result = run("export", solo12, "-o", "again")
+    assert result.code == 3
+    assert "has changed since the device was sized for it" in result.said
+    assert "--robot solo12.urdf" in result.said
+    named = ("export", solo12, "-o", "again", "--robot", "solo12.urdf")
+    assert run(*named, "--strict").code == 3
+    assert not Path("again").exists()
+    result = run(*named, "--json")
+    (warning,) = result.document["warnings"]
+    assert warning.startswith(
+        "solo12.urdf: not the file that the device was sized for; mass 2.5 kg"
+    )
+    assert "<!-- new -->" in Path("again/robot/solo12_ocs.urdf").read_text()
+
+
+def test_a_robot_without_the_designs_trunk_is_refused(solo12):
+    go2 = ROBOTS / "go2_description" / "urdf" / "go2.urdf"
+    result = run("export", solo12, "-o", "again", "--robot", go2)
+    assert result.code == 2
+    assert "the robot has no link 'base_link'" in result.said
+    assert not Path("again").exists()
+
+
+def test_a_robot_from_standard_input_is_asked_for(folder):
+    source = sized("-", stdin=Path(SOLO12).read_bytes())
+    result = run("export", source, "-o", "again")
+    assert result.code == 3
+    assert "--robot FILE" in result.said
+    assert run("export", source, "-o", "again", "-q", "--robot", SOLO12).code == 0
+    assert made_in("again") == made_in(source)
+
+
+@pytest.mark.parametrize("each", FORMATS, ids=lambda each: each.name)
+def test_one_format_alone(solo12, each):
+    assert (
+        run("export", solo12 / "design.json", "-o", "again", "-q", "--formats", each.name).code == 0
+    )
+    again = made_in("again")
+    assert again
+    assert again.items() <= made_in(solo12).items()
+
+
+def test_formats_are_listed_with_commas_or_one_by_one(solo12):
+    run("export", solo12, "-o", "a", "-q", "--formats", "stl,bom")
+    run("export", solo12, "-o", "b", "-q", "--formats", "bom", "--formats", "stl")
+    assert files_in("a") == files_in("b")
+    assert set(files_in("a")) == {"design.json", "cad/flywheel.stl", "cad/bill_of_materials.csv"}
+
+
+def test_an_unknown_format_is_wrong_usage(solo12):
+    result = run("export", solo12, "-o", "again", "--formats", "stl,dxf", "--json")
+    assert result.code == 2
+    assert "dxf" in result.document["error"]["message"]
+    assert all(each.name in result.document["error"]["hint"] for each in FORMATS)
+
+
+def test_parts_and_snippets_need_neither_simulator_nor_solver(solo12):
+    """That is most of the time of a start."""
+    code = (
+        "import sys\nfrom ocs_design import cli_errors\nfrom ocs_design.cli import app\n"
+        f"assert not cli_errors.run(app, ['export', {str(solo12)!r}, '-q', '--formats', 'stl,bom'])"
+        "\nprint(*{name.partition('.')[0] for name in sys.modules})"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert {"mujoco", "cvxpy", "casadi", "trimesh", "scipy"}.isdisjoint(done.stdout.split())
+
+
+def test_an_existing_folder_is_kept(solo12):
+    before = files_in(solo12)
+    result = run("export", solo12, "-o", solo12)
+    assert result.code == 3
+    assert "--force" in result.said
+    assert files_in(solo12) == before
+
+
+def test_in_the_designs_own_folder_the_rest_stays(product, folder):
+    shutil.copytree(product.folder, "ocs")
+    Path("ocs/notes.txt").write_text("mine")
+    Path("ocs/robot/solo12_ocs.glb").unlink()
+    Path("ocs/cad/flywheel.stl").write_bytes(b"broken")
+    assert run("export", "ocs", "-o", "ocs", "--force", "-q").code == 0
+    whole = files_in(product.folder)
+    renewed = files_in("ocs")
+    assert renewed.pop("notes.txt") == b"mine"
+    assert {**renewed, "design.json": whole["design.json"]} == whole
+
+
+def test_one_format_renewed_in_place_leaves_the_others(solo12):
+    before = files_in(solo12)
+    (solo12 / "cad" / "flywheel.stl").unlink()
+    assert run("export", solo12, "-o", solo12, "--force", "-q", "--formats", "stl").code == 0
+    assert files_in(solo12) == before
+
+
+def test_the_default_folder_is_named_after_the_robot(solo12):
+    result = run("export", solo12)
+    assert result.code == 0
+    assert "Written to solo12-ocs-export/" in result.said
+    assert Path("solo12-ocs-export/design.json").is_file()
+
+
+def test_meshes_that_the_urdf_names_by_relative_paths_are_told_of_once(folder):
+    trimesh.creation.box((0.1, 0.1, 0.1)).export("cube.stl")
+    text = XACRO.replace(' xmlns:xacro="http://www.ros.org/wiki/xacro"', "")
+    Path("r.urdf").write_text(text.replace("package://parts/", ""))
+    source = sized("r.urdf", "--rate-change", "1rad/s")
+    warnings = json.loads((source / "design.json").read_text())["robot"]["warnings"]
+    assert [w for w in warnings if "names 1 of its meshes relative" in w]
+    assert run("export", source, "-o", "again", "--json").document["warnings"] == []
+
+
+def test_a_robot_that_may_not_be_read_is_an_error(solo12, monkeypatch):
+    refused = mock.Mock(side_effect=PermissionError(13, "Permission denied"))
+    monkeypatch.setattr("ocs_design.robot.files.source._read_bounded", refused)
+    result = run("export", solo12, "-o", "again")
+    assert result.code == 3
+    assert "may not be read" in result.said
+
+
+def test_the_json_document_names_what_was_made(solo12):
+    result = run("export", solo12, "-o", "again", "--json")
+    assert (result.code, result.stderr) == (0, "")
+    assert set(result.document) == {"schema_version", "folder", "files", "warnings"}
+    assert set(result.document["files"]) == set(made_in("again"))
+
+
+@pytest.mark.parametrize("content", [None, b"", b"{}", b'{"schema_version": 99}', b"\xff\xfe"])
+def test_what_is_no_design_is_an_error_with_nothing_written(folder, content):
+    if content is not None:
+        Path("design.json").write_bytes(content)
+    result = run("export", "design.json", "-o", "again", "--json")
+    assert result.code == 3
+    assert "design.json" in result.document["error"]["message"]
+    assert everything_in(".") == ([] if content is None else ["design.json"])
+
+
+def test_a_folder_without_a_design_is_an_error(folder):
+    Path("empty").mkdir()
+    result = run("export", "empty")
+    assert result.code == 3
+    assert "empty/design.json" in result.said
+
+
+def test_the_folder_can_be_moved(solo12, folder):
+    run("export", solo12, "-o", "again", "-q")
+    moved = folder / "far" / "away"
+    moved.parent.mkdir()
+    shutil.move("again", moved)
+    shutil.rmtree(solo12)
+    for name, content in made_in(moved).items():
+        assert str(folder).encode() not in content, name
+        assert str(ROOT).encode() not in content, name
+    assert mujoco.MjModel.from_xml_path(str(moved / "robot" / "solo12_ocs.xml")).nu >= 2
+    assert trimesh.load_scene(moved / "robot" / "solo12_ocs.glb").geometry
+    urdf = (moved / "robot" / "solo12_ocs.urdf").read_text()
+    assert pinocchio_model(urdf).existJointName("ocs_left")
+    assert 'filename="meshes/ocs_flywheel.stl"' in urdf
+    assert (moved / "robot" / "meshes" / "ocs_flywheel.stl").is_file()

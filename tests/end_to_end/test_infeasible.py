@@ -1,0 +1,135 @@
+"""What no device can do: which limits are in the way, and changes that really would do."""
+
+import re
+import time
+
+import pytest
+from commands import BY_HAND, SOLO12, everything_in, run
+
+TOO_TIGHT = {
+    "radius": ("--r-max", "20mm"),
+    "radius and height": ("--r-max", "20mm", "--h-max", "2.5mm"),
+    "height": ("--h-max", "2.1mm"),
+    "mass": ("--wheel-mass-max", "20g"),
+    "slow wheels": ("--wheel-speed-max", "1000rpm"),
+    "stress": ("--wheel-speed-max", "50000rpm", "--r-min", "40mm"),
+    "room": ("--wall-min", "40mm", "--r-min", "20mm"),
+    "thin room": ("--r-max", "49mm", "--r-min", "48mm"),
+    "rate": ("--rate-change", "30", "--r-max", "30mm"),
+}
+WHEELS_ALONE = ("--motor", "none", "--no-validate")
+RELAXATION = re.compile(
+    r"\b(?P<key>[a-z_]+) (?P<figure>[\d.e+]+)(?: (?P<unit>mm|g|rpm))?(?=[;.] ?)"
+)
+
+
+@pytest.mark.parametrize("robot_given", [(SOLO12,), BY_HAND], ids=["Solo12", "by hand"])
+@pytest.mark.parametrize("limits", TOO_TIGHT.values(), ids=TOO_TIGHT)
+def test_what_the_hint_proposes_works_as_it_is_printed(folder, limits, robot_given):
+    result = run("size", *robot_given, *limits, *WHEELS_ALONE, "--json")
+    error = result.document["error"]
+    assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
+    assert error["binding"]
+    assert error["largest_spin_inertia"] < error["required_spin_inertia"]
+    assert everything_in(folder) == []
+    proposed = {match["key"]: match for match in RELAXATION.finditer(error["hint"] + " ")}
+    assert set(proposed) | {"hoop_stress"} == set(error["relaxations"]) | {"hoop_stress"}
+    assert error["relaxations"]
+    for key, match in proposed.items():
+        typed = (f"--{key.replace('_', '-')}", f"{match['figure']}{match['unit'] or ''}")
+        mended = run("size", *robot_given, *limits, *typed, *WHEELS_ALONE, "-o", key)
+        assert mended.code == 0, (typed, mended.said)
+    assert sorted(path.name for path in folder.iterdir()) == sorted(proposed)
+
+
+def test_a_missing_authority_is_no_matter_of_size(folder):
+    result = run("size", SOLO12, "--alpha", "0", "--motor", "none", "--json")
+    error = result.document["error"]
+    assert (result.code, error["binding"], error["relaxations"]) == (4, ["incidence"], {})
+    assert "roll momentum" in error["message"]
+
+
+def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
+    result = run("size", SOLO12, "--alpha", "0", "--motor", "R80 KV110", "--json")
+    error = result.document["error"]
+    assert (result.code, error["relaxations"], error["required_spin_inertia"]) == (4, {}, None)
+    assert "axis out of reach" in error["message"]
+    # That is so, and no limit of the room has any part in it.
+    assert "another incidence there is a device: leave out --alpha" in error["hint"]
+    assert "limit" not in error["hint"]
+    assert everything_in(folder) == []
+
+
+def test_a_motor_that_is_too_weak_is_told_how_much_time_it_needs(folder):
+    """No limit of the room mends a torque: Solo12's own motor needs longer for the drop."""
+    result = run("size", SOLO12, "--motor", "Antigravity 4004 KV300", "--json")
+    error = result.document["error"]
+    assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
+    for words in ("Antigravity 4004 KV300", "24 V", "drop", "0.385 s given"):
+        assert words in error["message"]
+    assert set(error["relaxations"]) == {"time"}
+    assert 1.0 < error["relaxations"]["time"] < 2.0
+    assert everything_in(folder) == []
+
+
+def test_a_robot_that_no_motor_can_turn(folder):
+    """Told within seconds: what is missing, and what would do."""
+    began = time.monotonic()
+    result = run("size", "--mass", "200", "--inertia", "40,60,60", "--json")
+    assert time.monotonic() - began < 30.0
+    error = result.document["error"]
+    assert (result.code, error["kind"], error["binding"]) == (4, "infeasible", ["torque"])
+    assert re.search(r"None of \d+ motors can do it at 48 V; .* comes closest", error["message"])
+    assert set(error["relaxations"]) == {"time"}
+    assert f"{error['relaxations']['time']:.3g} times what is given" in error["hint"]
+    assert everything_in(folder) == []
+
+
+def test_the_figures_of_a_refusal_are_those_of_its_words(folder):
+    result = run("size", SOLO12, "--motor", "R80 KV110", "--r-max", "12mm", "--json")
+    error = result.document["error"]
+    words = re.search(r"needs a wheel of (\S+) kg m\^2, (\S+) fits", error["message"])
+    assert f"{error['required_spin_inertia']:.3g}" == words[1]
+    assert f"{error['largest_spin_inertia']:.3g}" == words[2]
+
+
+ONE_DRIVE = (
+    *("--motor", "EC 90 flat 90 W 323772", "--gear", "direct"),
+    *("--material", "stainless-304", "--alpha", "35deg", "--no-validate"),
+)
+TOO_TIGHT_FOR_MOTORS = {
+    "room": ("--r-max", "40mm", "--h-max", "2.1mm"),
+    "voltage": ("--bus-voltage", "5V"),
+    "mass": ("--wheel-mass-max", "1g"),
+}
+MORE = {
+    "speed": ("--wheel-speed-max", "400rpm"),
+    "bore": ("--r-max", "40mm", "--r-min", "39mm"),
+}
+
+
+@pytest.mark.parametrize(
+    "limits",
+    [
+        *(pytest.param(limits, id=name) for name, limits in TOO_TIGHT_FOR_MOTORS.items()),
+        *(pytest.param(limits, id=name, marks=pytest.mark.slow) for name, limits in MORE.items()),
+    ],
+)
+def test_what_the_hint_proposes_for_a_motor_works_as_it_is_printed(folder, limits):
+    told = run("size", *BY_HAND, *ONE_DRIVE, *limits)
+    assert told.code == 4
+    proposed = list(re.finditer(r"\b(\w+) ([\d.]+) (mm|V|g|rpm)(?=[;.] )", told.said + " "))
+    assert proposed, told.said
+    assert limits[-2].strip("-").replace("-", "_") in {match[1] for match in proposed}
+    for key, figure, unit in (match.groups() for match in proposed):
+        option = f"--{key.replace('_', '-')}"
+        mended = run("size", *BY_HAND, *ONE_DRIVE, *limits, option, figure + unit, "-o", key)
+        assert mended.code == 0, (option, figure, unit, mended.said)
+
+
+def test_a_voltage_without_a_unit_is_in_volt(folder):
+    for voltage in ("24", "24V"):
+        result = run(
+            "size", *BY_HAND, *ONE_DRIVE, "--bus-voltage", voltage, "-o", voltage, "--json"
+        )
+        assert result.document["selection"]["bus_voltage"] == 24.0

@@ -1,0 +1,99 @@
+"""Ends that come early: the reader leaves, the user has enough."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from commands import BOUND, PROGRAM, SOLO12, everything_in
+
+
+@pytest.mark.parametrize("typed", ["inspect --json", "size", "inspect"])
+def test_the_reader_of_the_output_may_leave(folder, typed):
+    """As `head` does: no complaint, and nothing half done is left."""
+    command, *options = typed.split()
+    reading, writing = os.pipe()
+    os.close(reading)
+    streams = {"stdout": writing, "stderr": subprocess.PIPE if options else writing}
+    process = subprocess.Popen([*PROGRAM, command, SOLO12, *options], **streams)
+    os.close(writing)
+    complaint = process.communicate()[1]
+    assert not complaint
+    assert process.returncode == 141
+    assert everything_in(folder) == []
+
+
+def started(process, folder, said):
+    """Its own handlers stand, and nothing is imported yet."""
+    caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text())[1]
+    return int(caught, 16) >> (signal.SIGTERM - 1) & 1
+
+
+def loaded(process, folder, said):
+    """The solver is, and the robot is read next."""
+    return b"load the solver" in said.read_bytes()
+
+
+def sized(process, folder, said):
+    """The device is, and everything is written and flown next."""
+    return b"size the device" in said.read_bytes()
+
+
+def written(process, folder, said):
+    """Some files stand in a hidden folder."""
+    return any(folder.glob(".*/robot/*.urdf"))
+
+
+@pytest.fixture
+def interrupted(folder, tmp_path_factory):
+    """Sends signals to a process at a moment; its exit code and what it said."""
+
+    def end_at(moment, *signals, options=BOUND):
+        """Poll until the moment, as nothing tells of it."""
+        said = tmp_path_factory.mktemp("said") / "stderr"
+        with said.open("wb") as stream:
+            process = subprocess.Popen([*PROGRAM, "size", SOLO12, *options], stderr=stream)
+            deadline = time.monotonic() + 60.0
+            while not moment(process, folder, said) and time.monotonic() < deadline:
+                time.sleep(0.002)
+            for number in signals:
+                process.send_signal(number)
+                time.sleep(0.05)
+            return process.wait(), said.read_text()
+
+    return end_at
+
+
+TWICE = (signal.SIGINT, signal.SIGINT)
+
+
+@pytest.mark.parametrize(
+    ("moment", "signals"),
+    [
+        (started, (signal.SIGINT,)),
+        (started, (signal.SIGTERM,)),
+        (loaded, (signal.SIGINT,)),
+        (sized, TWICE),
+        (written, (signal.SIGINT,)),
+        (written, (signal.SIGTERM,)),
+        (written, TWICE),
+    ],
+    ids=lambda each: getattr(each, "__name__", None) or "-".join(number.name for number in each),
+)
+def test_an_interrupt_leaves_nothing(folder, interrupted, moment, signals):
+    code, said = interrupted(moment, *signals)
+    assert "Traceback" not in said
+    assert code == 130, said
+    assert said.endswith("interrupted; nothing half done is left\n")
+    assert everything_in(folder) == []
+
+
+def test_an_interrupt_keeps_what_was_to_be_replaced(folder, interrupted):
+    (folder / "solo12-ocs").mkdir()
+    (folder / "solo12-ocs" / "design.json").write_bytes(b"{}")
+    code, _ = interrupted(written, signal.SIGINT, options=(*BOUND, "--force"))
+    assert code == 130
+    assert everything_in(folder) == ["solo12-ocs", "solo12-ocs/design.json"]

@@ -1,0 +1,202 @@
+"""The product opened, with a motor and without one: every file, every number, every line."""
+
+import csv
+import hashlib
+import re
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+import trimesh
+from commands import SOLO12, everything_in
+from exported import check_moments, check_wheels_in_pinocchio
+from products import FILES, composite, with_modules
+
+from ocs_design.design_file import design_to_json, read_design
+
+# INTERFACE: the fields that scripts and other programs rely on.
+SCHEMA = {
+    "": "schema_version tool seed robot requirement ocs sizing margins validation files",
+    "tool": "name version",
+    "robot": "name source sha256 trunk posture mass com inertia warnings",
+    "requirement": "maneuvers rate_change wheel_speed_max required_inertia",
+    "requirement.required_inertia": "pitch roll",
+    "ocs": "incidence incidence_criterion incidence_by_criterion spin_inertia mass_total modules "
+    "flywheel motor",
+    "ocs.modules.0": "name axis position",
+    "ocs.modules.1": "name axis position",
+    "ocs.flywheel": "inner_radius outer_radius height material density mass spin_inertia "
+    "transverse_inertia hoop_stress stress_margin stored_energy",
+    "ocs.motor": "name mass stall_torque no_load_speed torque_limit rotor_inertia source",
+    "sizing": "status method objective binding shadow_prices gap",
+    "margins.0": "name demand capacity unit margin",
+    "validation.0": "scenario ocs passed reason metrics",
+    "validation.0.metrics": "touchdown_pitch touchdown_roll upright_at_end peak_wheel_speed "
+    "peak_wheel_torque momentum_error",
+}
+
+
+def at(document, path):
+    for key in filter(None, path.split(".")):
+        document = document[int(key) if key.isdigit() else key]
+    return document
+
+
+def test_it_succeeds_and_leaves_nothing_but_its_folder(product):
+    assert (product.said.code, product.said.stdout) == (0, "")
+    assert list(product.folder.parent.iterdir()) == [product.folder]
+    written = {name for name in everything_in(product.folder) if (product.folder / name).is_file()}
+    assert written == {*FILES, "design.json"}
+
+
+@pytest.mark.parametrize(("path", "keys"), SCHEMA.items())
+def test_design_json_has_the_fields_that_others_rely_on(document, path, keys):
+    assert set(keys.split()) <= set(at(document, path))
+
+
+def test_hashes_are_those_of_the_files(product, document):
+    hashes = {
+        name: hashlib.sha256((product.folder / name).read_bytes()).hexdigest() for name in FILES
+    }
+    assert document["files"] == hashes
+    assert document["robot"]["sha256"] == hashlib.sha256(Path(SOLO12).read_bytes()).hexdigest()
+
+
+def test_the_design_reads_back_as_it_was_written(product):
+    path = product.folder / "design.json"
+    assert design_to_json(read_design(path)) == path.read_bytes()
+
+
+def test_axes_follow_from_the_incidence(document, device):
+    alpha = document["ocs"]["incidence"]
+    for module, side in zip(device.modules, (1.0, -1.0), strict=True):
+        expected = [side * np.sin(alpha), np.cos(alpha), 0.0]
+        np.testing.assert_allclose(module.axis, expected, rtol=0.0, atol=1e-15)
+    left, right = (module.position for module in device.modules)
+    np.testing.assert_allclose(left, right * [1.0, -1.0, 1.0], rtol=0.0, atol=1e-15)
+
+
+def test_wheels_do_not_touch_each_other(device):
+    """Two cylinders of radius R and height h, each within a sphere: far enough, or side by side."""
+    left, right = (module.position for module in device.modules)
+    wheel = device.flywheel
+    reach = np.hypot(wheel.outer_radius, wheel.height / 2.0)
+    sideways = [
+        wheel.outer_radius * abs(module.axis[0]) + wheel.height / 2.0 * abs(module.axis[1])
+        for module in device.modules
+    ]
+    assert np.linalg.norm(left - right) > 2.0 * reach or left[1] - right[1] > sum(sideways)
+
+
+def test_the_total_is_the_sum_of_robot_and_modules(document, device):
+    ocs = document["ocs"]
+    mass, com, inertia = with_modules(document, device, ocs["incidence"])
+    assert ocs["total_mass"] == pytest.approx(mass, rel=1e-12)
+    np.testing.assert_allclose(ocs["total_com"], com, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(ocs["total_inertia"], inertia, rtol=1e-9, atol=1e-12)
+
+
+def test_the_exported_urdf_is_the_design_to_pinocchio(document, device, exported):
+    check_wheels_in_pinocchio(exported, device, document["robot"]["trunk"])
+    mass, com, inertia = composite(exported, document["robot"]["posture"])
+    ocs = document["ocs"]
+    assert mass == pytest.approx(ocs["total_mass"], rel=1e-9)
+    np.testing.assert_allclose(com, ocs["total_com"], rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(inertia, ocs["total_inertia"], rtol=1e-9, atol=1e-11)
+
+
+@pytest.mark.parametrize("name", ["robot/solo12_ocs.xml", "robot/solo12_ocs.urdf"])
+def test_mujoco_reads_the_same_robot(product, document, device, name):
+    """MuJoCo fuses a URDF's root to the world: only its wheels can be compared."""
+    model = mujoco.MjModel.from_xml_path(str(product.folder / name))
+    for module in device.modules:
+        body = model.body(f"ocs_{module.name}_flywheel")
+        joint = model.joint(f"ocs_{module.name}")
+        assert body.mass[0] == pytest.approx(device.flywheel.mass, rel=1e-9)
+        turned = np.empty(9)
+        mujoco.mju_quat2Mat(turned, body.iquat)
+        frame = turned.reshape(3, 3)
+        check_moments(frame @ np.diag(body.inertia) @ frame.T, device)
+        placed = np.empty(9)
+        mujoco.mju_quat2Mat(placed, body.quat)
+        np.testing.assert_allclose(
+            placed.reshape(3, 3) @ joint.axis, module.axis, rtol=0.0, atol=1e-9
+        )
+        np.testing.assert_allclose(body.pos, module.position, rtol=0.0, atol=1e-9)
+    if name.endswith(".xml"):
+        assert model.body_mass.sum() == pytest.approx(document["ocs"]["total_mass"], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"), [("cad/flywheel.stl", 1e-3), ("robot/meshes/ocs_flywheel.stl", 1.0)]
+)
+def test_meshes_are_watertight_and_weigh_what_they_should(product, device, name, unit):
+    mesh = trimesh.load_mesh(product.folder / name)
+    mesh.apply_scale(unit)
+    wheel = device.flywheel
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    mesh.density = wheel.density
+    assert mesh.mass == pytest.approx(wheel.mass, rel=1e-4)
+    expected = np.diag([wheel.transverse_inertia] * 2 + [wheel.spin_inertia])
+    np.testing.assert_allclose(
+        mesh.moment_inertia, expected, rtol=1e-4, atol=1e-4 * wheel.spin_inertia
+    )
+    np.testing.assert_allclose(mesh.center_mass, 0.0, atol=1e-6 * wheel.outer_radius)
+    np.testing.assert_allclose(
+        mesh.extents, 2.0 * np.array([wheel.outer_radius] * 2 + [wheel.height / 2.0]), rtol=1e-4
+    )
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name.startswith("validation/")])
+def test_time_series_can_be_read_with_their_units(product, document, name):
+    with (product.folder / name).open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    units = ("_s", "_m", "_rad", "_rad_s", "_nm")
+    assert all(heading.endswith(units) for heading in rows[0] if heading != "contact")
+    table = {heading: np.array([float(row[heading]) for row in rows]) for heading in rows[0]}
+    assert all(np.isfinite(column).all() for column in table.values())
+    assert (np.diff(table["time_s"]) > 0.0).all()
+    scenario, device_given = re.fullmatch(r"validation/(.+)_(with|without)_ocs\.csv", name).groups()
+    metrics = next(
+        each["metrics"]
+        for each in document["validation"]
+        if (each["scenario"], each["ocs"]) == (scenario, device_given == "with")
+    )
+    flight = table["time_s"] <= metrics["touchdown_time"]
+    assert not table["contact"][flight][:-1].any()
+    speeds = [
+        np.abs(table[f"wheel_speed_{side}_rad_s"][flight]).max() for side in ("left", "right")
+    ]
+    assert max(speeds) == pytest.approx(metrics["peak_wheel_speed"], rel=0.05, abs=1e-6)
+
+
+def test_the_flights_prove_the_device(document):
+    runs = {(r["scenario"], r["ocs"]): r for r in document["validation"]}
+    for scenario in ("disturbance", "drop", "back-flip"):
+        proved, bare = runs[scenario, True], runs[scenario, False]
+        assert proved["passed"] is True, proved["reason"]
+        assert bare["passed"] is False
+        assert bare["reason"]
+        for axis in ("pitch", "roll"):
+            assert abs(proved["metrics"][f"touchdown_{axis}"]) < np.radians(5.0)
+        assert proved["metrics"]["momentum_error"] < 1e-6
+        assert proved["metrics"]["upright_at_end"] is True
+    assert runs["back-flip", True]["metrics"]["turned_angle"] == pytest.approx(
+        -2.0 * np.pi, abs=np.radians(5.0)
+    )
+    assert abs(runs["back-flip", False]["metrics"]["turned_angle"]) < np.radians(1.0)
+    bare_drop = runs["drop", False]["metrics"]["touchdown_pitch"]
+    assert np.degrees(bare_drop) == pytest.approx(30.0, abs=0.5)
+    bare_jump = runs["disturbance", False]["metrics"]
+    assert np.degrees(abs(bare_jump["touchdown_pitch"])) > 10.0
+
+
+def test_margins_are_capacity_over_demand(document, product):
+    for margin in document["margins"]:
+        if margin["capacity"] is None:
+            assert margin["margin"] is None
+        else:
+            assert margin["margin"] == pytest.approx(margin["capacity"] / margin["demand"])
+            assert margin["margin"] >= 1.0 - product.case.slack

@@ -1,0 +1,93 @@
+"""`size` as it is read: in terminals and pipes, as JSON, on any number of threads."""
+
+import os
+import pty
+import re
+
+import pytest
+from commands import PROGRAM, SOLO12, Result, environment, run
+from products import CASES, FILES, Product
+
+SGR = re.compile(r"\x1b\[[0-9;]*m")
+
+
+@pytest.fixture(scope="session")
+def wide(product, tmp_path_factory):
+    """Once more, on a single processor, for a terminal of 120 columns."""
+    parent = tmp_path_factory.mktemp("wide")
+    allowed = os.sched_getaffinity(0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(parent)
+        patch.setenv("COLUMNS", "120")
+        patch.delenv("FORCE_COLOR", raising=False)
+        os.sched_setaffinity(0, {min(allowed)})
+        try:
+            said = run("size", SOLO12, *product.case.options)
+        finally:
+            os.sched_setaffinity(0, allowed)
+    return Product(product.case, said, parent / "solo12-ocs")
+
+
+def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wide):
+    for name in ("design.json", *FILES):
+        assert (product.folder / name).read_bytes() == (wide.folder / name).read_bytes(), name
+
+
+@pytest.mark.parametrize(("width", "which"), [(80, "product"), (120, "wide")])
+def test_the_report_fits_its_terminal(request, width, which, product):
+    said, case = request.getfixturevalue(which).said, product.case
+    assert "\x1b" not in said.stderr
+    lines = said.stderr.splitlines()
+    assert max(map(len, lines)) <= width
+    headings = [line for line in lines if re.match(r"[A-Z]", line)]
+    assert len(headings) == len(set(headings)) == case.headings
+    for word in ("2.5 kg", "Assumed", "r_max", "back-flip", *case.words):
+        assert word in said.stderr
+    assert "3 of 3 scenarios pass" in lines[-1]
+
+
+def test_a_wider_terminal_breaks_fewer_lines(product, wide):
+    assert len(wide.said.stderr.splitlines()) < len(product.said.stderr.splitlines())
+
+
+def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = run("size", SOLO12, *product.case.options, "--json")
+    assert (result.code, result.stderr) == (0, "")
+    assert result.stdout == (product.folder / "design.json").read_text()
+    assert result.stdout == (tmp_path / "solo12-ocs" / "design.json").read_text()
+
+
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+def test_quiet_prints_nothing(case, tmp_path):
+    result = run("size", SOLO12, *case.options, "-q", "--no-validate", "-o", tmp_path / "out")
+    assert result == Result(0, "", "")
+    assert (tmp_path / "out" / "design.json").is_file()
+    assert not (tmp_path / "out" / "validation").exists()
+
+
+def in_a_terminal(*arguments, **variables):
+    """What a terminal of 80 columns gets to see."""
+    child, screen = pty.fork()
+    if child == 0:
+        os.execvpe(PROGRAM[0], [*PROGRAM, *map(str, arguments)], environment(**variables))
+    seen = bytearray()
+    try:
+        while chunk := os.read(screen, 1 << 16):
+            seen += chunk
+    except OSError:  # The child has closed its end: Linux says EIO.
+        pass
+    os.close(screen)
+    code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    return code, seen.decode()
+
+
+@pytest.mark.parametrize("arguments", [("inspect", SOLO12), ("inspect", "nowhere.urdf")])
+def test_a_terminal_gets_colour_unless_it_is_declined(arguments):
+    code, plain = in_a_terminal(*arguments)
+    assert SGR.search(plain)
+    for declined in (
+        in_a_terminal(*arguments, "--no-color"),
+        in_a_terminal(*arguments, NO_COLOR="1"),
+    ):
+        assert declined == (code, SGR.sub("", plain))

@@ -1,0 +1,101 @@
+"""The list of what to buy and to make."""
+
+import csv
+from dataclasses import replace
+
+import pytest
+from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_device
+
+from ocs_design.design import Web
+from ocs_design.export.bill_of_materials import COLUMNS, bill_rows, export_bill_of_materials, plain
+from ocs_design.sizing.carrier import Carrier
+from ocs_design.sizing.housing import housing_mass
+from ocs_design.sizing.web import Hub
+
+GEAR_MASS = 0.02
+
+
+def whole_device():
+    """With everything that a device can hold: rim, motor, gear and housing."""
+    drive = replace(geared(4.0), gear_mass=GEAR_MASS)
+    shell = housing_mass(PAPER_WHEEL.outer_radius, PAPER_WHEEL.height)
+    carrier = Carrier(EC45.mass + GEAR_MASS + shell, 1e-4, 1e-4)
+    return driven_device(drive=drive, carrier=carrier)
+
+
+def rows_of(path):
+    with path.open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_all_parts_together_weigh_what_the_device_weighs(tmp_path):
+    device = whole_device()
+    assert [row.part.split()[0] for row in bill_rows(device)] == [
+        "flywheel",
+        "motor",
+        "gear",
+        "housing",
+    ]
+    assert sum(2 * row.mass for row in bill_rows(device)) == pytest.approx(device.mass, rel=1e-12)
+    *parts, total = rows_of(export_bill_of_materials(device, tmp_path / "bill.csv"))
+    assert float(total["mass [g]"]) == pytest.approx(1e3 * device.mass, abs=1e-3)
+    assert sum(float(part["mass [g]"]) for part in parts) == pytest.approx(
+        float(total["mass [g]"]), abs=3e-3
+    )
+
+
+HUB = Hub(radius=0.01, height=0.005, bore_radius=0.0015)
+WEB = Web(material="aluminium-6061-t6", density=2710.0, thickness=0.0015, mass=0.01, hub=HUB)
+
+
+def test_a_rim_on_its_web_is_two_parts_that_weigh_the_wheel():
+    wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + WEB.mass, web=WEB)
+    rim, web = bill_rows(replace(paper_device(), flywheel=wheel))
+    assert rim.mass == pytest.approx(PAPER_WHEEL.mass, rel=1e-12)
+    assert (web.mass, web.material, web.stock) == (WEB.mass, WEB.material, "round bar 46 x 7")
+    assert "drill to the motor" in web.source
+
+
+def test_a_wheel_of_one_material_is_one_part():
+    hub = replace(HUB, bolts=4, bolt_circle_radius=0.008, bolt_hole_radius=0.0016)
+    wheel = replace(PAPER_WHEEL, material=WEB.material, web=replace(WEB, hub=hub))
+    (row,) = bill_rows(replace(paper_device(), flywheel=wheel))
+    assert (row.mass, row.stock) == (wheel.mass, "round bar 62 x 12")
+    assert "4 holes 3.20 on a circle of 16.00" in row.source
+
+
+def test_only_what_the_device_holds_is_listed():
+    assert [row.part for row in bill_rows(paper_device())] == ["flywheel rim"]
+    bare = driven_device(carrier=replace(EC45_BODY, mass=EC45.mass))
+    assert [row.part for row in bill_rows(bare)] == ["flywheel rim", "motor test"]
+
+
+@pytest.mark.parametrize(
+    ("inner", "stock"),
+    [(0.0, "round bar 62 x 12"), (0.015, "round bar 62 x 12"), (0.022, "tube 62 x 42 inside x 12")],
+)
+def test_the_rim_fits_into_its_stock(inner, stock):
+    """60 mm by 10 mm with a millimetre on each side."""
+    device = paper_device()
+    device = replace(device, flywheel=replace(device.flywheel, inner_radius=inner))
+    assert bill_rows(device)[0].stock == stock
+
+
+@pytest.mark.parametrize("name", ["=1+1", "+A1", "-2", "@SUM(A1)", "\t=1", "\r=1", " \n=1"])
+def test_no_name_is_a_formula(tmp_path, name):
+    assert plain(name) == "'" + name.strip()
+    wheel = replace(PAPER_WHEEL, material=name)
+    path = export_bill_of_materials(replace(paper_device(), flywheel=wheel), tmp_path / "bill.csv")
+    assert rows_of(path)[0]["material"] == "'" + name.strip()
+
+
+def test_a_plain_name_stays_as_it_is():
+    assert plain("EC 45 flat, 70 W = good") == "EC 45 flat, 70 W = good"
+
+
+def test_any_name_stays_in_its_cell_and_on_its_line(tmp_path):
+    drive = replace(EC45, name='a "b", c', source="d\ne")
+    path = export_bill_of_materials(driven_device(drive=drive), tmp_path / "bill.csv")
+    motor = rows_of(path)[1]
+    assert (motor["part"], motor["source"]) == ('motor a "b", c', "on 24 V; d e")
+    assert list(motor) == list(COLUMNS)

@@ -1,0 +1,127 @@
+"""Pictures: what is on them, where it is, and what happens where nothing can be drawn."""
+
+import subprocess
+import sys
+
+import mujoco
+import numpy as np
+import pytest
+from robots import SOLO12
+from wheels import paper_device
+
+from ocs_design.exceptions import MissingToolError
+from ocs_design.export import rendering
+from ocs_design.export.camera_views import HEIGHT, WIDTH, shown_box
+from ocs_design.export.made_wheel import made_wheel
+from ocs_design.export.pictures import draw_pictures
+from ocs_design.export.png import png_bytes
+from ocs_design.export.rendering import Scene, render_views
+from ocs_design.export.robot_model import robot_model
+from ocs_design.robot.reader import read_robot
+
+BOX = """<mujoco><worldbody><body>
+  <geom type="box" size="0.1 0.2 0.3" rgba="1 0 0 1"/>
+  <geom type="sphere" size="3" group="3"/>
+</body></worldbody></mujoco>"""
+
+
+def box_scene():
+    model = mujoco.MjModel.from_xml_string(BOX)
+    return Scene(model, model.qpos0)
+
+
+def drawn(scenes):
+    try:
+        return render_views(scenes)
+    except MissingToolError as error:
+        pytest.skip(str(error))
+
+
+def pixels(png):
+    image = pytest.importorskip("matplotlib.image")
+    from io import BytesIO
+
+    return np.rint(255.0 * image.imread(BytesIO(png), format="png")[:, :, :3]).astype(int)
+
+
+def extents(view):
+    """Width and height of what is not white [pixels]."""
+    shown = np.argwhere(np.any(view < 250, axis=2))
+    height, width = np.ptp(shown, axis=0) + 1
+    return width, height
+
+
+def test_png_keeps_every_pixel():
+    image = np.random.default_rng(0).integers(0, 256, (7, 11, 3), dtype=np.uint8)
+    np.testing.assert_array_equal(pixels(png_bytes(image)), image)
+
+
+def test_the_three_views_are_to_one_scale_and_in_first_angle():
+    sheet = pixels(drawn({"box": box_scene()})["box"])
+    assert sheet.shape == (2 * HEIGHT, 2 * WIDTH, 3)
+    front, side = extents(sheet[:HEIGHT, :WIDTH]), extents(sheet[:HEIGHT, WIDTH:])
+    top = extents(sheet[HEIGHT:, :WIDTH])
+    # Of 0.2 x 0.4 x 0.6 m: the front shows y and z, the side x and z, the view from above y and x.
+    per_metre = front[1] / 0.6
+    for found, expected in ((front, (0.4, 0.6)), (side, (0.2, 0.6)), (top, (0.4, 0.2))):
+        np.testing.assert_allclose(found, np.array(expected) * per_metre, atol=3.0)
+    width, height = extents(sheet[HEIGHT:, WIDTH:])
+    assert max(width / WIDTH, height / HEIGHT) > 0.6
+
+
+def test_the_box_around_what_is_shown_knows_the_pose_and_not_what_is_hidden():
+    model = mujoco.MjModel.from_xml_string(
+        BOX.replace("<body>", '<body pos="1 2 3" euler="0 0 90">')
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    low, high = shown_box(model, data)
+    np.testing.assert_allclose(low, [0.8, 1.9, 2.7], atol=1e-9)
+    np.testing.assert_allclose(high, [1.2, 2.1, 3.3], atol=1e-9)
+
+
+def test_a_robot_with_its_device():
+    robot, device = read_robot(SOLO12), paper_device()
+    try:
+        pictures = draw_pictures(
+            device, made_wheel(device.flywheel), robot, robot_model(robot, device)
+        )
+    except MissingToolError as error:
+        pytest.skip(str(error))
+    # Nothing stands still in the paper's device, so that a module is its wheel.
+    assert list(pictures) == ["wheel", "robot"]
+    wheel = pixels(pictures["wheel"])
+    across, _ = extents(wheel[:HEIGHT, :WIDTH])
+    side, tall = extents(wheel[:HEIGHT, WIDTH:])
+    assert side == pytest.approx(tall, abs=2)
+    assert across / side == pytest.approx(
+        device.flywheel.height / (2.0 * device.flywheel.outer_radius), abs=0.02
+    )
+
+
+def test_without_opengl_the_reason_is_told(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "none such")
+    with pytest.raises(MissingToolError, match=r"no pictures, because none such: .*invalid value"):
+        render_views({"box": box_scene()})
+
+
+def test_a_driver_that_kills_or_hangs_the_process_is_only_told(monkeypatch):
+    def killed(command, **options):
+        return subprocess.CompletedProcess(command, -11, b"", b"")
+
+    monkeypatch.setattr(rendering.subprocess, "run", killed)
+    with pytest.raises(MissingToolError, match="exit code -11"):
+        render_views({"box": box_scene()})
+
+    def hanging(command, **options):
+        raise subprocess.TimeoutExpired(command, 1.0)
+
+    monkeypatch.setattr(rendering.subprocess, "run", hanging)
+    with pytest.raises(MissingToolError, match="timed out"):
+        render_views({"box": box_scene()})
+
+
+def test_the_program_does_not_load_the_rest_of_the_package():
+    code = "import sys, ocs_design.export.camera_views; print('cvxpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
+    assert done.stdout.strip() == b"False"

@@ -1,0 +1,171 @@
+"""What MuJoCo measures of the device, and that the robot's own measurements and states stay."""
+
+import mujoco
+import numpy as np
+import pytest
+from exported import LEGGED, LEGGED_PATHS
+from robots import SOLO12
+from wheels import driven_device
+
+from ocs_design.exceptions import RobotError
+from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.robot_model import robot_model
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.spec.model import build_spec
+
+DEVICE = driven_device()
+BRANCHED = """<mujoco model="branched">
+  <worldbody>
+    <body name="trunk" pos="0 0 0.5"><freejoint name="float"/><geom size="0.1"/>
+      <site name="nose" pos="0.1 0 0"/>
+      <body name="neck" pos="0.2 0 0"><joint name="neck" type="ball"/><geom size="0.05"/>
+        <body name="head" pos="0.1 0 0"><joint name="nod" axis="0 1 0"/><geom size="0.05"/></body>
+      </body>
+      <body name="leg" pos="0 0.1 0"><geom size="0.05"/>
+        <joint name="hip" axis="1 0 0"/><joint name="lift" axis="0 1 0"/>
+        <body name="shank" pos="0 0 -0.2"><joint name="knee" type="slide" axis="0 0 1"/>
+          <geom size="0.03"/></body>
+      </body>
+      <body name="tail" pos="-0.2 0 0"><joint name="wag" axis="0 0 1"/><geom size="0.02"/></body>
+    </body>
+  </worldbody>
+  <actuator><motor name="wag" joint="wag"/>
+    <general name="slow" joint="knee" dyntype="filter" dynprm="0.1"/></actuator>
+  <sensor><jointpos name="a" joint="nod"/><accelerometer name="b" site="nose"/>
+    <jointvel name="c" joint="knee"/></sensor>
+</mujoco>"""
+FIELDS = ("key_qpos", "key_qvel", "key_ctrl", "key_act")
+
+
+def with_keyframes(spec):
+    """The model with two keyframes of random states in every coordinate."""
+    model = spec.compile()
+    random = np.random.default_rng(1)
+    for name in ("home", "jump"):
+        qpos = random.uniform(-0.5, 0.5, model.nq)
+        mujoco.mj_normalizeQuat(model, qpos)
+        spec.add_key(
+            name=name,
+            time=random.uniform(),
+            qpos=qpos,
+            qvel=random.uniform(-1.0, 1.0, model.nv),
+            ctrl=random.uniform(-1.0, 1.0, model.nu),
+            act=random.uniform(-1.0, 1.0, model.na),
+        )
+    return spec
+
+
+def states(model, key):
+    """Coordinates and rates of each joint, controls and activations, by name."""
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key(key).id)
+    joints = [data.joint(i) for i in range(model.njnt)]
+    drives = [data.actuator(i) for i in range(model.nu)]
+    found = {f"q {joint.name}": joint.qpos.copy() for joint in joints}
+    found |= {f"v {joint.name}": joint.qvel.copy() for joint in joints}
+    found |= {f"u {drive.name}": drive.ctrl.copy() for drive in drives}
+    return found | {"act": data.act.copy(), "time": np.array([data.time])}
+
+
+def check_keyframes_kept(before, after):
+    assert [after.key(i).name for i in range(after.nkey)] == ["home", "jump"]
+    for key in ("home", "jump"):
+        ours, theirs = states(after, key), states(before, key)
+        for name, values in theirs.items():
+            np.testing.assert_allclose(ours[name], values, rtol=1e-12, atol=1e-15, err_msg=name)
+        assert {name for name in ours if name not in theirs} == {
+            f"{kind} ocs_{side}" for kind in "qvu" for side in ("left", "right")
+        }
+
+
+def written_again(path, trunk, folder):
+    robot = read_robot(path, trunk=trunk, posture="zero")
+    folder.mkdir()
+    out = export_robot_mjcf(robot_model(robot, DEVICE), folder / "robot.xml")
+    return mujoco.MjModel.from_xml_path(str(out))
+
+
+@pytest.fixture
+def branched(tmp_path):
+    spec = with_keyframes(mujoco.MjSpec.from_string(BRANCHED))
+    (tmp_path / "in.xml").write_text(spec.to_xml())
+    # What `to_xml` rounds is what the user's file then says.
+    return tmp_path / "in.xml"
+
+
+@pytest.mark.parametrize("trunk", ["trunk", "leg", "head", "tail"])
+def test_keyframes_of_a_branched_robot_stay(branched, tmp_path, trunk):
+    before = mujoco.MjModel.from_xml_path(str(branched))
+    check_keyframes_kept(before, written_again(branched, trunk, tmp_path / "out"))
+
+
+@pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
+def test_keyframes_of_real_robots_stay(path, tmp_path):
+    """As MJCF, of which example-robot-data has none: written by us, without a device."""
+    spec = build_spec(read_robot(path), visuals=False).spec
+    # The reader names what has no name.
+    spec.joints[0].name = "float"
+    spec = with_keyframes(spec)
+    for name, content in spec.assets.items():
+        (tmp_path / name).write_bytes(content)
+    (tmp_path / "in.xml").write_text(spec.to_xml())
+    trunk = read_robot(path).trunk
+    before = mujoco.MjModel.from_xml_path(str(tmp_path / "in.xml"))
+    check_keyframes_kept(before, written_again(tmp_path / "in.xml", trunk, tmp_path / "out"))
+
+
+def test_the_robots_own_sensors_keep_their_places(branched, tmp_path):
+    before = mujoco.MjModel.from_xml_path(str(branched))
+    after = written_again(branched, "trunk", tmp_path / "out")
+    for i in range(before.nsensor):
+        assert after.sensor(i).name == before.sensor(i).name
+        assert after.sensor_adr[i] == before.sensor_adr[i]
+    own = [after.sensor(i).name for i in range(before.nsensor, after.nsensor)]
+    assert own == [
+        "ocs_left_velocity",
+        "ocs_left_torque",
+        "ocs_right_velocity",
+        "ocs_right_torque",
+        "ocs_imu_attitude",
+        "ocs_imu_rate",
+    ]
+
+
+def test_sensors_measure_what_their_names_say(tmp_path):
+    model = written_again(SOLO12, None, tmp_path / "out")
+    data = mujoco.MjData(model)
+    data.joint("ocs_left").qvel[:] = 12.0
+    data.joint("ocs_right").qvel[:] = -7.0
+    data.qpos[3:7] = [0.8, 0.0, 0.6, 0.0]
+    data.qvel[3:6] = [0.1, 0.2, 0.3]
+    data.actuator("ocs_left").ctrl[:] = 0.25
+    mujoco.mj_forward(model, data)
+    measured = {model.sensor(i).name: data.sensor(i).data.copy() for i in range(model.nsensor)}
+    assert measured["ocs_left_velocity"] == 12.0
+    assert measured["ocs_right_velocity"] == -7.0
+    assert (measured["ocs_left_torque"], measured["ocs_right_torque"]) == (0.25, 0.0)
+    np.testing.assert_allclose(measured["ocs_imu_attitude"], [0.8, 0.0, 0.6, 0.0], atol=1e-15)
+    np.testing.assert_allclose(measured["ocs_imu_rate"], [0.1, 0.2, 0.3], atol=1e-15)
+
+
+def test_the_command_is_bounded_by_the_motor(tmp_path):
+    model = written_again(SOLO12, None, tmp_path / "out")
+    limit = DEVICE.motor.torque_limit
+    for side in ("left", "right"):
+        np.testing.assert_array_equal(model.actuator(f"ocs_{side}").ctrlrange, [-limit, limit])
+        assert model.actuator_ctrllimited[model.actuator(f"ocs_{side}").id]
+
+
+@pytest.mark.parametrize(
+    ("kind", "extra"),
+    [
+        ("sensor", '<sensor><jointvel name="ocs_left_velocity" joint="wag"/></sensor>'),
+        ("sensor", '<sensor><gyro name="ocs_imu_rate" site="nose"/></sensor>'),
+        ("site", '<worldbody><site name="ocs_imu"/></worldbody>'),
+    ],
+)
+def test_a_clash_of_names_is_an_error(tmp_path, kind, extra):
+    (tmp_path / "in.xml").write_text(BRANCHED.replace("</mujoco>", extra + "</mujoco>"))
+    robot = read_robot(tmp_path / "in.xml", trunk="trunk", posture="zero")
+    with pytest.raises(RobotError, match=f"a {kind} named 'ocs_"):
+        robot_model(robot, DEVICE)

@@ -1,0 +1,102 @@
+"""The device in SDF, its numbers read by another XML reader.
+
+libsdformat 12.3, Gazebo's own reader, takes the files without a word; it is not on PyPI.
+"""
+
+from collections import Counter
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from robots import ROBOTS
+from scipy.spatial.transform import Rotation
+from seats import TRUNK, TrunkOnly
+from wheels import EC45_BODY, driven_device, geared, paper_device
+
+from ocs_design.export.snippet_sdf import export_snippet_sdf
+from ocs_design.robot.reader import read_robot
+
+
+def model_of(device, seat, folder):
+    return ET.parse(export_snippet_sdf(device, seat, folder / "ocs.sdf")).find("model")
+
+
+def link_of(model, name):
+    return model.find(f"link[@name='{name}']")
+
+
+def numbers(text):
+    return np.array([float(word) for word in text.split()])
+
+
+def inertial(link):
+    tags = ("ixx", "iyy", "izz")
+    return float(link.findtext("inertial/mass")), [
+        float(link.findtext(f"inertial/inertia/{tag}")) for tag in tags
+    ]
+
+
+@pytest.mark.parametrize("device", [paper_device(), driven_device(), driven_device(0.0)])
+def test_wheels_stand_turn_and_weigh_as_designed(tmp_path, device):
+    model, wheel = model_of(device, TrunkOnly(), tmp_path), device.flywheel
+    for module in device.modules:
+        link = link_of(model, f"ocs_{module.name}_flywheel")
+        assert link.find("pose").get("relative_to") == TRUNK
+        pose = numbers(link.findtext("pose"))
+        np.testing.assert_array_equal(pose[:3], module.position)
+        axis = Rotation.from_euler("xyz", pose[3:]).as_matrix()[:, 2]
+        np.testing.assert_allclose(axis, module.axis, rtol=0.0, atol=1e-15)
+        mass, moments = inertial(link)
+        assert (mass, moments[2]) == (wheel.mass, wheel.spin_inertia)
+        assert moments[0] == moments[1]
+        joint = model.find(f"joint[@name='ocs_{module.name}']")
+        assert joint.get("type") == "continuous"
+        assert (joint.findtext("parent"), joint.findtext("child")) == (TRUNK, link.get("name"))
+        np.testing.assert_array_equal(numbers(joint.findtext("axis/xyz")), [0.0, 0.0, 1.0])
+
+
+def test_motors_are_fixed_to_the_trunk(tmp_path):
+    model = model_of(driven_device(), TrunkOnly(), tmp_path)
+    for side in ("left", "right"):
+        mass, _ = inertial(link_of(model, f"ocs_{side}_motor"))
+        assert mass == EC45_BODY.mass
+    assert [joint.get("type") for joint in model.iter("joint")].count("fixed") == 2
+    limit = model.find("joint/axis/limit")
+    assert (float(limit.findtext("effort")), float(limit.findtext("velocity"))) == (1.0, 650.4)
+
+
+@pytest.mark.parametrize("device", [paper_device(), driven_device()])
+def test_no_two_of_a_model_have_one_name(tmp_path, device):
+    """In SDF links, joints and frames share their names' space."""
+    names = Counter(each.get("name") for each in model_of(device, TrunkOnly(), tmp_path))
+    names.pop(None, None)
+    assert max(names.values()) == 1
+
+
+def test_nothing_is_said_of_limits_that_do_not_exist(tmp_path):
+    assert model_of(paper_device(), TrunkOnly(), tmp_path).find("joint/axis/limit") is None
+
+
+def test_armature_is_a_remark(tmp_path):
+    text = export_snippet_sdf(
+        driven_device(drive=geared(4.0)), TrunkOnly(), tmp_path / "a.sdf"
+    ).read_text()
+    assert f"<!-- armature {geared(4.0).armature!r} kg m^2 is left out -->" in text
+
+
+def test_a_robot_with_y_up_gets_a_frame_with_z_up(tmp_path):
+    robot, device = read_robot(next(ROBOTS.rglob("human.urdf"))), paper_device()
+    model = model_of(device, robot, tmp_path)
+    frame = model.find("frame")
+    assert frame.get("attached_to") == robot.mount.link
+    pose = numbers(frame.findtext("pose"))
+    np.testing.assert_allclose(
+        Rotation.from_euler("xyz", pose[3:]).as_matrix(), robot.mount.placement.rotation, atol=1e-15
+    )
+    assert link_of(model, "ocs_left_flywheel").find("pose").get("relative_to") == frame.get("name")
+
+
+def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path):
+    name = 'a&"<b>--c--'
+    model = model_of(paper_device(), TrunkOnly(name), tmp_path)
+    assert model.findtext("joint/parent") == name

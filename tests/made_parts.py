@@ -1,0 +1,76 @@
+"""Wheels and parts for tests, with every kind of feature."""
+
+import numpy as np
+
+from ocs_design.parts.fasteners import screw
+from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.mount import Mount
+from ocs_design.parts.outline import arc_slot, circle, rectangle, ring_of_points
+from ocs_design.parts.part import Part
+from ocs_design.parts.solids import Prism, hollow_cylinder
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
+from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.robot.tree import Placement
+
+STEEL, ALUMINIUM = 7860.0, 2700.0
+
+RIM = Rim(0.022, 0.03, 0.01, "steel", STEEL, balancing=HoleRing(0.026, 12, 0.001, 0.002))
+
+HUB = Hub(
+    web_thickness=1.5e-3,
+    radius=0.010,
+    height=0.006,
+    bore_radius=0.002,
+    material="aluminium",
+    density=ALUMINIUM,
+    bolts=HoleRing(0.006, 4, 0.00145),
+    lightening=HoleRing(0.016, 6, 0.003),
+)
+
+TWO_PIECES = Wheel(RIM, HUB)
+ONE_PIECE = Wheel(Rim(0.022, 0.03, 0.01, "aluminium", ALUMINIUM), HUB)
+RIM_ALONE = Wheel(Rim(0.022, 0.03, 0.01, "steel", STEEL))
+DISC = Wheel(Rim(0.0, 0.03, 0.01, "steel", STEEL, chamfer=0.0))
+
+ACROSS = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
+"""Its z axis along -y of the part."""
+
+SLOTTED = Part(
+    "slotted",
+    1270.0,
+    (
+        Prism(circle(0.03), 0.0, 0.004),
+        Prism(rectangle(-0.01, 0.01, 0.004, 0.03), -0.002, 0.002, ACROSS),
+    ),
+    (
+        Prism(arc_slot(0.024, 0.0034, 0.3, 0.3 + np.pi / 2), 0.0, 0.004),
+        Prism(arc_slot(0.024, 0.0034, 3.4, 3.4 + np.pi / 2), 0.0, 0.004),
+        *(Prism(circle(0.0012, c), 0.002, 0.004) for c in ring_of_points(0.016, 5).tolist()),
+        Prism(circle(0.004, (0.0, 0.02)), -0.002, 0.002, ACROSS),
+    ),
+)
+"""A base with a plate on it: arcs, blind holes and a solid across the rest."""
+
+TUBE = Part("tube", 1000.0, (hollow_cylinder(0.01, 0.02, -0.01, 0.03),))
+
+HOUSING = Housing(
+    0.03,
+    0.01,
+    Mount(0.004, (HoleRing(0.0095, 3, 0.0017), HoleRing(0.016, 1, 0.003))),
+    screw("M2"),
+)
+FOOT = Foot(HOUSING)
+
+PARTS = {
+    part.name: part
+    for part in (
+        *wheel_parts(TWO_PIECES),
+        *wheel_parts(ONE_PIECE),
+        *(Part("disc", part.density, part.joined) for part in wheel_parts(DISC)),
+        *housing_parts(HOUSING),
+        foot_part(FOOT),
+        SLOTTED,
+        TUBE,
+    )
+}

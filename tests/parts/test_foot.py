@@ -1,0 +1,91 @@
+"""The foot under the housing, over its whole range of incidence."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from made_parts import FOOT, HOUSING
+
+from ocs_design.parts.foot import (
+    BASE_THICKNESS,
+    MARK_DEPTH,
+    PLATE_THICKNESS,
+    Foot,
+    foot_part,
+)
+from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.mesh import part_manifold
+from ocs_design.parts.solids import Prism
+from ocs_design.sizing.housing import CLEARANCE, WALL
+
+
+def in_wheel_frame(foot: Foot):
+    where = foot.placement
+    return part_manifold(foot_part(foot)).transform(
+        np.column_stack([where.rotation, where.position])
+    )
+
+
+def slots(foot: Foot) -> list[Prism]:
+    return list(foot_part(foot).cut[:2])
+
+
+def test_plate_lies_on_the_drum_and_the_base_is_clear_of_both():
+    drum, lid = (part_manifold(part) for part in housing_parts(HOUSING))
+    foot = in_wheel_frame(FOOT)
+    assert (foot ^ drum).volume() < 1e-15
+    assert foot.min_gap(drum, 0.01) == pytest.approx(0.0, abs=1e-9)
+    # The band's lowest line is a corner of no polygon: up to a few um higher.
+    assert foot.min_gap(lid, 0.01) == pytest.approx(CLEARANCE, abs=5e-6)
+
+
+def test_turntable_turns_about_the_vertical_through_the_wheel():
+    where = FOOT.placement
+    np.testing.assert_allclose(where.position, [0.0, FOOT.wheel_height, 0.0])
+    np.testing.assert_allclose(where.rotation @ [0.0, 0.0, 1.0], [0.0, -1.0, 0.0])
+    assert np.linalg.det(where.rotation) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("incidence", np.radians([0.0, 40.0, 90.0]))
+@pytest.mark.parametrize("side", [1.0, -1.0], ids=["left", "right"])
+def test_trunk_screws_fit_the_slots_at_any_incidence(incidence, side):
+    # Two holes in the trunk, 45 degrees off the wheel's axis at no incidence, seen from the foot.
+    radius, shank = FOOT.slot_radius, FOOT.trunk_screw.diameter / 2.0
+    for opposite in (0.0, np.pi):
+        angle = np.pi / 2.0 + side * np.pi / 4.0 - side * incidence + opposite
+        centre = radius * np.array([np.cos(angle), np.sin(angle)])
+        edge = centre + shank * 1.13 * np.column_stack(
+            [np.cos(np.arange(0.0, 6.2, 0.1)), np.sin(np.arange(0.0, 6.2, 0.1))]
+        )
+        assert any(contains(slot, edge) for slot in slots(FOOT))
+
+
+def contains(slot: Prism, points) -> bool:
+    """Points lie within half its width of the slot's path."""
+    half = FOOT.trunk_screw.clearance_hole / 2.0
+    middle = np.arctan2(*slot.outline.points.mean(axis=0)[::-1])
+    path = middle + np.linspace(-np.pi / 4.0, np.pi / 4.0, 2001)
+    along = FOOT.slot_radius * np.column_stack([np.cos(path), np.sin(path)])
+    distances = np.linalg.norm(points[:, None] - along, axis=2).min(axis=1)
+    return bool(distances.max() <= half + 1e-8)
+
+
+def test_heads_clear_the_plate():
+    end = FOOT.slot_radius * np.sin(np.pi / 4.0)
+    plate = HOUSING.half_height + PLATE_THICKNESS
+    assert end - plate - FOOT.trunk_screw.head_diameter / 2.0 == pytest.approx(WALL)
+
+
+def test_a_mark_every_ten_degrees_within_the_base():
+    marks = [cut for cut in foot_part(FOOT).cut if cut.low == BASE_THICKNESS - MARK_DEPTH]
+    assert len(marks) == 19
+    reach = max(np.linalg.norm(mark.outline.points, axis=1).max() for mark in marks)
+    assert reach < FOOT.base_radius
+    turns = [np.degrees(np.arctan2(*mark.placement.rotation[[1, 0], 0])) for mark in marks]
+    np.testing.assert_allclose(turns, np.arange(-90.0, 91.0, 10.0), atol=1e-12)
+
+
+def test_plate_grows_with_the_mount():
+    plain = replace(FOOT, housing=Housing(0.03, 0.01))
+    assert plain.half_width == pytest.approx(0.0168)
+    assert FOOT.half_width == pytest.approx(0.022)

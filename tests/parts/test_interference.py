@@ -1,0 +1,71 @@
+"""Gaps and overlaps of parts whose distances are known."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from made_parts import SLOTTED, TWO_PIECES
+
+from ocs_design.parts.interference import (
+    overlap_volume,
+    profile_clearance,
+    swept,
+    turning_clearance,
+)
+from ocs_design.parts.outline import rectangle
+from ocs_design.parts.part import Part
+from ocs_design.parts.solids import Prism, hollow_cylinder
+from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.robot.tree import Placement
+
+BAND = Part("band", 1.0, (hollow_cylinder(0.032, 0.034, -0.01, 0.01),))
+
+
+def test_rim_and_hub_touch_and_do_not_overlap():
+    rim, hub = wheel_parts(TWO_PIECES)
+    assert overlap_volume(rim, hub) < 1e-15
+
+
+def test_overlap_of_two_cylinders():
+    one = Part("one", 1.0, (hollow_cylinder(0.0, 0.02, 0.0, 0.02),))
+    other = Part("other", 1.0, (hollow_cylinder(0.01, 0.03, 0.015, 0.03),))
+    expected = np.pi * (0.02**2 - 0.01**2) * 0.005
+    assert overlap_volume(one, other) == pytest.approx(expected, rel=1e-9)
+
+
+def test_gap_to_a_band_both_ways():
+    wheel = wheel_parts(TWO_PIECES)
+    exact = profile_clearance(swept(wheel[0]).swept_profiles(), BAND.swept_profiles())
+    assert exact == pytest.approx(0.002, rel=1e-12)
+    # Polygons of 256 sections are 2 um off their circles.
+    assert turning_clearance(wheel, [BAND], 0.01) == pytest.approx(exact, abs=5e-6)
+
+
+def test_gap_to_a_block_that_the_wheel_only_passes():
+    block = Part(
+        "block",
+        1.0,
+        (Prism(rectangle(0.031, 0.04, -0.001, 0.001), -0.002, 0.002),),
+    )
+    gap = turning_clearance(wheel_parts(TWO_PIECES), [block], 0.01)
+    assert gap == pytest.approx(0.001, abs=5e-6)
+
+
+def test_gap_beyond_reach():
+    far = Part("far", 1.0, (Prism(rectangle(1.0, 1.1, 0.0, 0.1), 0.0, 0.1),))
+    assert turning_clearance(wheel_parts(TWO_PIECES), [far], 0.01) == pytest.approx(0.01)
+
+
+@given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
+def test_profile_gap_of_two_boxes(right, up):
+    one = np.array([[2.0, 0.0], [3.0, 0.0], [3.0, 1.0], [2.0, 1.0]])
+    other = one + np.array([1.0 + abs(right), up * 3.0])
+    gap = np.hypot(abs(right), max(0.0, abs(up) * 3.0 - 1.0))
+    assert profile_clearance([one], [other]) == pytest.approx(gap, abs=1e-12)
+
+
+def test_prisms_sweep_more_than_themselves():
+    placed = Prism(rectangle(-1.0, 1.0, -1.0, 1.0), 0.0, 1.0, Placement.identity())
+    assert swept(Part("x", 1.0, (hollow_cylinder(0.0, 1.0, 0.0, 1.0),), (placed,))).cut == ()
+    with pytest.raises(ValueError, match="no body of revolution"):
+        swept(SLOTTED)

@@ -1,0 +1,95 @@
+"""Wheels, housings and feet of any size: one closed body, of the mass that the closed form says."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from made_parts import ALUMINIUM, STEEL
+
+from ocs_design.exceptions import PartError
+from ocs_design.parts.fasteners import SCREWS
+from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.housing import EAR_COUNT, Housing, housing_parts
+from ocs_design.parts.interference import overlap_volume, turning_clearance
+from ocs_design.parts.mesh import part_manifold
+from ocs_design.parts.mount import Mount
+from ocs_design.parts.part import Part
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, hub_for
+from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.robot.mass_properties import physical_defect
+from ocs_design.sizing.housing import CLEARANCE
+
+SECTIONS = 48
+few = settings(max_examples=25, deadline=None)
+
+
+def assert_one_body(part: Part, handles: int) -> None:
+    """`handles`: through holes, as a topologist counts them."""
+    body, exact = part_manifold(part, SECTIONS), part.mass_properties()
+    assert len(body.decompose()) == 1
+    assert body.genus() == handles
+    assert body.volume() * part.density == pytest.approx(exact.mass, rel=1e-9)
+    assert physical_defect(exact) is None
+
+
+@st.composite
+def wheels(draw: st.DrawFn) -> Wheel:
+    """With hub and bolts, of one material or two."""
+    outer = draw(st.floats(0.012, 0.2))
+    rim = Rim(
+        outer * draw(st.floats(0.3, 0.95)),
+        outer,
+        outer * draw(st.floats(0.05, 1.0)),
+        draw(st.sampled_from(["aluminium", "steel"])),
+        draw(st.sampled_from([ALUMINIUM, STEEL])),
+    )
+    bore = draw(st.floats(0.0005, 0.004))
+    bolts = draw(
+        st.none() | st.builds(HoleRing, st.just(bore + 0.004), st.just(4), st.just(0.0012))
+    )
+    try:
+        return Wheel(rim, hub_for(rim, bore, bolts, "aluminium", ALUMINIUM))
+    except PartError:
+        assume(False)
+        raise
+
+
+@st.composite
+def housings(draw: st.DrawFn) -> Housing:
+    """From a rim of 10 mm to one of 200."""
+    radius = draw(st.floats(0.01, 0.2))
+    mount = Mount(0.003, (HoleRing(0.007, draw(st.integers(1, 6)), 0.0012),))
+    return Housing(radius, radius * draw(st.floats(0.1, 1.0)), mount, draw(st.sampled_from(SCREWS)))
+
+
+@few
+@given(wheels())
+def test_wheel(wheel):
+    bolts = 0 if wheel.hub.bolts is None else wheel.hub.bolts.count
+    parts = wheel_parts(wheel)
+    assert len(parts) == (1 if wheel.rim.material == "aluminium" else 2)
+    for part in parts:
+        assert_one_body(part, 1 if part.name == "rim" else 1 + bolts)
+    np.testing.assert_allclose(sum(part.mass_properties().com for part in parts), 0.0, atol=1e-15)
+
+
+@few
+@given(housings())
+def test_housing_and_foot(housing):
+    holes = 1 + housing.mount.rings[0].count
+    drum, lid = housing_parts(housing)
+    # The threads end on the floor's ears: blind.
+    assert_one_body(drum, holes)
+    assert_one_body(lid, EAR_COUNT)
+    assert_one_body(foot_part(Foot(housing)), holes + 2)
+
+
+@few
+@given(wheels())
+def test_wheel_turns_in_its_housing(wheel):
+    parts = housing_parts(Housing(wheel.rim.outer_radius, wheel.rim.height))
+    made = wheel_parts(wheel)
+    polygons = 2.0 * wheel.rim.outer_radius * (2.0 * np.pi / SECTIONS) ** 2 / 8.0
+    gap = turning_clearance(made, parts, 2.0 * CLEARANCE, SECTIONS)
+    assert gap == pytest.approx(CLEARANCE, abs=polygons)
+    assert all(overlap_volume(one, other, SECTIONS) == 0.0 for one in made for other in parts)

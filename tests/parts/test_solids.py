@@ -1,0 +1,98 @@
+"""Closed forms of solids against handbook figures and laws."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from ocs_design.parts.mesh import solid_mesh
+from ocs_design.parts.outline import circle, rectangle
+from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder, revolved
+from ocs_design.robot.mass_properties import MassProperties, combine, physical_defect
+from ocs_design.robot.rotations import rotation_from_rpy
+from ocs_design.robot.tree import Placement
+from ocs_design.sizing.cylinder import (
+    cylinder_mass,
+    cylinder_spin_inertia,
+    cylinder_transverse_inertia,
+)
+
+LENGTHS = st.floats(0.01, 1.0)
+
+
+def assert_same(one: MassProperties, other: MassProperties, tolerance: float = 1e-12) -> None:
+    assert one.mass == pytest.approx(other.mass, rel=tolerance)
+    np.testing.assert_allclose(one.com, other.com, atol=tolerance)
+    largest = np.abs(other.inertia).max()
+    np.testing.assert_allclose(one.inertia, other.inertia, atol=tolerance * largest)
+
+
+@given(LENGTHS, LENGTHS, LENGTHS)
+def test_hollow_cylinder_is_the_rim_of_the_sizing(inner, wall, height):
+    outer = inner + wall
+    body = hollow_cylinder(inner, outer, -height / 2.0, height / 2.0).mass_properties(7860.0)
+    axial = cylinder_spin_inertia(inner, outer, height, 7860.0)
+    across = cylinder_transverse_inertia(inner, outer, height, 7860.0)
+    mass = cylinder_mass(inner, outer, height, 7860.0)
+    assert_same(body, MassProperties(mass, np.zeros(3), np.diag([across, across, axial])))
+
+
+def test_cone():
+    # Mass rho pi r^2 h / 3, centre of mass h/4 above the base, 3/10 m r^2 about its axis and
+    # 3/80 m (4 r^2 + h^2) across it.
+    r, h = 0.3, 0.8
+    cone = revolved([(0.0, 0.0), (r, 0.0), (0.0, h)]).mass_properties(1000.0)
+    mass = 1000.0 * np.pi * r**2 * h / 3.0
+    across = 3.0 / 80.0 * mass * (4.0 * r**2 + h**2)
+    inertia = np.diag([across, across, 0.3 * mass * r**2])
+    assert_same(cone, MassProperties(mass, np.array([0.0, 0.0, h / 4.0]), inertia))
+
+
+@given(LENGTHS, LENGTHS, st.floats(-1.0, 1.0))
+def test_a_disc_is_a_round_prism(radius, height, low):
+    turned = hollow_cylinder(0.0, radius, low, low + height).mass_properties(1000.0)
+    pushed = Prism(circle(radius), low, low + height).mass_properties(1000.0)
+    assert_same(turned, pushed, 1e-10)
+
+
+def test_box_turned_and_moved():
+    a, b, c, mass = 0.1, 0.2, 0.3, 1000.0 * 0.1 * 0.2 * 0.3
+    rotation, position = rotation_from_rpy(0.3, -0.5, 1.1), np.array([0.4, -0.2, 0.7])
+    box = Prism(
+        rectangle(-a / 2, a / 2, -b / 2, b / 2), -c / 2, c / 2, Placement(rotation, position)
+    )
+    inertia = mass / 12.0 * np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2])
+    expected = MassProperties(mass, position, rotation @ inertia @ rotation.T)
+    assert_same(box.mass_properties(1000.0), expected)
+
+
+@given(st.floats(-0.4, 0.4), st.floats(0.01, 0.99))
+def test_halves_make_the_whole(low, share):
+    high, middle = low + 1.0, low + share
+    whole = hollow_cylinder(0.1, 0.3, low, high).mass_properties(1.0)
+    halves = [
+        hollow_cylinder(0.1, 0.3, *ends).mass_properties(1.0)
+        for ends in ((low, middle), (middle, high))
+    ]
+    assert_same(combine(halves), whole, 1e-11)
+
+
+@given(
+    st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(-1.0, 1.0)), min_size=3, max_size=3),
+)
+def test_any_triangle_turned_weighs_what_its_mesh_does(corners):
+    profile = np.array(corners)
+    (a, b), (c, d) = profile[1] - profile[0], profile[2] - profile[0]
+    area = (a * d - b * c) / 2.0
+    assume(abs(area) > 1e-3)
+    solid = Revolution(profile if area > 0.0 else profile[::-1])
+    body = solid.mass_properties(1.0)
+    assert physical_defect(body) is None
+    # Pappus: area times the path of its centroid.
+    assert body.mass == pytest.approx(2.0 * np.pi * profile[:, 0].mean() * abs(area), rel=1e-12)
+    assert solid_mesh(solid).volume == pytest.approx(body.mass, rel=1e-9)
+
+
+def test_repeated_corners_are_left_out():
+    solid = revolved([(0.1, 0.0), (0.2, 0.0), (0.2, 0.0), (0.2, 0.1), (0.1, 0.0)])
+    np.testing.assert_array_equal(solid.profile, [[0.2, 0.0], [0.2, 0.1], [0.1, 0.0]])

@@ -1,0 +1,43 @@
+"""Thinnest walls against what parts are made of."""
+
+import pytest
+from made_parts import FOOT, HOUSING, HUB, TWO_PIECES
+
+from ocs_design.parts.foot import BASE_THICKNESS, MARK_DEPTH, foot_part
+from ocs_design.parts.housing import housing_parts
+from ocs_design.parts.outline import rectangle
+from ocs_design.parts.part import Part
+from ocs_design.parts.solids import Prism, hollow_cylinder
+from ocs_design.parts.walls import thinnest_wall
+from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.sizing.housing import WALL
+
+POLYGONS = 0.01
+"""Share of a wall that polygons of 128 sections cost."""
+
+
+def test_box_with_a_pocket():
+    block = Prism(rectangle(0.0, 0.03, 0.0, 0.02), 0.0, 0.01)
+    pocket = Prism(rectangle(0.004, 0.026, 0.005, 0.0175), 0.003, 0.01)
+    assert thinnest_wall(Part("box", 1.0, (block,), (pocket,))) == pytest.approx(0.0025, rel=1e-9)
+
+
+def test_tube():
+    tube = Part("tube", 1.0, (hollow_cylinder(0.01, 0.012, 0.0, 0.1),))
+    assert thinnest_wall(tube) == pytest.approx(0.002, rel=POLYGONS)
+
+
+def test_thinnest_of_the_wheel_is_its_web():
+    hub = wheel_parts(TWO_PIECES)[1]
+    assert thinnest_wall(hub) == pytest.approx(HUB.web_thickness, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "part", [*housing_parts(HOUSING), foot_part(FOOT)], ids=["drum", "lid", "foot"]
+)
+def test_printed_parts_have_the_stated_wall(part):
+    assert thinnest_wall(part) >= (1.0 - POLYGONS) * WALL
+
+
+def test_marks_leave_most_of_the_base():
+    assert BASE_THICKNESS - MARK_DEPTH > WALL

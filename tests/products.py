@@ -1,0 +1,103 @@
+"""What `size` makes of Solo12 with a motor and without one, and the same by numpy and Pinocchio."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pinocchio as pin
+from commands import Result
+
+FILES = [
+    "cad/bill_of_materials.csv",
+    "cad/flywheel.stl",
+    "robot/solo12_ocs.glb",
+    "robot/solo12_ocs.urdf",
+    "robot/solo12_ocs.xml",
+    "robot/meshes/ocs_flywheel.stl",
+    "snippets/ocs.urdf.xacro",
+    "snippets/ocs.urdf",
+    "snippets/ocs_ros2_control.urdf",
+    "snippets/ocs.xml",
+    "snippets/ocs.sdf",
+    "validation/disturbance_with_ocs.csv",
+    "validation/disturbance_without_ocs.csv",
+    "validation/drop_with_ocs.csv",
+    "validation/drop_without_ocs.csv",
+    "validation/back-flip_with_ocs.csv",
+    "validation/back-flip_without_ocs.csv",
+]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One way to ask for a design.
+
+    Attributes:
+        options: of the command. headings: of its report, so many.
+        words: that its report has among others.
+        slack: relative, of what is held to a capacity.
+    """
+
+    options: tuple[str, ...]
+    headings: int
+    words: tuple[str, ...]
+    slack: float
+
+
+CASES = {
+    "motor": Case((), 9, ("24 V", "housing", "fell out"), 1e-5),
+    "no motor": Case(("--motor", "none"), 8, ("7,200 rpm", "stainless"), 1e-9),
+}
+
+
+@dataclass(frozen=True)
+class Product:
+    """What a command said and the folder that it wrote."""
+
+    case: Case
+    said: Result
+    folder: Path
+
+
+def device_of(document):
+    """Wheel, carrier, motor and modules as numbers, straight from the file."""
+    ocs = document["ocs"]
+    modules = [
+        SimpleNamespace(name=m["name"], axis=np.array(m["axis"]), position=np.array(m["position"]))
+        for m in ocs["modules"]
+    ]
+    parts = {name: SimpleNamespace(**ocs[name]) for name in ("flywheel", "carrier", "motor")}
+    return SimpleNamespace(modules=modules, **parts)
+
+
+def shifted(mass, offset):
+    """Of the parallel axis theorem."""
+    return mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
+
+
+def with_modules(document, device, incidence):
+    """Robot and both braked modules about their common centre of mass, in numpy alone."""
+    robot, wheel = document["robot"], device.flywheel
+    parts = [(robot["mass"], np.array(robot["com"]), np.array(robot["inertia"]))]
+    for module, side in zip(device.modules, (1.0, -1.0), strict=True):
+        axis = np.array([side * np.sin(incidence), np.cos(incidence), 0.0])
+        across, along = np.eye(3) - np.outer(axis, axis), np.outer(axis, axis)
+        # The rotor is in the motor's mass already, and stands still with it.
+        rim = wheel.spin_inertia - device.motor.rotor_inertia
+        parts.append((wheel.mass, module.position, wheel.transverse_inertia * across + rim * along))
+        carrier = device.carrier
+        own = carrier.transverse_inertia * across + carrier.axial_inertia * along
+        parts.append((carrier.mass, module.position, own))
+    mass = sum(part[0] for part in parts)
+    com = sum(part[0] * part[1] for part in parts) / mass
+    return mass, com, sum(own + shifted(m, c - com) for m, c, own in parts)
+
+
+def composite(model, posture):
+    """Mass, centre of mass and inertia about it with the joints held, by Pinocchio."""
+    data, q = model.createData(), pin.neutral(model)
+    for name, value in posture.items():
+        q[model.joints[model.getJointId(name)].idx_q] = value
+    pin.ccrba(model, data, q, np.zeros(model.nv))
+    return data.Ig.mass, data.com[0], data.Ig.inertia

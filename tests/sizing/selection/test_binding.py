@@ -1,0 +1,45 @@
+"""Which limits a module is held by."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from rims import STEEL
+
+from ocs_design.requirement.envelope import Envelope
+from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
+from ocs_design.sizing.rim_problem import RimProblem
+from ocs_design.sizing.selection.binding import HOUSING, binding_limits
+from ocs_design.sizing.web import LIGAMENT, limits_with_web
+
+ROOM = Envelope(
+    outer_radius_max=0.03, inner_radius_min=0.005, height_max=0.01, height_min=0.002,
+    wall_min=0.001, mass_max=np.inf, stress_safety=2.0,
+)  # fmt: skip
+LIMITS = RimProblem(7.11e-5, ROOM, STEEL, 100.0).limits
+MODULE = lightest_module(np.array([7.11e-5]), LIMITS)
+
+
+def test_as_wide_and_as_tall_as_may_be():
+    assert binding_limits(MODULE, LIMITS, ROOM, 0) == ("r_max", "h_max")
+
+
+@pytest.mark.parametrize("off", [4e-6, -4e-6])
+def test_a_dimension_found_to_few_digits_still_touches_its_limit(off):
+    near = MODULE._replace(outer_radius=MODULE.outer_radius * (1.0 + off))
+    assert "r_max" in binding_limits(near, LIMITS, ROOM, 0)
+
+
+def test_a_dimension_that_is_off_its_limit_is_held_by_its_housing():
+    room = replace(LIMITS, outer_radius_max=0.03 * 1.0001)
+    assert binding_limits(MODULE, room, ROOM, 0) == ("h_max", HOUSING)
+
+
+def test_hub_and_web_are_named_where_they_ask_for_more_than_was_specified():
+    seated = limits_with_web(LIMITS, 0.02 - LIGAMENT)
+    module = lightest_module_at(np.array([2e-5]), 0.03, seated)._replace(
+        inner_radius=np.array([0.02]), height=np.atleast_1d(seated.height_min)
+    )
+    named = binding_limits(module, seated, ROOM, 0)
+    assert {"hub", "web"} <= set(named)
+    assert not {"r_min", "h_min"} & set(named)

@@ -1,0 +1,130 @@
+"""Where modules are put, on robots made for the purpose and on all the legged ones."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from anatomy import LEGGED
+from robots import ROBOTS
+
+from ocs_design.requirement.froude import default_envelope
+from ocs_design.robot.obstacles.motion import drawn, landing_ranges
+from ocs_design.robot.obstacles.obstacles import obstacles_of
+from ocs_design.robot.obstacles.probes import Ball
+from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.free_place import Sizes, place_free, stated_place
+from ocs_design.sizing.placement import CLEARANCE, place_at, place_on_top
+
+ON_TOP = {
+    "a1",
+    "anymal",
+    "anymal-kinova",
+    "b1",
+    "bolt",
+    "go1",
+    "go2",
+    "hyq_no_sensors",
+    "laikago",
+    "quadruped",
+    "simple_humanoid",
+    "simple_humanoid_classical",
+    "solo",
+    "solo12",
+}
+"""Robots that have nothing over their trunk."""
+
+MAST = """<robot name="masted">
+  <link name="base">
+    <inertial><mass value="10"/><inertia ixx="0.1" iyy="0.4" izz="0.4" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><geometry><box size="0.6 0.3 0.1"/></geometry></collision>
+  </link>
+  <link name="head">
+    <inertial><mass value="0.01"/>
+      <inertia ixx="1e-5" iyy="1e-5" izz="1e-5" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><origin xyz="0 0 0.1"/>
+      <geometry><cylinder radius="{radius}" length="0.2"/></geometry></collision>
+  </link>
+  <joint name="neck" type="revolute">
+    <parent link="base"/><child link="head"/><origin xyz="{x} 0 0.05"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>"""
+
+
+@cache
+def robot_of(name):
+    return read_robot(ROBOTS / f"{name}.urdf")
+
+
+@pytest.fixture
+def masted(tmp_path):
+    def read(x, radius=0.02):
+        path = tmp_path / f"masted_{x}_{radius}.urdf"
+        path.write_text(MAST.format(x=x, radius=radius))
+        return read_robot(path, trunk="base")
+
+    return read
+
+
+def test_a_mast_far_away_changes_nothing(masted):
+    robot = masted(0.28)
+    found = place_free(robot, default_envelope(robot))
+    assert (found.place, found.blocked_by, found.free) == (place_on_top(robot), "", True)
+
+
+def test_a_mast_in_the_middle_goes_between_the_modules(masted):
+    robot = masted(0.0)
+    envelope = default_envelope(robot)
+    found = place_free(robot, envelope)
+    assert (found.face, found.blocked_by, found.free) == ("on top of", "head", True)
+    # Balls 1.1 times as large as the module stand clear of the mast's radius, for every size.
+    sizes = Sizes.of(envelope)
+    for reach in np.linspace(sizes.smallest, sizes.largest, 30):
+        x, y, _ = found.place.left_of_reach(float(reach))
+        assert np.hypot(x, y) - 0.02 >= CLEARANCE * reach - 1e-5
+
+
+def test_nearer_than_the_grid(masted):
+    """In front of the mast or behind it: x^2 + (1.1 s)^2 = (1.1 s + r)^2 for the largest s."""
+    robot = masted(0.0)
+    largest = Sizes.of(default_envelope(robot)).largest
+    found = place_free(robot, default_envelope(robot))
+    x, y, _ = found.place.origin
+    least = np.sqrt(2.0 * CLEARANCE * largest * 0.02 + 0.02**2)
+    assert y == 0.0
+    assert least - 1e-5 <= abs(x) <= least + 0.5 * largest / 16.0
+
+
+def test_a_stated_position_is_kept(masted):
+    robot = masted(0.0)
+    envelope = default_envelope(robot)
+    assert stated_place((0.1, 0.2, 0.3), robot, envelope) == place_at((0.1, 0.2, 0.3))
+    assert stated_place(None, robot, envelope) == place_free(robot, envelope).place
+
+
+def test_twice_the_same():
+    robot = read_robot(ROBOTS / "b1_description/urdf/b1-z1.urdf")
+    again = read_robot(ROBOTS / "b1_description/urdf/b1-z1.urdf")
+    envelope = default_envelope(robot)
+    assert place_free(robot, envelope) == place_free(again, envelope)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LEGGED)
+def test_every_legged_robot_has_a_free_place(name):
+    robot = robot_of(name)
+    envelope = default_envelope(robot)
+    found = place_free(robot, envelope)
+    assert found.free
+    assert (found.place == place_on_top(robot)) == (name.rpartition("/")[2] in ON_TOP)
+    obstacles, reach = obstacles_of(robot), Sizes.of(envelope).largest
+    others = [part for part in obstacles.parts if part.limb]
+    x, y, z = found.place.left_of_reach(reach)
+    poses = obstacles.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
+    for side in (y, -y):
+        # Postures that were not tried find no more than the room around the module.
+        assert (
+            obstacles.nearest(Ball(np.array([x, side, z]), reach), poses, others, within=0.0)
+            is None
+        )
