@@ -34,7 +34,7 @@ def _ranked(entry: Candidate) -> RankedRecord:
         material=entry.material.name,
         incidence=entry.incidence,
         mass=entry.mass,
-        wheels_mass=2.0 * (entry.rim_mass + entry.web_mass),
+        wheels_mass=2.0 * entry.wheel_mass,
         motors_mass=2.0 * (entry.motor.mass or 0.0),
         gears_mass=2.0 * entry.gear.mass,
         housings_mass=2.0 * entry.housing_mass,

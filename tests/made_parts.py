@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ocs_design.parts.fasteners import screw
+from ocs_design.fasteners import screw
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.mount import Mount

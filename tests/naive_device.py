@@ -64,11 +64,17 @@ def solid(radius, height, density):
 
 
 def hub_body(hub):
-    """Beyond the web that it stands in, less its bore."""
+    """Beyond the web that it stands in, less its bore and its bolts' holes, one by one."""
     boss = solid(hub.radius, hub.height, WEB_DENSITY) - solid(
         hub.radius, WEB_THICKNESS, WEB_DENSITY
     )
-    return boss - solid(hub.bore_radius, hub.height, WEB_DENSITY)
+    body = boss - solid(hub.bore_radius, hub.height, WEB_DENSITY)
+    for bolt in range(hub.bolts):
+        mass, axial, across = solid(hub.bolt_hole_radius, hub.height, WEB_DENSITY)
+        angle = 2.0 * pi * bolt / hub.bolts
+        off = mass * hub.bolt_circle_radius**2
+        body = body - np.array([mass, axial + off, across + off * np.sin(angle) ** 2])
+    return body
 
 
 def wheel_of(chosen):
@@ -93,7 +99,8 @@ class Drive:
         )
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
         if problem.web:
-            self.hub, self.hub_radius = hub_body(hub_of(motor)), hub_of(motor).radius + LIGAMENT
+            hub = hub_of(motor, direct=gear.name == "direct")
+            self.hub, self.hub_radius = hub_body(hub), hub.radius + LIGAMENT
         # The rotor turns at N W, the other way round if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
         self.rotor_load = gear.ratio**2 * rotor + gear.inertia

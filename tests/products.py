@@ -10,7 +10,8 @@ from commands import Result
 
 FILES = [
     "cad/bill_of_materials.csv",
-    "cad/flywheel.stl",
+    "cad/wheel.svg",
+    "cad/wheel.pdf",
     "robot/solo12_ocs.glb",
     "robot/solo12_ocs.urdf",
     "robot/solo12_ocs.xml",
@@ -37,17 +38,23 @@ class Case:
         options: of the command. headings: of its report, so many.
         words: that its report has among others.
         slack: relative, of what is held to a capacity.
+        pieces: of the wheel, each a file.
     """
 
     options: tuple[str, ...]
     headings: int
     words: tuple[str, ...]
     slack: float
+    pieces: tuple[str, ...]
+
+    @property
+    def files(self) -> list[str]:
+        return [*FILES, *(f"cad/{piece}.stl" for piece in self.pieces)]
 
 
 CASES = {
-    "motor": Case((), 9, ("24 V", "housing", "fell out"), 1e-5),
-    "no motor": Case(("--motor", "none"), 8, ("7,200 rpm", "stainless"), 1e-9),
+    "motor": Case((), 9, ("24 V", "housing", "fell out"), 1e-5, ("flywheel_rim", "flywheel_hub")),
+    "no motor": Case(("--motor", "none"), 8, ("7,200 rpm", "stainless"), 1e-9, ("flywheel",)),
 }
 
 

@@ -149,7 +149,7 @@ def rows(built: Built) -> Iterator[tuple[str, ...]]:
     yield "gear", "direct", *(_gear(one) for one in both)
     yield "rim of", "", *(one.material.name for one in both)
     yield "spin inertia, g m2", *_figures(built.spin_inertia, both, "spin_inertia", 1e3, 3)
-    yield "wheel or rim, g", *_figures(built.wheel_mass, both, "rim_mass", 1e3, 0)
+    yield "wheel, g", *_figures(built.wheel_mass, both, "wheel_mass", 1e3, 0)
     yield "outer radius, mm", built.radius, *(f"{one.outer_radius * 1e3:.0f}" for one in both)
     yield "wheel speed, rpm", _speed(built.momentum / built.spin_inertia), *map(_peak, both)
     yield "incidence, deg", f"{degrees(built.incidence):.0f}", *map(_incidence, both)

@@ -30,6 +30,14 @@ def positive(raw: object) -> float:
     return number
 
 
+def whole(raw: object) -> int:
+    """A positive whole number."""
+    number = positive(raw)
+    if number != int(number):
+        raise ValueError(f"{shortened(raw)} is not a whole number")
+    return int(number)
+
+
 def fraction(raw: object) -> float:
     """A number above 0 and up to 1."""
     number = _number(raw)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ocs_design.catalogue.cells import Reader, choice, positive, text
+from ocs_design.catalogue.cells import Reader, choice, positive, text, whole
 from ocs_design.drive.conventions import (
     ResistanceConvention,
     TorqueConstantConvention,
@@ -13,6 +13,7 @@ from ocs_design.drive.conventions import (
     six_step_torque_constant,
 )
 from ocs_design.drive.motor import Motor
+from ocs_design.drive.mounting import BoltCircle, Face, Mounting
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,11 @@ class MotorSheet:
         peak_torque_nm, peak_current_a: highest that the maker allows for a short time.
         continuous_torque_nm: that the winding stands for good.
         rotor_inertia_kg_m2: of the rotor.
+        shaft_diameter_m: where it comes out of the motor on the wheel's side.
+        rotor_bolt_circle_m, rotor_bolts, rotor_thread: threads in what turns, on the wheel's side:
+            diameter of their circle, number, and size such as M3.
+        stator_bolt_circle_m, stator_bolts, stator_thread: the same in what stands still, on its
+            `stator_face`.
         source: where the figures come from. confidence: good, second-hand, ...
         remark: why figures that seem to contradict each other stand as they do.
     """
@@ -60,6 +66,14 @@ class MotorSheet:
     peak_current_a: float | None = None
     continuous_torque_nm: float | None = None
     rotor_inertia_kg_m2: float | None = None
+    shaft_diameter_m: float | None = None
+    rotor_bolt_circle_m: float | None = None
+    rotor_bolts: int | None = None
+    rotor_thread: str | None = None
+    stator_bolt_circle_m: float | None = None
+    stator_bolts: int | None = None
+    stator_thread: str | None = None
+    stator_face: Face | None = None
     remark: str = ""
 
     @property
@@ -77,6 +91,22 @@ class MotorSheet:
         if self.resistance_ohm is None or self.resistance_between is None:
             return None
         return line_to_line_resistance(self.resistance_ohm, self.resistance_between)
+
+    @property
+    def rotor(self) -> BoltCircle | None:
+        """Threads in what turns; None unless all of their figures are stated."""
+        return _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
+
+    @property
+    def stator(self) -> BoltCircle | None:
+        """Threads in what stands still; None unless all of their figures are stated."""
+        return _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
+
+    @property
+    def mounting(self) -> Mounting | None:
+        """None if nothing of it is stated."""
+        found = Mounting(self.shaft_diameter_m, self.rotor, self.stator, self.stator_face)
+        return None if found == Mounting() else found
 
     def motor(self) -> Motor:
         """The motor in SI and in the one convention of `Motor`."""
@@ -100,6 +130,7 @@ class MotorSheet:
             confidence=self.confidence,
             peak_basis=basis,
             remark=self.remark,
+            mounting=self.mounting,
         )
 
     def _peak_torque(self) -> tuple[float | None, str]:
@@ -127,6 +158,12 @@ def rad_s(speed_rpm: float) -> float:
     return speed_rpm * math.pi / 30.0
 
 
+def _circle(diameter: float | None, bolts: int | None, thread: str | None) -> BoltCircle | None:
+    if diameter is None or bolts is None or thread is None:
+        return None
+    return BoltCircle(diameter, bolts, thread)
+
+
 def _speed(speed_rpm: float | None) -> float | None:
     return None if speed_rpm is None else rad_s(speed_rpm)
 
@@ -152,6 +189,14 @@ MOTOR_COLUMNS: Mapping[str, Reader] = {
     "peak_current_a": positive,
     "continuous_torque_nm": positive,
     "rotor_inertia_kg_m2": positive,
+    "shaft_diameter_m": positive,
+    "rotor_bolt_circle_m": positive,
+    "rotor_bolts": whole,
+    "rotor_thread": text,
+    "stator_bolt_circle_m": positive,
+    "stator_bolts": whole,
+    "stator_thread": text,
+    "stator_face": choice(Face),
     "source": text,
     "confidence": text,
     "remark": text,

@@ -11,6 +11,7 @@ from ocs_design.catalogue.cells import read_cells
 from ocs_design.catalogue.entries import extended, load_entries, packaged
 from ocs_design.catalogue.motor_checks import contradictions, incomplete
 from ocs_design.catalogue.motor_sheet import MOTOR_COLUMNS, MotorSheet
+from ocs_design.catalogue.mounting_checks import mounting_faults
 from ocs_design.catalogue.names import entry
 from ocs_design.catalogue.table import Row
 from ocs_design.drive.gear import DIRECT
@@ -69,7 +70,7 @@ def _sheet(row: Row, faults: list[str]) -> MotorSheet | None:
     if values is None:
         return None
     sheet = MotorSheet(**values)
-    found = list(incomplete(sheet))
+    found = [*incomplete(sheet), *mounting_faults(sheet)]
     if not sheet.remark:
         found += [f"{doubt}; explain it in `remark`" for doubt in contradictions(sheet)]
     faults.extend(f"{row.where} ({sheet.name}): {fault}" for fault in found)

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from ocs_design.drive.mounting import Mounting
+
 
 @dataclass(frozen=True)
 class Motor:
@@ -26,6 +28,7 @@ class Motor:
         peak_basis: what `peak_torque` rests on: the maker's peak torque, k_t times its peak
             current, or the stall torque of its data sheet.
         remark: what a reader of the figures must know.
+        mounting: shaft and threads, if any of them is known.
     """
 
     name: str
@@ -46,3 +49,4 @@ class Motor:
     confidence: str
     peak_basis: str = ""
     remark: str = ""
+    mounting: Mounting | None = None

@@ -10,18 +10,21 @@ from ocs_design.catalogue.motors import motors
 from ocs_design.design import Device
 from ocs_design.export.rendering import Scene, render_views
 from ocs_design.export.robot_model import RobotModel
+from ocs_design.export.workshop import printed_foot, printed_parts
+from ocs_design.parts.foot import Foot
 from ocs_design.parts.mesh import Mesh, part_mesh, solid_mesh
 from ocs_design.parts.solids import hollow_cylinder
 from ocs_design.parts.wheel import Wheel
 from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.housing import WALL, housing_height, housing_outer_radius
+from ocs_design.robot.tree import Placement
 
 Color = tuple[float, float, float, float]
 
 STEEL: Color = (0.55, 0.57, 0.6, 1.0)
 ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
 SHELL: Color = (0.25, 0.45, 0.75, 0.3)
+PRINT: Color = (0.25, 0.45, 0.75, 1.0)
 MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
 
 _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
@@ -102,27 +105,25 @@ def _wheel(wheel: Wheel) -> list[Shown]:
 
 
 def _carrier(device: Device) -> list[Shown]:
-    """Motor, where its size is known, and housing."""
+    """Motor, where its size is known, and what is printed: drum, lid and foot."""
     if device.carrier.mass == 0.0:
         return []
-    return [*_motor(device), *_housing(device)]
+    foot, (*housing, base) = printed_foot(device), printed_parts(device)
+    return [
+        *_motor(device, foot),
+        Shown(_placed(part_mesh(base), foot.placement), PRINT),
+        *(Shown(part_mesh(part), SHELL) for part in housing),
+    ]
 
 
-def _motor(device: Device) -> list[Shown]:
+def _motor(device: Device, foot: Foot) -> list[Shown]:
+    """It stands outside, on the foot's plate."""
     motor = motors().get(device.motor.name)
     if motor is None or motor.diameter is None or motor.length is None:
         return []
-    half = motor.length / 2.0
-    return [Shown(solid_mesh(hollow_cylinder(0.0, motor.diameter / 2.0, -half, half)), MOTOR)]
+    body = hollow_cylinder(0.0, motor.diameter / 2.0, -foot.back - motor.length, -foot.back)
+    return [Shown(solid_mesh(body), MOTOR)]
 
 
-def _housing(device: Device) -> list[Shown]:
-    """A drum one can look into."""
-    radius = housing_outer_radius(device.flywheel.outer_radius)
-    half = housing_height(device.flywheel.height) / 2.0
-    solids = (
-        hollow_cylinder(radius - WALL, radius, -half, half),
-        hollow_cylinder(0.0, radius - WALL, -half, WALL - half),
-        hollow_cylinder(0.0, radius - WALL, half - WALL, half),
-    )
-    return [Shown(solid_mesh(solid), SHELL) for solid in solids]
+def _placed(mesh: Mesh, place: Placement) -> Mesh:
+    return Mesh(mesh.vertices @ place.rotation.T + place.position, mesh.triangles)

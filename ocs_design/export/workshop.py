@@ -7,7 +7,7 @@ from typing import TypeVar
 from ocs_design.design import Device
 from ocs_design.export.made_wheel import made_wheel
 from ocs_design.export.stl import MILLIMETRES, wheel_meshes
-from ocs_design.parts.fasteners import screw
+from ocs_design.fasteners import screw
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.mesh import part_mesh
@@ -67,9 +67,14 @@ def printed_parts(device: Device) -> tuple[Part, Part, Part]:
     Raises:
         PartError: they cannot be made.
     """
+    foot = printed_foot(device)
+    return (*housing_parts(foot.housing), foot_part(foot))
+
+
+def printed_foot(device: Device) -> Foot:
+    """Of one module, with the housing that it carries."""
     wheel = device.flywheel
-    housing = Housing(wheel.outer_radius, wheel.height, lid_screw=screw(LID_SCREW))
-    return (*housing_parts(housing), foot_part(Foot(housing)))
+    return Foot(Housing(wheel.outer_radius, wheel.height, lid_screw=screw(LID_SCREW)))
 
 
 def _weighed(parts: tuple[Part, ...], device: Device) -> str:

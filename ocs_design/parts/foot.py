@@ -11,7 +11,7 @@ from math import hypot, pi, sqrt
 
 import numpy as np
 
-from ocs_design.parts.fasteners import Screw, screw
+from ocs_design.fasteners import Screw, screw
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.outline import Outline, arc_slot, rectangle
 from ocs_design.parts.part import Part

@@ -10,7 +10,7 @@ from math import asin, pi, sqrt, tan
 import numpy as np
 
 from ocs_design.exceptions import PartError
-from ocs_design.parts.fasteners import Screw
+from ocs_design.fasteners import Screw
 from ocs_design.parts.mount import Mount
 from ocs_design.parts.outline import Outline, circle, ring_of_points
 from ocs_design.parts.part import Part

@@ -7,6 +7,7 @@ from math import inf, pi, sin
 from ocs_design.exceptions import PartError
 from ocs_design.parts.outline import circle, ring_of_points
 from ocs_design.parts.solids import Prism
+from ocs_design.sizing.web import HUB_WALL, LIGAMENT, WEB_THICKNESS
 
 CHAMFER = 0.3e-3
 """Of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""
@@ -14,17 +15,12 @@ CHAMFER = 0.3e-3
 CHAMFER_SHARE = 0.25
 """Of a chamfer in the rim's wall and height, at most: so half of each face stays."""
 
-WEB_THICKNESS = 1.5e-3
-"""[m]; thinner ones sing on the lathe, and weigh little less."""
-
-LIGAMENT = 1.0e-3
-"""Material between a hole and the next edge or hole, at least [m]."""
 
 HUB_HEIGHT = 6.0e-3
 """[m]: one and a half times the diameter of a 4 mm shaft, so that the wheel sits straight."""
 
-HUB_WALL = 2.0e-3
-"""Around the bore and around bolts, at least [m]: room for a M2 grub screw's thread."""
+ROUNDING = 1e-9
+"""Of lengths that are as they must be at the least [m]: a thousandth of a micrometre."""
 
 
 @dataclass(frozen=True)
@@ -174,7 +170,7 @@ def wheel_faults(wheel: Wheel) -> Iterator[str]:
 def _hub_faults(rim: Rim, hub: Hub) -> Iterator[str]:
     if not 0.0 <= hub.bore_radius < hub.radius:
         yield "its bore is not narrower than its hub"
-    if not hub.radius + LIGAMENT <= rim.inner_radius:
+    if not hub.radius + LIGAMENT <= rim.inner_radius + ROUNDING:
         yield (
             f"its hub of {1e3 * hub.radius:.4g} mm radius leaves no web in the rim's "
             f"{1e3 * rim.inner_radius:.4g} mm"

@@ -13,6 +13,7 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.drive.motor import Motor
+from ocs_design.drive.mounting import Mounting
 from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.cylinder import (
     cylinder_mass,
@@ -43,7 +44,7 @@ HUB_WALL = 2.0e-3
 """Around bore and bolts, at least [m]: room for the thread of a grub screw of M2."""
 
 PILOT_BORE = 3.0e-3
-"""Diameter where the motor's shaft is not in the catalogue [m]: to be opened to fit."""
+"""Diameter where the motor's shaft is not in the catalogue, at most [m]: to be opened to fit."""
 
 Real = TypeVar("Real", float, FloatArray)
 
@@ -98,14 +99,26 @@ NO_HUB = Hub(radius=0.0, height=0.0, bore_radius=0.0)
 """Of massless spokes: it weighs nothing."""
 
 
-def hub_of(motor: Motor) -> Hub:
-    """Of a wheel on this motor.
+def hub_of(motor: Motor, *, direct: bool = True) -> Hub:
+    """Of a wheel on this motor, with the bore of its shaft and holes for its screws.
 
-    Without its shaft and bolts in the catalogue it has a pilot bore, and is as wide as the bolt
-    circles that motors of that diameter have.
+    Where the catalogue has no shaft it has a pilot bore; where it has no screws it is as wide as
+    the bolt circles that motors of that diameter have. Behind a gear, not
+    `direct`, it has neither.
     """
-    wide = 5.5e-3 + 0.15 * (motor.diameter or 0.03)
-    return Hub(radius=wide, height=HUB_HEIGHT, bore_radius=PILOT_BORE / 2.0)
+    mounting = (motor.mounting if direct else None) or Mounting()
+    rotor, bore = mounting.rotor, _bore_radius(mounting)
+    if rotor is None:
+        wide = 5.5e-3 + 0.15 * (motor.diameter or 0.03)
+        return Hub(max(wide, bore + HUB_WALL), HUB_HEIGHT, bore)
+    return Hub(
+        radius=rotor.reach + HUB_WALL,
+        height=HUB_HEIGHT,
+        bore_radius=bore,
+        bolts=rotor.bolts,
+        bolt_circle_radius=rotor.radius,
+        bolt_hole_radius=rotor.hole_radius,
+    )
 
 
 def wheel_body(
@@ -158,6 +171,14 @@ def web_axial_inertia(bore: Real) -> Real:
 def web_transverse_inertia(bore: Real) -> Real:
     """Across the axis: m (3 r^2 + t^2) / 12 [kg m^2]."""
     return web_mass(bore) * (3.0 * bore**2 + WEB_THICKNESS**2) / 12.0
+
+
+def _bore_radius(mounting: Mounting) -> float:
+    """Of the shaft; else of a pilot bore, narrow enough to stay clear of the screws [m]."""
+    if mounting.shaft_diameter is not None:
+        return mounting.shaft_diameter / 2.0
+    pilot = PILOT_BORE / 2.0
+    return pilot if mounting.rotor is None else min(pilot, mounting.rotor.inside - LIGAMENT)
 
 
 def _across(radius: float, height: float) -> float:

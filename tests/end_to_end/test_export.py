@@ -13,10 +13,10 @@ import pytest
 import trimesh
 from commands import BOUND, BY_HAND, ROOT, SOLO12, everything_in, run
 from exported import MJCF, pinocchio_model
-from products import FILES
 from robots import ROBOTS
 
-from ocs_design.export.formats import FORMATS
+from ocs_design.export.formats import FORMATS, USUAL_FORMATS
+from ocs_design.parts import step
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
 MADE = ("cad", "robot", "snippets")
@@ -57,7 +57,8 @@ def test_every_file_is_what_size_wrote(product, folder):
     result = run("export", product.folder, "-o", "again")
     assert (result.code, result.stdout) == (0, "")
     again = files_in("again")
-    assert set(again) == {"design.json", *(name for name in FILES if name.startswith(MADE))}
+    made = {name for name in product.case.files if name.startswith(MADE)}
+    assert set(again) == {"design.json", *made}
     assert made_in("again") == made_in(product.folder)
     assert list(json.loads(again["design.json"])["files"]) == sorted(made_in("again"))
 
@@ -112,7 +113,7 @@ def test_parts_and_snippets_need_no_robot(solo12):
     assert result.code == 3
     assert "solo12.urdf: the robot's file is not there any more" in result.said
     assert not Path("again").exists()
-    cure = "--formats stl,bom,snippets"
+    cure = "--formats stl,bom,drawing,snippets"
     assert cure in result.said
     assert run("export", solo12, "-o", "again", "-q", *cure.split()).code == 0
     original, again = made_in(solo12), made_in("again")
@@ -171,7 +172,7 @@ def test_a_robot_from_standard_input_is_asked_for(folder):
     assert made_in("again") == made_in(source)
 
 
-@pytest.mark.parametrize("each", FORMATS, ids=lambda each: each.name)
+@pytest.mark.parametrize("each", USUAL_FORMATS, ids=lambda each: each.name)
 def test_one_format_alone(solo12, each):
     assert (
         run("export", solo12 / "design.json", "-o", "again", "-q", "--formats", each.name).code == 0
@@ -181,11 +182,38 @@ def test_one_format_alone(solo12, each):
     assert again.items() <= made_in(solo12).items()
 
 
+def test_what_is_written_on_request_alone(product, folder):
+    """For the printer and for CAD; what is printed is weighed against what the design counts."""
+    asked = ("--formats", "3mf,step,printed")
+    result = run("export", product.folder, "-o", "again", *asked)
+    assert result.code == 0, result.said
+    again = files_in("again")
+    parts = {f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")}
+    steps = {f"cad/{piece}.step" for piece in product.case.pieces}
+    made = {"cad/flywheel.3mf", "cad/housing.3mf", *parts, *steps}
+    assert set(again) == {"design.json", *made}
+    assert "foot's" in result.said
+    run("export", product.folder, "-o", "more", "-q", *asked)
+    assert files_in("more") == again
+
+
+def test_step_without_its_extra_is_a_missing_tool(solo12, monkeypatch):
+    monkeypatch.setattr(step, "find_spec", lambda _: None)
+    result = run("export", solo12, "-o", "again", "--formats", "step")
+    assert result.code == 5
+    assert "pip install 'ocs-design[step]'" in result.said
+    assert not Path("again").exists()
+
+
 def test_formats_are_listed_with_commas_or_one_by_one(solo12):
     run("export", solo12, "-o", "a", "-q", "--formats", "stl,bom")
     run("export", solo12, "-o", "b", "-q", "--formats", "bom", "--formats", "stl")
     assert files_in("a") == files_in("b")
-    assert set(files_in("a")) == {"design.json", "cad/flywheel.stl", "cad/bill_of_materials.csv"}
+    assert set(files_in("a")) == {
+        "design.json",
+        "cad/flywheel.stl",
+        "cad/bill_of_materials.csv",
+    }
 
 
 def test_an_unknown_format_is_wrong_usage(solo12):
@@ -218,7 +246,7 @@ def test_in_the_designs_own_folder_the_rest_stays(product, folder):
     shutil.copytree(product.folder, "ocs")
     Path("ocs/notes.txt").write_text("mine")
     Path("ocs/robot/solo12_ocs.glb").unlink()
-    Path("ocs/cad/flywheel.stl").write_bytes(b"broken")
+    Path(f"ocs/cad/{product.case.pieces[0]}.stl").write_bytes(b"broken")
     assert run("export", "ocs", "-o", "ocs", "--force", "-q").code == 0
     whole = files_in(product.folder)
     renewed = files_in("ocs")

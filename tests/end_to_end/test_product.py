@@ -47,7 +47,7 @@ def test_it_succeeds_and_leaves_nothing_but_its_folder(product):
     assert (product.said.code, product.said.stdout) == (0, "")
     assert list(product.folder.parent.iterdir()) == [product.folder]
     written = {name for name in everything_in(product.folder) if (product.folder / name).is_file()}
-    assert written == {*FILES, "design.json"}
+    assert written == {*product.case.files, "design.json"}
 
 
 @pytest.mark.parametrize(("path", "keys"), SCHEMA.items())
@@ -57,7 +57,8 @@ def test_design_json_has_the_fields_that_others_rely_on(document, path, keys):
 
 def test_hashes_are_those_of_the_files(product, document):
     hashes = {
-        name: hashlib.sha256((product.folder / name).read_bytes()).hexdigest() for name in FILES
+        name: hashlib.sha256((product.folder / name).read_bytes()).hexdigest()
+        for name in product.case.files
     }
     assert document["files"] == hashes
     assert document["robot"]["sha256"] == hashlib.sha256(Path(SOLO12).read_bytes()).hexdigest()
@@ -128,25 +129,41 @@ def test_mujoco_reads_the_same_robot(product, document, device, name):
         assert model.body_mass.sum() == pytest.approx(document["ocs"]["total_mass"], rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("name", "unit"), [("cad/flywheel.stl", 1e-3), ("robot/meshes/ocs_flywheel.stl", 1.0)]
-)
-def test_meshes_are_watertight_and_weigh_what_they_should(product, device, name, unit):
-    mesh = trimesh.load_mesh(product.folder / name)
-    mesh.apply_scale(unit)
+def check_weight(meshes, device):
+    """Together they weigh and turn like the wheel, each of its own density."""
+    wheel, rotor = device.flywheel, device.motor.rotor_inertia
+    inertia = np.zeros((3, 3))
+    for mesh, density in meshes:
+        assert mesh.is_watertight
+        assert mesh.is_winding_consistent
+        mesh.density = density
+        inertia += mesh.moment_inertia
+        np.testing.assert_allclose(mesh.center_mass, 0.0, atol=1e-6 * wheel.outer_radius)
+    assert sum(mesh.mass for mesh, _ in meshes) == pytest.approx(wheel.mass, rel=1e-6)
+    expected = np.diag([wheel.transverse_inertia] * 2 + [wheel.spin_inertia - rotor])
+    np.testing.assert_allclose(inertia, expected, rtol=1e-6, atol=1e-6 * wheel.spin_inertia)
+
+
+def densities(wheel):
+    return [wheel.density] if wheel.web is None else [wheel.density, wheel.web["density"]]
+
+
+def test_the_pieces_are_watertight_bodies_and_weigh_what_they_should(product, device):
+    meshes = [trimesh.load_mesh(product.folder / f"cad/{n}.stl") for n in product.case.pieces]
+    assert all(mesh.body_count == 1 for mesh in meshes)
+    for mesh in meshes:
+        mesh.apply_scale(1e-3)
+    check_weight(list(zip(meshes, densities(device.flywheel), strict=True)), device)
+
+
+def test_the_robots_mesh_is_the_whole_wheel(product, device):
     wheel = device.flywheel
-    assert mesh.is_watertight
-    assert mesh.is_winding_consistent
-    mesh.density = wheel.density
-    assert mesh.mass == pytest.approx(wheel.mass, rel=1e-4)
-    expected = np.diag([wheel.transverse_inertia] * 2 + [wheel.spin_inertia])
-    np.testing.assert_allclose(
-        mesh.moment_inertia, expected, rtol=1e-4, atol=1e-4 * wheel.spin_inertia
-    )
-    np.testing.assert_allclose(mesh.center_mass, 0.0, atol=1e-6 * wheel.outer_radius)
-    np.testing.assert_allclose(
-        mesh.extents, 2.0 * np.array([wheel.outer_radius] * 2 + [wheel.height / 2.0]), rtol=1e-4
-    )
+    mesh = trimesh.load_mesh(product.folder / "robot/meshes/ocs_flywheel.stl")
+    bodies = sorted(mesh.split(), key=lambda body: -body.extents[0])
+    check_weight(list(zip(bodies, densities(wheel), strict=True)), device)
+    height = wheel.height if wheel.web is None else max(wheel.height, wheel.web["hub"]["height"])
+    size = np.array([2.0 * wheel.outer_radius] * 2 + [height])
+    np.testing.assert_allclose(mesh.extents, size, rtol=1e-4)
 
 
 @pytest.mark.parametrize("name", [name for name in FILES if name.startswith("validation/")])

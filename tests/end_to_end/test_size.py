@@ -4,11 +4,22 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from naive_device import solid
 
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motors
 
 pytestmark = pytest.mark.parametrize("product", ["motor"], indirect=True)
+
+
+def web_body(wheel):
+    """Mass, inertia about the axis and across it: a disc, a boss around it, less the bore."""
+    web, hub = wheel.web, wheel.web["hub"]
+    assert hub["bolts"] == 0
+    t, density = web["thickness"], web["density"]
+    disc, boss = solid(wheel.inner_radius, t, density), solid(hub["radius"], hub["height"], density)
+    bore = solid(hub["bore_radius"], hub["height"], density)
+    return disc + boss - solid(hub["radius"], t, density) - bore
 
 
 def test_the_rim_is_the_cylinder_that_it_says(document):
@@ -18,10 +29,11 @@ def test_the_rim_is_the_cylinder_that_it_says(document):
     area = wheel.outer_radius**2 - wheel.inner_radius**2
     column = np.pi * wheel.density * wheel.height
     speed = min(motor.no_load_speed, motor.speed_max)
+    web, axial, transverse = web_body(wheel)
     expected = {
-        "mass": column * area,
-        "spin_inertia": column * fourth / 2.0 + motor.rotor_inertia,
-        "transverse_inertia": column * (3.0 * fourth + wheel.height**2 * area) / 12.0,
+        "mass": column * area + web,
+        "spin_inertia": column * fourth / 2.0 + axial + motor.rotor_inertia,
+        "transverse_inertia": column * (3.0 * fourth + wheel.height**2 * area) / 12.0 + transverse,
         "stored_energy": wheel.spin_inertia * speed**2 / 2.0,
     }
     for name, value in expected.items():

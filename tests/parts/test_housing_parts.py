@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from made_parts import HOUSING, TWO_PIECES
 
 from ocs_design.exceptions import PartError
-from ocs_design.parts.fasteners import screw
+from ocs_design.fasteners import screw
 from ocs_design.parts.housing import EAR_COUNT, Housing, housing_parts
 from ocs_design.parts.interference import overlap_volume, turning_clearance
 from ocs_design.parts.mount import Mount

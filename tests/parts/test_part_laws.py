@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from made_parts import ALUMINIUM, STEEL
 
 from ocs_design.exceptions import PartError
-from ocs_design.parts.fasteners import SCREWS
+from ocs_design.fasteners import SCREWS
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import EAR_COUNT, Housing, housing_parts
 from ocs_design.parts.interference import overlap_volume, turning_clearance

@@ -1,4 +1,1 @@
 """Web and hub: closed forms against solids that are put together, and what they ask of a rim."""
-
-
-

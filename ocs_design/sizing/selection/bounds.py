@@ -57,8 +57,7 @@ class RimFloor:
     def of(cls, problem: SelectionProblem) -> "RimFloor":
         """Of rims that turn slowly: no hoop stress adds to their mass."""
         kinds = np.repeat(np.arange(len(problem.materials)), _RIMS)
-        hubs = [hub_of(motor).radius for motor in problem.motors] if problem.web else [0.0]
-        narrow = np.full(kinds.size, min(hubs))
+        narrow = np.full(kinds.size, _narrowest_hub(problem))
         limits = rim_limits(problem, kinds, np.full(kinds.size, 1e-3), narrow)
         least = smallest_spin_inertia(limits) * _OFF_THE_EDGE
         room = problem.envelope

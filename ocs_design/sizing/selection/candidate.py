@@ -28,7 +28,7 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
     motor, gear = problem.motors[drives.motor[row]], problem.gears[drives.gear[row]]
     material = problem.materials[settled.lot.material[row]]
     inner, outer, height, rim_mass, _, housing_mass = (float(v[row]) for v in settled.point.shapes)
-    hub = hub_of(motor) if problem.web else None
+    hub = hub_of(motor, direct=gear == DIRECT) if problem.web else None
     carrier = housed(drive_carrier(motor, gear), outer, height)
     centers = problem.place(housing_outer_radius(outer), housing_height(height))
     wheel = wheel_body(inner, outer, height, material.density, hub)

@@ -111,7 +111,7 @@ def drive_table(problem: SelectionProblem, pairs: NDArray[np.intp]) -> DriveTabl
 
 def _figures(problem: SelectionProblem, motor: Motor, gear: Gear) -> tuple[float, ...]:
     line, carrier = drive_line(motor, gear, problem.bus_voltage), drive_carrier(motor, gear)
-    rotor, hub = motor.rotor_inertia or 0.0, hub_of(motor) if problem.web else NO_HUB
+    rotor, hub = motor.rotor_inertia or 0.0, hub_of(motor, direct=gear == DIRECT) if problem.web else NO_HUB
     return (
         carrier.mass + hub.mass,
         carrier.axial_inertia,

@@ -88,7 +88,12 @@ class Candidate:
     @property
     def mass(self) -> float:
         """Of both modules: wheels, motors, gears and housings [kg]."""
-        return 2.0 * (self.rim_mass + self.web_mass + self.carrier.mass)
+        return 2.0 * (self.wheel_mass + self.carrier.mass)
+
+    @property
+    def wheel_mass(self) -> float:
+        """Of one wheel: rim, web and hub [kg]."""
+        return self.rim_mass + self.web_mass
 
     @property
     def wheel(self) -> Carrier:

@@ -40,6 +40,6 @@ def test_hub_and_web_are_named_where_they_ask_for_more_than_was_specified():
     module = lightest_module_at(np.array([2e-5]), 0.03, seated)._replace(
         inner_radius=np.array([0.02]), height=np.atleast_1d(seated.height_min)
     )
-    named = binding_limits(module, seated, ROOM, 0)
+    named = binding_limits(module, seated, replace(ROOM, height_min=0.001), 0)
     assert {"hub", "web"} <= set(named)
     assert not {"r_min", "h_min"} & set(named)

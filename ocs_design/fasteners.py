@@ -1,4 +1,4 @@
-"""Holes for metric screws."""
+"""Metric screws, and the holes that they need."""
 
 from dataclasses import dataclass
 
@@ -24,6 +24,18 @@ class Screw:
     head_diameter: float
     head_height: float
 
+    def through(self, thickness: float) -> str:
+        """Its designation, long enough for parts of that thickness [m] and a thread behind them.
+
+        The thread is as deep as the screw is thick at least, which holds in aluminium and steel.
+        """
+        least = 1e3 * (thickness + self.diameter)
+        long_enough = (length for length in LENGTHS if length >= least - 1e-9)
+        return f"ISO 4762 {self.name} x {next(long_enough, LENGTHS[-1])}"
+
+
+LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40)
+"""[mm], ISO 4762:2004, table 1; all of them are made of each of the screws below, or nearly."""
 
 SCREWS = (
     Screw("M2", 2.0e-3, 2.4e-3, 1.6e-3, 3.8e-3, 2.0e-3),
@@ -31,8 +43,11 @@ SCREWS = (
     Screw("M3", 3.0e-3, 3.4e-3, 2.5e-3, 5.5e-3, 3.0e-3),
     Screw("M4", 4.0e-3, 4.5e-3, 3.3e-3, 7.0e-3, 4.0e-3),
     Screw("M5", 5.0e-3, 5.5e-3, 4.2e-3, 8.5e-3, 5.0e-3),
+    Screw("M6", 6.0e-3, 6.6e-3, 5.0e-3, 10.0e-3, 6.0e-3),
 )
 """Clearance holes: ISO 273:1979, medium; drills: ISO 2306:1972; heads: ISO 4762:2004."""
+
+SCREW_NAMES = tuple(known.name for known in SCREWS)
 
 
 def screw(name: str) -> Screw:
@@ -40,7 +55,4 @@ def screw(name: str) -> Screw:
     for found in SCREWS:
         if found.name == name:
             return found
-    raise PartError(
-        f"no screw is called {name!r}",
-        hint="there are " + ", ".join(known.name for known in SCREWS),
-    )
+    raise PartError(f"no screw is called {name!r}", hint="there are " + ", ".join(SCREW_NAMES))
