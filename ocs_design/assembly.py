@@ -6,6 +6,7 @@ from dataclasses import replace
 from ocs_design.arrays import FloatArray
 from ocs_design.catalogue.materials import Material
 from ocs_design.design import Device, Flywheel, Module, Motor, Web
+from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.line import DriveLine, armature, rotor_share
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.carrier import Carrier
@@ -111,6 +112,7 @@ def _driven_motor(wheel: DrivenWheel, line: DriveLine) -> Motor:
         continuous_torque=None
         if motor.continuous_torque is None
         else gain * motor.continuous_torque,
+        mounting=motor.mounting if gear == DIRECT else None,
     )
 
 

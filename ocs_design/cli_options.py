@@ -176,9 +176,7 @@ Force: TypeAlias = Annotated[
 AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON document on standard output.")
 ]
-Strict: TypeAlias = Annotated[
-    bool, typer.Option("--strict", help="Warnings are errors.")
-]
+Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 Verbose: TypeAlias = Annotated[
     bool, typer.Option("-v", "--verbose", help="Also print the posture and how it was solved.")

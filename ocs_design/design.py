@@ -6,6 +6,7 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.mounting import Mounting
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.incidence import module_axes
@@ -113,6 +114,7 @@ class Motor:
         torque_constant: of the motor itself, six-step, between two lines [N m/A].
         resistance: of the motor between two lines [ohm].
         continuous_torque: that the winding stands for good [N m].
+        mounting: its shaft and threads, where the wheel sits on it without a gear and any is known.
     """
 
     name: str
@@ -133,6 +135,7 @@ class Motor:
     resistance: float | None = None
     continuous_torque: float | None = None
     rated_voltage: float | None = None
+    mounting: Mounting | None = None
 
 
 @dataclass(frozen=True, eq=False)

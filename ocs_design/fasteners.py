@@ -1,6 +1,7 @@
 """Metric screws, and the holes that they need."""
 
 from dataclasses import dataclass
+from math import ceil
 
 from ocs_design.exceptions import PartError
 
@@ -30,12 +31,12 @@ class Screw:
         The thread is as deep as the screw is thick at least, which holds in aluminium and steel.
         """
         least = 1e3 * (thickness + self.diameter)
-        long_enough = (length for length in LENGTHS if length >= least - 1e-9)
-        return f"ISO 4762 {self.name} x {next(long_enough, LENGTHS[-1])}"
+        long_enough = (length for length in SHORT_LENGTHS if length >= least - 1e-9)
+        return f"ISO 4762 {self.name} x {next(long_enough, 5 * ceil(least / 5.0 - 1e-9))}"
 
 
-LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40)
-"""[mm], ISO 4762:2004, table 1; all of them are made of each of the screws below, or nearly."""
+SHORT_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20)
+"""[mm], ISO 4762:2004, table 1, which goes on in steps of 5 mm."""
 
 SCREWS = (
     Screw("M2", 2.0e-3, 2.4e-3, 1.6e-3, 3.8e-3, 2.0e-3),

@@ -89,9 +89,7 @@ def design_ocs(
         designed = design_device(specification, robot, resolved)
         device = designed.device
         device_warnings(device, robot.mass, strict=strict)
-        mounting = mounting_of(
-            robot, device, resolved.requirement.maneuvers, designed.sized.total
-        )
+        mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
         remarks_on_place = placement_warnings(
             mounting,
             robot,

@@ -8,6 +8,9 @@ from pathlib import Path
 
 from ocs_design.design import Device, Flywheel, Motor, Web
 from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.mounting import BoltCircle, Face
+from ocs_design.fasteners import screw
+from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.sizing.housing import (
     CLEARANCE,
     WALL,
@@ -35,7 +38,7 @@ class BillRow:
     Attributes:
         part: what it is. material: of what. stock: what to cut it from, mm.
         quantity: in the whole device.
-        mass: of one [kg].
+        mass: of one [kg]; None: not counted in the device's.
         source: where it is from, or what to mind.
     """
 
@@ -43,12 +46,12 @@ class BillRow:
     quantity: int
     material: str
     stock: str
-    mass: float
+    mass: float | None
     source: str
 
 
 def bill_rows(device: Device) -> Sequence[BillRow]:
-    """All parts that the device holds; together they weigh what it weighs."""
+    """All parts that the device holds; those with a mass together weigh what it weighs."""
     wheel, motor = device.flywheel, device.motor
     rows = list(_wheel(wheel))
     if motor.mass > 0.0:
@@ -59,7 +62,7 @@ def bill_rows(device: Device) -> Sequence[BillRow]:
     standing = device.carrier.mass - motor.mass - motor.gear_mass
     if standing > _MASSLESS:
         rows.append(_housing(wheel))
-    return rows
+    return [*rows, *_screws(device)]
 
 
 def export_bill_of_materials(device: Device, path: Path) -> Path:
@@ -91,8 +94,8 @@ def _cells(row: BillRow) -> tuple[str, ...]:
         str(row.quantity),
         row.material,
         row.stock,
-        _grams(row.mass),
-        _grams(row.quantity * row.mass),
+        "" if row.mass is None else _grams(row.mass),
+        "" if row.mass is None else _grams(row.quantity * row.mass),
         row.source,
     )
 
@@ -148,6 +151,23 @@ def _housing(wheel: Flywheel) -> BillRow:
     outside = f"{_mm(2.0 * housing_outer_radius(radius))} x {_mm(housing_height(height))}"
     made = f"3-D print, wall {_mm(WALL)}, {_mm(CLEARANCE)} clear of the rim"
     return BillRow("housing", 2, "PETG", outside, housing_mass(radius, height), made)
+
+
+def _screws(device: Device) -> Iterator[BillRow]:
+    """Of wheel and motor, where the catalogue has their threads."""
+    mounting, web = device.motor.mounting, device.flywheel.web
+    if mounting is None:
+        return
+    if mounting.rotor is not None and web is not None:
+        yield _screw_row(mounting.rotor, web.hub.height, "wheel on rotor")
+    if mounting.stator is not None and mounting.stator_face is Face.OUTPUT:
+        yield _screw_row(mounting.stator, WALL + PLATE_THICKNESS, "motor on housing and foot")
+
+
+def _screw_row(circle: BoltCircle, thickness: float, purpose: str) -> BillRow:
+    name = screw(circle.thread).through(thickness)
+    mind = "not in the mass; check the depth of the motor's thread"
+    return BillRow(f"screw {name}", 2 * circle.bolts, "", "", None, f"{purpose}; {mind}")
 
 
 def _grams(mass: float) -> str:

@@ -11,10 +11,12 @@ from ocs_design.fasteners import screw
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.mesh import part_mesh
+from ocs_design.parts.mount import Mount, motor_mount
 from ocs_design.parts.part import Part
 from ocs_design.parts.stl import mesh_stl
 from ocs_design.parts.threemf import threemf_bytes
 from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.sizing.housing import WALL, housing_outer_radius
 
 LID_SCREW = "M2"
 
@@ -62,7 +64,7 @@ def export_printed(device: Device, folder: Path) -> str:
 
 
 def printed_parts(device: Device) -> tuple[Part, Part, Part]:
-    """Drum, lid and foot around one wheel; its motor's holes are drilled to the motor.
+    """Drum, lid and foot around one wheel, with the motor's holes where they are known and fit.
 
     Raises:
         PartError: they cannot be made.
@@ -73,8 +75,10 @@ def printed_parts(device: Device) -> tuple[Part, Part, Part]:
 
 def printed_foot(device: Device) -> Foot:
     """Of one module, with the housing that it carries."""
-    wheel = device.flywheel
-    return Foot(Housing(wheel.outer_radius, wheel.height, lid_screw=screw(LID_SCREW)))
+    wheel, mount = device.flywheel, motor_mount(device.motor.mounting)
+    if mount.reach > housing_outer_radius(wheel.outer_radius) - 2.0 * WALL:
+        mount = Mount()
+    return Foot(Housing(wheel.outer_radius, wheel.height, mount, screw(LID_SCREW)))
 
 
 def _weighed(parts: tuple[Part, ...], device: Device) -> str:

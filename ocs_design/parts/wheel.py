@@ -7,7 +7,7 @@ from math import inf, pi, sin
 from ocs_design.exceptions import PartError
 from ocs_design.parts.outline import circle, ring_of_points
 from ocs_design.parts.solids import Prism
-from ocs_design.sizing.web import HUB_WALL, LIGAMENT, WEB_THICKNESS
+from ocs_design.sizing.web import LIGAMENT
 
 CHAMFER = 0.3e-3
 """Of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""
@@ -15,9 +15,6 @@ CHAMFER = 0.3e-3
 CHAMFER_SHARE = 0.25
 """Of a chamfer in the rim's wall and height, at most: so half of each face stays."""
 
-
-HUB_HEIGHT = 6.0e-3
-"""[m]: one and a half times the diameter of a 4 mm shaft, so that the wheel sits straight."""
 
 ROUNDING = 1e-9
 """Of lengths that are as they must be at the least [m]: a thousandth of a micrometre."""
@@ -125,28 +122,6 @@ class Wheel:
     def one_piece(self) -> bool:
         """Whether it is turned from one material."""
         return self.hub is None or self.hub.material == self.rim.material
-
-
-def hub_radius(bore_radius: float, bolts: HoleRing | None) -> float:
-    """That leaves `HUB_WALL` around the bore, and around the bolts [m]."""
-    reach = 0.0 if bolts is None else bolts.radius + bolts.hole_radius
-    return max(bore_radius, reach) + HUB_WALL
-
-
-def hub_for(
-    rim: Rim, bore_radius: float, bolts: HoleRing | None, material: str, density: float
-) -> Hub:
-    """Of the usual sizes, and never higher than the rim."""
-    thickness = min(WEB_THICKNESS, rim.height - 2.0 * rim.made_chamfer)
-    return Hub(
-        web_thickness=thickness,
-        radius=hub_radius(bore_radius, bolts),
-        height=max(thickness, min(HUB_HEIGHT, rim.height)),
-        bore_radius=bore_radius,
-        material=material,
-        density=density,
-        bolts=bolts,
-    )
 
 
 def wheel_faults(wheel: Wheel) -> Iterator[str]:

@@ -10,9 +10,11 @@ from rich.console import Console
 from ocs_design.catalogue.gears import gears_to_json, known_gears
 from ocs_design.catalogue.materials import materials, materials_to_json
 from ocs_design.catalogue.motors import known_motors, motors_to_json
+from ocs_design.drive.motor import Motor
 from ocs_design.exceptions import UsageError
 from ocs_design.report.catalogue_tables import print_gears, print_materials, print_motors
 from ocs_design.report.layout import heading, items
+from ocs_design.report.threads import mounting_text
 
 MOST_NAMES = 8
 """That are spelt out before a source they share."""
@@ -33,6 +35,11 @@ class Row(Protocol):
 def _remark(row: Row) -> str:
     """What a reader of its figures must know; materials have none."""
     return str(getattr(row, "remark", ""))
+
+
+def _mounting(row: Row) -> str:
+    """Shaft and threads of a motor."""
+    return mounting_text(row.mounting) if isinstance(row, Motor) else ""
 
 
 @dataclass(frozen=True)
@@ -101,8 +108,8 @@ def _sources(rows: Sequence[Row], *, verbose: bool) -> Iterator[str]:
     """Each source with the entries that rest on it; with `verbose` each entry by itself."""
     if verbose:
         for row in rows:
-            remark = _remark(row)
-            yield f"{row.name}: {row.source}" + (f"; {remark}" if remark else "")
+            said = (row.source, _mounting(row), _remark(row))
+            yield f"{row.name}: " + "; ".join(part for part in said if part)
         return
     by_source: dict[str, list[str]] = {}
     for row in rows:

@@ -1,6 +1,5 @@
 """The story of a design in the terminal: what was read, asked, found, proved and written."""
 
-
 import numpy as np
 from rich.console import Console
 from rich.text import Text

@@ -1,12 +1,14 @@
 """The product of `size`, made once for all that open it."""
 
 import json
+import shutil
 import sys
 
 import pytest
 from commands import SOLO12, environment, run_process
 from exported import pinocchio_model
 from products import CASES, Product, device_of
+from renewed import sized
 
 
 @pytest.fixture(scope="session", params=CASES)
@@ -38,3 +40,10 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(sys.modules, "xacro", None)
     return tmp_path
+
+
+@pytest.fixture
+def solo12(folder):
+    """A design for a copy of Solo12 that tests may harm, in the working directory."""
+    shutil.copy(SOLO12, "solo12.urdf")
+    return sized("solo12.urdf")

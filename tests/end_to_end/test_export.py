@@ -11,46 +11,17 @@ from unittest import mock
 import mujoco
 import pytest
 import trimesh
-from commands import BOUND, BY_HAND, ROOT, SOLO12, everything_in, run
+from commands import BY_HAND, ROOT, SOLO12, everything_in, run
 from exported import MJCF, pinocchio_model
+from renewed import MADE, files_in, made_in, sized
 from robots import ROBOTS
 
-from ocs_design.export.formats import FORMATS, USUAL_FORMATS
-from ocs_design.parts import step
-
 HUMAN = next(ROBOTS.rglob("human.urdf"))
-MADE = ("cad", "robot", "snippets")
-QUICK = (*BOUND, "--no-validate", "-q")
 XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <link name="base"><inertial><mass value="2"/>
     <inertia ixx="0.03" iyy="0.05" izz="0.07" ixy="0" ixz="0" iyz="0"/></inertial>
     <visual><geometry><mesh filename="package://parts/cube.stl"/></geometry></visual></link>
 </robot>"""
-
-
-def files_in(folder):
-    """Content of every file below `folder`, by its path."""
-    paths = (path for path in Path(folder).rglob("*") if path.is_file())
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
-
-
-def made_in(folder):
-    """What `export` answers for."""
-    return {name: content for name, content in files_in(folder).items() if name.startswith(MADE)}
-
-
-def sized(*arguments, stdin=b""):
-    """A design in the folder `ocs` of the working directory."""
-    result = run("size", *arguments, *QUICK, "-o", "ocs", stdin=stdin)
-    assert result.code == 0, result.stderr
-    return Path("ocs")
-
-
-@pytest.fixture
-def solo12(folder):
-    """A design for a copy of Solo12 that tests may harm, in the working directory."""
-    shutil.copy(SOLO12, "solo12.urdf")
-    return sized("solo12.urdf")
 
 
 def test_every_file_is_what_size_wrote(product, folder):
@@ -170,57 +141,6 @@ def test_a_robot_from_standard_input_is_asked_for(folder):
     assert "--robot FILE" in result.said
     assert run("export", source, "-o", "again", "-q", "--robot", SOLO12).code == 0
     assert made_in("again") == made_in(source)
-
-
-@pytest.mark.parametrize("each", USUAL_FORMATS, ids=lambda each: each.name)
-def test_one_format_alone(solo12, each):
-    assert (
-        run("export", solo12 / "design.json", "-o", "again", "-q", "--formats", each.name).code == 0
-    )
-    again = made_in("again")
-    assert again
-    assert again.items() <= made_in(solo12).items()
-
-
-def test_what_is_written_on_request_alone(product, folder):
-    """For the printer and for CAD; what is printed is weighed against what the design counts."""
-    asked = ("--formats", "3mf,step,printed")
-    result = run("export", product.folder, "-o", "again", *asked)
-    assert result.code == 0, result.said
-    again = files_in("again")
-    parts = {f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")}
-    steps = {f"cad/{piece}.step" for piece in product.case.pieces}
-    made = {"cad/flywheel.3mf", "cad/housing.3mf", *parts, *steps}
-    assert set(again) == {"design.json", *made}
-    assert "foot's" in result.said
-    run("export", product.folder, "-o", "more", "-q", *asked)
-    assert files_in("more") == again
-
-
-def test_step_without_its_extra_is_a_missing_tool(solo12, monkeypatch):
-    monkeypatch.setattr(step, "find_spec", lambda _: None)
-    result = run("export", solo12, "-o", "again", "--formats", "step")
-    assert result.code == 5
-    assert "pip install 'ocs-design[step]'" in result.said
-    assert not Path("again").exists()
-
-
-def test_formats_are_listed_with_commas_or_one_by_one(solo12):
-    run("export", solo12, "-o", "a", "-q", "--formats", "stl,bom")
-    run("export", solo12, "-o", "b", "-q", "--formats", "bom", "--formats", "stl")
-    assert files_in("a") == files_in("b")
-    assert set(files_in("a")) == {
-        "design.json",
-        "cad/flywheel.stl",
-        "cad/bill_of_materials.csv",
-    }
-
-
-def test_an_unknown_format_is_wrong_usage(solo12):
-    result = run("export", solo12, "-o", "again", "--formats", "stl,dxf", "--json")
-    assert result.code == 2
-    assert "dxf" in result.document["error"]["message"]
-    assert all(each.name in result.document["error"]["hint"] for each in FORMATS)
 
 
 def test_parts_and_snippets_need_neither_simulator_nor_solver(solo12):

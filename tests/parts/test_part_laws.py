@@ -14,7 +14,7 @@ from ocs_design.parts.interference import overlap_volume, turning_clearance
 from ocs_design.parts.mesh import part_manifold
 from ocs_design.parts.mount import Mount
 from ocs_design.parts.part import Part
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, hub_for
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
 from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.robot.mass_properties import physical_defect
 from ocs_design.sizing.housing import CLEARANCE
@@ -48,7 +48,11 @@ def wheels(draw: st.DrawFn) -> Wheel:
         st.none() | st.builds(HoleRing, st.just(bore + 0.004), st.just(4), st.just(0.0012))
     )
     try:
-        return Wheel(rim, hub_for(rim, bore, bolts, "aluminium", ALUMINIUM))
+        thickness = min(1.5e-3, rim.height - 2.0 * rim.made_chamfer)
+        radius = max(bore, 0.0 if bolts is None else bolts.radius + bolts.hole_radius) + 2e-3
+        height = max(thickness, min(6e-3, rim.height))
+        hub = Hub(thickness, radius, height, bore, "aluminium", ALUMINIUM, bolts)
+        return Wheel(rim, hub)
     except PartError:
         assume(False)
         raise

@@ -11,7 +11,7 @@ from wheels import PAPER_WHEEL
 
 from ocs_design.exceptions import PartError
 from ocs_design.parts.part import total
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, hub_radius
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel
 from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.sizing.cylinder import cylinder_mass, cylinder_spin_inertia
 
@@ -101,11 +101,6 @@ def test_chamfer_leaves_half_of_each_face():
 def test_first_hole_is_straight_up():
     first = next(HoleRing(0.01, 4, 0.001).prisms(0.0, 1.0))
     np.testing.assert_allclose(first.outline.points.mean(axis=0), [0.0, -0.01], atol=1e-17)
-
-
-def test_hub_has_room_for_bore_and_bolts():
-    assert hub_radius(0.002, None) == pytest.approx(0.004)
-    assert hub_radius(0.002, HoleRing(0.008, 4, 0.0015)) == pytest.approx(0.0115)
 
 
 @pytest.mark.parametrize(

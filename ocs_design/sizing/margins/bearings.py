@@ -36,7 +36,5 @@ def _moment(
     own = wheel.body.transverse_inertia
     excess = (wheel.axial_inertia - own) * along
     momentum = excess + wheel.spin_inertia * wheel_speed
-    moment = own * across + momentum[:, None] * np.cross(
-        motion.rate, axis
-    )
+    moment = own * across + momentum[:, None] * np.cross(motion.rate, axis)
     return np.asarray(np.linalg.norm(moment, axis=1))

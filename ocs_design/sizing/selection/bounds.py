@@ -79,6 +79,15 @@ class RimFloor:
         return np.where(beyond, np.inf, np.stack(rows))
 
 
+def _narrowest_hub(problem: SelectionProblem) -> float:
+    """Radius that no wheel's hub is below, on whichever motor and gear [m]."""
+    if not problem.web:
+        return 0.0
+    return min(
+        hub_of(motor, direct=direct).radius for motor in problem.motors for direct in (True, False)
+    )
+
+
 @dataclass(frozen=True)
 class Cell:
     """A range of incidences [rad]; a single one if both are equal."""

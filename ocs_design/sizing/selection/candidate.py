@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.slew_profile import slew_profile
 from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
-from ocs_design.drive.gear import Gear
+from ocs_design.drive.gear import DIRECT, Gear
 from ocs_design.drive.line import (
     DriveLine,
     armature,
@@ -111,7 +111,8 @@ def drive_table(problem: SelectionProblem, pairs: NDArray[np.intp]) -> DriveTabl
 
 def _figures(problem: SelectionProblem, motor: Motor, gear: Gear) -> tuple[float, ...]:
     line, carrier = drive_line(motor, gear, problem.bus_voltage), drive_carrier(motor, gear)
-    rotor, hub = motor.rotor_inertia or 0.0, hub_of(motor, direct=gear == DIRECT) if problem.web else NO_HUB
+    hub = hub_of(motor, direct=gear == DIRECT) if problem.web else NO_HUB
+    rotor = motor.rotor_inertia or 0.0
     return (
         carrier.mass + hub.mass,
         carrier.axial_inertia,

@@ -1,0 +1,116 @@
+"""Shaft and threads of motors: what may be stated, and what is refused."""
+
+import json
+
+import pytest
+
+from ocs_design.catalogue.motors import load_motors, motor, motors, motors_to_json
+from ocs_design.drive.mounting import BoltCircle, Face, Mounting
+from ocs_design.exceptions import SpecificationError
+from ocs_design.report.threads import mounting_text
+
+WHOLE = {
+    "name": "M",
+    "maker": "me",
+    "source": "bench",
+    "diameter_m": 0.05,
+    "shaft_diameter_m": 0.005,
+    "rotor_bolt_circle_m": 0.017,
+    "rotor_bolts": 3,
+    "rotor_thread": "M3",
+    "stator_bolt_circle_m": 0.025,
+    "stator_bolts": 4,
+    "stator_thread": "M2.5",
+    "stator_face": "output",
+}
+MOUNTING = Mounting(0.005, BoltCircle(0.017, 3, "M3"), BoltCircle(0.025, 4, "M2.5"), Face.OUTPUT)
+
+
+def stated(**changes):
+    return {key: value for key, value in (WHOLE | changes).items() if value is not None}
+
+
+def toml(cells):
+    return "[[motor]]\n" + "\n".join(f"{key} = {value!r}" for key, value in cells.items())
+
+
+def csv(cells):
+    return f"{','.join(cells)}\n{','.join(str(value) for value in cells.values())}\n"
+
+
+@pytest.fixture
+def load(tmp_path):
+    def write_and_load(text, suffix):
+        path = tmp_path / f"mine{suffix}"
+        path.write_text(text)
+        return load_motors(path)["M"]
+
+    return write_and_load
+
+
+@pytest.mark.parametrize(("write", "suffix"), [(toml, ".toml"), (csv, ".csv")])
+def test_both_formats_say_the_same(load, write, suffix):
+    assert load(write(stated()), suffix).mounting == MOUNTING
+
+
+def test_each_part_may_stand_alone(load):
+    nothing = dict.fromkeys(key for key in WHOLE if key.startswith(("shaft", "rotor", "stator")))
+    assert load(toml(stated(**nothing)), ".toml").mounting is None
+    shaft = nothing | {"shaft_diameter_m": 0.005}
+    assert load(toml(stated(**shaft)), ".toml").mounting == Mounting(0.005)
+
+
+FAULTS = {
+    "no thread": ({"rotor_thread": None}, "rotor_bolt_circle_m.* belong together: no rotor_thread"),
+    "only a number": (
+        {"stator_bolt_circle_m": None, "stator_thread": None, "stator_face": None},
+        "no stator_bolt_circle_m, stator_thread",
+    ),
+    "two bolts": ({"rotor_bolts": 2}, "rotor_bolts is 2; it must be 3 or more"),
+    "one bolt": ({"stator_bolts": 1}, "stator_bolts is 1; it must be 2 or more"),
+    "half a bolt": ({"rotor_bolts": 3.5}, "rotor_bolts: 3.5 is not a whole number"),
+    "no bolts": ({"rotor_bolts": 0}, "rotor_bolts: 0 is not positive"),
+    "inch thread": ({"rotor_thread": "4-40"}, "rotor_thread is '4-40', which is none of M2, M2.5"),
+    "wide circle": ({"rotor_bolt_circle_m": 0.05}, "0.05, but the motor is only 0.05 m wide"),
+    "thick shaft": ({"shaft_diameter_m": 0.06}, "shaft_diameter_m is 0.06, but the motor is only"),
+    "shaft between": ({"shaft_diameter_m": 0.0117}, "leave less than 1 mm to the shaft"),
+    "many bolts": ({"rotor_bolts": 13}, "13 holes for M3 leave less than 1 mm between them"),
+    "no face": ({"stator_face": None}, "stator_face and the stator's bolt circle"),
+    "wrong face": ({"stator_face": "front"}, "'front' is none of output, back"),
+}
+
+
+@pytest.mark.parametrize(("changes", "message"), FAULTS.values(), ids=FAULTS)
+def test_what_cannot_be_is_refused_whatever_the_remark(load, changes, message):
+    with pytest.raises(SpecificationError, match=message) as caught:
+        load(toml(stated(remark="so it is", **changes)), ".toml")
+    assert "(M)" in str(caught.value)
+
+
+def test_the_edges_of_what_can_be_made_pass(load):
+    """Of M3 on 17 mm, 3.4 mm holes: 1 mm is left to a shaft of 11.6 mm, and between 11 screws."""
+    edge = load(toml(stated(shaft_diameter_m=0.0116 - 1e-9, rotor_bolts=11)), ".toml").mounting
+    assert edge.rotor.inside - edge.shaft_diameter / 2.0 == pytest.approx(1e-3, abs=1e-9)
+    assert 1e-3 < edge.rotor.spacing < 1.4e-3
+
+
+def test_how_many_rows_know_what():
+    known = [found.mounting for found in motors().values() if found.mounting is not None]
+    assert sum(found.shaft_diameter is not None for found in known) == 71
+    assert sum(found.rotor is not None for found in known) == 5
+    assert sum(found.stator is not None for found in known) == 9
+
+
+def test_rows_with_threads_say_where_they_are_from():
+    for found in motors().values():
+        mounting = found.mounting
+        if mounting is not None and (mounting.rotor or mounting.stator):
+            assert "threads: " in found.source, found.name
+
+
+def test_it_is_in_the_json_and_in_words():
+    (row,) = json.loads(motors_to_json([motor("MN5212 KV340")]))["motors"]
+    assert row["mounting"]["rotor"] == {"diameter": 0.017, "bolts": 3, "thread": "M3"}
+    said = mounting_text(motor("MN5212 KV340").mounting)
+    assert said == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"
+    assert mounting_text(None) == ""

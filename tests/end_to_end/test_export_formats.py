@@ -1,0 +1,61 @@
+"""`export --formats`: which files are written, alone and on request."""
+
+from pathlib import Path
+
+import pytest
+from commands import run
+from renewed import files_in, made_in
+
+from ocs_design.export.formats import FORMATS, USUAL_FORMATS
+from ocs_design.parts import step
+
+
+@pytest.mark.parametrize("each", USUAL_FORMATS, ids=lambda each: each.name)
+def test_one_format_alone(solo12, each):
+    assert (
+        run("export", solo12 / "design.json", "-o", "again", "-q", "--formats", each.name).code == 0
+    )
+    again = made_in("again")
+    assert again
+    assert again.items() <= made_in(solo12).items()
+
+
+def test_what_is_written_on_request_alone(product, folder):
+    """For the printer and for CAD; what is printed is weighed against what the design counts."""
+    asked = ("--formats", "3mf,step,printed")
+    result = run("export", product.folder, "-o", "again", *asked)
+    assert result.code == 0, result.said
+    again = files_in("again")
+    parts = {f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")}
+    steps = {f"cad/{piece}.step" for piece in product.case.pieces}
+    made = {"cad/flywheel.3mf", "cad/housing.3mf", *parts, *steps}
+    assert set(again) == {"design.json", *made}
+    assert "foot's" in result.said
+    run("export", product.folder, "-o", "more", "-q", *asked)
+    assert files_in("more") == again
+
+
+def test_step_without_its_extra_is_a_missing_tool(solo12, monkeypatch):
+    monkeypatch.setattr(step, "find_spec", lambda _: None)
+    result = run("export", solo12, "-o", "again", "--formats", "step")
+    assert result.code == 5
+    assert "pip install 'ocs-design[step]'" in result.said
+    assert not Path("again").exists()
+
+
+def test_formats_are_listed_with_commas_or_one_by_one(solo12):
+    run("export", solo12, "-o", "a", "-q", "--formats", "stl,bom")
+    run("export", solo12, "-o", "b", "-q", "--formats", "bom", "--formats", "stl")
+    assert files_in("a") == files_in("b")
+    assert set(files_in("a")) == {
+        "design.json",
+        "cad/flywheel.stl",
+        "cad/bill_of_materials.csv",
+    }
+
+
+def test_an_unknown_format_is_wrong_usage(solo12):
+    result = run("export", solo12, "-o", "again", "--formats", "stl,dxf", "--json")
+    assert result.code == 2
+    assert "dxf" in result.document["error"]["message"]
+    assert all(each.name in result.document["error"]["hint"] for each in FORMATS)

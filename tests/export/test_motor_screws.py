@@ -1,0 +1,105 @@
+"""What a known motor mounting makes of bill, design file, drawing and printed parts."""
+
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+
+import pytest
+from wheels import EC45, PAPER_WHEEL, driven_device
+
+from ocs_design.catalogue.motors import motor
+from ocs_design.design import Web
+from ocs_design.design_file import design_to_json, read_design
+from ocs_design.drive.mounting import BoltCircle, Face, Mounting
+from ocs_design.export.bill_of_materials import bill_rows, export_bill_of_materials
+from ocs_design.export.made_wheel import made_wheel
+from ocs_design.export.workshop import printed_parts
+from ocs_design.parts.mount import motor_mount
+from ocs_design.sizing.carrier import Carrier
+from ocs_design.sizing.housing import DENSITY, WALL
+from ocs_design.sizing.web import WEB_DENSITY, WEB_MATERIAL, WEB_THICKNESS, hub_of, web_mass
+
+OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
+MN5212 = motor("MN5212 KV340")
+FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
+
+
+def device_on(mounting):
+    """The paper's rim on a web with the hub that such a motor needs."""
+    hub = hub_of(replace(MN5212, mounting=mounting))
+    mass = web_mass(PAPER_WHEEL.inner_radius) + hub.mass
+    web = Web(WEB_MATERIAL, WEB_DENSITY, WEB_THICKNESS, mass, hub)
+    wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web)
+    drive = replace(EC45, mounting=mounting)
+    return replace(
+        driven_device(drive=drive, carrier=Carrier(EC45.mass, 1e-4, 1e-4)), flywheel=wheel
+    )
+
+
+def test_screws_are_listed_without_a_mass_and_the_sum_is_the_device_s(tmp_path):
+    device = device_on(MN5212.mounting)
+    *parts, screws = bill_rows(device)
+    assert (screws.part, screws.quantity, screws.mass) == ("screw ISO 4762 M3 x 8", 6, None)
+    assert "not in the mass" in screws.source
+    assert sum(2 * part.mass for part in parts) == pytest.approx(device.mass, rel=1e-12)
+    lines = export_bill_of_materials(device, tmp_path / "bill.csv").read_text().splitlines()
+    assert lines[-2].startswith("screw ISO 4762 M3 x 8,6,,,,,")
+    assert lines[-1] == f"total,,,,,{1e3 * device.mass:.3f},"
+
+
+def test_a_motor_that_is_not_known_has_no_screws():
+    assert not [row for row in bill_rows(device_on(None)) if row.part.startswith("screw")]
+
+
+def test_screws_of_a_motor_with_threads_beside_its_shaft_go_through_floor_and_foot():
+    """1.6 mm and 5 mm, and 3 mm of thread: 9.6 mm."""
+    row = bill_rows(device_on(FLAT))[-1]
+    assert (row.part, row.quantity) == ("screw ISO 4762 M3 x 10", 8)
+
+
+def test_the_wheel_is_drilled_for_the_motor():
+    hub = made_wheel(device_on(MN5212.mounting).flywheel).hub
+    assert (hub.bolts.count, 2.0 * hub.bolts.radius) == (3, pytest.approx(0.017))
+    assert 2.0 * hub.bore_radius == 0.004
+
+
+def test_mounting_comes_back_from_the_design_file(tmp_path):
+    design, device = read_design(OLD), device_on(MN5212.mounting)
+    ocs = replace(design.ocs, motor=device.motor, flywheel=device.flywheel)
+    (tmp_path / "design.json").write_bytes(design_to_json(replace(design, ocs=ocs)))
+    again = read_design(tmp_path / "design.json").ocs
+    assert again.motor.mounting == MN5212.mounting
+    assert again.flywheel == device.flywheel
+
+
+def test_floor_and_foot_get_the_motor_s_holes():
+    plain, drilled = (printed_parts(device_on(found)) for found in (None, FLAT))
+    mount = motor_mount(FLAT)
+    area = pi * (mount.pilot_radius**2 + 4 * 0.0017**2)
+    lost = [
+        before.mass_properties().mass - after.mass_properties().mass
+        for before, after in zip(plain, drilled, strict=True)
+    ]
+    assert lost[0] == pytest.approx(DENSITY * area * WALL, rel=1e-9)
+    assert lost[1] == 0.0
+    assert lost[2] > 0.0
+
+
+def test_the_hole_in_the_middle_leaves_a_wall_to_the_screws():
+    assert motor_mount(FLAT).pilot_radius == pytest.approx(0.01 - 0.0017 - WALL)
+    tight = replace(FLAT, shaft_diameter=0.0141)
+    room = (0.01 - 0.0017 - 0.0141 / 2.0) / 2.0
+    assert motor_mount(tight).pilot_radius == pytest.approx(0.0141 / 2.0 + room)
+
+
+@pytest.mark.parametrize("mounting", [None, MN5212.mounting, Mounting(0.004)])
+def test_without_threads_beside_the_shaft_nothing_is_drilled(mounting):
+    assert motor_mount(mounting).reach == 0.0
+
+
+def test_screws_that_are_too_far_out_for_the_housing_are_left_to_the_user():
+    wide = replace(FLAT, stator=BoltCircle(0.062, 4, "M3"))
+    plain, drilled = (printed_parts(device_on(found)) for found in (None, wide))
+    assert [part.mass_properties().mass for part in plain] == [
+        part.mass_properties().mass for part in drilled
+    ]
