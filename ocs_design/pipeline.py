@@ -21,6 +21,7 @@ from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import NO_MOTOR, Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
+from ocs_design.robot.obstacles.obstacles import forget_obstacles
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress
@@ -98,13 +99,13 @@ def design_ocs(
             stated=specification.ocs.position is not None,
             strict=strict,
         )
+        forget_obstacles()
         step.note = _what_was_sized(designed)
     with steps.step("plan the maneuvers"):
         plans = _plan(robot, designed, resolved)
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
-            subject = Subject.of(robot, device, safe_name(robot.name))
-            remarks = export_formats(subject, USUAL_FORMATS, staging)
+            remarks = _write_formats(robot, device, staging)
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         runs: tuple[Run, ...] = ()
         if specification.validation.enabled is not False:
@@ -135,6 +136,12 @@ def load_solvers(specification: Specification) -> None:
         load_solver()
     else:
         import_module("ocs_design.planning")
+
+
+def _write_formats(robot: Robot, device: Device, folder: Path) -> tuple[str, ...]:
+    """What is to be told of the files; the model that they are written from is let go of."""
+    subject = Subject.of(robot, device, safe_name(robot.name))
+    return export_formats(subject, USUAL_FORMATS, folder)
 
 
 def _what_was_sized(designed: Designed) -> str:

@@ -96,7 +96,7 @@ def test_the_wheel_is_no_larger_than_asked_for(solved):
     found = selection.best
     asked = max(demand.spin_inertia for demand in found.demands)
     assert found.residual < 1e-9
-    if "h_min" not in found.binding:
+    if not {"h_min", "web"} & set(found.binding):
         assert found.spin_inertia == pytest.approx(asked, rel=1e-8)
         assert found.binding_maneuver in {demand.source for demand in found.demands}
 
@@ -154,7 +154,7 @@ def test_a_rate_change_alone():
     shares = np.array([np.sin(found.incidence), np.cos(found.incidence)])
     expected = inertia / (2.0 * shares * speed)
     np.testing.assert_allclose([roll.spin_inertia, pitch.spin_inertia], expected, rtol=1e-9)
-    if "h_min" not in found.binding:
+    if not {"h_min", "web"} & set(found.binding):
         assert roll.spin_inertia == pytest.approx(pitch.spin_inertia, rel=1e-3)
 
 

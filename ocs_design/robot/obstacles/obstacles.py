@@ -179,3 +179,8 @@ def _frame_about(axis: FloatArray) -> FloatArray:
 def obstacles_of(robot: Robot) -> Obstacles:
     """Made once for a robot: the hulls of its meshes take most of the time."""
     return Obstacles(robot)
+
+
+def forget_obstacles() -> None:
+    """Let go of the last robot's: large meshes take hundreds of megabytes."""
+    obstacles_of.cache_clear()
