@@ -23,7 +23,7 @@ Evaluate = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 _DIFFERENCE = 1e-6
 _PENALTY = 1e3
 _ROUNDS = 80
-_SMALLEST = 1e-11
+_SMALLEST = 1e-9
 _GROW, _SHRINK = 2.0, 0.35
 # Of what the linear programme promised.
 _POOR, _GOOD = 0.1, 0.7
@@ -117,14 +117,17 @@ def _step(
     gains as much as it should.
     """
     straight = _linear_step(model, model.limits, room, reach)
-    _, behind = evaluate((point + straight)[None])
+    promised = model.promised(straight)
+    value, behind = evaluate((point + straight)[None])
+    least = _merit(float(value[0]), behind[0])
+    if model.merit - least > max(_GOOD * promised, 0.0):
+        return straight, promised
     bent = _linear_step(model, behind[0] - model.slopes @ straight, room, reach)
-    values, limits = evaluate(np.stack([point + straight, point + bent]))
-    merits = [_merit(float(value), each) for value, each in zip(values, limits, strict=True)]
-    promised, gained = model.promised(straight), model.merit - min(merits)
-    if gained <= max(_POOR * promised, 0.0):
+    value, limits = evaluate((point + bent)[None])
+    corrected = _merit(float(value[0]), limits[0])
+    if model.merit - min(least, corrected) <= max(_POOR * promised, 0.0):
         return None, promised
-    return (straight, bent)[int(np.argmin(merits))], promised
+    return (bent if corrected < least else straight), promised
 
 
 def _merit(value: float, limits: FloatArray) -> float:

@@ -53,8 +53,8 @@ class _Around(NamedTuple):
 
 # Each time a little beyond the neighbours of the best so far: first over shares of all radii...
 _COARSE = (_Around(1.0, 7, 1), _Around(0.4, 7, 1), _Around(0.15, 7, 1))
-# ... then over what they are, for few with more points at once, as calls of numpy cost the same.
-_CLOSER = (_Around(0.1, 7, 3), _Around(0.04, 7, 3), _Around(0.016, 11, 5), _Around(6e-3, 11, 5))
+# ... then over what they are, flatness too.
+_CLOSER = tuple(_Around(span, 7, 3) for span in (0.1, 0.04, 0.016, 6e-3))
 # Over what is not possible yet is given up.
 _HOPELESS = 0.01
 # By how much the mass may fall as the design is closed in on, over the span.
