@@ -42,6 +42,7 @@ def lay_out(wheel: Wheel) -> Layout:
     """Both views side by side, in the middle of the room that they have."""
 
     def fits(scale: Scale) -> bool:
+        """Whether both views have room at that scale."""
         across, wide = scale(2.0 * wheel.rim.outer_radius), scale(widest(wheel))
         return across <= TALLEST and across + wide <= _ROOM
 

@@ -57,6 +57,7 @@ def _smallest_by_mass(full: FloatArray, limits: RimLimits) -> FloatArray:
     start = (wall + np.sqrt(np.maximum(2.0 * light - wall**2, 0.0))) / 2.0
 
     def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Of what the largest mass has with the least wall, and its slope."""
         inner = radius - wall
         value = mass * (radius**2 + inner**2) + web * inner**4 - full
         return value, 2.0 * mass * (radius + inner) + 4.0 * web * inner**3
@@ -72,6 +73,7 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     wall, web = np.asarray(limits.wall_min), np.asarray(limits.web)
 
     def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Of what the flattest rim with the least wall has, and its slope."""
         inner = radius - wall
         value = flat * radius**4 - (flat - web) * inner**4 - full
         return value, 4.0 * (flat * radius**3 - (flat - web) * inner**3)

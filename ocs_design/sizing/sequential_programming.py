@@ -55,6 +55,7 @@ class _Model:
 
     @property
     def merit(self) -> float:
+        """Value and penalty."""
         return _merit(self.value, self.limits)
 
     def promised(self, step: FloatArray) -> float:
@@ -73,6 +74,7 @@ class _Room(NamedTuple):
     def around(
         cls, point: FloatArray, low: FloatArray, high: FloatArray, trust: FloatArray
     ) -> "_Room":
+        """What bounds and trust region leave around a point."""
         return cls(np.maximum(low - point, -trust), np.minimum(high - point, trust))
 
 

@@ -264,3 +264,13 @@ def test_turned_maneuvers_have_no_say_in_the_incidence():
     assert {demand.source: demand.incidence for demand in found.demands}["flip"] == 0.0
     # Only roll is asked for at the design's own.
     assert found.incidence > 0.5
+
+
+def test_where_no_rim_fits_at_all_none_is_said_to():
+    """A rotor's inertia alone is no wheel."""
+    problem = random_problem(0)
+    room = replace(problem.envelope, wall_min=2.0 * problem.envelope.outer_radius_max)
+    with pytest.raises(Infeasible) as caught:
+        select(replace(problem, envelope=room), advise=False)
+    assert "no rim fits at all" in str(caught.value)
+    assert caught.value.largest_spin_inertia == 0.0

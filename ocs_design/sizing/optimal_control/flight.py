@@ -75,6 +75,7 @@ class _Model:
 
     @classmethod
     def of(cls, gyrostat: Gyrostat) -> "_Model":
+        """Factored once for a flight."""
         matrix = gyrostat.mass_matrix
         return cls(matrix[:3], np.asarray(np.linalg.inv(matrix), dtype=np.float64))
 

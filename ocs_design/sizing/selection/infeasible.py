@@ -118,14 +118,17 @@ class _Slowed(Maneuver):
     factor: float
 
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
+        """As of the whole."""
         return self.whole.momentum(inertia, standing_height)
 
     def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
+        """The same turn in its own time."""
         slew = self.whole.slew(inertia, standing_height)
         return replace(slew, duration=slew.duration * self.factor)
 
     @property
     def summary(self) -> str:
+        """The whole, and its time."""
         return f"{self.whole.summary}, in {self.factor:.4g} times the time"
 
 

@@ -103,8 +103,14 @@ def _rejection(problem: SelectionProblem, tried: Attempt, row: int, angle: int) 
         detail=f"{detail} ({gear.name})",
         shortfall=min(float(tried.late[row, angle]), beyond) - 1.0,
         needed=needed if np.isfinite(needed) else None,
-        largest=max(float(tried.largest[row]), 0.0),
+        largest=_largest(tried, row),
     )
+
+
+def _largest(tried: Attempt, row: int) -> float:
+    """Spin inertia of the largest wheel that fits [kg m^2]; 0 where not even a rim does."""
+    largest = float(tried.largest[row])
+    return largest if largest > float(tried.drives.beside_rim[row]) else 0.0
 
 
 def _reason(
@@ -121,7 +127,8 @@ def _reason(
     weak = part.reason[row, angle] == SlewReason.TORQUE
     if np.isfinite(needed) and not weak:
         light = needed > tried.weighty[row]
-        room = f"{wheel}, {max(float(tried.largest[row]), 0.0):.3g} fits"
+        largest = _largest(tried, row)
+        room = f"{wheel}, " + (f"{largest:.3g} fits" if largest > 0.0 else "and no rim fits at all")
         return Reason.ENVELOPE if light else Reason.MASS, room
     best = f"{late * part.time:.3g} s at best" if np.isfinite(late) else "never in time"
     detail = f"{best} for {part.name}, {part.time:.3g} s given"
