@@ -69,11 +69,17 @@ def size(name, out, *options):
     return process.returncode, json.loads(streams[0].read_text())
 
 
-@pytest.mark.slow
+CASES = [(name, ()) for name in DRIVEN[::2]] + [
+    (name, ("--motor", "none")) for name in [*DRIVEN[1::2], *BARE]
+]
+
+
 @pytest.mark.parametrize(
     ("name", "options"),
-    [(name, ()) for name in DRIVEN[::2]]
-    + [(name, ("--motor", "none")) for name in [*DRIVEN[1::2], *BARE]],
+    [
+        pytest.param(*case, marks=pytest.mark.exhaustive if index % 4 else pytest.mark.slow)
+        for index, case in enumerate(CASES)
+    ],
 )
 def test_size_ends_with_a_design_and_its_proof(name, options, tmp_path):
     out = tmp_path / "out"
@@ -87,7 +93,7 @@ def test_size_ends_with_a_design_and_its_proof(name, options, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(TOO_HEAVY)[::3])
+@pytest.mark.parametrize("name", sorted(TOO_HEAVY)[::6])
 def test_what_no_motor_turns_is_told_what_is_missing(name, tmp_path):
     code, document = size(name, tmp_path / "out")
     error = document["error"]
