@@ -105,6 +105,8 @@ def _driven_motor(wheel: DrivenWheel, line: DriveLine) -> Motor:
         gear_mass=gear.mass,
         bus_voltage=wheel.bus_voltage,
         rated_voltage=motor.rated_voltage,
+        diameter=motor.diameter,
+        length=motor.length,
         speed_max=_finite(float(line.speed_max)),
         armature=armature(rotor, gear),
         torque_constant=motor.torque_constant,

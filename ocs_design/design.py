@@ -108,6 +108,7 @@ class Motor:
         gear_mass: [kg].
         bus_voltage: [V].
         rated_voltage: that the motor is made for [V].
+        diameter, length: of its body [m].
         speed_max: mechanical, of wheel, gear and motor [rad/s].
         armature: what the motor accelerates beyond the spin inertia of the wheel, at the wheel
             [kg m^2]; 0 without a gear.
@@ -135,6 +136,8 @@ class Motor:
     resistance: float | None = None
     continuous_torque: float | None = None
     rated_voltage: float | None = None
+    diameter: float | None = None
+    length: float | None = None
     mounting: Mounting | None = None
 
 

@@ -4,6 +4,8 @@ from ocs_design.design import Device, Flywheel, Module
 from ocs_design.export.inertials import Inertial, carrier_inertial, flywheel_inertial
 from ocs_design.export.motor import highest_speed, largest_torque
 from ocs_design.export.naming import carrier_name, flywheel_name, joint_name
+from ocs_design.export.standing import plain_standing_visuals, standing_visuals
+from ocs_design.export.standing_text import visuals_urdf
 from ocs_design.export.templates import fill, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_rpy
 from ocs_design.robot.robot import Mount
@@ -33,12 +35,14 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
     Args:
         device: to write.
         parent: link that carries it; its frame is the base frame B.
-        mesh: reference to the wheel's mesh in metres; without one it looks like a cylinder.
+        mesh: reference to the wheel's mesh in metres, with those of `standing_meshes` beside it;
+            without one all looks like cylinders and boxes.
     """
     return "".join(_module_urdf(device, module, parent, mesh) for module in device.modules)
 
 
 def _module_urdf(device: Device, module: Module, parent: str, mesh: str | None) -> str:
+    look = plain_standing_visuals if mesh is None else standing_visuals
     place = {
         "parent": quoted(parent),
         "position": numbers(module.position),
@@ -58,18 +62,22 @@ def _module_urdf(device: Device, module: Module, parent: str, mesh: str | None) 
             "collision": cylinder_urdf(device.flywheel),
         },
     )
-    return wheel + carrier_urdf(device, {**place, "link": carrier_name(module)})
+    visuals = visuals_urdf(look(device, module))
+    return wheel + carrier_urdf(device, {**place, "link": carrier_name(module)}, visuals)
 
 
-def carrier_urdf(device: Device, place: dict[str, str]) -> str:
-    """What stands still as a fixed link without shape; nothing if it is massless.
+def carrier_urdf(device: Device, place: dict[str, str], visuals: str) -> str:
+    """What stands still as a fixed link; nothing if it is massless.
 
     Args:
         device: to write.
         place: `link`, `parent`, `position` and `rpy`, ready to stand in XML.
+        visuals: its elements to look at.
     """
     carrier = carrier_inertial(device)
-    return "" if carrier is None else fill("carrier.urdf", {**place, **inertial_values(carrier)})
+    if carrier is None:
+        return ""
+    return fill("carrier.urdf", {**place, **inertial_values(carrier), "visuals": visuals})
 
 
 def inertial_values(inertial: Inertial) -> dict[str, str]:

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from ocs_design.catalogue.motors import motors
 from ocs_design.design import Device
 from ocs_design.export.rendering import Scene, render_views
 from ocs_design.export.robot_model import RobotModel
+from ocs_design.export.standing import MOTOR, PRINT, SHELL, Color, motor_in_place
 from ocs_design.export.workshop import printed_foot, printed_parts
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.mesh import Mesh, part_mesh, solid_mesh
@@ -19,13 +19,8 @@ from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Placement
 
-Color = tuple[float, float, float, float]
-
 STEEL: Color = (0.55, 0.57, 0.6, 1.0)
 ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
-SHELL: Color = (0.25, 0.45, 0.75, 0.3)
-PRINT: Color = (0.25, 0.45, 0.75, 1.0)
-MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
 
 _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
 """Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""
@@ -117,12 +112,11 @@ def _carrier(device: Device) -> list[Shown]:
 
 
 def _motor(device: Device, foot: Foot) -> list[Shown]:
-    """It stands outside, on the foot's plate."""
-    motor = motors().get(device.motor.name)
-    if motor is None or motor.diameter is None or motor.length is None:
+    found = motor_in_place(device, foot)
+    if found is None:
         return []
-    body = hollow_cylinder(0.0, motor.diameter / 2.0, -foot.back - motor.length, -foot.back)
-    return [Shown(solid_mesh(body), MOTOR)]
+    radius, low, high = found
+    return [Shown(solid_mesh(hollow_cylinder(0.0, radius, low, high)), MOTOR)]
 
 
 def _placed(mesh: Mesh, place: Placement) -> Mesh:

@@ -10,6 +10,8 @@ from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
 from ocs_design.export.motor import highest_speed, largest_torque
 from ocs_design.export.naming import carrier_name, flywheel_name, joint_name
 from ocs_design.export.seat import Seat, trunk_link
+from ocs_design.export.standing import plain_standing_visuals
+from ocs_design.export.standing_text import visuals_sdf
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_rpy
 from ocs_design.robot.robot import Mount
@@ -60,7 +62,9 @@ def _module(device: Device, module: Module, place: dict[str, str]) -> str:
     link = carrier_name(module)
     # Unlike in URDF, a link and a joint of a model may not share a name.
     names = {"link": link, "joint": f"{link}_fixed"}
-    return wheel + fill("carrier.sdf", {**placed, **inertial_values(carrier), **names})
+    visuals = visuals_sdf(plain_standing_visuals(device, module))
+    values = {**placed, **inertial_values(carrier), **names, "visuals": visuals}
+    return wheel + fill("carrier.sdf", values)
 
 
 def _outline(wheel: Flywheel) -> dict[str, str]:

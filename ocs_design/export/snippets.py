@@ -32,6 +32,8 @@ from ocs_design.export.naming import (
 from ocs_design.export.ros2_control import MOCK_PLUGIN, ros2_control_urdf
 from ocs_design.export.seat import Seat, trunk_link
 from ocs_design.export.snippet_sdf import export_snippet_sdf
+from ocs_design.export.standing import Visual, plain_standing_visuals
+from ocs_design.export.standing_text import visuals_urdf
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_placement
 from ocs_design.robot.rotations import rpy_from_rotation
@@ -87,11 +89,21 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
         "right_position": numbers(right.position),
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
-        "carrier": indent(carrier_urdf(device, _MACRO_PLACE), "  "),
+        "carrier": indent(carrier_urdf(device, _MACRO_PLACE, _macro_visuals(device)), "  "),
         "plugin": MOCK_PLUGIN,
         "ros2_control": indent(_macro_ros2_control(device), "    "),
     }
     return _write(path, fill("ocs.urdf.xacro", values))
+
+
+def _macro_visuals(device: Device) -> str:
+    """Of the side that the macro's argument names."""
+    left, right = (visuals_urdf(plain_standing_visuals(device, each)) for each in device.modules)
+    is_left = "value=\"${side == 'left'}\""
+    return (
+        f"    <xacro:if {is_left}>\n{left}    </xacro:if>\n"
+        f"    <xacro:unless {is_left}>\n{right}    </xacro:unless>\n"
+    )
 
 
 def _macro_ros2_control(device: Device) -> str:
@@ -143,7 +155,22 @@ def _module_mjcf(device: Device, module: Module) -> str:
     if carrier is None:
         return turning
     name = carrier_name(module).removeprefix(PREFIX)
-    return turning + fill("carrier.xml", {**place, **inertial_values(carrier), "body": name})
+    geoms = "".join(_geom_mjcf(visual) for visual in plain_standing_visuals(device, module))
+    values = {**place, **inertial_values(carrier), "body": name, "geoms": geoms}
+    return turning + fill("carrier.xml", values)
+
+
+def _geom_mjcf(visual: Visual) -> str:
+    return fill(
+        "visual.xml",
+        {
+            "type": visual.kind.value,
+            "position": numbers(visual.place.position),
+            "quaternion": numbers(quaternion(visual.place.rotation)),
+            "size": numbers(visual.size),
+            "color": numbers(visual.color),
+        },
+    )
 
 
 def _motor_mjcf(device: Device, module: Module) -> str:

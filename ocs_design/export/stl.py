@@ -3,11 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
-
 from ocs_design.design import Flywheel
 from ocs_design.export.made_wheel import made_wheel
-from ocs_design.parts.mesh import Mesh, part_mesh
+from ocs_design.parts.mesh import Mesh, part_mesh, together
 from ocs_design.parts.stl import METRES, MILLIMETRES, mesh_stl
 from ocs_design.parts.wheel_parts import wheel_parts
 
@@ -27,21 +25,10 @@ def stl_bytes(flywheel: Flywheel, *, units_per_metre: float) -> bytes:
         flywheel: a bore of zero makes its rim a disc.
         units_per_metre: STL has no unit; `MILLIMETRES` for printing, `METRES` for robot files.
     """
-    whole = _together(list(wheel_meshes(flywheel).values()))
+    whole = together(list(wheel_meshes(flywheel).values()))
     return mesh_stl(whole, "flywheel", units_per_metre=units_per_metre)
 
 
 def wheel_meshes(flywheel: Flywheel) -> Mapping[str, Mesh]:
     """Each piece as it is made, by its name."""
     return {part.name: part_mesh(part) for part in wheel_parts(made_wheel(flywheel))}
-
-
-def _together(meshes: list[Mesh]) -> Mesh:
-    """Several closed surfaces in one."""
-    counts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    return Mesh(
-        np.concatenate([mesh.vertices for mesh in meshes]),
-        np.concatenate(
-            [mesh.triangles + start for mesh, start in zip(meshes, counts, strict=False)]
-        ),
-    )

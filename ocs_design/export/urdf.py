@@ -1,14 +1,17 @@
 """The whole robot with its device as a URDF."""
 
+from collections.abc import Mapping
 from pathlib import Path, PurePath
 
 from ocs_design.design import Device
 from ocs_design.export.device_urdf import device_urdf, mount_urdf
 from ocs_design.export.insertion import insert_before_end
 from ocs_design.export.naming import carrier_names, flywheel_names, joint_names, require_free
-from ocs_design.export.stl import METRES, export_stl
+from ocs_design.export.standing import standing_meshes
+from ocs_design.export.stl import METRES, stl_bytes
 from ocs_design.export.templates import in_comment
 from ocs_design.export.tree_urdf import tree_urdf
+from ocs_design.parts.stl import mesh_stl
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.stance.base_frame import BASE_FRAME
@@ -19,7 +22,7 @@ WHEEL_MESH = "meshes/ocs_flywheel.stl"
 
 
 def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
-    """Write the robot with both flywheels on its trunk, and the wheel's mesh beside it.
+    """Write the robot with both flywheels on its trunk, and its meshes beside it.
 
     A URDF robot stays as it is byte for byte, its references to meshes too: those relative to the
     file hold only where the file stood. Other robots are written from what was read.
@@ -44,7 +47,7 @@ def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
     if robot.mount is not None and robot.format is Format.URDF:
         elements = mount_urdf(robot.mount) + elements
     path.write_bytes(insert_before_end(content, heading + elements))
-    export_wheel_mesh(device, path.parent)
+    _export_meshes(device, path.parent)
     return path
 
 
@@ -62,8 +65,18 @@ def urdf_remarks(robot: Robot) -> tuple[str, ...]:
     )
 
 
-def export_wheel_mesh(device: Device, folder: Path) -> Path:
-    """Write the wheel in metres where the robot files in `folder` look for it."""
-    path = folder / WHEEL_MESH
-    path.parent.mkdir(exist_ok=True)
-    return export_stl(device.flywheel, path, units_per_metre=METRES)
+def device_meshes(device: Device) -> Mapping[Path, bytes]:
+    """The wheel, and what stands still, in metres, where the robot files look for them."""
+    wheel = {Path(WHEEL_MESH): stl_bytes(device.flywheel, units_per_metre=METRES)}
+    standing = {
+        path: mesh_stl(mesh, path.stem, units_per_metre=METRES)
+        for path, mesh in standing_meshes(device).items()
+    }
+    return {**wheel, **standing}
+
+
+def _export_meshes(device: Device, folder: Path) -> None:
+    for place, content in device_meshes(device).items():
+        path = folder / place
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(content)

@@ -1,6 +1,8 @@
 """Closed triangle meshes of parts."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -68,6 +70,17 @@ def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
     return Mesh(
         np.asarray(found.vert_properties, dtype=np.float64),
         np.asarray(found.tri_verts, dtype=np.int64),
+    )
+
+
+def together(meshes: Sequence[Mesh]) -> Mesh:
+    """Several closed surfaces in one."""
+    starts = accumulate((len(mesh.vertices) for mesh in meshes), initial=0)
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate(
+            [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)]
+        ),
     )
 
 

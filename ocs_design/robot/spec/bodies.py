@@ -25,7 +25,7 @@ _JOINT_TYPES = {
     JointKind.REVOLUTE: mujoco.mjtJoint.mjJNT_HINGE,
     JointKind.PRISMATIC: mujoco.mjtJoint.mjJNT_SLIDE,
 }
-_GEOM_TYPES = {
+GEOM_TYPES = {
     ShapeKind.BOX: mujoco.mjtGeom.mjGEOM_BOX,
     ShapeKind.SPHERE: mujoco.mjtGeom.mjGEOM_SPHERE,
     ShapeKind.CYLINDER: mujoco.mjtGeom.mjGEOM_CYLINDER,
@@ -113,7 +113,7 @@ def _add_geoms(body: mujoco.MjsBody, shapes: Sequence[Shape], meshes: MeshLibrar
     group_of_touching = HIDDEN_GROUP if wanted and shown == wanted else 0
     for shape in drawn:
         geom = body.add_geom(
-            type=_GEOM_TYPES[shape.kind],
+            type=GEOM_TYPES[shape.kind],
             pos=shape.position,
             quat=quaternion(shape.rotation),
         )
