@@ -16,7 +16,8 @@ from ocs_design.drive.gear import DIRECT
 from ocs_design.export.workshop import printed_foot
 from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
 from ocs_design.parts.housing import housing_parts
-from ocs_design.parts.mesh import Mesh, part_mesh, together
+from ocs_design.parts.mesh import Mesh, part_mesh
+from ocs_design.parts.part import Part
 from ocs_design.robot.tree import Placement, ShapeKind
 
 HOUSING_MESH, FOOT_MESH = Path("meshes/ocs_housing.stl"), Path("meshes/ocs_foot.stl")
@@ -112,8 +113,11 @@ def motor_in_place(device: Device, foot: Foot) -> tuple[float, float, float] | N
 @lru_cache(maxsize=1)
 def _meshes(foot: Foot) -> Mapping[Path, Mesh]:
     """Every robot file asks for them."""
-    housing = together([part_mesh(part, SECTIONS) for part in housing_parts(foot.housing)])
-    return {HOUSING_MESH: housing, FOOT_MESH: part_mesh(foot_part(foot), SECTIONS)}
+    drum, lid = housing_parts(foot.housing)
+    # As one, for faces that they share would be seen through the shell.
+    housing = Part("housing", drum.density, drum.joined + lid.joined, drum.cut + lid.cut)
+    parts = {HOUSING_MESH: housing, FOOT_MESH: foot_part(foot)}
+    return {path: part_mesh(part, SECTIONS) for path, part in parts.items()}
 
 
 def _motor(device: Device, foot: Foot, turn: Placement) -> Iterator[Visual]:

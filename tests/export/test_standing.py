@@ -1,0 +1,276 @@
+"""Housing, foot and motor in every robot file, read again by MuJoCo, Pinocchio and trimesh."""
+
+from dataclasses import replace
+from xml.etree import ElementTree as ET
+
+import mujoco
+import numpy as np
+import pinocchio as pin
+import pytest
+import trimesh
+from robots import ROBOTS, SOLO12
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+from seats import TRUNK, TrunkOnly, expanded
+from wheels import EC45, driven_device, geared, paper_device
+
+from ocs_design.drive.mounting import BoltCircle, Face, Mounting
+from ocs_design.export.glb import export_robot_glb
+from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.robot_model import robot_model
+from ocs_design.export.snippet_sdf import export_snippet_sdf
+from ocs_design.export.snippets import (
+    export_snippet_mjcf,
+    export_snippet_urdf,
+    export_snippet_xacro,
+)
+from ocs_design.export.standing import plain_standing_visuals, standing_visuals
+from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.export.workshop import printed_foot, printed_parts
+from ocs_design.parts.mesh import part_mesh
+from ocs_design.robot.reader import read_robot
+
+ALPHA, LENGTH = np.radians(25.0), 0.021
+FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
+DRIVE = replace(EC45, diameter=0.043, length=LENGTH, mounting=FLAT)
+DEVICE = driven_device(ALPHA, DRIVE)
+FOOT = printed_foot(DEVICE)
+LEFT, RIGHT = DEVICE.modules
+MIRROR = np.array([1.0, -1.0, 1.0])
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return read_robot(SOLO12)
+
+
+@pytest.fixture(scope="module")
+def folder(robot, tmp_path_factory):
+    """All files of the robot with the device, and nothing else."""
+    folder = tmp_path_factory.mktemp("robot")
+    model = robot_model(robot, DEVICE)
+    export_robot_mjcf(model, folder / "robot.xml")
+    export_robot_urdf(robot, DEVICE, folder / "robot.urdf")
+    export_robot_glb(model.compiled, robot.posture, folder / "robot.glb")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def clouds(folder):
+    """Corners of each visual in the base frame [m], as MuJoCo has them, by side and what it is."""
+    model = mujoco.MjModel.from_xml_path(str(folder / "robot.xml"))
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    base, found = data.site("ocs_imu"), {}
+    for side in ("left", "right"):
+        body = model.body(f"ocs_{side}_motor")
+        for geom in range(int(body.geomadr[0]), int(body.geomadr[0] + body.geomnum[0])):
+            assert (model.geom_contype[geom], model.geom_conaffinity[geom]) == (0, 0)
+            corners = corners_of(model, geom) @ data.geom_xmat[geom].reshape(3, 3).T
+            placed = corners + data.geom_xpos[geom] - base.xpos
+            found[side, name_of(model, geom)] = placed @ base.xmat.reshape(3, 3)
+    return found
+
+
+def name_of(model, geom):
+    mesh = model.geom_dataid[geom]
+    return model.mesh(mesh).name if mesh >= 0 else "motor"
+
+
+def corners_of(model, geom):
+    mesh = model.geom_dataid[geom]
+    if mesh < 0:
+        radius, half, _ = model.geom_size[geom]
+        return np.array(
+            [[x, y, z] for x in (0, radius) for y in (0, radius) for z in (-half, half)]
+        )
+    first = model.mesh_vertadr[mesh]
+    return model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(float)
+
+
+def test_the_parts_stand_around_the_left_wheel_as_their_own_frames_say(clouds):
+    """Drum and lid in the wheel's frame, z along its axis and y down; the foot's z is up."""
+    level = np.cross(LEFT.axis, [0.0, 0.0, 1.0])
+    forward = level if level[0] > 0.0 else -level
+    wheel = np.column_stack([forward, np.cross(LEFT.axis, forward), LEFT.axis])
+    assert np.linalg.det(wheel) == pytest.approx(1.0)
+    drum, lid, foot = (part_mesh(part, 64).vertices for part in printed_parts(DEVICE))
+    shell = np.concatenate([drum, lid]) @ wheel.T + LEFT.position
+    check_same_points(clouds["left", "ocs_housing"], shell)
+    upright = np.column_stack([forward, LEFT.axis, [0.0, 0.0, 1.0]])
+    underside = LEFT.position - [0.0, 0.0, FOOT.wheel_height]
+    check_same_points(clouds["left", "ocs_foot"], foot @ upright.T + underside)
+
+
+def check_same_points(ours, theirs):
+    """Each of ours is one of theirs within what single precision keeps."""
+    distance, _ = cKDTree(theirs).query(ours)
+    assert distance.max() < 1e-8
+    np.testing.assert_allclose(np.ptp(ours, axis=0), np.ptp(theirs, axis=0), atol=1e-8)
+
+
+def test_right_is_the_mirror_image_of_left(folder):
+    """By volume, centre and inertia in the base frame: triangles are not the mirrored ones."""
+    solids = {}
+    for module in DEVICE.modules:
+        mesh = trimesh.load_mesh(folder / "meshes" / "ocs_housing.stl")
+        places = {each.name: each.place for each in standing_visuals(DEVICE, module)}
+        mesh.apply_transform(wheel_of(module) @ homogeneous(places["housing"]))
+        solids[module.name] = mesh
+    left, right = solids["left"], solids["right"]
+    np.testing.assert_allclose(right.center_mass, left.center_mass * MIRROR, atol=1e-6)
+    mirrored = left.moment_inertia * np.outer(MIRROR, MIRROR)
+    np.testing.assert_allclose(
+        right.moment_inertia, mirrored, atol=1e-4 * np.trace(left.moment_inertia)
+    )
+
+
+def homogeneous(place):
+    return np.vstack([np.column_stack([place.rotation, place.position]), [0, 0, 0, 1]])
+
+
+def test_both_motors_stand_on_the_plates_towards_each_other(clouds):
+    for module in DEVICE.modules:
+        inwards = -module.axis * np.sign(module.axis[1] * module.position[1])
+        along = (clouds[module.name, "motor"] - module.position) @ inwards
+        np.testing.assert_allclose([along.min(), along.max()], [FOOT.back, FOOT.back + LENGTH])
+
+
+def test_pinocchio_sees_the_same_places(folder):
+    model = pin.buildModelFromUrdf(str(folder / "robot.urdf"), pin.JointModelFreeFlyer())
+    seen = pin.buildGeomFromUrdf(
+        model,
+        str(folder / "robot.urdf"),
+        pin.GeometryType.VISUAL,
+        package_dirs=[str(folder), str(ROBOTS.parents[1])],
+    )
+    data, frames = model.createData(), seen.createData()
+    pin.updateGeometryPlacements(model, data, seen, frames, pin.neutral(model))
+    pin.updateFramePlacements(model, data)
+    trunk = data.oMf[model.getFrameId(TRUNK, pin.FrameType.BODY)]
+    for module in DEVICE.modules:
+        visuals = standing_visuals(DEVICE, module)
+        for index, visual in enumerate(visuals):
+            which = seen.getGeometryId(f"ocs_{module.name}_motor_{index}")
+            place = trunk.actInv(frames.oMg[which])
+            expected = wheel_of(module) @ homogeneous(visual.place)
+            np.testing.assert_allclose(place.homogeneous, expected, rtol=0.0, atol=1e-12)
+            color = seen.geometryObjects[which].meshColor
+            np.testing.assert_allclose(color, visual.color)
+        names = [object_.name for object_ in seen.geometryObjects]
+        assert sum(name.startswith(f"ocs_{module.name}_motor_") for name in names) == len(visuals)
+
+
+def wheel_of(module):
+    """Frame of a wheel in B, whose y is down, as a homogeneous matrix."""
+    down = np.array([0.0, 0.0, -1.0])
+    place = np.eye(4)
+    place[:3, :3] = np.column_stack([np.cross(down, module.axis), down, module.axis])
+    place[:3, 3] = module.position
+    return place
+
+
+def test_meshes_are_closed_small_and_in_metres(folder):
+    for name, width in (("housing", 2.0 * FOOT.housing.radius), ("foot", 2.0 * FOOT.base_radius)):
+        mesh = trimesh.load_mesh(folder / "meshes" / f"ocs_{name}.stl")
+        assert mesh.is_watertight
+        assert mesh.extents[0] == pytest.approx(width, rel=0.02)
+        assert len(mesh.faces) < 3000
+
+
+def test_the_glb_has_them_under_the_motors_links(folder):
+    scene = trimesh.load_scene(folder / "robot.glb")
+    children = scene.graph.transforms.children
+    for side in ("left", "right"):
+        assert len(children[f"ocs_{side}_motor"]) == len(standing_visuals(DEVICE, LEFT)) == 3
+
+
+def placed_by_urdf(text, side):
+    """Geometry and place of each visual of a side's motor."""
+    link = ET.fromstring(text).find(f"link[@name='ocs_{side}_motor']")
+    for visual in link.findall("visual"):
+        origin, shape = visual.find("origin"), visual.find("geometry")[0]
+        rpy = [float(word) for word in origin.get("rpy").split()]
+        rotation = Rotation.from_euler("xyz", rpy).as_matrix()
+        numbers = [float(word) for word in " ".join(shape.attrib.values()).split()]
+        position = [float(word) for word in origin.get("xyz").split()]
+        yield shape.tag, sorted(numbers), rotation, position
+
+
+def placed_by_sdf(path, side):
+    link = ET.parse(path).find(f"model/link[@name='ocs_{side}_motor']")
+    for visual in link.findall("visual"):
+        pose = [float(word) for word in visual.findtext("pose").split()]
+        rotation = Rotation.from_euler("xyz", pose[3:]).as_matrix()
+        shape = visual.find("geometry")[0]
+        numbers = [float(word) for child in shape for word in child.text.split()]
+        yield shape.tag, sorted(numbers), rotation, pose[:3]
+
+
+def placed_as_designed(module):
+    for visual in plain_standing_visuals(DEVICE, module):
+        size = [2.0 * each for each in visual.size]
+        if visual.kind == "cylinder":
+            size = [visual.size[0], 2.0 * visual.size[1]]
+        yield visual.kind.value, sorted(size), visual.place.rotation, visual.place.position
+
+
+def check_equal(ours, theirs):
+    ours, theirs = list(ours), list(theirs)
+    assert len(ours) == 5
+    for (kind, *numbers), (other, *others) in zip(ours, theirs, strict=True):
+        assert kind == other
+        for one, two in zip(numbers, others, strict=True):
+            np.testing.assert_allclose(one, two, rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("module", DEVICE.modules, ids=("left", "right"))
+def test_snippets_have_boxes_and_cylinders_in_their_places(module, tmp_path):
+    seat, expected = TrunkOnly(), list(placed_as_designed(module))
+    text = export_snippet_urdf(DEVICE, seat, tmp_path / "ocs.urdf").read_text()
+    check_equal(placed_by_urdf(text, module.name), expected)
+    export_snippet_xacro(DEVICE, seat, tmp_path / "ocs.urdf.xacro")
+    text = expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>')
+    check_equal(placed_by_urdf(text, module.name), expected)
+    path = export_snippet_sdf(DEVICE, seat, tmp_path / "ocs.sdf")
+    check_equal(placed_by_sdf(path, module.name), expected)
+    path = export_snippet_mjcf(DEVICE, seat, tmp_path / "ocs.xml")
+    model = mujoco.MjModel.from_xml_path(str(path))
+    body = model.body(f"{module.name}_motor")
+    geoms = range(int(body.geomadr[0]), int(body.geomadr[0] + body.geomnum[0]))
+    for geom, (_, _, rotation, position) in zip(geoms, expected, strict=True):
+        matrix = np.empty(9)
+        mujoco.mju_quat2Mat(matrix, model.geom_quat[geom])
+        np.testing.assert_allclose(matrix.reshape(3, 3), rotation, atol=1e-14)
+        np.testing.assert_allclose(model.geom_pos[geom], position, atol=1e-14)
+        assert (model.geom_contype[geom], model.geom_conaffinity[geom]) == (0, 0)
+
+
+def test_boxes_and_cylinders_are_as_large_as_the_meshes():
+    *_, foot = printed_parts(DEVICE)
+    mesh, boxes = part_mesh(foot).vertices, []
+    for visual in plain_standing_visuals(DEVICE, LEFT):
+        if visual.name == "foot":
+            place = FOOT.placement.inverse() @ visual.place
+            half = visual.size
+            if visual.kind == "cylinder":
+                half = (visual.size[0], visual.size[0], visual.size[1])
+            reach = np.abs(place.rotation) @ half
+            boxes += [place.position - reach, place.position + reach]
+    np.testing.assert_allclose(np.min(boxes, axis=0), mesh.min(axis=0), atol=2e-5)
+    np.testing.assert_allclose(np.max(boxes, axis=0), mesh.max(axis=0), atol=2e-5)
+
+
+@pytest.mark.parametrize(
+    "drive", [replace(DRIVE, length=None), replace(geared(1.5), diameter=0.043, length=LENGTH)]
+)
+def test_a_motor_of_unknown_size_or_place_is_left_out(drive):
+    names = [visual.name for visual in standing_visuals(driven_device(ALPHA, drive), LEFT)]
+    assert names == ["housing", "foot"]
+
+
+def test_what_weighs_nothing_is_not_shown(robot, tmp_path):
+    assert standing_visuals(paper_device(), LEFT) == ()
+    text = export_robot_urdf(robot, paper_device(), tmp_path / "robot.urdf").read_text()
+    assert "ocs_housing" not in text
+    assert [path.name for path in (tmp_path / "meshes").iterdir()] == ["ocs_flywheel.stl"]
