@@ -110,7 +110,10 @@ class MountingRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class OcsRecord:
-    """The device. `mass_total` is of both modules; `total_...` of robot and braked device."""
+    """The device. `mass_total` is of both modules; `total_...` of robot and braked device.
+
+    `fitting` is what is left to do by hand: see `export.fitting`.
+    """
 
     incidence: float
     incidence_criterion: str
@@ -128,6 +131,7 @@ class OcsRecord:
     motor: Motor
     carrier: Carrier = NO_CARRIER
     warnings: tuple[str, ...] = ()
+    fitting: tuple[str, ...] = ()
     mounting: MountingRecord | None = None
 
 

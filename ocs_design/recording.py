@@ -27,6 +27,7 @@ from ocs_design.design_file import (
 )
 from ocs_design.designing import Designed
 from ocs_design.device_warnings import device_warnings
+from ocs_design.export.fitting import fitting_remarks
 from ocs_design.margin_recording import record_margins
 from ocs_design.mounting import Clearance, Mounting
 from ocs_design.requirement.bound import SpinDemand
@@ -144,6 +145,7 @@ def _ocs(
         motor=device.motor,
         carrier=device.carrier,
         warnings=(*device_warnings(device, robot.mass), *warnings),
+        fitting=fitting_remarks(device),
         mounting=None if mounting is None else _mounting(mounting),
     )
 

@@ -36,6 +36,7 @@ class MotorSheet:
         continuous_torque_nm: that the winding stands for good.
         rotor_inertia_kg_m2: of the rotor.
         shaft_diameter_m: where it comes out of the motor on the wheel's side.
+        shaft_length_m: by which it stands out there, from the face that the motor is mounted by.
         rotor_bolt_circle_m, rotor_bolts, rotor_thread: threads in what turns, on the wheel's side:
             diameter of their circle, number, and size such as M3.
         stator_bolt_circle_m, stator_bolts, stator_thread: the same in what stands still, on its
@@ -67,6 +68,7 @@ class MotorSheet:
     continuous_torque_nm: float | None = None
     rotor_inertia_kg_m2: float | None = None
     shaft_diameter_m: float | None = None
+    shaft_length_m: float | None = None
     rotor_bolt_circle_m: float | None = None
     rotor_bolts: int | None = None
     rotor_thread: str | None = None
@@ -105,7 +107,9 @@ class MotorSheet:
     @property
     def mounting(self) -> Mounting | None:
         """None if nothing of it is stated."""
-        found = Mounting(self.shaft_diameter_m, self.rotor, self.stator, self.stator_face)
+        found = Mounting(
+            self.shaft_diameter_m, self.rotor, self.stator, self.stator_face, self.shaft_length_m
+        )
         return None if found == Mounting() else found
 
     def motor(self) -> Motor:
@@ -190,6 +194,7 @@ MOTOR_COLUMNS: Mapping[str, Reader] = {
     "continuous_torque_nm": positive,
     "rotor_inertia_kg_m2": positive,
     "shaft_diameter_m": positive,
+    "shaft_length_m": positive,
     "rotor_bolt_circle_m": positive,
     "rotor_bolts": whole,
     "rotor_thread": text,

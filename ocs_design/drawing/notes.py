@@ -9,7 +9,14 @@ from ocs_design.drawing.labels import plain
 from ocs_design.drawing.layout import MARGIN_LEFT
 from ocs_design.drawing.sheet import Item, Text, wrapped
 from ocs_design.drawing.tables import BLOCK_LEFT
-from ocs_design.drawing.wheel import Seat, WheelDrawing, rim_inertia_error, seat
+from ocs_design.drawing.wheel import (
+    BROKEN_EDGE,
+    Seat,
+    WheelDrawing,
+    lost_by_breaking,
+    rim_inertia_error,
+    seat,
+)
 from ocs_design.parts.wheel import Hub, Wheel
 
 LEFT, TOP = MARGIN_LEFT + 3.0, 145.0
@@ -62,11 +69,15 @@ def _balance(drawing: WheelDrawing) -> str:
 
 
 def _edges(wheel: Wheel) -> str:
-    broken = "edges without indication broken 0.2."
-    chamfer = wheel.rim.made_chamfer
-    if chamfer == 0.0:
-        return broken.capitalize()
-    return f"Edges of the rim {plain(chamfer)} × 45°; {broken}"
+    chamfer, broken = (
+        wheel.rim.made_chamfer,
+        f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
+    )
+    if chamfer > 0.0:
+        return f"Edges of the rim {plain(chamfer)} × 45°; {broken}."
+    mass, share = lost_by_breaking(wheel)
+    lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
+    return f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."
 
 
 def _seat(wheel: Wheel) -> str:

@@ -1,6 +1,6 @@
 """What a drawing of a wheel shows, SI."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 
@@ -51,6 +51,10 @@ class WheelDrawing:
         return total(wheel_parts(self.wheel))
 
 
+BROKEN_EDGE = 0.2e-3
+"""Of edges without indication, at 45 degrees [m]."""
+
+
 def seat(wheel: Wheel) -> Seat:
     """How the rim is held."""
     if wheel.hub is None:
@@ -61,6 +65,16 @@ def seat(wheel: Wheel) -> Seat:
 def widest(wheel: Wheel) -> float:
     """Largest extent along the axis [m]."""
     return max(wheel.rim.height, 0.0 if wheel.hub is None else wheel.hub.height)
+
+
+def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:
+    """What breaking the rim's sharp edges takes: mass [kg], and share of the wheel's inertia."""
+    sharp, broken = (
+        total(wheel_parts(Wheel(replace(wheel.rim, chamfer=chamfer, balancing=None))))
+        for chamfer in (0.0, BROKEN_EDGE)
+    )
+    whole = total(wheel_parts(wheel)).inertia[2, 2]
+    return sharp.mass - broken.mass, float((sharp.inertia - broken.inertia)[2, 2] / whole)
 
 
 def rim_inertia_error(wheel: Wheel) -> float:

@@ -30,6 +30,10 @@ class BoltCircle:
     bolts: int
     thread: str
 
+    def __str__(self) -> str:
+        """For people, as in `4 x M3 on 25 mm`."""
+        return f"{self.bolts} x {self.thread} on {1e3 * self.diameter:.4g} mm"
+
     @property
     def radius(self) -> float:
         """Of the circle [m]."""
@@ -66,9 +70,11 @@ class Mounting:
         shaft_diameter: of the shaft where it comes out of the motor on the wheel's side [m].
         rotor: threads in what turns, on the wheel's side.
         stator: threads in what stands still. stator_face: where they are.
+        shaft_length: by which the shaft stands out there, from the motor's face [m].
     """
 
     shaft_diameter: float | None = None
     rotor: BoltCircle | None = None
     stator: BoltCircle | None = None
     stator_face: Face | None = None
+    shaft_length: float | None = None

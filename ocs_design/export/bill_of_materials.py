@@ -8,9 +8,8 @@ from pathlib import Path
 
 from ocs_design.design import Device, Flywheel, Motor, Web
 from ocs_design.drive.gear import DIRECT
-from ocs_design.drive.mounting import BoltCircle, Face
-from ocs_design.fasteners import screw
-from ocs_design.parts.foot import PLATE_THICKNESS
+from ocs_design.export.fastenings import fastenings
+from ocs_design.export.fitting import standing_remarks
 from ocs_design.sizing.housing import (
     CLEARANCE,
     WALL,
@@ -38,31 +37,33 @@ class BillRow:
     Attributes:
         part: what it is. material: of what. stock: what to cut it from, mm.
         quantity: in the whole device.
-        mass: of one [kg]; None: not counted in the device's.
+        mass: of one [kg].
         source: where it is from, or what to mind.
+        counted: whether it is in the device's mass.
     """
 
     part: str
     quantity: int
     material: str
     stock: str
-    mass: float | None
+    mass: float
     source: str
+    counted: bool = True
 
 
 def bill_rows(device: Device) -> Sequence[BillRow]:
-    """All parts that the device holds; those with a mass together weigh what it weighs."""
+    """All parts that the device holds; those that are counted weigh what it weighs."""
     wheel, motor = device.flywheel, device.motor
     rows = list(_wheel(wheel))
     if motor.mass > 0.0:
-        supply = "" if motor.bus_voltage is None else f"on {motor.bus_voltage:g} V; "
-        rows.append(BillRow(f"motor {motor.name}", 2, "", "", motor.mass, supply + motor.source))
+        rows.append(_motor(device))
     if motor.gear != DIRECT.name:
         rows.append(_gear(motor))
     standing = device.carrier.mass - motor.mass - motor.gear_mass
-    if standing > _MASSLESS:
+    printed = standing > _MASSLESS
+    if printed:
         rows.append(_housing(wheel))
-    return [*rows, *_screws(device)]
+    return [*rows, *_screws(device, printed=printed)]
 
 
 def export_bill_of_materials(device: Device, path: Path) -> Path:
@@ -78,7 +79,7 @@ def export_bill_of_materials(device: Device, path: Path) -> Path:
         writer.writerow(COLUMNS)
         for row in rows:
             writer.writerow([plain(cell) for cell in _cells(row)])
-        writer.writerow(["total", "", "", "", "", _grams(device.mass), ""])
+        writer.writerow(["total", "", "", "", "", _grams(device.mass), _not_counted(rows)])
     return path
 
 
@@ -94,10 +95,22 @@ def _cells(row: BillRow) -> tuple[str, ...]:
         str(row.quantity),
         row.material,
         row.stock,
-        "" if row.mass is None else _grams(row.mass),
-        "" if row.mass is None else _grams(row.quantity * row.mass),
+        _grams(row.mass),
+        _grams(row.quantity * row.mass),
         row.source,
     )
+
+
+def _not_counted(rows: Sequence[BillRow]) -> str:
+    beside = sum(row.quantity * row.mass for row in rows if not row.counted)
+    return f"as designed, without the screws' {_grams(beside)} g" if beside else "as designed"
+
+
+def _motor(device: Device) -> BillRow:
+    motor = device.motor
+    supply = () if motor.bus_voltage is None else (f"on {motor.bus_voltage:g} V",)
+    told = "; ".join([*supply, motor.source, *standing_remarks(device)])
+    return BillRow(f"motor {motor.name}", 2, "", "", motor.mass, told)
 
 
 def _wheel(wheel: Flywheel) -> Iterator[BillRow]:
@@ -153,21 +166,17 @@ def _housing(wheel: Flywheel) -> BillRow:
     return BillRow("housing", 2, "PETG", outside, housing_mass(radius, height), made)
 
 
-def _screws(device: Device) -> Iterator[BillRow]:
-    """Of wheel and motor, where the catalogue has their threads."""
-    mounting, web = device.motor.mounting, device.flywheel.web
-    if mounting is None:
-        return
-    if mounting.rotor is not None and web is not None:
-        yield _screw_row(mounting.rotor, web.hub.height, "wheel on rotor")
-    if mounting.stator is not None and mounting.stator_face is Face.OUTPUT:
-        yield _screw_row(mounting.stator, WALL + PLATE_THICKNESS, "motor on housing and foot")
-
-
-def _screw_row(circle: BoltCircle, thickness: float, purpose: str) -> BillRow:
-    name = screw(circle.thread).through(thickness)
-    mind = "not in the mass; check the depth of the motor's thread"
-    return BillRow(f"screw {name}", 2 * circle.bolts, "", "", None, f"{purpose}; {mind}")
+def _screws(device: Device, *, printed: bool) -> Iterator[BillRow]:
+    for each in fastenings(device, printed=printed):
+        yield BillRow(
+            part=f"screw {each.screw.designation(each.length)}",
+            quantity=2 * each.count,
+            material="steel",
+            stock="",
+            mass=each.screw.mass(each.length),
+            source=f"{each.purpose}; not in the device's mass",
+            counted=False,
+        )
 
 
 def _grams(mass: float) -> str:

@@ -34,6 +34,9 @@ PLATE_SHARE = 0.5
 
 TRUNK_SCREW = screw("M3")
 
+TRUNK_SCREW_COUNT = 2
+"""Through a slot each."""
+
 HALF_SWING = pi / 4.0
 """Of each slot to both sides of the wheel's axis [rad]: incidence 0..90 degrees.
 

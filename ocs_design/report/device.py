@@ -32,7 +32,7 @@ def print_device(console: Console, design: OcsDesign) -> None:
     heading(console, "Device: two flywheels" + ("" if ocs.motor.bus_voltage else ", no motors yet"))
     facts(console, [*_wheel(design), *_masses(design), *_drive(ocs.motor), *_stand(ocs)])
     print_warnings(console, ocs.warnings)
-    items(console, could_hit(ocs), style="yellow")
+    items(console, (*could_hit(ocs), *ocs.fitting), style="yellow")
     if _beyond_its_rating(ocs.motor):
         note(console, _OVERRATED.format(motor=ocs.motor), style="yellow")
     table = columns("incidence by criterion", "deg", "robot alone")

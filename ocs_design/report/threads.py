@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from ocs_design.drive.mounting import BoltCircle, Mounting
+from ocs_design.drive.mounting import Mounting
 from ocs_design.units import format_quantity
 
 
@@ -13,12 +13,10 @@ def mounting_text(mounting: Mounting | None) -> str:
 
 def _clauses(mounting: Mounting) -> Iterator[str]:
     if mounting.shaft_diameter is not None:
-        yield f"shaft {format_quantity(mounting.shaft_diameter, 'mm')}"
+        length = mounting.shaft_length
+        by = "" if length is None else f" x {format_quantity(length, 'mm')}"
+        yield f"shaft {format_quantity(mounting.shaft_diameter, 'mm')}{by}"
     if mounting.rotor is not None:
-        yield f"rotor {_circle(mounting.rotor)}"
+        yield f"rotor {mounting.rotor}"
     if mounting.stator is not None:
-        yield f"stator {_circle(mounting.stator)} ({mounting.stator_face})"
-
-
-def _circle(circle: BoltCircle) -> str:
-    return f"{circle.bolts} x {circle.thread} on {format_quantity(circle.diameter, 'mm')}"
+        yield f"stator {mounting.stator} ({mounting.stator_face})"

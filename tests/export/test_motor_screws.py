@@ -36,25 +36,45 @@ def device_on(mounting):
     )
 
 
-def test_screws_are_listed_without_a_mass_and_the_sum_is_the_device_s(tmp_path):
+def housed(mounting):
+    """With something that is printed."""
+    return replace(device_on(mounting), carrier=Carrier(EC45.mass + 0.02, 1e-4, 1e-4))
+
+
+def screws(device):
+    """Length by what they hold."""
+    rows = [row for row in bill_rows(device) if row.part.startswith("screw")]
+    return {row.source.split(";")[0]: (row.part, row.quantity) for row in rows}
+
+
+def test_screws_are_beside_the_mass_of_the_device(tmp_path):
     device = device_on(MN5212.mounting)
-    *parts, screws = bill_rows(device)
-    assert (screws.part, screws.quantity, screws.mass) == ("screw ISO 4762 M3 x 8", 6, None)
-    assert "not in the mass" in screws.source
+    *parts, screw = bill_rows(device)
+    assert (screw.part, screw.quantity) == ("screw ISO 4762 M3 x 8", 6)
+    assert not screw.counted
     assert sum(2 * part.mass for part in parts) == pytest.approx(device.mass, rel=1e-12)
     lines = export_bill_of_materials(device, tmp_path / "bill.csv").read_text().splitlines()
-    assert lines[-2].startswith("screw ISO 4762 M3 x 8,6,,,,,")
-    assert lines[-1] == f"total,,,,,{1e3 * device.mass:.3f},"
+    assert lines[-2].startswith("screw ISO 4762 M3 x 8,6,steel,,0.8")
+    beside = f"{6e3 * screw.mass:.3f}"
+    said = f'total,,,,,{1e3 * device.mass:.3f},"as designed, without the screws\' {beside} g"'
+    assert lines[-1] == said
 
 
 def test_a_motor_that_is_not_known_has_no_screws():
-    assert not [row for row in bill_rows(device_on(None)) if row.part.startswith("screw")]
+    assert screws(device_on(None)) == {}
+
+
+def test_lids_and_feet_have_theirs():
+    """4 ears and 1.6 mm of lid with twice the diameter in plastic; 2 slots and 3 mm of base."""
+    assert screws(housed(None)) == {
+        "lid on drum, which is tapped": ("screw ISO 4762 M2 x 6", 8),
+        "foot on trunk": ("screw ISO 4762 M3 x 6", 4),
+    }
 
 
 def test_screws_of_a_motor_with_threads_beside_its_shaft_go_through_floor_and_foot():
     """1.6 mm and 5 mm, and 3 mm of thread: 9.6 mm."""
-    row = bill_rows(device_on(FLAT))[-1]
-    assert (row.part, row.quantity) == ("screw ISO 4762 M3 x 10", 8)
+    assert screws(housed(FLAT))["motor on housing and foot"] == ("screw ISO 4762 M3 x 10", 8)
 
 
 def test_the_wheel_is_drilled_for_the_motor():

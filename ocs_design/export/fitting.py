@@ -1,0 +1,109 @@
+"""What is left to do where a motor, its wheel and the printed parts do not simply fit together."""
+
+from collections.abc import Iterator
+from math import sqrt
+
+from ocs_design.design import Device
+from ocs_design.drawing.wheel import BROKEN_EDGE, lost_by_breaking
+from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.mounting import Face, Mounting
+from ocs_design.export.made_wheel import made_wheel
+from ocs_design.export.standing import motor_in_place
+from ocs_design.export.workshop import printed_foot
+from ocs_design.parts.foot import Foot
+from ocs_design.parts.mount import motor_mount
+from ocs_design.units import format_quantity
+
+_UNDRILLED = "floor and plate are to be drilled for it"
+
+
+def fitting_remarks(device: Device) -> tuple[str, ...]:
+    """One sentence each.
+
+    Args:
+        device: whose motors, if any, stand on the back of their feet's plates.
+    """
+    return (*_broken(device), *standing_remarks(device))
+
+
+def _broken(device: Device) -> Iterator[str]:
+    _, share = lost_by_breaking(made_wheel(device.flywheel))
+    edge = format_quantity(BROKEN_EDGE, "mm")
+    yield f"with its edges broken {edge} a wheel has {share:.2%} less inertia than was designed"
+
+
+def standing_remarks(device: Device) -> tuple[str, ...]:
+    """Of motor and printed parts alone."""
+    return () if device.carrier.mass == 0.0 else tuple(_standing(device))
+
+
+def _standing(device: Device) -> Iterator[str]:
+    motor, foot = device.motor, printed_foot(device)
+    if motor.gear != DIRECT.name:
+        yield f"how motor and gear are held is not designed: {_UNDRILLED}"
+    else:
+        mounting = motor.mounting or Mounting()
+        yield from _held(mounting, foot)
+        yield from _driven(mounting, device, foot)
+    yield from _apart(device, foot)
+
+
+def _held(mounting: Mounting, foot: Foot) -> Iterator[str]:
+    """How the motor is, on plate and floor."""
+    stator = mounting.stator
+    if stator is None:
+        yield f"the motor's threads are not in the catalogue: {_UNDRILLED}"
+    elif mounting.stator_face is Face.BACK:
+        yield (
+            f"the motor's threads, {stator}, are at its back: it needs a bracket of your "
+            "own, for floor and plate have no holes for it"
+        )
+    elif foot.housing.mount != motor_mount(mounting):
+        room = format_quantity(2.0 * foot.housing.inner_radius, "mm")
+        yield (
+            f"the motor's screws, {stator}, do not fit the housing's floor of {room}: {_UNDRILLED}"
+        )
+
+
+def _driven(mounting: Mounting, device: Device, foot: Foot) -> Iterator[str]:
+    """How the wheel is: by the shaft through plate and floor, or by threads behind them."""
+    web, middle = device.flywheel.web, foot.back
+    if web is None:
+        return
+    near, far = (format_quantity(middle + side * web.hub.height / 2.0, "mm") for side in (-1, 1))
+    if mounting.rotor is not None:
+        yield (
+            f"the hub stands {near} off the rotor that it is screwed to, plate and floor between "
+            "them: it needs a spacer, which is not designed"
+        )
+    elif mounting.shaft_length is None:
+        reach = format_quantity(middle, "mm")
+        yield (
+            f"the shaft has to stand out by {reach} to reach the hub's middle, by {far} to go "
+            "through it; its length is not in the catalogue"
+        )
+    elif mounting.shaft_length < middle:
+        short = format_quantity(middle - mounting.shaft_length, "mm")
+        yield f"the shaft ends {short} short of the hub's middle"
+
+
+def _apart(device: Device, foot: Foot) -> Iterator[str]:
+    """Whether mirrored parts reach over the middle of the robot, and so into each other."""
+    left = device.modules[0]
+    room, inwards = float(left.position[1]), float(left.axis[1])
+    if foot.base_radius > room:
+        yield _overlap("feet", foot.base_radius - room)
+    found = motor_in_place(device, foot)
+    if found is not None:
+        radius, low, _ = found
+        reach = radius * sqrt(max(0.0, 1.0 - inwards**2)) - low * inwards
+        if reach > room:
+            yield _overlap("motors", reach - room)
+
+
+def _overlap(parts: str, beyond: float) -> str:
+    each = format_quantity(beyond, "mm", digits=2)
+    return (
+        f"the {parts} stand in each other's way, {each} each beyond the robot's middle: set the "
+        "modules farther apart with --position"
+    )

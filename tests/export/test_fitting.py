@@ -1,0 +1,103 @@
+"""What is said where a motor, its wheel and the printed parts do not simply fit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
+
+from ocs_design.design import Device, Web
+from ocs_design.drive.mounting import BoltCircle, Face, Mounting
+from ocs_design.export.fitting import fitting_remarks, standing_remarks
+from ocs_design.export.standing import standing_visuals
+from ocs_design.export.wheel_frame import wheel_placement
+from ocs_design.sizing.web import Hub
+
+M3 = BoltCircle(0.02, 4, "M3")
+FLAT = Mounting(0.004, stator=M3, stator_face=Face.OUTPUT)
+WEB = Web("aluminium-6061-t6", 2710.0, 0.0015, 0.01, Hub(0.008, 0.005, 0.002))
+BACK_OF_PLATE = 0.005 + 0.002 + 0.0016 + 0.005
+"""Half of the rim's 10 mm, clearance, floor, plate: to the wheel's middle [m]."""
+
+
+def device_on(mounting, drive=EC45, apart=0.05, incidence=0.3) -> Device:
+    device = driven_device(incidence, replace(drive, mounting=mounting))
+    left, right = device.modules
+    modules = (
+        replace(left, position=np.array([0.0, apart, 0.05])),
+        replace(right, position=np.array([0.0, -apart, 0.05])),
+    )
+    return replace(device, modules=modules, flywheel=replace(PAPER_WHEEL, web=WEB))
+
+
+def said(device):
+    return " | ".join(standing_remarks(device))
+
+
+def test_a_motor_whose_shaft_is_long_enough_needs_no_word():
+    assert said(device_on(replace(FLAT, shaft_length=BACK_OF_PLATE + 1e-6))) == ""
+    assert said(paper_device()) == ""
+
+
+def test_broken_edges_are_told():
+    (remark,) = fitting_remarks(paper_device())
+    assert remark == "with its edges broken 0.2 mm a wheel has 0.10% less inertia than was designed"
+
+
+def test_a_shaft_that_is_too_short_or_not_known():
+    short = said(device_on(replace(FLAT, shaft_length=BACK_OF_PLATE - 0.0021)))
+    assert short == "the shaft ends 2.1 mm short of the hub's middle"
+    unknown = said(device_on(FLAT))
+    assert "stand out by 13.6 mm to reach the hub's middle, by 16.1 mm to go through" in unknown
+
+
+@pytest.mark.parametrize(
+    ("mounting", "words"),
+    [
+        (None, "the motor's threads are not in the catalogue: floor and plate are to be drilled"),
+        (Mounting(0.004), "the motor's threads are not in the catalogue"),
+        (replace(FLAT, stator_face=Face.BACK), "4 x M3 on 20 mm, are at its back: it needs a brac"),
+        (
+            replace(FLAT, stator=BoltCircle(0.062, 4, "M3")),
+            "4 x M3 on 62 mm, do not fit the housing's floor of 64 mm",
+        ),
+    ],
+)
+def test_screws_that_are_left_out_are_told(mounting, words):
+    assert words in said(device_on(mounting))
+
+
+def test_a_wheel_on_the_rotor_needs_a_spacer():
+    """From the back of the plate to the hub's face, 2.5 mm off the wheel's middle."""
+    mounting = replace(FLAT, rotor=BoltCircle(0.012, 3, "M2"))
+    assert "the hub stands 11.1 mm off the rotor that it is screwed to" in said(device_on(mounting))
+
+
+def test_behind_a_gear_nothing_is_known():
+    drive = replace(geared(2.0), diameter=0.04, length=0.1)
+    assert said(device_on(None, drive)).startswith("how motor and gear are held is not designed")
+
+
+def test_feet_in_each_other_s_way():
+    assert "the feet stand in each other's way" in said(device_on(FLAT, apart=0.02))
+
+
+@given(
+    incidence=st.floats(0.0, 1.5),
+    diameter=st.floats(0.02, 0.06),
+    length=st.floats(0.005, 0.06),
+)
+def test_motors_are_told_of_where_they_reach_over_the_middle(incidence, diameter, length):
+    """By brute force: points on the edges of both ends."""
+    drive = replace(EC45, diameter=diameter, length=length)
+    device = device_on(FLAT, drive, incidence=incidence)
+    motor = standing_visuals(device, device.modules[0])[-1]
+    turn, (radius, half) = np.linspace(0.0, 2.0 * np.pi, 2001), motor.size
+    ring = np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
+    ends = [np.column_stack([ring, np.full(len(ring), end)]) for end in (-half, half)]
+    place = wheel_placement(device.modules[0]) @ motor.place
+    least = (np.concatenate(ends) @ place.rotation.T + place.position)[:, 1].min()
+    if abs(least) > 1e-6:
+        assert ("the motors stand in each other's way" in said(device)) == (least < 0.0)
