@@ -25,6 +25,7 @@ from ocs_design.robot.obstacles.obstacles import forget_obstacles
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress
+from ocs_design.simulation.poses import POSE_RATE
 from ocs_design.simulation.scenario import Options, Run, run_scenarios
 from ocs_design.simulation.world import wheel_gains
 from ocs_design.sizing.rim_program import load_solver
@@ -180,6 +181,7 @@ def _fly(
     options = Options(
         allocation=Allocation(stated.projection or Allocation.PSEUDO_INVERSE),
         gains=Gains(stated.kp or default.stiffness, stated.kd or default.damping),
+        pose_rate=POSE_RATE,
     )
     return run_scenarios(
         robot,

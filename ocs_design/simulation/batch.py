@@ -10,6 +10,7 @@ from mujoco.rollout import Rollout
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.controller import WheelLaw
+from ocs_design.simulation.poses import pose_stride
 from ocs_design.simulation.recording import Recording, empty_recording
 from ocs_design.simulation.schedule import References, push_torques
 from ocs_design.simulation.world import World, start_states
@@ -27,14 +28,16 @@ class Batch:
     Those that still run are a leading slice of every buffer, a view without copies.
     """
 
-    def __init__(self, worlds: Sequence[World], hold: int) -> None:
+    def __init__(self, worlds: Sequence[World], hold: int, pose_rate: float | None = None) -> None:
         """Of worlds with models of equal sizes, longest first; see `simulate`."""
         first = worlds[0].model
         self._hold, self._period = hold, hold * first.opt.timestep
         self._models = [world.model for world in worlds]
         self._lengths = np.array([_control_steps(world, self._period) for world in worlds])
         times = self._period * np.arange(self._lengths[0])
-        self._record = empty_recording(times, self._lengths)
+        self._record = empty_recording(
+            times, self._lengths, pose_stride=pose_stride(pose_rate, self._period), nq=first.nq
+        )
         self._references = References(worlds, times, self._period)
         self._pushes = push_torques(worlds, times, self._period)
         self._law = WheelLaw.stack([world.law for world in worlds])
@@ -96,6 +99,8 @@ class Batch:
         record.attitude[k, :running] = attitude
         record.rate[k, :running] = rate
         record.wheel_speed[k, :running] = speed
+        if record.pose_stride and k % record.pose_stride == 0:
+            record.qpos[k // record.pose_stride, :running] = qpos
         if law is None:
             torque = np.zeros((running, 2))
         else:

@@ -26,6 +26,7 @@ def simulate(
     *,
     hold: int = 5,
     threads: int | None = None,
+    pose_rate: float | None = None,
     progress: Progress | None = None,
 ) -> Recording:
     """Run all worlds to their ends.
@@ -34,6 +35,8 @@ def simulate(
         worlds: with models of equal sizes.
         hold: physics steps per control step, through which torques stay as they are.
         threads: of the physics; None: one per processor. The numbers do not depend on it.
+        pose_rate: of the recorded poses [1/s]; None: none are, which thousands of worlds have no
+            memory for.
         progress: told the part of the work that is done, 0..1.
     """
     available = min(threads or len(os.sched_getaffinity(0)), len(worlds))
@@ -41,7 +44,7 @@ def simulate(
     # Longest first, and of a pair of equals one to each batch.
     order = np.argsort([-world.duration for world in worlds], kind="stable")
     shares = [order[first::count] for first in range(count)]
-    batches = [Batch([worlds[index] for index in share], hold) for share in shares]
+    batches = [Batch([worlds[index] for index in share], hold, pose_rate) for share in shares]
     with _no_warnings():
         recordings = _run_beside(batches, available // count, progress or _ignore)
     return joined(recordings, shares)

@@ -24,6 +24,8 @@ class Recording:
         impulse: of the outer torque since the start, in the world [N m s], (k, n, 3).
         height: of the trunk's body over the floor [m], (k, n).
         contact: whether anything touches the floor before the next instant, (k, n).
+        pose_stride: control steps from one recorded pose to the next; 0: none is recorded.
+        qpos: the poses, as the models have them, (frames, n, nq).
         lengths: number of instants of each world, (n,).
         stable: whether MuJoCo got each world to its end, (n,); it stops one whose state is huge or
             not finite, and its last state then stands still.
@@ -39,13 +41,18 @@ class Recording:
     impulse: FloatArray
     height: FloatArray
     contact: NDArray[np.bool_]
+    pose_stride: int
+    qpos: FloatArray
     lengths: NDArray[np.int64]
     stable: NDArray[np.bool_]
 
 
-def empty_recording(times: FloatArray, lengths: NDArray[np.int64]) -> Recording:
-    """Nothing known yet, no impulse at the start."""
+def empty_recording(
+    times: FloatArray, lengths: NDArray[np.int64], *, pose_stride: int = 0, nq: int = 0
+) -> Recording:
+    """Nothing known yet, no impulse at the start; `nq` is the length of a pose."""
     k, n = len(times), len(lengths)
+    frames = len(times[::pose_stride]) if pose_stride else 0
 
     def unknown(*shape: int) -> FloatArray:
         """One such value per time and world."""
@@ -64,6 +71,8 @@ def empty_recording(times: FloatArray, lengths: NDArray[np.int64]) -> Recording:
         impulse=impulse,
         height=unknown(),
         contact=np.zeros((k, n), dtype=bool),
+        pose_stride=pose_stride,
+        qpos=np.full((frames, n, nq), np.nan),
         lengths=lengths,
         stable=np.zeros(n, dtype=bool),
     )
@@ -77,14 +86,22 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
         places: for each part, where its worlds belong among all worlds.
     """
     longest = max(parts, key=lambda part: len(part.time))
-    whole = empty_recording(longest.time, np.empty(sum(map(len, places)), dtype=np.int64))
+    whole = empty_recording(
+        longest.time,
+        np.empty(sum(map(len, places)), dtype=np.int64),
+        pose_stride=longest.pose_stride,
+        nq=longest.qpos.shape[2],
+    )
     for part, place in zip(parts, places, strict=True):
         whole.lengths[place], whole.stable[place] = part.lengths, part.stable
         for name in _SERIES:
-            getattr(whole, name)[: len(part.time), place] = getattr(part, name)
+            series = getattr(part, name)
+            getattr(whole, name)[: len(series), place] = series
     return whole
 
 
 _SERIES = [
-    field.name for field in fields(Recording) if field.name not in {"time", "lengths", "stable"}
+    field.name
+    for field in fields(Recording)
+    if field.name not in {"time", "pose_stride", "lengths", "stable"}
 ]

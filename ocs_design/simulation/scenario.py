@@ -15,6 +15,7 @@ from ocs_design.robot.stance.leg_geometry import up_axis
 from ocs_design.simulation.controller import Allocation, Gains
 from ocs_design.simulation.engine import Progress, simulate
 from ocs_design.simulation.metrics import Metrics, Series, measure, series_of
+from ocs_design.simulation.poses import Poses, poses_of
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, comes_down_well, judge, stands
@@ -32,6 +33,7 @@ class Options:
         drop_profile: how a dropped robot is turned to level; `Step()` is the paper's command.
         hold: physics steps of 1 ms per control step.
         threads: of the physics; None: one per processor.
+        pose_rate: of the recorded poses [1/s]; None: none are.
     """
 
     allocation: Allocation = Allocation.PSEUDO_INVERSE
@@ -39,6 +41,7 @@ class Options:
     drop_profile: Profile = field(default_factory=Quintic)
     hold: int = 5
     threads: int | None = None
+    pose_rate: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +53,7 @@ class Run:
         passed: True, False, or None where it cannot be judged. reason: one sentence.
         metrics: None if the simulation became unstable.
         series: of time. note: see `World`.
+        poses: to show the flight again; None if none were recorded.
     """
 
     scenario: str
@@ -59,6 +63,7 @@ class Run:
     metrics: Metrics | None
     series: Series
     note: str
+    poses: Poses | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +73,7 @@ class _Flight:
     world: World
     metrics: Metrics | None
     series: Series
+    poses: Poses | None
 
 
 def run_scenarios(
@@ -126,9 +132,20 @@ def _fly(
 ) -> list[_Flight]:
     if not worlds:
         return []
-    recording = simulate(worlds, hold=options.hold, threads=options.threads, progress=progress)
+    recording = simulate(
+        worlds,
+        hold=options.hold,
+        threads=options.threads,
+        pose_rate=options.pose_rate,
+        progress=progress,
+    )
     return [
-        _Flight(world, measure(recording, index, world), series_of(recording, index, world))
+        _Flight(
+            world,
+            measure(recording, index, world),
+            series_of(recording, index, world),
+            poses_of(recording, index),
+        )
         for index, world in enumerate(worlds)
     ]
 
@@ -180,4 +197,5 @@ def _run(maneuver: Maneuver, flight: _Flight, verdict: Verdict, *, ocs: bool) ->
         metrics=flight.metrics,
         series=flight.series,
         note=flight.world.note,
+        poses=flight.poses,
     )
