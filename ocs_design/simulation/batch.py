@@ -10,8 +10,7 @@ from mujoco.rollout import Rollout
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.controller import WheelLaw
-from ocs_design.simulation.poses import pose_stride
-from ocs_design.simulation.recording import Recording, empty_recording
+from ocs_design.simulation.recording import Recording, empty_recording, pose_stride
 from ocs_design.simulation.schedule import References, push_torques
 from ocs_design.simulation.world import World, start_states
 

@@ -78,6 +78,16 @@ def empty_recording(
     )
 
 
+def pose_stride(rate: float | None, period: float) -> int:
+    """Control steps from one pose to the next; 0 where none are wanted.
+
+    Args:
+        rate: of the poses [1/s].
+        period: of the control steps [s].
+    """
+    return 0 if rate is None else max(1, round(1.0 / (rate * period)))
+
+
 def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Recording:
     """Several recordings as one.
 

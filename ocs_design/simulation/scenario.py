@@ -144,7 +144,7 @@ def _fly(
             world,
             measure(recording, index, world),
             series_of(recording, index, world),
-            poses_of(recording, index),
+            poses_of(recording, index, world),
         )
         for index, world in enumerate(worlds)
     ]
