@@ -29,8 +29,7 @@ from typer.core import TyperCommand, TyperGroup
 from ocs_design.cli import app
 from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
 from ocs_design.requirement.specification import SECTIONS, keys_of
-from ocs_design.requirement.values import Choice, Quantities, Quantity, Value
-from ocs_design.units import UNITS
+from ocs_design.requirement.values import Choice, Value
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
@@ -100,26 +99,10 @@ def maneuver_keys(kind: str) -> str:
 
 
 def accepts(value: Value[object]) -> str:
-    """What a key takes, in words."""
-    match value:
-        case Quantity():
-            return f"{value.dimension}: {', '.join(UNITS[value.dimension])}"
-        case Quantities():
-            count = " or ".join(map(str, value.counts))
-            return f"{count} of {value.dimension}: {', '.join(UNITS[value.dimension])}"
-        case Choice():
-            return ", ".join(f"`{word}`" for word in value.words)
-        case _:
-            return KIND_NAMES[type(value).__name__]
-
-
-KIND_NAMES = {
-    "Text": "text",
-    "Number": "positive number",
-    "Count": "whole number",
-    "Switch": "`true` or `false`",
-    "JointValues": "table of joint = angle or length",
-}
+    """What a key takes, its words marked as code."""
+    if isinstance(value, Choice):
+        return ", ".join(f"`{word}`" for word in value.words)
+    return value.takes.replace("true or false", "`true` or `false`")
 
 
 def run(command_line: str, exit_code: int = 0) -> str:

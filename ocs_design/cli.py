@@ -15,6 +15,7 @@ import typer
 from ocs_design import cli_errors
 from ocs_design import cli_options as opt
 from ocs_design.cli_export import export
+from ocs_design.cli_init import init
 from ocs_design.cli_pareto import pareto
 from ocs_design.cli_stated import stated_package_paths, stated_specification
 
@@ -175,6 +176,7 @@ def bound(
 
 app.command()(export)
 app.command()(pareto)
+app.command()(init)
 
 
 @app.command()

@@ -14,7 +14,7 @@ from ocs_design.exceptions import OutputError
 DESIGN_FILE = "design.json"
 FRONT_FILE = "front.json"
 
-_CURES = {
+CURES = {
     errno.ENOSPC: "free some space, or choose another folder with -o",
     errno.EDQUOT: "free some space, or choose another folder with -o",
     errno.EACCES: "choose a folder that you may write to with -o",
@@ -24,6 +24,7 @@ _CURES = {
     errno.ENOTDIR: "a part of the path is a file; choose another folder with -o",
     errno.ENAMETOOLONG: "choose a shorter name with -o",
 }
+"""What to do about an error of the operating system, by its number."""
 
 
 def check_target(target: Path, *, force: bool) -> None:
@@ -36,9 +37,9 @@ def check_target(target: Path, *, force: bool) -> None:
     parent = target.absolute().parent
     if not parent.is_dir():
         fault = errno.ENOTDIR if any(map(Path.is_file, target.absolute().parents)) else errno.ENOENT
-        raise OutputError(f"{parent}: no such folder", hint=_CURES[fault])
+        raise OutputError(f"{parent}: no such folder", hint=CURES[fault])
     if not os.access(parent, os.W_OK | os.X_OK):
-        raise OutputError(f"{parent}: cannot be written to", hint=_CURES[errno.EACCES])
+        raise OutputError(f"{parent}: cannot be written to", hint=CURES[errno.EACCES])
     if not os.path.lexists(target):
         return
     if target.is_symlink() or not target.is_dir():
@@ -76,7 +77,7 @@ def staged_folder(target: Path, *, force: bool) -> Iterator[Path]:
     except OSError as error:
         where = error.filename or target
         raise OutputError(
-            f"{where}: {error.strerror or error}", hint=_CURES.get(error.errno or 0, "")
+            f"{where}: {error.strerror or error}", hint=CURES.get(error.errno or 0, "")
         ) from error
     finally:
         if staging is not None:

@@ -65,3 +65,12 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     }
 )
 """Every kind by the word that `kind` takes."""
+
+
+def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
+    """The word that `kind` takes for a maneuver, and how its fields are read."""
+    return next(
+        (word, kind.values)
+        for word, kind in MANEUVER_KINDS.items()
+        if kind.maneuver is type(maneuver)
+    )

@@ -13,7 +13,7 @@ from reprlib import repr as shortened
 from typing import Generic, TypeVar
 
 from ocs_design.exceptions import QuantityError, SpecificationError
-from ocs_design.units import Dimension, parse_quantity, si_unit
+from ocs_design.units import UNITS, Dimension, parse_quantity, si_unit
 
 T = TypeVar("T")
 
@@ -37,6 +37,11 @@ class Sign(Enum):
 
 class Value(ABC, Generic[T]):
     """A kind of value."""
+
+    @property
+    @abstractmethod
+    def takes(self) -> str:
+        """What may be written, in words."""
 
     @abstractmethod
     def read(self, raw: object, where: str) -> T:
@@ -68,6 +73,11 @@ class Quantity(Value[float]):
     most: float = math.inf
     most_bare: float = math.inf
     likely: str = ""
+
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        return f"{self.dimension}: {', '.join(UNITS[self.dimension])}"
 
     def read(self, raw: object, where: str) -> float:
         """See `Value.read`."""
@@ -109,6 +119,12 @@ class Quantities(Value[tuple[float, ...]]):
     dimension: Dimension
     counts: tuple[int, ...]
 
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        count = " or ".join(map(str, self.counts))
+        return f"{count} of {Quantity(self.dimension).takes}"
+
     def read(self, raw: object, where: str) -> tuple[float, ...]:
         """See `Value.read`."""
         entries = raw.split(",") if isinstance(raw, str) else raw
@@ -125,6 +141,11 @@ class Quantities(Value[tuple[float, ...]]):
 class Number(Value[float]):
     """A bare positive number."""
 
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        return "positive number"
+
     def read(self, raw: object, where: str) -> float:
         """See `Value.read`."""
         return Quantity(Dimension.RATIO).read(raw, where)
@@ -133,6 +154,11 @@ class Number(Value[float]):
 @dataclass(frozen=True)
 class Count(Value[int]):
     """A whole number, zero or positive."""
+
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        return "whole number"
 
     def read(self, raw: object, where: str) -> int:
         """See `Value.read`."""
@@ -148,6 +174,11 @@ class Count(Value[int]):
 class Text(Value[str]):
     """Any text but an empty one."""
 
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        return "text"
+
     def read(self, raw: object, where: str) -> str:
         """See `Value.read`."""
         # A zero character ends a path for the operating system.
@@ -161,6 +192,11 @@ class Choice(Value[str]):
     """One of a few words."""
 
     words: tuple[str, ...]
+
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        return ", ".join(self.words)
 
     def read(self, raw: object, where: str) -> str:
         """See `Value.read`."""
@@ -176,6 +212,11 @@ class Choice(Value[str]):
 class Switch(Value[bool]):
     """True or false."""
 
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        return "true or false"
+
     def read(self, raw: object, where: str) -> bool:
         """See `Value.read`."""
         if isinstance(raw, bool):
@@ -189,6 +230,11 @@ class JointValues(Value[Mapping[str, float]]):
 
     A table, or texts `NAME=VALUE` from the command line.
     """
+
+    @property
+    def takes(self) -> str:
+        """See `Value.takes`."""
+        return "table of joint = angle or length"
 
     def read(self, raw: object, where: str) -> Mapping[str, float]:
         """See `Value.read`."""

@@ -1,16 +1,40 @@
 """A specification as the text of a file: what `read_specification` reads back, to the last bit."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from enum import Enum, auto
+from math import isclose
 from pathlib import Path
 from typing import Any
 
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
+from ocs_design.requirement.maneuver_table import kind_of
 from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
 from ocs_design.requirement.values import Quantities, Quantity, Value
-from ocs_design.units import si_unit
+from ocs_design.units import Dimension, format_quantity, parse_quantity, si_unit
+
+PEOPLE_UNITS: Mapping[Dimension, str] = {
+    Dimension.LENGTH: "mm",
+    Dimension.ANGLE: "deg",
+    Dimension.ANGULAR_SPEED: "rpm",
+}
+"""Units that people think in, where they are not SI's."""
+
+_SAME = 1e-12
+"""Relative; a degree is no finite number of radians."""
+
+
+class Figures(Enum):
+    """How numbers are written."""
+
+    SI = auto()
+    """In SI, to the last bit."""
+    EXACT = auto()
+    """In units that people think in if nothing is lost by it, else in SI."""
+    ROUNDED = auto()
+    """In units that people think in, to four digits."""
 
 
 def specification_to_toml(specification: Specification, comment: str = "") -> str:
@@ -31,50 +55,69 @@ def specification_to_toml(specification: Specification, comment: str = "") -> st
 
 def with_absolute_files(specification: Specification) -> Specification:
     """The same with the files that it names found from any folder."""
+    return _with_files(specification, lambda file: str(Path(file).absolute()))
+
+
+def with_files_from(specification: Specification, folder: Path) -> Specification:
+    """The same with the files that it names found from `folder`, and after both were moved."""
+    return _with_files(specification, lambda file: os.path.relpath(file, folder))
+
+
+def _with_files(specification: Specification, renamed: Callable[[str], str]) -> Specification:
+    """`-` is standard input."""
+
+    def path(file: str | None) -> str | None:
+        return file if file is None or file == "-" else renamed(file)
+
     robot, motor = specification.robot, specification.motor
     return replace(
         specification,
-        robot=replace(robot, file=_absolute(robot.file)),
-        motor=replace(motor, motors=_absolute(motor.motors), gears=_absolute(motor.gears)),
+        robot=replace(robot, file=path(robot.file)),
+        motor=replace(motor, motors=path(motor.motors), gears=path(motor.gears)),
     )
-
-
-def _absolute(file: str | None) -> str | None:
-    """`-` is standard input."""
-    return file if file is None or file == "-" else str(Path(file).absolute())
 
 
 def _section(section: object, keys: Mapping[str, Any]) -> Iterator[str]:
     for name, key in keys.items():
         value = getattr(section, name)
         if value is not None:
-            yield f"{name} = {_written(value, key.value)}"
+            yield f"{name} = {written(value, key.value)}"
 
 
 def _maneuver(maneuver: Maneuver) -> Iterator[str]:
-    word, kind = next(
-        (word, kind) for word, kind in MANEUVER_KINDS.items() if kind.maneuver is type(maneuver)
-    )
+    word, values = kind_of(maneuver)
     yield f"kind = {_text(word)}"
-    for name, how in kind.values.items():
+    for name, how in values.items():
         value = getattr(maneuver, name)
         if value is not None:
-            yield f"{name} = {_written(value, how)}"
+            yield f"{name} = {written(value, how)}"
 
 
-def _written(value: object, how: Value[Any]) -> str:
+def written(value: object, how: Value[Any], figures: Figures = Figures.SI) -> str:
     """As TOML; a quantity with its unit, for some are not believed without."""
-    match how:
-        case Quantity():
-            return _text(_quantity(value, how))
-        case Quantities() if isinstance(value, Sequence):
-            return f"[{', '.join(_text(_quantity(entry, how)) for entry in value)}]"
+    match how, value:
+        case Quantity(dimension=dimension), float() | int():
+            return _text(_quantity(value, dimension, figures))
+        case Quantities(dimension=dimension), Sequence():
+            entries = (_text(_quantity(entry, dimension, figures)) for entry in value)
+            return f"[{', '.join(entries)}]"
+        case _, float() if figures is Figures.ROUNDED:
+            return f"{value:.4g}"
         case _:
             return _plain(value)
 
 
-def _quantity(value: object, how: Quantity | Quantities) -> str:
-    return f"{value!r} {si_unit(how.dimension)}"
+def _quantity(value: float, dimension: Dimension, figures: Figures) -> str:
+    small = dimension is not Dimension.LENGTH or abs(value) < 1.0
+    unit = PEOPLE_UNITS.get(dimension, si_unit(dimension)) if small else si_unit(dimension)
+    if figures is Figures.ROUNDED:
+        return format_quantity(value, unit)
+    told = format_quantity(value, unit, digits=12)
+    if figures is Figures.EXACT and isclose(
+        parse_quantity(told, dimension, ""), value, rel_tol=_SAME
+    ):
+        return told
+    return f"{value!r} {si_unit(dimension)}"
 
 
 def _plain(value: object) -> str:

@@ -1,0 +1,143 @@
+"""What `init` writes: a specification to start from, with everything that could be stated."""
+
+import shlex
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from ocs_design.design_file import SCHEMA_VERSION
+from ocs_design.export.naming import safe_name
+from ocs_design.export.single_file import write_whole
+from ocs_design.requirement.commented import commented_toml
+from ocs_design.requirement.defaults import default_specification
+from ocs_design.requirement.froude import SOLO12
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.stated_robot import read_stated_robot
+from ocs_design.requirement.writing import with_files_from
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.world import wheel_gains
+
+SOLO12_MASS = 2.5
+"""[kg], as in the paper."""
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """What a specification is written for.
+
+    Attributes:
+        stated: what is stated already.
+        robot: that it is for; None: not known yet.
+        default: what holds where nothing is stated; Solo12's where the robot is not known.
+    """
+
+    stated: Specification
+    robot: Robot | None
+    default: Specification
+
+    @property
+    def default_file(self) -> Path:
+        """Named after the robot, in the working directory."""
+        return Path("ocs.toml" if self.robot is None else f"{safe_name(self.robot.name)}.toml")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Initialized:
+    """What was written.
+
+    Attributes:
+        file: the specification.
+        robot: its name; None: none was given.
+        next: the command that designs by it.
+    """
+
+    schema_version: int
+    file: str
+    robot: str | None
+    next: str
+
+
+def read_start(
+    stated: Specification,
+    *,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Start:
+    """Read the robot, if one is stated, and scale the defaults to it.
+
+    Raises:
+        OcsError: see `read_stated_robot`.
+    """
+    given = (stated.robot.file, stated.robot.mass, stated.robot.inertia)
+    robot = (
+        read_stated_robot(stated, package_paths=package_paths, strict=strict)
+        if any(item is not None for item in given)
+        else None
+    )
+    scaled_to = robot or _solo12()
+    gains = wheel_gains(scaled_to)
+    default = default_specification(
+        scaled_to,
+        kp=gains.stiffness,
+        kd=gains.damping,
+        gravity=stated.requirement.gravity or STANDARD_GRAVITY,
+    )
+    return Start(stated, robot, default)
+
+
+def write_start(
+    start: Start,
+    file: Path,
+    *,
+    chosen: Collection[str] = (),
+    package_paths: Mapping[str, Path] | None = None,
+    force: bool = False,
+) -> Initialized:
+    """Write the specification.
+
+    Args:
+        start: what it says. file: where to.
+        chosen: names of default maneuvers that it is to state.
+        package_paths: that the robot was read with.
+        force: replace what is there.
+
+    Raises:
+        OutputError: see `write_whole`.
+    """
+    command = _next(start, file, package_paths or {})
+    whose = "a device" if start.robot is None else f"the device of {start.robot.name}"
+    text = commented_toml(
+        with_files_from(start.stated, file.parent),
+        start.default,
+        title=f"What {whose} must do and may be.\n\n  {command}",
+        chosen=chosen,
+    )
+    write_whole(file, text, force=force)
+    return Initialized(
+        schema_version=SCHEMA_VERSION,
+        file=str(file),
+        robot=None if start.robot is None else start.robot.name,
+        next=command,
+    )
+
+
+def initialized_to_json(initialized: Initialized) -> bytes:
+    """As indented UTF-8 JSON."""
+    return msgspec.json.format(msgspec.json.encode(initialized), indent=2) + b"\n"
+
+
+def _solo12() -> Robot:
+    """As a rigid body, for its scale is all that is asked."""
+    trace = SOLO12_MASS * SOLO12.gyration_radius**2
+    roll, pitch = SOLO12.roll_inertia, SOLO12.pitch_inertia
+    return robot_by_hand(SOLO12_MASS, (roll, pitch, trace - roll - pitch), name=SOLO12.name)
+
+
+def _next(start: Start, file: Path, package_paths: Mapping[str, Path]) -> str:
+    robot = ["ROBOT"] if start.robot is None else []
+    packages = [f"--package-path={name}={folder}" for name, folder in package_paths.items()]
+    return shlex.join(["ocs-design", "size", *robot, "--spec", str(file), *packages])

@@ -1,0 +1,51 @@
+"""The specification that holds for a robot where nothing at all is stated."""
+
+from ocs_design.requirement.envelope import LIMIT_OF_KEY
+from ocs_design.requirement.froude import (
+    default_bus_voltage,
+    default_envelope,
+    default_maneuvers,
+)
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.requirement.specification import (
+    AUTO,
+    DISC,
+    LIGHTEST,
+    PROJECTIONS,
+    FlywheelSection,
+    MotorSection,
+    OcsSection,
+    RequirementSection,
+    RobotSection,
+    Specification,
+    ValidationSection,
+)
+from ocs_design.robot.robot import Robot
+
+
+def default_specification(
+    robot: Robot, *, kp: float, kd: float, gravity: float = STANDARD_GRAVITY
+) -> Specification:
+    """What `resolve` fills in for `robot`, as if a user had stated it.
+
+    Keys that have no default, or whose default is found while sizing, are None.
+
+    Args:
+        robot: to scale to.
+        kp, kd: gains of the wheel law [1/s^2, 1/s].
+        gravity: of the maneuvers on Earth [m/s^2].
+    """
+    envelope = default_envelope(robot)
+    return Specification(
+        robot=RobotSection(posture=robot.posture_name),
+        requirement=RequirementSection(gravity=STANDARD_GRAVITY, maneuvers="paper"),
+        ocs=OcsSection(alpha_criterion=LIGHTEST, co_design=False),
+        flywheel=FlywheelSection(
+            material=AUTO,
+            web=DISC,
+            **{key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()},
+        ),
+        motor=MotorSection(name=AUTO, gear=AUTO, bus_voltage=default_bus_voltage(robot)),
+        validation=ValidationSection(enabled=True, projection=PROJECTIONS[0], kp=kp, kd=kd, seed=0),
+        maneuvers=default_maneuvers(robot, gravity),
+    )

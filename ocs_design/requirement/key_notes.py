@@ -1,0 +1,147 @@
+"""What a specification to start from says of each key beyond its summary: why one would state it.
+
+What a key is and how it is read is in `specification`; what holds where it is not stated is in
+`defaults`. Here is only what people need besides.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+
+@dataclass(frozen=True)
+class KeyNote:
+    """Of one key.
+
+    Attributes:
+        why: one line, when to state it.
+        default: what holds where nothing is stated, in words; empty: the value says it all.
+        example: a value as it is written in TOML, where there is no default to show.
+    """
+
+    why: str
+    default: str = ""
+    example: str = ""
+
+
+KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
+    {
+        "robot.file": KeyNote(
+            "Mass, inertia and legs are read from it; from the folder of this file.",
+            "the robot on the command line",
+            '"robot.urdf"',
+        ),
+        "robot.name": KeyNote(
+            "Names the output folder of a robot by hand.", "the file's own", '"robot"'
+        ),
+        "robot.trunk": KeyNote(
+            "State it where the wrong link was found to carry the legs.", "found", '"trunk"'
+        ),
+        "robot.posture": KeyNote(
+            "The inertia, and with it all else, is that of this posture.",
+            "stand where legs are found",
+            '"stand"',
+        ),
+        "robot.joints": KeyNote(
+            "For a posture that has no name.", "none", '{ "FL_HFE" = "45deg", "FL_KFE" = "-90deg" }'
+        ),
+        "robot.mass": KeyNote("In place of a file, with the inertia.", "read", '"2.5 kg"'),
+        "robot.inertia": KeyNote(
+            "In place of a file, with the mass.", "read", "[0.032, 0.055, 0.070]"
+        ),
+        "requirement.rate_change": KeyNote(
+            "The paper's requirement: asked of either axis, on top of the maneuvers.",
+            "not asked",
+            '"2 rad/s"',
+        ),
+        "requirement.wheel_speed_max": KeyNote(
+            "What bearings and balance stand, if less than the motor can do.",
+            "the motor's own; 7200 rpm without a motor",
+            '"7200 rpm"',
+        ),
+        "requirement.spin_inertia": KeyNote(
+            "For a wheel that you have already; nothing else is then asked.",
+            "found",
+            '"7.11e-5 kg m2"',
+        ),
+        "requirement.gravity": KeyNote("1.62 m/s2 is the Moon's."),
+        "requirement.maneuvers": KeyNote(
+            "none where the bound alone is asked for; leave it out where you state your own."
+        ),
+        "ocs.alpha": KeyNote(
+            "Where mounts for one angle exist already.", "by the criterion below", '"40 deg"'
+        ),
+        "ocs.alpha_criterion": KeyNote(
+            "equal-rate is the paper's: the same change of rate about either axis.",
+            "lightest; without a motor equal-rate",
+        ),
+        "ocs.position": KeyNote(
+            "In the trunk's frame; the right wheel is mirrored in y.",
+            "found, free of the robot's own parts",
+            '["0 mm", "50 mm", "70 mm"]',
+        ),
+        "ocs.co_design": KeyNote("A few per cent lighter at best, and slower to find."),
+        "flywheel.r_max": KeyNote(
+            "The room on the trunk: the same inertia weighs less the wider the rim is."
+        ),
+        "flywheel.r_min": KeyNote("Room for the motor's shaft or can inside the rim."),
+        "flywheel.h_max": KeyNote("The room along the spin axis."),
+        "flywheel.h_min": KeyNote("What your lathe or printer still makes well."),
+        "flywheel.wall_min": KeyNote("The same across the rim."),
+        "flywheel.wheel_mass_max": KeyNote("What the trunk may carry on each side."),
+        "flywheel.material": KeyNote(
+            "One that you can get: see `ocs-design catalogue materials`.",
+        ),
+        "flywheel.web": KeyNote("none is the paper's: spokes that weigh nothing."),
+        "flywheel.stress_safety": KeyNote("More where a burst rim could hurt someone."),
+        "motor.name": KeyNote(
+            "One that you have: see `ocs-design catalogue motors`; none: the bound alone."
+        ),
+        "motor.bus_voltage": KeyNote("Your robot's battery under load, not its nameplate."),
+        "motor.gear": KeyNote(
+            "direct where backlash or noise forbid one: see `ocs-design catalogue gears`."
+        ),
+        "motor.motors": KeyNote(
+            "To choose from as well; from the folder of this file.", "none", '"my_motors.csv"'
+        ),
+        "motor.gears": KeyNote(
+            "To choose from as well; from the folder of this file.", "none", '"my_gears.csv"'
+        ),
+        "motor.torque_max": KeyNote(
+            "What your motor controller gives, at the wheel.", "the motor's own", '"1 N m"'
+        ),
+        "validation.enabled": KeyNote("false: size and export only, in half the time."),
+        "validation.projection": KeyNote("transpose is the paper's, which scales the gains."),
+        "validation.kp": KeyNote("Higher: quicker, and more torque."),
+        "validation.kd": KeyNote("2 sqrt(kp) damps critically."),
+        "validation.seed": KeyNote("The same seed gives the same figures."),
+    }
+)
+"""By the path of the key, as in `flywheel.r_max`."""
+
+MANEUVER_NOTES: Mapping[str, str] = MappingProxyType(
+    {
+        "disturbance": "A jump in which something hits the trunk; to stay level until touchdown.",
+        "drop": "A fall from rest with the trunk tilted; to be level before touchdown.",
+        "flip": "A turn in pitch during a vertical jump; a back-flip is negative.",
+    }
+)
+"""What each kind of maneuver is."""
+
+FIELD_NOTES: Mapping[str, str] = MappingProxyType(
+    {
+        "name": "yours, of each maneuver another",
+        "gravity": "if not that of [requirement]",
+        "incidence": "if the modules are turned by hand for it",
+        "takeoff_velocity": "forward, up",
+        "torque": "on the trunk, about its x (forward), y (left) and z",
+        "onset": "after lift-off",
+        "duration": "of the torque, or of the turn",
+        "height": "of the trunk over the ground",
+        "roll": "at release",
+        "pitch": "at release",
+        "jump_height": "of the centre of mass",
+        "angle": "of pitch",
+    }
+)
+"""What each field of a `[[maneuver]]` is."""

@@ -1,0 +1,128 @@
+"""`ocs-design init`, as it is met: its file, its questions, and what `size` makes of it."""
+
+import os
+import pty
+import re
+import shutil
+import sys
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import pytest
+from commands import BY_HAND, PROGRAM, SOLO12, environment, run
+
+from ocs_design.initializing import read_start
+from ocs_design.requirement.reading import read_specification
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.specification import RobotSection, Specification
+
+SOLO12_SPECIFICATION = Specification(robot=RobotSection(file=SOLO12))
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def on_a_terminal(answers, *arguments):
+    """Everything that a command shows that is typed at; it ends well."""
+    process, terminal = pty.fork()
+    if process == 0:
+        os.execve(sys.executable, [*PROGRAM, *arguments], environment(COLUMNS="200"))
+    os.write(terminal, "".join(f"{answer}\n" for answer in answers).encode())
+    shown = b"".join(iter(lambda: read_or_nothing(terminal), b""))
+    os.close(terminal)
+    assert os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]) == 0, shown
+    return shown.decode()
+
+
+def read_or_nothing(terminal):
+    """Linux says that the other side has closed by an error."""
+    try:
+        return os.read(terminal, 1 << 16)
+    except OSError:
+        return b""
+
+
+def test_what_it_writes_means_what_was_stated(folder):
+    assert run("init", SOLO12).code == 0
+    found = read_specification(folder / "solo12.toml")
+    assert Path(found.robot.file).samefile(SOLO12)
+    assert replace(found, robot=replace(found.robot, file=SOLO12)) == SOLO12_SPECIFICATION
+
+
+def test_options_are_stated(folder):
+    run("init", SOLO12, "--r-max", "40mm", "--motor", "R80 KV110", "-o", "mine.toml")
+    found = read_specification(folder / "mine.toml")
+    assert found.flywheel.r_max == 0.04
+    assert found.motor.name == "R80 KV110"
+    assert found.flywheel.h_max is None
+
+
+def test_files_are_found_from_where_the_file_lies(folder):
+    (folder / "specs").mkdir()
+    shutil.copy(SOLO12, "here.urdf")
+    run("init", "here.urdf", "-o", "specs/solo12.toml")
+    assert 'file = "../here.urdf"' in (folder / "specs" / "solo12.toml").read_text()
+    found = read_specification(folder / "specs/solo12.toml").robot.file
+    assert Path(found).samefile("here.urdf")
+
+
+def test_size_reads_it(folder):
+    run("init", *BY_HAND, "--motor", "none")
+    done = run("size", "--spec", "robot.toml", "--no-validate")
+    assert done.code == 0
+    assert "robot-ocs" in done.stderr
+
+
+def test_without_a_robot_it_says_where_the_robot_goes(folder):
+    done = run("init", "--json")
+    assert done.document == {
+        "schema_version": 1,
+        "file": "ocs.toml",
+        "robot": None,
+        "next": "ocs-design size ROBOT --spec ocs.toml",
+    }
+    assert read_specification(folder / "ocs.toml") == Specification()
+
+
+def test_a_file_stays_without_force(folder):
+    (folder / "ocs.toml").write_text("mine")
+    assert run("init").code == 3
+    assert (folder / "ocs.toml").read_text() == "mine"
+    assert run("init", "--force").code == 0
+    assert read_specification(folder / "ocs.toml") == Specification()
+
+
+def test_defaults_are_the_robots_own():
+    start = read_start(SOLO12_SPECIFICATION)
+    stated = replace(
+        start.default,
+        requirement=replace(start.default.requirement, maneuvers=None),
+    )
+    assumed, told = (resolve(each, start.robot, 0.5) for each in (SOLO12_SPECIFICATION, stated))
+    assert told.envelope == assumed.envelope
+    assert list(map(asdict, told.requirement.maneuvers)) == list(
+        map(asdict, assumed.requirement.maneuvers)
+    )
+
+
+def test_on_a_terminal_it_asks(folder):
+    answers = ("nowhere.urdf", SOLO12, "jump", "drop, back-flip", "forty", "45", "", "22.2 V")
+    shown = on_a_terminal(answers, "init", "-o", "asked.toml")
+    for question in ("Robot file", "What it shall do", "radius", "height", "battery"):
+        assert question in shown
+    assert "nowhere.urdf does not exist" in shown
+    assert "jump: is none of disturbance, drop, back-flip, all" in shown
+    assert re.search(r"r-max: 'forty' is not", shown)
+    found = read_specification(folder / "asked.toml")
+    assert [maneuver.name for maneuver in found.maneuvers] == ["drop", "back-flip"]
+    assert (found.flywheel.r_max, found.flywheel.h_max) == (0.045, None)
+    assert found.motor.bus_voltage == 22.2
+
+
+def test_on_a_terminal_it_asks_nothing_if_told_so(folder):
+    shown = on_a_terminal((), "init", SOLO12, "--yes")
+    assert "Robot file" not in shown
+    assert (folder / "solo12.toml").exists()

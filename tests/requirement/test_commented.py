@@ -1,0 +1,136 @@
+"""A specification to start from: read back as it was meant, and every line of it can be stated."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import is_dataclass, replace
+
+import pytest
+from specifications import FULL
+
+from ocs_design.requirement.commented import commented_toml, rounded_text
+from ocs_design.requirement.defaults import default_specification
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.specification import (
+    SECTIONS,
+    FlywheelSection,
+    RequirementSection,
+    Specification,
+    all_keys,
+    keys_of,
+)
+
+KEY_LINE = re.compile(r"^(?:# )?(\w+) = ", re.MULTILINE)
+MANEUVER = re.compile(r"^# \[\[maneuver\]\]\n(?:# \w+ = .*\n)+", re.MULTILINE)
+
+
+@pytest.fixture
+def default(solo12):
+    return default_specification(solo12, kp=60.0, kd=12.0)
+
+
+@pytest.fixture
+def empty(default):
+    """With nothing stated."""
+    return commented_toml(Specification(), default, title="Anything")
+
+
+def read(text):
+    return parse_specification(text, "written")
+
+
+def of_section(text, name):
+    """The lines below the heading of one section."""
+    return re.split(r"^\[|^# What the device", text.split(f"[{name}]\n", 1)[1], flags=re.MULTILINE)[
+        0
+    ]
+
+
+def stated_line(text, section, key):
+    """The text with the line of one key stated."""
+    head, heading, tail = text.partition(f"[{section}]\n")
+    return head + heading + tail.replace(f"\n# {key} = ", f"\n{key} = ", 1)
+
+
+def test_where_nothing_is_stated_nothing_is(empty):
+    assert read(empty) == Specification()
+
+
+def test_every_key_has_its_line(empty):
+    for name, section in SECTIONS.items():
+        assert KEY_LINE.findall(of_section(empty, name)) == list(keys_of(section))
+
+
+@pytest.mark.parametrize("path", sorted(set(all_keys()) - {"robot.mass", "robot.inertia"}))
+def test_each_line_can_be_stated_alone(path, empty, default):
+    section, key = path.split(".")
+    found = read(stated_line(empty, section, key))
+    value = getattr(getattr(found, section), key)
+    expected = getattr(getattr(default, section), key)
+    assert value is not None
+    if expected is not None:
+        assert value == (pytest.approx(expected, 1e-3) if isinstance(expected, float) else expected)
+
+
+def test_a_robot_by_hand_needs_both_of_its_lines(empty):
+    both = stated_line(stated_line(empty, "robot", "mass"), "robot", "inertia")
+    assert read(both).robot.mass == 2.5
+
+
+def test_all_maneuvers_stated_are_the_default_ones(empty, default):
+    uncommented = MANEUVER.sub(lambda match: match[0].replace("# ", "", 1), empty)
+    uncommented = re.sub(r"^# (?=\w+ = .* # )", "", uncommented, flags=re.MULTILINE)
+    uncommented = re.sub(r"^# (?=kind = )", "", uncommented, flags=re.MULTILINE)
+    found = read(uncommented).maneuvers
+    assert leaves(found) == pytest.approx(leaves(default.maneuvers))
+
+
+def leaves(value, path=""):
+    """Everything that a specification or its maneuvers hold, by where it stands."""
+    if is_dataclass(value):
+        value = vars(value)
+    if isinstance(value, tuple):
+        value = dict(enumerate(value))
+    if not isinstance(value, Mapping):
+        return {path: value}
+    return {
+        leaf: found
+        for name, entry in value.items()
+        for leaf, found in leaves(entry, f"{path}.{name}").items()
+    }
+
+
+def test_everything_that_is_stated_is_read_back(default):
+    """A degree is no finite number of radians."""
+    found = read(commented_toml(FULL, default, title="x"))
+    for path, value in leaves(FULL).items():
+        is_number = isinstance(value, float)
+        assert leaves(found)[path] == (pytest.approx(value, rel=1e-12) if is_number else value)
+    assert len(leaves(found)) > len(all_keys())
+
+
+@pytest.mark.parametrize("radius", [0.04, 0.1 / 3, 1.5, 1e-5])
+def test_a_length_is_read_back_whatever_its_unit(radius, default):
+    stated = Specification(flywheel=FlywheelSection(r_max=radius))
+    found = read(commented_toml(stated, default, title="x")).flywheel.r_max
+    assert found == pytest.approx(radius, rel=1e-12)
+
+
+def test_chosen_maneuvers_are_stated(default):
+    text = commented_toml(Specification(), default, title="x", chosen=("drop", "back-flip"))
+    assert [maneuver.name for maneuver in read(text).maneuvers] == ["drop", "back-flip"]
+
+
+def test_the_units_of_each_key_are_told(empty):
+    for path, key in all_keys().items():
+        assert f"# {key.summary} [{key.value.takes}]" in of_section(empty, path.split(".")[0])
+
+
+def test_the_title_stands_at_the_top(empty):
+    assert empty.startswith("# Anything\n#\n# Every key")
+
+
+def test_rounded_for_people(default):
+    assert rounded_text(default, "flywheel.r_max") == "50 mm"
+    assert rounded_text(default, "motor.bus_voltage") == "24 V"
+    third = replace(default, requirement=RequirementSection(rate_change=1 / 3))
+    assert rounded_text(third, "requirement.rate_change") == "3.183 rpm"

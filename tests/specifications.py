@@ -1,0 +1,65 @@
+"""Specifications to write and read back."""
+
+from dataclasses import replace
+from math import pi, radians
+
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.specification import (
+    FlywheelSection,
+    MotorSection,
+    OcsSection,
+    RequirementSection,
+    RobotSection,
+    Specification,
+    ValidationSection,
+)
+
+MANEUVERS = (
+    Disturbance(
+        name="push",
+        takeoff_velocity=(0.5, 2.4),
+        torque=(0.2, -0.8, 0.1),
+        onset=0.1,
+        duration=0.05,
+    ),
+    Drop(name="drop", height=1.0, pitch=radians(30.0), roll=-0.1, incidence=0.0),
+    Flip(name="back-flip", gravity=1.62, jump_height=1.0, angle=-2 * pi, duration=2.0),
+)
+
+FULL = Specification(
+    robot=RobotSection(
+        file='a "quoted" \\ path/ä\x7f.urdf',
+        name="r",
+        trunk="t",
+        posture="stand",
+        joints={"a b": 1 / 3},
+    ),
+    requirement=RequirementSection(
+        rate_change=0.1, wheel_speed_max=31415.926, spin_inertia=7.11e-5, gravity=9.81
+    ),
+    ocs=OcsSection(
+        alpha=radians(40.0), alpha_criterion="lightest", position=(0.1, 0.2, 1e-17), co_design=True
+    ),
+    flywheel=FlywheelSection(
+        r_max=0.05,
+        r_min=0.005,
+        h_max=0.01,
+        h_min=0.002,
+        wall_min=0.002,
+        wheel_mass_max=0.25,
+        material="auto",
+        stress_safety=2.5,
+        web="none",
+    ),
+    motor=MotorSection(
+        name="auto", bus_voltage=24.0, gear="direct", motors="m.csv", gears="g.toml", torque_max=1.1
+    ),
+    validation=ValidationSection(enabled=False, projection="transpose", kp=60.0, kd=12.0, seed=7),
+    maneuvers=MANEUVERS,
+)
+
+
+def same(one, other):
+    """Maneuvers compare by identity."""
+    plain = replace(one, maneuvers=()) == replace(other, maneuvers=())
+    return plain and [vars(m) for m in one.maneuvers] == [vars(m) for m in other.maneuvers]
