@@ -14,6 +14,7 @@ import typer
 
 from ocs_design import cli_errors
 from ocs_design import cli_options as opt
+from ocs_design.cli_doctor import doctor
 from ocs_design.cli_export import export
 from ocs_design.cli_init import init
 from ocs_design.cli_pareto import pareto
@@ -177,6 +178,7 @@ def bound(
 app.command()(export)
 app.command()(pareto)
 app.command()(init)
+app.command()(doctor)
 
 
 @app.command()

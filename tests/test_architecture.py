@@ -1,24 +1,13 @@
 """What the shape of the package promises: imports in one direction, and a quick start."""
 
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
 import pytest
+from loading import HEAVY, modules_loaded_by
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "ocs_design"
-HEAVY = ("numpy", "scipy", "mujoco", "cvxpy", "trimesh", "casadi", "matplotlib", "pydantic")
-
-
-def modules_loaded_by(statement):
-    """Top-level names in sys.modules of a fresh interpreter after `statement`."""
-    code = (
-        f"{statement}\nimport sys\nprint(*sorted({{name.split('.')[0] for name in sys.modules}}))"
-    )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    return set(run.stdout.split())
 
 
 @pytest.mark.parametrize("module", ["ocs_design", "ocs_design.cli"])

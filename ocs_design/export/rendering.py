@@ -1,8 +1,5 @@
 """Pictures of MuJoCo models, drawn in a process of their own."""
 
-import os
-import subprocess
-import sys
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,11 +10,9 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import MissingToolError
+from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of
 
-TIME_LIMIT = 120.0
-"""For all pictures together [s]; a graphics driver may hang."""
-
-HINT = "install OpenGL without a screen, on Debian: apt install libegl1 libgl1-mesa-dri libosmesa6"
+_DRAWING = "ocs_design.export.camera_views"
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +37,15 @@ def render_views(scenes: Mapping[str, Scene]) -> dict[str, bytes]:
     with tempfile.TemporaryDirectory() as folder:
         paths = [_written(scene, Path(folder) / f"{i}") for i, scene in enumerate(scenes.values())]
         failures = []
-        for backend in _backends():
-            failure = _draw([str(path) for three in paths for path in three], backend)
+        arguments = [str(path) for three in paths for path in three]
+        for backend in backends():
+            failure = failure_of(_DRAWING, arguments, backend)
             if failure is None:
                 return {
                     name: three[2].read_bytes() for name, three in zip(scenes, paths, strict=True)
                 }
             failures.append(failure)
-    raise MissingToolError(f"no pictures, because {'; '.join(failures)}", hint=HINT)
+    raise MissingToolError(f"no pictures, because {'; '.join(failures)}", hint=OPENGL_HINT)
 
 
 def _written(scene: Scene, stem: Path) -> tuple[Path, Path, Path]:
@@ -58,34 +54,3 @@ def _written(scene: Scene, stem: Path) -> tuple[Path, Path, Path]:
     mujoco.mj_saveModel(scene.model, str(model))
     np.save(qpos, scene.qpos)
     return model, qpos, sheet
-
-
-def _backends() -> tuple[str, ...]:
-    """Values of MUJOCO_GL to try: what the user chose, or what needs no screen."""
-    chosen = os.environ.get("MUJOCO_GL")
-    if chosen is not None or not sys.platform.startswith("linux"):
-        return (chosen or "",)
-    return ("egl", "osmesa")
-
-
-def _draw(paths: list[str], backend: str) -> str | None:
-    """Draw in another process; what went wrong, or None."""
-    environment = dict(os.environ)
-    if backend:
-        environment["MUJOCO_GL"] = environment["PYOPENGL_PLATFORM"] = backend
-    command = [sys.executable, "-m", "ocs_design.export.camera_views", *paths]
-    try:
-        done = subprocess.run(
-            command,
-            env=environment,
-            capture_output=True,
-            check=False,
-            timeout=TIME_LIMIT,
-            stdin=subprocess.DEVNULL,
-        )
-    except (OSError, subprocess.TimeoutExpired) as error:
-        return f"{backend or 'OpenGL'}: {error}"
-    if done.returncode == 0:
-        return None
-    said = done.stderr.decode(errors="replace").strip().splitlines()
-    return f"{backend or 'OpenGL'}: {said[-1] if said else f'exit code {done.returncode}'}"

@@ -10,7 +10,7 @@ from robots import SOLO12
 from wheels import paper_device
 
 from ocs_design.exceptions import MissingToolError
-from ocs_design.export import rendering
+from ocs_design.export import opengl
 from ocs_design.export.camera_views import HEIGHT, WIDTH, shown_box
 from ocs_design.export.made_wheel import made_wheel
 from ocs_design.export.pictures import draw_pictures
@@ -109,14 +109,14 @@ def test_a_driver_that_kills_or_hangs_the_process_is_only_told(monkeypatch):
     def killed(command, **options):
         return subprocess.CompletedProcess(command, -11, b"", b"")
 
-    monkeypatch.setattr(rendering.subprocess, "run", killed)
+    monkeypatch.setattr(opengl.subprocess, "run", killed)
     with pytest.raises(MissingToolError, match="exit code -11"):
         render_views({"box": box_scene()})
 
     def hanging(command, **options):
         raise subprocess.TimeoutExpired(command, 1.0)
 
-    monkeypatch.setattr(rendering.subprocess, "run", hanging)
+    monkeypatch.setattr(opengl.subprocess, "run", hanging)
     with pytest.raises(MissingToolError, match="timed out"):
         render_views({"box": box_scene()})
 

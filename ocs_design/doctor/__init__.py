@@ -1,0 +1,1 @@
+"""What is installed and works here. Nothing of it needs what may be missing."""

@@ -1,0 +1,61 @@
+"""The verdict over all findings, and that it can be had where packages are missing."""
+
+import json
+from importlib import metadata
+
+import pytest
+from commands import run
+from loading import HEAVY, modules_loaded_by
+
+from ocs_design.doctor import packages
+from ocs_design.doctor.examination import Examination, examination_to_json, examine
+from ocs_design.doctor.finding import Finding, State
+from ocs_design.exceptions import MissingToolError
+
+
+def finding(state, *, required):
+    return Finding(name="it", state=state, required=required, purpose="all")
+
+
+@pytest.mark.parametrize(
+    ("state", "required", "code"),
+    [
+        (State.WORKS, True, 0),
+        (State.MISSING, False, 0),
+        (State.BROKEN, False, 0),
+        (State.MISSING, True, 5),
+        (State.UNFIT, True, 5),
+        (State.BROKEN, True, 5),
+    ],
+)
+def test_only_what_is_required_stands_in_the_way(state, required, code):
+    examination = Examination("1.0", (), (finding(state, required=required),))
+    assert examination.exit_code == code
+    document = json.loads(examination_to_json(examination))
+    assert document["healthy"] == (code == 0)
+    assert document["packages"][0]["state"] == state.value
+
+
+def test_it_needs_nothing_of_what_it_looks_for():
+    assert modules_loaded_by("import ocs_design.doctor.examination").isdisjoint(
+        {*HEAVY, "msgspec", "rich"}
+    )
+
+
+def test_run_from_its_source_alone_it_says_so(monkeypatch):
+    def missing(name):
+        raise metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr(packages.metadata, "requires", missing)
+    with pytest.raises(MissingToolError, match="not installed"):
+        examine()
+
+
+@pytest.mark.slow
+def test_here_everything_required_works():
+    done = run("doctor", "--json")
+    assert done.code == 0
+    found = {each["name"]: each for each in done.document["machine"] + done.document["packages"]}
+    assert found["mujoco"]["state"] == "works"
+    assert found["mujoco"]["found"] == metadata.version("mujoco")
+    assert {"Python", "this folder", "ffmpeg", "matplotlib"} <= set(found)
