@@ -4,7 +4,7 @@
     python docs/generate.py --quick    leaves out what must be run, which takes a minute
     python docs/generate.py --check    writes nothing; fails if a quick block is stale
 
-A block stands between `<!-- begin KIND: ARGUMENT -->` and `<!-- end -->` in a Markdown page. Kinds:
+See `blocks`. Kinds:
 
     help: COMMAND          what `ocs-design COMMAND --help` prints
     keys: SECTION          table of the keys of one section of the specification file
@@ -15,15 +15,18 @@ A block stands between `<!-- begin KIND: ARGUMENT -->` and `<!-- end -->` in a M
 
 import argparse
 import os
-import re
 import shlex
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parent))  # for those who load this file from elsewhere
+
+import blocks
 import typer
+from blocks import table
 from typer.core import TyperCommand, TyperGroup
 
 from ocs_design.cli import app
@@ -38,13 +41,6 @@ WIDTH = 80
 
 OPTIONS = {"robot.joints": "--joint", "validation.enabled": "--no-validate"}
 """Options that are not named after their key."""
-
-BLOCK = re.compile(
-    r"(?P<begin><!-- begin (?P<kind>[a-z ]+): (?P<argument>.+?) -->\n)"
-    r"(?P<body>.*?)"
-    r"(?P<end><!-- end -->)",
-    re.DOTALL,
-)
 
 
 def command_help(name: str) -> str:
@@ -135,12 +131,6 @@ def fenced(text: str) -> str:
     return "\n".join(["```text", *lines, "```\n"])
 
 
-def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
-    """A Markdown table."""
-    lines = [header, tuple("---" for _ in header), *rows]
-    return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
-
-
 KINDS: Mapping[str, Callable[[str], str]] = {
     "help": command_help,
     "keys": section_keys,
@@ -163,21 +153,9 @@ def cli_page() -> str:
     return "\n\n".join([intro, *(section.rstrip() for section in sections)]) + "\n"
 
 
-def filled(text: str, kinds: Mapping[str, Callable[[str], str]]) -> str:
-    """The page with the blocks of these kinds filled in; others are left as they are."""
-
-    def fill(block: re.Match[str]) -> str:
-        """The block with its body made anew."""
-        make = kinds.get(block["kind"])
-        body = block["body"] if make is None else make(block["argument"])
-        return f"{block['begin']}{body}{block['end']}"
-
-    return BLOCK.sub(fill, text)
-
-
 def page(path: Path, kinds: Mapping[str, Callable[[str], str]]) -> str:
     """What a page should hold."""
-    return filled(cli_page() if path == CLI_PAGE else path.read_text(), kinds)
+    return blocks.filled(cli_page() if path == CLI_PAGE else path.read_text(), kinds)
 
 
 def stale_pages() -> list[str]:

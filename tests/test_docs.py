@@ -32,10 +32,10 @@ def test_generated_pages_are_up_to_date(generate):
 
 def test_a_stale_block_is_seen(generate):
     stale = "<!-- begin keys: motor -->\nold\n<!-- end -->"
-    fresh = generate.filled(stale, generate.QUICK)
+    fresh = generate.blocks.filled(stale, generate.QUICK)
     assert "old" not in fresh
     assert "torque_max" in fresh
-    assert generate.filled(fresh, generate.QUICK) == fresh
+    assert generate.blocks.filled(fresh, generate.QUICK) == fresh
 
 
 def test_every_command_has_its_section(generate):
@@ -92,7 +92,7 @@ def test_every_reference_of_the_theory_is_listed():
 def test_the_commands_that_the_docs_show_still_print_that(generate):
     """All but the seconds that each step took."""
     for path in generate.PAGES:
-        for block in generate.BLOCK.finditer(path.read_text()):
+        for block in generate.blocks.BLOCK.finditer(path.read_text()):
             if block["kind"] in generate.SLOW:
                 printed = generate.KINDS[block["kind"]](block["argument"])
                 assert untimed(printed) == untimed(block["body"])

@@ -116,7 +116,7 @@ def spin_bound(
 
 
 def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
-    """Required over robot's inertia, I_f / I_r, one row per wheel speed (paper, figure 2).
+    """Required over robot's inertia, I_f / I_r, one row per wheel speed (paper, figure 3).
 
     Args:
         rate_changes: [rad/s], shape (n,).

@@ -1,0 +1,59 @@
+"""docs/paper.md says what the scripts in examples/roscia2023 find."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SCRIPT = ROOT / "examples" / "roscia2023" / "reproduce.py"
+PAGE = ROOT / "docs" / "paper.md"
+
+
+@pytest.fixture(scope="module")
+def script():
+    """With what it loads from beside it, as when it is run."""
+    path = list(sys.path)
+    spec = importlib.util.spec_from_file_location("reproduce", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    yield module
+    sys.path[:] = path
+
+
+def stale(text):
+    return text.replace("7.447", "9").replace("0.1027 kg", "0.2 kg").replace("30.18°", "40°")
+
+
+def test_the_page_shows_what_the_script_finds(script):
+    text = PAGE.read_text()
+    assert script.page(text, flown=False) == text
+    assert stale(text) != text
+    assert script.page(stale(text), flown=False) == text
+
+
+def test_every_table_is_on_the_page(script):
+    text = PAGE.read_text()
+    blocks = [(found["kind"], found["argument"]) for found in script.blocks.BLOCK.finditer(text)]
+    expected = [("paper", name) for name in script.QUICK]
+    assert blocks == expected + [("paper flight", name) for name in script.FLOWN]
+
+
+def test_every_figure_is_on_the_page_and_small():
+    figures = sorted((PAGE.parent / "_static" / "paper").iterdir())
+    assert len(figures) == 6
+    for figure in figures:
+        assert f"(_static/paper/{figure.name})" in PAGE.read_text()
+        assert figure.stat().st_size < 80_000
+
+
+@pytest.mark.slow
+def test_the_flights_on_the_page_are_those_that_are_flown(script, tmp_path):
+    text = PAGE.read_text()
+    assert script.page(text) == text
+    drawn = importlib.import_module("drawings").draw_all(
+        script.solo12(), script.experiments.fly(), tmp_path
+    )
+    names = {path.name for path in drawn if path.read_bytes().startswith(b"<?xml")}
+    assert names == {path.name for path in (PAGE.parent / "_static" / "paper").iterdir()}
