@@ -93,6 +93,7 @@ def size(
         from ocs_design.design_file import design_to_json
         from ocs_design.pipeline import design_ocs, load_solvers
         from ocs_design.report.flights import print_outcome
+        from ocs_design.report.summary import print_summary
         from ocs_design.report.terminal import print_design, print_solution
 
         load_solvers(specification)
@@ -106,11 +107,12 @@ def size(
     )
     if as_json:
         sys.stdout.buffer.write(design_to_json(outcome.design))
-    elif not quiet:
+    elif verbose:
         print_design(console, outcome.design)
-        if verbose:
-            print_solution(console, outcome.design)
+        print_solution(console, outcome.design)
         print_outcome(console, outcome.design, outcome.folder)
+    elif not quiet:
+        print_summary(console, outcome.design, outcome.runs, outcome.folder)
     raise typer.Exit(outcome.exit_code)
 
 

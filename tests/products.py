@@ -53,8 +53,8 @@ class Case:
 
 
 CASES = {
-    "motor": Case((), 9, ("24 V", "housing", "fell out"), 1e-5, ("flywheel_rim", "flywheel_hub")),
-    "no motor": Case(("--motor", "none"), 8, ("7,200 rpm", "stainless"), 1e-9, ("flywheel",)),
+    "motor": Case((), 5, ("24 V", "housing", "rated for"), 1e-5, ("flywheel_rim", "flywheel_hub")),
+    "no motor": Case(("--motor", "none"), 5, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)),
 }
 
 

@@ -30,11 +30,11 @@ def print_device(console: Console, design: OcsDesign) -> None:
     """Rim, masses, place, motor and incidences."""
     ocs = design.ocs
     heading(console, "Device: two flywheels" + ("" if ocs.motor.bus_voltage else ", no motors yet"))
-    facts(console, [*_wheel(design), *_masses(design), *_drive(ocs.motor), *_stand(ocs)])
+    facts(console, device_facts(design))
     print_warnings(console, ocs.warnings)
     items(console, (*could_hit(ocs), *ocs.fitting), style="yellow")
-    if _beyond_its_rating(ocs.motor):
-        note(console, _OVERRATED.format(motor=ocs.motor), style="yellow")
+    for warning in overrated(ocs.motor):
+        note(console, warning, style="yellow")
     table = columns("incidence by criterion", "deg", "robot alone")
     for name, angle in ocs.incidence_by_criterion.items():
         before = ocs.incidence_by_criterion_robot_alone.get(name)
@@ -42,6 +42,12 @@ def print_device(console: Console, design: OcsDesign) -> None:
             name, f"{np.degrees(angle):.2f}", "" if before is None else f"{np.degrees(before):.2f}"
         )
     show(console, table)
+
+
+def device_facts(design: OcsDesign) -> list[tuple[str, str]]:
+    """Names and values: the wheel, the masses, the drive and the place."""
+    ocs = design.ocs
+    return [*_wheel(design), *_masses(design), *_drive(ocs.motor), *_stand(ocs)]
 
 
 def _wheel(design: OcsDesign) -> Iterator[tuple[str, str]]:
@@ -94,10 +100,12 @@ def _drive(motor: Motor) -> Iterator[tuple[str, str]]:
     yield "drive at the wheel", ", ".join(limits)
 
 
-def _beyond_its_rating(motor: Motor) -> bool:
+def overrated(motor: Motor) -> Iterator[str]:
+    """What is to be said of a motor at more volts than it is made for."""
     if motor.bus_voltage is None or motor.rated_voltage is None:
-        return False
-    return motor.bus_voltage > motor.rated_voltage
+        return
+    if motor.bus_voltage > motor.rated_voltage:
+        yield _OVERRATED.format(motor=motor)
 
 
 def _stand(ocs: OcsRecord) -> Iterator[tuple[str, str]]:

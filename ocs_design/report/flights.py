@@ -32,7 +32,7 @@ def print_flights(console: Console, design: OcsDesign) -> None:
     for run in design.validation:
         table.add_row(*_run_row(run))
     show(console, table)
-    items(console, (_run_story(run) for run in design.validation))
+    items(console, (run_story(run) for run in design.validation))
 
 
 def _run_row(run: ValidationRecord) -> list[Text | str]:
@@ -51,7 +51,7 @@ def _run_row(run: ValidationRecord) -> list[Text | str]:
     ]
 
 
-def _run_story(run: ValidationRecord) -> str:
+def run_story(run: ValidationRecord) -> str:
     """The verdict in words, with what was changed about the turn."""
     device = "with" if run.ocs else "without"
     return f"{run.scenario}, {device}: " + "; ".join(filter(None, (run.reason, run.note)))
@@ -66,7 +66,7 @@ def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
     """What was written, and the verdict in one line."""
     print_files(console, str(folder), "everything in this report", design.files)
     console.print()
-    console.print(_summary([run.passed for run in design.validation if run.ocs]))
+    console.print(summary([run.passed for run in design.validation if run.ocs]))
 
 
 def print_files(console: Console, folder: str, held: str, files: Iterable[str]) -> None:
@@ -93,7 +93,7 @@ def _listed(files: Sequence[str]) -> str:
     return "  ".join(files) if len(files) <= MOST_LISTED else f"{len(files)} files"
 
 
-def _summary(verdicts: Sequence[bool | None]) -> Text:
+def summary(verdicts: Sequence[bool | None]) -> Text:
     """The flights with the device in one line."""
     if not verdicts:
         return Text("No flight was simulated: the design is not proved.", style="bold yellow")

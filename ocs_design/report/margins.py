@@ -10,6 +10,8 @@ from ocs_design.report.layout import columns, heading, items, show
 from ocs_design.report.quantities import degrees, grams, megapascals, millimetres, rpm
 from ocs_design.sizing.margins.margin import Margin
 
+COLUMNS = ("quantity", "demand", "capacity", "factor", "set by")
+
 _SHOWN = {"rad/s": rpm, "Pa": megapascals, "m": millimetres, "kg": grams, "rad": degrees}
 
 
@@ -22,18 +24,25 @@ def print_margins(console: Console, margins: Iterable[Margin]) -> None:
 
 
 def _table(margins: Iterable[Margin]) -> Table:
-    table = columns("quantity", "demand", "capacity", "factor", "set by")
+    table = columns(*COLUMNS)
     table.columns[-1].justify = "left"
     for margin in margins:
-        factor = margin.factor
-        table.add_row(
-            Text(margin.name),
-            quantity(margin.demand, margin.unit),
-            "-" if margin.capacity is None else quantity(margin.capacity, margin.unit),
-            Text("-" if factor is None else f"{factor:.2f}", style=_style(factor)),
-            Text(margin.maneuver),
-        )
+        name, demand, capacity, factor, maneuver = margin_cells(margin)
+        styled = Text(factor, style=_style(margin.factor))
+        table.add_row(Text(name), demand, capacity, styled, Text(maneuver))
     return table
+
+
+def margin_cells(margin: Margin) -> tuple[str, str, str, str, str]:
+    """Name, demand, capacity, factor, and the maneuver that sets it."""
+    factor = margin.factor
+    return (
+        margin.name,
+        quantity(margin.demand, margin.unit),
+        "-" if margin.capacity is None else quantity(margin.capacity, margin.unit),
+        "-" if factor is None else f"{factor:.2f}",
+        margin.maneuver,
+    )
 
 
 def quantity(value: float, unit: str) -> str:

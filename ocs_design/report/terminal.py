@@ -78,6 +78,12 @@ def print_joints(console: Console, robot: RobotRecord) -> None:
 def print_robot(console: Console, robot: RobotRecord) -> None:
     """What was read: mass, trunk, posture, locked inertia."""
     heading(console, f"Robot: {robot.name}")
+    facts(console, robot_facts(robot))
+    print_warnings(console, robot.warnings)
+
+
+def robot_facts(robot: RobotRecord) -> list[tuple[str, str]]:
+    """Names and values."""
     trunk = robot.trunk
     if robot.floating_base != trunk:
         trunk += f" (floating base: {robot.floating_base})"
@@ -87,18 +93,14 @@ def print_robot(console: Console, robot: RobotRecord) -> None:
     com = ", ".join(map(tenths, robot.com))
     diagonal = "  ".join(f"{robot.inertia[i][i]:.4g}" for i in range(3))
     products = "  ".join(f"{robot.inertia[i][j]:.2g}" for i, j in ((0, 1), (0, 2), (1, 2)))
-    facts(
-        console,
-        [
-            ("mass", f"{robot.mass:.4g} kg"),
-            ("trunk", trunk),
-            ("posture", posture),
-            ("centre of mass", f"{com} mm in the trunk frame"),
-            ("locked inertia", f"{diagonal} kg m2 (xx yy zz, about the centre of mass)"),
-            ("products", f"{products} kg m2 (xy xz yz)"),
-        ],
-    )
-    print_warnings(console, robot.warnings)
+    return [
+        ("mass", f"{robot.mass:.4g} kg"),
+        ("trunk", trunk),
+        ("posture", posture),
+        ("centre of mass", f"{com} mm in the trunk frame"),
+        ("locked inertia", f"{diagonal} kg m2 (xx yy zz about the CoM)"),
+        ("products", f"{products} kg m2 (xy xz yz)"),
+    ]
 
 
 def _print_requirement(console: Console, design: OcsDesign) -> None:
@@ -141,11 +143,11 @@ def _print_limits(console: Console, design: OcsDesign) -> None:
     part = "rim" if design.selection is None else "module"
     table = columns("limit", f"worth for one {part}")
     for name in sizing.binding:
-        table.add_row(name, _price(name, sizing.shadow_prices.get(name)))
+        table.add_row(name, price_text(name, sizing.shadow_prices.get(name)))
     show(console, table)
 
 
-def _price(name: str, price: float | None) -> str:
+def price_text(name: str, price: float | None) -> str:
     """A shadow price per unit that an engineer would change: kg per m is g per mm."""
     if price is None:
         return "-"
@@ -157,10 +159,15 @@ def _price(name: str, price: float | None) -> str:
 
 
 def _print_margins(console: Console, design: OcsDesign) -> None:
-    print_margins(console, [_margin(record) for record in design.margins])
+    print_margins(console, recorded_margins(design))
     if design.ocs.flywheel.stress_margin is None:
         material = design.ocs.flywheel.material
         note(console, f"Stress is NOT checked: no strength of {material} is known.", style="yellow")
+
+
+def recorded_margins(design: OcsDesign) -> list[Margin]:
+    """Every margin of a design."""
+    return [_margin(record) for record in design.margins]
 
 
 def _margin(record: MarginRecord) -> Margin:

@@ -3,10 +3,16 @@
 import os
 import pty
 import re
+from io import StringIO
 
 import pytest
 from commands import PROGRAM, SOLO12, Result, environment, run
 from products import CASES, FILES, Product
+from rich.console import Console
+
+from ocs_design.design_file import read_design
+from ocs_design.report.flights import print_outcome
+from ocs_design.report.terminal import print_design, print_solution
 
 SGR = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -42,8 +48,36 @@ def test_the_report_fits_its_terminal(request, width, which, product):
     headings = [line for line in lines if re.match(r"[A-Z]", line)]
     assert len(headings) == len(set(headings)) == case.headings
     for word in ("2.5 kg", "Assumed", "r_max", "back-flip", *case.words):
-        assert word in said.stderr
+        assert word in said.said
     assert "3 of 3 scenarios pass" in lines[-1]
+
+
+def test_everything_that_was_assumed_is_told(product):
+    assumed = read_design(product.folder / "design.json").requirement.assumptions
+    assert len(assumed) > 10
+    for sentence in assumed:
+        assert sentence in product.said.said
+
+
+def test_the_story_takes_one_screen(product, wide):
+    """Of 60 lines, on a terminal of 80 columns, without the steps that went before."""
+    for said in (product.said, wide.said):
+        story = said.stderr.partition("\n\n")[2].splitlines()
+        assert len(story) < 60
+
+
+@pytest.mark.parametrize("width", [80, 120])
+def test_the_whole_report_fits_its_terminal(width, product):
+    console = Console(file=StringIO(), width=width)
+    design = read_design(product.folder / "design.json")
+    print_design(console, design)
+    print_solution(console, design)
+    print_outcome(console, design, product.folder)
+    text = console.file.getvalue()
+    assert max(map(len, text.splitlines())) <= width
+    for word in ("locked inertia", "What binds", "Margins", "incidence by criterion", "Written to"):
+        assert word in text
+    assert ("fell out" in text) == (design.selection is not None)
 
 
 def test_a_wider_terminal_breaks_fewer_lines(product, wide):
