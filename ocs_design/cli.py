@@ -122,6 +122,9 @@ def inspect(
     context: typer.Context,
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Also print each joint of the posture.")
+    ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
     """Show what is read from a robot: mass, inertia, posture, incidence angles, warnings."""
@@ -137,7 +140,7 @@ def inspect(
     if as_json:
         sys.stdout.buffer.write(inspection_to_json(inspection))
     else:
-        print_inspection(make_console(color=not no_color), inspection)
+        print_inspection(make_console(color=not no_color), inspection, verbose=verbose)
 
 
 @app.command()

@@ -179,7 +179,8 @@ AsJson: TypeAlias = Annotated[
 Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 Verbose: TypeAlias = Annotated[
-    bool, typer.Option("-v", "--verbose", help="Also print the posture and how it was solved.")
+    bool,
+    typer.Option("-v", "--verbose", help="Print all figures, not the story on one screen."),
 ]
 NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]
 

@@ -20,7 +20,7 @@ SAME_RATE = (
 )
 
 
-def print_inspection(console: Console, inspection: Inspection) -> None:
+def print_inspection(console: Console, inspection: Inspection, *, verbose: bool = False) -> None:
     """Mass, posture, inertia, incidence angles and how they move with the posture."""
     robot = inspection.robot
     print_robot(console, robot)
@@ -39,7 +39,7 @@ def print_inspection(console: Console, inspection: Inspection) -> None:
     )
     _print_criteria(console, inspection)
     _print_postures(console, inspection)
-    if robot.posture:
+    if robot.posture and verbose:
         print_joints(console, robot)
 
 

@@ -89,6 +89,8 @@ def test_inspect_says_what_size_goes_by():
     assert "stand, trunk 272 mm over the feet" in text
     assert "FL_FOOT, FR_FOOT, HL_FOOT, HR_FOOT" in text
     assert f"equal-rate {np.degrees(alpha):.3f}" in text
+    assert "Joints at stand" not in text
+    assert "FL_HFE 0.6435 36.9" in run("inspect", SOLO12, "-v").said
 
 
 @pytest.mark.parametrize(
