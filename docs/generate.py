@@ -11,6 +11,7 @@ See `blocks`. Kinds:
     maneuver keys: KIND    table of the keys of one kind of [[maneuver]]
     run: COMMAND LINE      what the command prints, run in an empty folder that holds `examples/`
     refused: COMMAND LINE  the same for one that no design can satisfy, which is exit code 4
+    source: FILE           a script, from the folder of the project
 """
 
 import argparse
@@ -125,16 +126,22 @@ def run(command_line: str, exit_code: int = 0) -> str:
     return fenced(f"$ {command_line}\n{done.stdout}")
 
 
-def fenced(text: str) -> str:
-    """A block of plain text."""
+def source(file: str) -> str:
+    """A script as it is."""
+    return fenced((ROOT / file).read_text(encoding="utf-8"), "python")
+
+
+def fenced(text: str, language: str = "text") -> str:
+    """A block of plain text, or of a language."""
     lines = [line.rstrip() for line in text.strip("\n").splitlines()]
-    return "\n".join(["```text", *lines, "```\n"])
+    return "\n".join([f"```{language}", *lines, "```\n"])
 
 
 KINDS: Mapping[str, Callable[[str], str]] = {
     "help": command_help,
     "keys": section_keys,
     "maneuver keys": maneuver_keys,
+    "source": source,
     "run": run,
     "refused": lambda command_line: run(command_line, exit_code=4),
 }

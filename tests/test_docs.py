@@ -9,6 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from ocs_design.catalogue.motors import known_motors, motors
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.specification import Specification
+
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *DOCS.glob("*.md")]
@@ -68,6 +72,36 @@ def test_links_within_the_repository_lead_somewhere(page):
         found = page.parent / file if file else page
         assert found.exists(), target
         assert not anchor or anchor in anchors(found), target
+
+
+TOML = re.compile(r"^```toml\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def test_files_that_the_docs_show_are_read(tmp_path):
+    """As specifications, or as catalogues of motors."""
+    shown = [text for page in DOCS.glob("*.md") for text in TOML.findall(page.read_text())]
+    assert len(shown) > 4
+    for text in shown:
+        if "[[motor]]" in text:
+            (tmp_path / "motors.toml").write_text(text)
+            assert len(known_motors(tmp_path / "motors.toml")) > len(motors())
+        else:
+            assert parse_specification(text, "shown") != Specification()
+
+
+SEEN = re.compile(r"see docs/(?P<page>[\w-]+\.md)(?:#(?P<anchor>[\w-]+))?")
+
+
+def test_pages_that_errors_point_to_exist():
+    found = [
+        match
+        for path in (ROOT / "ocs_design").rglob("*.py")
+        for match in SEEN.finditer(re.sub(r'"\s*\n\s*f?"', "", path.read_text()))
+    ]
+    assert len(found) > 4
+    for match in found:
+        assert (DOCS / match["page"]).exists(), match[0]
+        assert not match["anchor"] or match["anchor"] in anchors(DOCS / match["page"]), match[0]
 
 
 def test_every_section_that_the_code_cites_exists():

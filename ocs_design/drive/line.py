@@ -18,6 +18,12 @@ from ocs_design.exceptions import OcsError
 RESERVE = 0.95
 """Share of voltage and current that a design may use; the rest is left to the feedback."""
 
+FIGURES_HINT = (
+    "Choose another motor, or state its figures in a catalogue file of your own; "
+    "see docs/catalogue.md#motors"
+)
+"""Where a motor's source does not give what is needed."""
+
 
 @dataclass(frozen=True, eq=False)
 class DriveLine:
@@ -57,7 +63,7 @@ def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
         raise OcsError(
             f"motor {motor.name!r}: its source does not give "
             f"{', '.join(missing_figures(motor, gear))}",
-            hint="Choose another motor, or state its figures in a catalogue file of your own.",
+            hint=FIGURES_HINT,
         )
     gain = gear.ratio * gear.efficiency
     return DriveLine(

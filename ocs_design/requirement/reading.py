@@ -53,7 +53,9 @@ def parse_specification(text: str, name: str) -> Specification:
     faults.extend(contradictions(specification))
     if faults:
         count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
-        raise SpecificationError(f"{name} has {count}:", problems=faults)
+        raise SpecificationError(
+            f"{name} has {count}:", problems=faults, hint="for every key see docs/specification.md"
+        )
     return specification
 
 

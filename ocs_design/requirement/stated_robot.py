@@ -43,7 +43,8 @@ def read_stated_robot(
     else:
         raise UsageError(
             "no robot is given",
-            hint="give a robot file, or --mass and --inertia, or [robot] in the specification",
+            hint="give a robot file, or --mass and --inertia, or [robot] in the specification; "
+            "see docs/tutorial.md",
         )
     if strict and robot.warnings:
         raise RobotError("--strict: " + "; ".join(robot.warnings), hint="mend the robot's file")

@@ -75,7 +75,10 @@ def _checked_trunk(tree: Tree, trunk: str) -> str:
 
 def _check_physical(weighed: MassProperties) -> None:
     """Refuse a robot that cannot exist or that nothing can turn."""
-    hint = "correct the <inertial> elements of the links; `inspect` lists what is odd about them"
+    hint = (
+        "correct the <inertial> elements of the links; `inspect` lists what is odd about them; "
+        "see docs/howto-inertials.md"
+    )
     if weighed.mass == 0.0:
         raise RobotError("the robot has no mass: no link has an <inertial>", hint=hint)
     defect = physical_defect(weighed)

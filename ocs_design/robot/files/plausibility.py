@@ -30,7 +30,8 @@ def _check_base(base: Body) -> None:
     raise RobotError(
         f"the floating base has no mass: no <inertial> with a mass in {links}",
         hint=f"give link {base.name!r} its mass and inertia; if it only holds the robot in the "
-        "world, remove it together with its joint, or make that joint floating",
+        "world, remove it together with its joint, or make that joint floating; "
+        "see docs/howto-inertials.md",
     )
 
 

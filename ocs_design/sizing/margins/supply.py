@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.drive.line import FIGURES_HINT
 from ocs_design.exceptions import OcsError
 from ocs_design.sizing.margins.driven_wheel import DrivenWheel
 from ocs_design.sizing.margins.motion import Motion, integral
@@ -111,6 +112,6 @@ def _known(figure: float | None, name: str, wheel: DrivenWheel) -> float:
     if figure is None:
         raise OcsError(
             f"motor {wheel.motor.name!r}: its source does not give its {name}",
-            hint="Choose another motor, or state its figures in a catalogue file of your own.",
+            hint=FIGURES_HINT,
         )
     return figure
