@@ -37,7 +37,7 @@ QUESTIONS: Mapping[str, str] = {
 """What is asked besides robot and maneuvers, by the path of its key."""
 
 
-@opt.with_options(opt.TASK_OPTIONS)
+@opt.with_options(opt.START_OPTIONS)
 def init(
     context: typer.Context,
     yes: Yes = False,

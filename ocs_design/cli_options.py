@@ -221,6 +221,13 @@ TASK_OPTIONS: Mapping[str, object] = {
 """The same, and what the device must do and may be."""
 
 
+START_OPTIONS: Mapping[str, object] = {
+    **ROBOT_OPTIONS,
+    **{name: TASK_OPTIONS[name] for name in ("r_max", "h_max", "motor", "bus_voltage", "gear")},
+}
+"""What names a robot, and what a specification to start from most often states."""
+
+
 def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
     """Declare these options on a command too, before its own and each left out by default.
 
