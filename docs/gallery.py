@@ -115,7 +115,7 @@ def size(entry: Entry, out: Path) -> str:
     ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     error = json.loads(done.stdout).get("error")
-    return "" if error is None else f"{error['message']} {error['hint']}"
+    return "" if error is None else str(error["message"])
 
 
 def row(entry: Entry, design: OcsDesign) -> tuple[str, ...]:
