@@ -69,6 +69,7 @@ def size(
     context: typer.Context,
     co_design: opt.CoDesign = False,
     no_validate: opt.NoValidate = False,
+    video: opt.Video = False,
     seed: opt.Seed = None,
     out: opt.Out = None,
     force: opt.Force = False,

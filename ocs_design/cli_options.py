@@ -163,6 +163,9 @@ CoDesign: TypeAlias = Annotated[
 NoValidate: TypeAlias = Annotated[
     bool, typer.Option("--no-validate", help="Do not simulate the maneuvers.")
 ]
+Video: TypeAlias = Annotated[
+    bool, typer.Option("--video", help="Film the flights with and without the device: MP4 or GIF.")
+]
 Seed: TypeAlias = Annotated[
     int | None, typer.Option("--seed", metavar="N", help="Seed of all random numbers.")
 ]

@@ -17,6 +17,7 @@ from ocs_design.export.time_series import export_time_series
 from ocs_design.mounting import mounting_of, placement_warnings
 from ocs_design.recording import record_design
 from ocs_design.report.console import Steps
+from ocs_design.report.video.filming import film_or_tell
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import NO_MOTOR, Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
@@ -115,6 +116,11 @@ def design_ocs(
                     specification, robot, designed, resolved, plans=plans, progress=step.update
                 )
                 _write_runs(runs, staging)
+        if runs and specification.validation.video:
+            with steps.step("film the flights"):
+                maneuvers = resolved.requirement.maneuvers
+                place = staging / "validation"
+                remarks_on_place += film_or_tell(robot, device, maneuvers, runs, place)
         design = record_design(
             robot,
             resolved,

@@ -54,7 +54,9 @@ FULL = Specification(
     motor=MotorSection(
         name="auto", bus_voltage=24.0, gear="direct", motors="m.csv", gears="g.toml", torque_max=1.1
     ),
-    validation=ValidationSection(enabled=False, projection="transpose", kp=60.0, kd=12.0, seed=7),
+    validation=ValidationSection(
+        enabled=False, projection="transpose", kp=60.0, kd=12.0, seed=7, video=True
+    ),
     maneuvers=MANEUVERS,
 )
 

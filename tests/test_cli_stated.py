@@ -34,6 +34,8 @@ def test_options_are_keys_by_their_names():
 def test_what_is_declined_is_false():
     assert stated(no_validate=True).validation.enabled is False
     assert stated(no_validate=False).validation.enabled is None
+    assert stated(video=True).validation.video is True
+    assert stated(video=False).validation.video is None
 
 
 def test_an_option_goes_over_the_file_and_leaves_the_rest(tmp_path):

@@ -15,6 +15,7 @@ from packaging.specifiers import SpecifierSet
 
 from ocs_design.doctor.finding import Finding, State
 from ocs_design.doctor.packages import DISTRIBUTION
+from ocs_design.export.ffmpeg import FFMPEG_HINT, ffmpeg_program
 from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of
 
 _TRIAL = "ocs_design.export.drawing_trial"
@@ -91,7 +92,7 @@ def opengl() -> Iterator[Finding]:
 
 def film_maker() -> Finding:
     """Ffmpeg."""
-    path = shutil.which("ffmpeg")
+    path = ffmpeg_program()
     found = "" if path is None else _ffmpeg_version(path)
     return Finding(
         name="ffmpeg",
@@ -99,7 +100,7 @@ def film_maker() -> Finding:
         required=False,
         found=found,
         purpose="videos",
-        cure="" if found else "install ffmpeg, on Debian: apt install ffmpeg",
+        cure="" if found else FFMPEG_HINT,
     )
 
 

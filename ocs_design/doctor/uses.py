@@ -35,6 +35,8 @@ USES: Mapping[str, Use] = MappingProxyType(
         "pycollada": Use("robots with .dae meshes", "collada"),
         "xacro": Use("robots that come as .xacro"),
         "matplotlib": Use("figures as files"),
+        "pillow": Use("words on videos", "PIL"),
+        "imageio-ffmpeg": Use("videos where the system has no ffmpeg"),
         "cadquery-ocp-novtk": Use("parts in STEP for CAD", "OCP"),
     }
 )

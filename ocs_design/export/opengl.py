@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 
 TIME_LIMIT = 120.0
-"""For all pictures together [s]; a graphics driver may hang."""
+"""For all that one process draws [s]; a graphics driver may hang."""
 
 OPENGL_HINT = (
     "install OpenGL without a screen, on Debian: apt install libegl1 libgl1-mesa-dri libosmesa6"
@@ -19,6 +19,9 @@ OPENGL_HINT = (
 def backends() -> tuple[str, ...]:
     """Values of MUJOCO_GL to try: what the user chose, or what needs no screen."""
     chosen = os.environ.get("MUJOCO_GL")
+    # The command line disables it for its own process, which draws nothing.
+    if chosen == "disabled":
+        chosen = None
     if chosen is not None or not sys.platform.startswith("linux"):
         return (chosen or "",)
     return ("egl", "osmesa")

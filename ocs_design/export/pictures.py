@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 
 from ocs_design.design import Device
+from ocs_design.export.backdrop import add_white_sky
 from ocs_design.export.rendering import Scene, render_views
 from ocs_design.export.robot_model import RobotModel
 from ocs_design.export.standing import MOTOR, PRINT, SHELL, Color, motor_in_place
@@ -57,7 +58,7 @@ def draw_pictures(
 def shown_scene(shown: Sequence[Shown]) -> Scene:
     """Parts alone, as they stand on the robot at no incidence."""
     spec = mujoco.MjSpec()
-    _whiten(spec)
+    add_white_sky(spec)
     body = spec.worldbody.add_body(quat=_MODULE_ON_ROBOT)
     for index, part in enumerate(shown):
         name = f"part{index}"
@@ -69,18 +70,6 @@ def shown_scene(shown: Sequence[Shown]) -> Scene:
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, rgba=part.color)
     model = spec.compile()
     return Scene(model, model.qpos0)
-
-
-def _whiten(spec: mujoco.MjSpec) -> None:
-    """A white sky, which shows through what one can look into."""
-    spec.add_texture(
-        name="white",
-        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT,
-        rgb1=(1.0, 1.0, 1.0),
-        width=16,
-        height=16,
-    )
 
 
 def robot_scene(robot: Robot, model: RobotModel) -> Scene:

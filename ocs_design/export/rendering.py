@@ -1,7 +1,7 @@
 """Pictures of MuJoCo models, drawn in a process of their own."""
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,16 +36,28 @@ def render_views(scenes: Mapping[str, Scene]) -> dict[str, bytes]:
     """
     with tempfile.TemporaryDirectory() as folder:
         paths = [_written(scene, Path(folder) / f"{i}") for i, scene in enumerate(scenes.values())]
-        failures = []
-        arguments = [str(path) for three in paths for path in three]
-        for backend in backends():
-            failure = failure_of(_DRAWING, arguments, backend)
-            if failure is None:
-                return {
-                    name: three[2].read_bytes() for name, three in zip(scenes, paths, strict=True)
-                }
-            failures.append(failure)
-    raise MissingToolError(f"no pictures, because {'; '.join(failures)}", hint=OPENGL_HINT)
+        draw(_DRAWING, [str(path) for three in paths for path in three], "pictures")
+        return {name: three[2].read_bytes() for name, three in zip(scenes, paths, strict=True)}
+
+
+def draw(program: str, arguments: Sequence[str], what: str) -> None:
+    """Run a program that draws, in a process of its own, by the first way to OpenGL that works.
+
+    Args:
+        program: module to run.
+        arguments: of it.
+        what: it draws, for the message.
+
+    Raises:
+        MissingToolError: OpenGL does not work here; the message says why.
+    """
+    failures = []
+    for backend in backends():
+        failure = failure_of(program, arguments, backend)
+        if failure is None:
+            return
+        failures.append(failure)
+    raise MissingToolError(f"no {what}, because {'; '.join(failures)}", hint=OPENGL_HINT)
 
 
 def _written(scene: Scene, stem: Path) -> tuple[Path, Path, Path]:

@@ -46,6 +46,8 @@ def default_specification(
             **{key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()},
         ),
         motor=MotorSection(name=AUTO, gear=AUTO, bus_voltage=default_bus_voltage(robot)),
-        validation=ValidationSection(enabled=True, projection=PROJECTIONS[0], kp=kp, kd=kd, seed=0),
+        validation=ValidationSection(
+            enabled=True, projection=PROJECTIONS[0], kp=kp, kd=kd, seed=0, video=False
+        ),
         maneuvers=default_maneuvers(robot, gravity),
     )

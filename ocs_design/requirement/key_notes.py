@@ -115,6 +115,7 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "validation.kp": KeyNote("Higher: quicker, and more torque."),
         "validation.kd": KeyNote("2 sqrt(kp) damps critically."),
         "validation.seed": KeyNote("The same seed gives the same figures."),
+        "validation.video": KeyNote("true: each maneuver as a film, with the device and without."),
     }
 )
 """By the path of the key, as in `flywheel.r_max`."""

@@ -193,6 +193,7 @@ class ValidationSection:
     kp: Annotated[float | None, Key(Number(), "gain on the attitude error")] = None
     kd: Annotated[float | None, Key(Number(), "gain on the rate error")] = None
     seed: Annotated[int | None, Key(Count(), "seed of all random numbers")] = None
+    video: Annotated[bool | None, Key(Switch(), "whether to film the flights")] = None
 
 
 @dataclass(frozen=True, kw_only=True)

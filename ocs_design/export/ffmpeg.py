@@ -1,0 +1,20 @@
+"""Where the program is that makes films."""
+
+import shutil
+from importlib.util import find_spec
+
+FFMPEG_HINT = "pip install 'ocs-design[video]', or on Debian: apt install ffmpeg"
+
+
+def ffmpeg_program() -> str | None:
+    """The system's, else that of imageio-ffmpeg; None if there is neither."""
+    found = shutil.which("ffmpeg")
+    if found is not None or find_spec("imageio_ffmpeg") is None:
+        return found
+    # An extra.
+    import imageio_ffmpeg  # noqa: PLC0415
+
+    try:
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
+    except RuntimeError:
+        return None

@@ -1,0 +1,1 @@
+"""Flights with and without the device, side by side, as MP4 or GIF."""

@@ -1,0 +1,188 @@
+"""Films of flights: what is on them, how long they last, and what is told where there are none."""
+
+import subprocess
+from dataclasses import dataclass, replace
+
+import imageio_ffmpeg
+import mujoco
+import numpy as np
+import pytest
+from PIL import Image
+from wheels import EC45, driven_device
+
+from ocs_design.exceptions import MissingToolError
+from ocs_design.export.film import Take, film_model, render_takes
+from ocs_design.report.video import encoding, filming, flights
+from ocs_design.report.video.captions import BAD, GOOD, Caption, captioned
+from ocs_design.report.video.encoding import encode
+from ocs_design.report.video.filming import film_or_tell
+from ocs_design.requirement.maneuver import Drop
+from ocs_design.robot.manual import robot_by_hand
+
+ROBOT = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.0, 0.0, 0.0))
+UP = np.array([0.0, 0.0, 0.2])
+LOW = driven_device(drive=EC45)
+DEVICE = replace(LOW, modules=tuple(replace(m, position=m.position + UP) for m in LOW.modules))
+"""Clear of the box that a robot by hand looks like."""
+
+SHADES = [np.full((44, 96, 3), 20 * k, dtype=np.uint8) for k in range(12)]
+
+
+@dataclass(frozen=True)
+class FlownPoses:
+    time: np.ndarray
+    qpos: np.ndarray
+
+
+@dataclass(frozen=True)
+class FlownSeries:
+    time: np.ndarray
+    roll: np.ndarray
+    pitch: np.ndarray
+    wheel_speed: np.ndarray
+
+
+@dataclass(frozen=True)
+class Flown:
+    """As much of a run as a film needs."""
+
+    scenario: str
+    ocs: bool
+    passed: bool
+    poses: FlownPoses
+    series: FlownSeries
+
+
+def flown(ocs, frames):
+    model = film_model(ROBOT, DEVICE, ocs=ocs)
+    qpos = np.tile(model.qpos0, (frames, 1))
+    qpos[:, 2] = np.linspace(0.5, 0.1, frames)
+    time, dense = 0.015 * np.arange(frames), 0.005 * np.arange(3 * frames)
+    series = FlownSeries(
+        dense, 0.0 * dense, dense, np.column_stack([100.0 * dense, -100.0 * dense])
+    )
+    return Flown("drop", ocs, ocs, FlownPoses(time, qpos), series)
+
+
+def rendered(takes):
+    try:
+        return render_takes(takes)
+    except MissingToolError as error:
+        pytest.skip(str(error))
+
+
+@pytest.fixture(scope="module")
+def frames():
+    """With the device and without, low and high over the floor."""
+    takes = []
+    for ocs in (True, False):
+        model = film_model(ROBOT, DEVICE, ocs=ocs)
+        low, high = np.tile(model.qpos0, (2, 1))
+        low[2], high[2] = 0.3, 2.0
+        takes.append(Take(model, np.array([low, high])))
+    return rendered(takes)
+
+
+def is_blue(frame):
+    """Where the housing is: nothing else is."""
+    red, _, blue = (frame[..., i].astype(int) for i in range(3))
+    return blue - red > 20
+
+
+def test_the_device_is_seen_only_on_the_side_with_it(frames):
+    with_device, without = frames
+    assert is_blue(with_device[0]).sum() > 1000
+    assert not is_blue(without).any()
+
+
+def test_the_camera_goes_along(frames):
+    blue = [np.argwhere(is_blue(frame)).mean(axis=0) for frame in frames[0]]
+    np.testing.assert_allclose(blue[0], blue[1], atol=3.0)
+    assert np.abs(frames[0][0].astype(int) - frames[0][1]).mean() > 1.0
+
+
+def test_both_models_take_the_same_positions():
+    models = [film_model(ROBOT, DEVICE, ocs=ocs) for ocs in (True, False)]
+    names = [[m.joint(i).name for i in range(m.njnt)] for m in models]
+    assert names[0] == names[1]
+    assert {"ocs_left", "ocs_right"} < set(names[0])
+    assert all(m.geom("ocs_floor").type[0] == mujoco.mjtGeom.mjGEOM_PLANE for m in models)
+
+
+def test_words_are_on_the_picture_and_titles_have_their_color():
+    plain = np.full((120, 300, 3), 255, dtype=np.uint8)
+    for good, color in ((True, GOOD), (False, BAD)):
+        picture = captioned(plain, Caption("title", good, ("one", "two")))
+        assert picture.shape == plain.shape
+        assert (picture == color).all(axis=2).any()
+        written = np.flatnonzero((picture < 128).any(axis=(1, 2)))
+        assert written.max() - written.min() > 80
+    assert (plain == 255).all()
+
+
+def test_an_mp4_has_all_frames_in_real_time(tmp_path):
+    path = encode(SHADES, 0.03, tmp_path / "film")
+    assert path.name == "film.mp4"
+    count, seconds = imageio_ffmpeg.count_frames_and_secs(str(path))
+    assert count == len(SHADES)
+    assert seconds == pytest.approx(len(SHADES) * 0.03, abs=0.01)
+
+
+def fail(*arguments, **options):
+    return subprocess.CompletedProcess(arguments, 1, b"", b"no libx264")
+
+
+@pytest.mark.parametrize("without", ["ffmpeg", "the encoder"])
+def test_a_gif_in_real_time_where_there_is_no_mp4(tmp_path, monkeypatch, without):
+    if without == "ffmpeg":
+        monkeypatch.setattr(encoding, "ffmpeg_program", lambda: None)
+    else:
+        monkeypatch.setattr(encoding.subprocess, "run", fail)
+    path = encode(SHADES, 0.03, tmp_path / "film")
+    assert [each.name for each in tmp_path.iterdir()] == ["film.gif"]
+    with Image.open(path) as image:
+        assert image.n_frames == len(SHADES) // 2
+        assert image.info["duration"] == 60
+        image.seek(3)
+        shown = np.asarray(image.convert("RGB"))
+    assert np.abs(shown.astype(int) - SHADES[6]).max() <= 12
+
+
+def test_who_is_done_first_waits_for_the_other(tmp_path, monkeypatch):
+    runs, made = [flown(True, 6), flown(False, 10)], {}
+
+    def keep(pictures, seconds, stem):
+        made.update(pictures=pictures, seconds=seconds, stem=stem)
+        return stem.with_suffix(".mp4")
+
+    def blank(takes):
+        return [np.zeros((len(take.qpos), 440, 480, 3), dtype=np.uint8) for take in takes]
+
+    monkeypatch.setattr(flights, "encode", keep)
+    monkeypatch.setattr(flights, "render_takes", blank)
+    drop = Drop(name="drop", gravity=9.81, incidence=None, height=1.0, pitch=0.5)
+    assert film_or_tell(ROBOT, DEVICE, [drop], runs, tmp_path) == ()
+    assert len(made["pictures"]) == 5
+    assert made["pictures"][0].shape == (440, 960, 3)
+    assert (made["seconds"], made["stem"]) == (pytest.approx(0.03), tmp_path / "drop")
+    left, right = made["pictures"][-1][:, :480], made["pictures"][-1][:, 480:]
+    np.testing.assert_array_equal(left, made["pictures"][-2][:, :480])
+    assert (right != made["pictures"][-2][:, 480:]).any()
+
+
+def test_without_opengl_or_pillow_the_cure_is_told(tmp_path, monkeypatch):
+    drop = Drop(name="drop", gravity=9.81, incidence=None, height=1.0, pitch=0.5)
+    monkeypatch.setenv("MUJOCO_GL", "none such")
+    (told,) = film_or_tell(ROBOT, DEVICE, [drop], [flown(True, 3)], tmp_path)
+    assert told.startswith("no video, because none such:")
+    assert "apt install" in told
+    monkeypatch.setattr(filming, "find_spec", lambda name: None)
+    (told,) = film_or_tell(ROBOT, DEVICE, [drop], [flown(True, 3)], tmp_path)
+    assert told == "no video, because Pillow is not installed; pip install 'ocs-design[video]'"
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_gif_is_told_of(tmp_path, monkeypatch):
+    monkeypatch.setattr(flights, "film_flights", lambda *given: (tmp_path / "drop.gif",))
+    (told,) = film_or_tell(ROBOT, DEVICE, [], [], tmp_path)
+    assert "pip install 'ocs-design[video]'" in told
