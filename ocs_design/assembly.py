@@ -115,6 +115,7 @@ def _driven_motor(wheel: DrivenWheel, line: DriveLine) -> Motor:
         if motor.continuous_torque is None
         else gain * motor.continuous_torque,
         mounting=motor.mounting if gear == DIRECT else None,
+        no_load_current=motor.no_load_current,
     )
 
 

@@ -19,6 +19,7 @@ from ocs_design.cli_export import export
 from ocs_design.cli_init import init
 from ocs_design.cli_pareto import pareto
 from ocs_design.cli_stated import stated_package_paths, stated_specification
+from ocs_design.cli_validate import validate
 
 app = typer.Typer(
     name="ocs-design",
@@ -182,6 +183,7 @@ def bound(
 
 
 app.command()(export)
+app.command()(validate)
 app.command()(pareto)
 app.command()(init)
 app.command()(doctor)

@@ -116,6 +116,7 @@ class Motor:
         resistance: of the motor between two lines [ohm].
         continuous_torque: that the winding stands for good [N m].
         mounting: its shaft and threads, where the wheel sits on it without a gear and any is known.
+        no_load_current: that the motor itself draws turning freely at its rated voltage [A].
     """
 
     name: str
@@ -139,6 +140,7 @@ class Motor:
     diameter: float | None = None
     length: float | None = None
     mounting: Mounting | None = None
+    no_load_current: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

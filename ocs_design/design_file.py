@@ -5,7 +5,7 @@ double precision. The dataclasses are the schema; a change of meaning needs a ne
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -181,6 +181,17 @@ class ValidationRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ControlRecord:
+    """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s]."""
+
+    projection: str
+    kp: float
+    kd: float
+    period: float = 0.005
+    desaturate: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class OcsDesign:
     """A designed, exported and simulated orientation control system."""
 
@@ -194,6 +205,8 @@ class OcsDesign:
     selection: SelectionRecord | None = None
     margins: tuple[MarginRecord, ...]
     validation: tuple[ValidationRecord, ...]
+    control: ControlRecord | None = None
+    reality: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, str]
 
 

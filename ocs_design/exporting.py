@@ -1,22 +1,18 @@
 """`ocs-design export`: every file again from `design.json`."""
 
 import shutil
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import msgspec
 
 from ocs_design.design_file import OcsDesign, design_to_json, read_design
-from ocs_design.exceptions import RobotError
 from ocs_design.export.folder import DESIGN_FILE, file_hashes, staged_folder
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS, Format, Subject, export_formats
 from ocs_design.export.naming import safe_name
-from ocs_design.recorded import device_of, robot_of, seat_of
-from ocs_design.robot.files.source import STANDARD_INPUT, read_source
-from ocs_design.robot.robot import Format as RobotFormat
-from ocs_design.robot.robot import Robot
-from ocs_design.robot_record import RobotRecord
+from ocs_design.recorded import device_of, seat_of
+from ocs_design.recorded_robot import Whereabouts, read_recorded_robot
 
 SCHEMA_VERSION = 1
 
@@ -90,10 +86,8 @@ def read_order(
     device, name = device_of(design.ocs), safe_name(design.robot.name)
     if not any(each.needs_robot for each in formats):
         return Order(path, design, Subject(name, device, seat_of(design.robot), None), formats, ())
-    robot = _read_robot(design.robot, path, robot_file, package_paths or {})
-    warnings = _new_warnings(robot, design.robot)
-    if strict and warnings:
-        raise RobotError("--strict: " + "; ".join(warnings), hint="mend the robot's file")
+    where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
+    robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
     return Order(path, design, Subject.of(robot, device, name), formats, warnings)
 
 
@@ -150,54 +144,3 @@ def _keep(order: Order, staging: Path) -> None:
 
 def _same(folder: Path, other: Path) -> bool:
     return folder.exists() and folder.samefile(other)
-
-
-def _read_robot(
-    record: RobotRecord,
-    design: Path,
-    robot_file: Path | None,
-    package_paths: Mapping[str, Path],
-) -> Robot:
-    bases = (Path(), design.absolute().parent.parent)
-    folders = {name: _first(text, bases) for name, text in record.package_paths.items()}
-    source = _source(record, bases) if robot_file is None else robot_file
-    return robot_of(record, source, {**folders, **package_paths})
-
-
-def _source(record: RobotRecord, bases: Collection[Path]) -> Path:
-    """The file that the device was sized for, as it was then.
-
-    Raises:
-        RobotError: it is gone, has changed, or was no file.
-    """
-    if record.format == RobotFormat.MANUAL:
-        return Path(record.source)
-    if record.source == STANDARD_INPUT:
-        raise RobotError("the robot was read from standard input", hint=_WHERE)
-    found = [base / record.source for base in bases if (base / record.source).is_file()]
-    if not found:
-        raise RobotError(f"{record.source}: the robot's file is not there any more", hint=_WHERE)
-    for path in found:
-        if read_source(path).sha256 == record.sha256:
-            return path
-    raise RobotError(
-        f"{found[0]}: the robot's file has changed since the device was sized for it",
-        hint=f"size it again, or put the device on it as it is with --robot {found[0]}",
-    )
-
-
-def _first(text: str, bases: Collection[Path]) -> Path:
-    """A folder as it was given, against the first base that has it."""
-    return next((base / text for base in bases if (base / text).is_dir()), Path(text))
-
-
-def _new_warnings(robot: Robot, record: RobotRecord) -> tuple[str, ...]:
-    """What the robot has otherwise than the one that the device was sized for."""
-    told = tuple(warning for warning in robot.warnings if warning not in record.warnings)
-    if robot.sha256 == record.sha256:
-        return told
-    return (
-        f"{robot.source}: not the file that the device was sized for; mass {robot.mass:.4g} kg, "
-        f"then {record.mass:.4g} kg",
-        *told,
-    )

@@ -1,34 +1,34 @@
 """The whole chain on one page: read, require, size, export, prove, record."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ocs_design.design import Device
-from ocs_design.design_file import OcsDesign, design_to_json
+from ocs_design.design_file import ControlRecord, OcsDesign, design_to_json
 from ocs_design.designing import Designed, design_device
 from ocs_design.device_warnings import device_warnings
 from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.export.naming import safe_name
-from ocs_design.export.time_series import export_time_series
+from ocs_design.flight_control import control_of, flight_options, trajectories
 from ocs_design.mounting import mounting_of, placement_warnings
 from ocs_design.recording import record_design
 from ocs_design.report.console import Steps
 from ocs_design.report.video.filming import film_or_tell
+from ocs_design.requirement.reality import reality_texts
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import NO_MOTOR, Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
 from ocs_design.robot.obstacles.obstacles import forget_obstacles
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.controller import Allocation, Gains
+from ocs_design.run_files import write_runs
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.poses import POSE_RATE
-from ocs_design.simulation.scenario import Options, Run, run_scenarios
-from ocs_design.simulation.world import wheel_gains
+from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.sizing.rim_program import load_solver
 
 if TYPE_CHECKING:
@@ -110,12 +110,11 @@ def design_ocs(
             remarks = _write_formats(robot, device, staging)
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         runs: tuple[Run, ...] = ()
+        control = control_of(specification.validation, robot)
         if specification.validation.enabled is not False:
             with steps.step("fly the maneuvers with and without the device") as step:
-                runs = _fly(
-                    specification, robot, designed, resolved, plans=plans, progress=step.update
-                )
-                _write_runs(runs, staging)
+                runs = _fly(control, robot, designed, resolved, plans=plans, progress=step.update)
+                write_runs(runs, staging)
         if runs and specification.validation.video:
             with steps.step("film the flights"):
                 maneuvers = resolved.requirement.maneuvers
@@ -127,6 +126,8 @@ def design_ocs(
             designed,
             runs,
             plans=plans,
+            control=control,
+            reality=reality_texts(specification.reality),
             mounting=mounting,
             warnings=remarks_on_place,
             seed=specification.validation.seed or 0,
@@ -174,7 +175,7 @@ def _plan(robot: Robot, designed: Designed, resolved: Resolved) -> Mapping[str, 
 
 
 def _fly(
-    specification: Specification,
+    control: ControlRecord,
     robot: Robot,
     designed: Designed,
     resolved: Resolved,
@@ -182,30 +183,11 @@ def _fly(
     plans: Mapping[str, "Reference"],
     progress: Progress,
 ) -> tuple[Run, ...]:
-    stated = specification.validation
-    default = wheel_gains(robot)
-    options = Options(
-        allocation=Allocation(stated.projection or Allocation.PSEUDO_INVERSE),
-        gains=Gains(stated.kp or default.stiffness, stated.kd or default.damping),
-        pose_rate=POSE_RATE,
-    )
     return run_scenarios(
         robot,
         designed.device,
         resolved.requirement.maneuvers,
-        options=options,
-        references={
-            name: planned.trajectory
-            for name, planned in plans.items()
-            if planned.trajectory is not None
-        },
+        options=replace(flight_options(control), pose_rate=POSE_RATE),
+        references=trajectories(plans),
         progress=progress,
     )
-
-
-def _write_runs(runs: Sequence[Run], folder: Path) -> None:
-    if runs:
-        (folder / "validation").mkdir()
-    for run in runs:
-        name = f"{safe_name(run.scenario)}_{'with' if run.ocs else 'without'}_ocs.csv"
-        export_time_series(run.series.columns(), folder / "validation" / name)

@@ -8,8 +8,10 @@ import numpy as np
 
 from ocs_design.arrays import Matrix
 from ocs_design.design import Device, Module
-from ocs_design.design_file import ModuleRecord, OcsRecord
-from ocs_design.exceptions import RobotError
+from ocs_design.design_file import ManeuverRecord, ModuleRecord, OcsRecord
+from ocs_design.exceptions import OcsError, RobotError
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Format, Mount, Robot
@@ -35,6 +37,23 @@ def device_of(record: OcsRecord) -> Device:
 def seat_of(record: RobotRecord) -> RecordedSeat:
     """Where it sits on its robot."""
     return RecordedSeat(record.trunk, None if record.mount is None else _mount(record.mount))
+
+
+def maneuver_of(record: ManeuverRecord) -> Maneuver:
+    """The maneuver that was asked for.
+
+    Raises:
+        OcsError: it is of no known kind, or not with these figures.
+    """
+    kind = MANEUVER_KINDS.get(record.kind)
+    if kind is None or not set(record.parameters) <= set(kind.values):
+        raise OcsError(f"maneuver {record.name!r}: no {record.kind} with these figures is known")
+    return kind.maneuver(
+        name=record.name,
+        gravity=record.gravity,
+        incidence=record.incidence,
+        **record.parameters,
+    )
 
 
 def robot_of(record: RobotRecord, path: Path | str, package_paths: Mapping[str, Path]) -> Robot:

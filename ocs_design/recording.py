@@ -13,6 +13,7 @@ from ocs_design.design_file import (
     SCHEMA_VERSION,
     AxisInertia,
     ClearanceRecord,
+    ControlRecord,
     DemandRecord,
     ManeuverRecord,
     ModuleRecord,
@@ -58,6 +59,8 @@ def record_design(
     runs: Sequence[Run],
     *,
     plans: Mapping[str, "Reference"],
+    control: ControlRecord | None = None,
+    reality: Mapping[str, str] | None = None,
     mounting: Mounting | None,
     warnings: tuple[str, ...] = (),
     seed: int,
@@ -75,7 +78,9 @@ def record_design(
         sizing=_sizing(designed.sized),
         selection=None if designed.choice is None else record_selection(designed.choice),
         margins=record_margins(resolved, designed, runs, plans),
-        validation=tuple(_validation(run) for run in runs),
+        validation=tuple(record_run(run) for run in runs),
+        control=control,
+        reality=reality or {},
         files=files,
     )
 
@@ -182,7 +187,8 @@ def _sizing(sized: Sized) -> SizingRecord:
     )
 
 
-def _validation(run: Run) -> ValidationRecord:
+def record_run(run: Run) -> ValidationRecord:
+    """One flight, without its time series."""
     return ValidationRecord(
         scenario=run.scenario,
         ocs=run.ocs,

@@ -32,6 +32,7 @@ class Dimension(StrEnum):
     ANGULAR_SPEED = "angular speed"
     TORQUE = "torque"
     ANGULAR_MOMENTUM = "angular momentum"
+    DAMPING = "damping"
     INERTIA = "moment of inertia"
     VOLTAGE = "voltage"
     STRESS = "stress"
@@ -73,6 +74,7 @@ UNITS: dict[Dimension, dict[str, Fraction]] = {
     },
     Dimension.TORQUE: {"N m": _ONE, "mN m": _MILLI, "N cm": _CENTI, "N mm": _MILLI},
     Dimension.ANGULAR_MOMENTUM: {"N m s": _ONE, "mN m s": _MILLI, "kg m2/s": _ONE},
+    Dimension.DAMPING: {"N m s/rad": _ONE, "mN m s/rad": _MILLI, "uN m s/rad": _MICRO},
     Dimension.INERTIA: {
         "kg m2": _ONE,
         "kg cm2": Fraction(1, 10**4),

@@ -1,9 +1,11 @@
 """Specifications to write and read back."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from math import pi, radians
 
+from ocs_design.requirement.distributions import Uniform
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.reality import RealitySection
 from ocs_design.requirement.specification import (
     FlywheelSection,
     MotorSection,
@@ -55,8 +57,16 @@ FULL = Specification(
         name="auto", bus_voltage=24.0, gear="direct", motors="m.csv", gears="g.toml", torque_max=1.1
     ),
     validation=ValidationSection(
-        enabled=False, projection="transpose", kp=60.0, kd=12.0, seed=7, video=True
+        enabled=False,
+        projection="transpose",
+        kp=60.0,
+        kd=12.0,
+        seed=7,
+        control_period=0.004,
+        desaturate=True,
+        video=True,
     ),
+    reality=RealitySection(**{item.name: Uniform(0.01, 1 / 30) for item in fields(RealitySection)}),
     maneuvers=MANEUVERS,
 )
 

@@ -135,6 +135,7 @@ class MotorSheet:
             peak_basis=basis,
             remark=self.remark,
             mounting=self.mounting,
+            no_load_current=self.no_load_current_a,
         )
 
     def _peak_torque(self) -> tuple[float | None, str]:

@@ -29,6 +29,7 @@ class Motor:
             current, or the stall torque of its data sheet.
         remark: what a reader of the figures must know.
         mounting: shaft and threads, if any of them is known.
+        no_load_current: that it draws turning freely, at the rated voltage [A].
     """
 
     name: str
@@ -50,3 +51,4 @@ class Motor:
     peak_basis: str = ""
     remark: str = ""
     mounting: Mounting | None = None
+    no_load_current: float | None = None

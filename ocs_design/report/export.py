@@ -10,4 +10,4 @@ from ocs_design.report.layout import print_warnings
 def print_export(console: Console, exported: Exported) -> None:
     """Warnings, and the files by their folders."""
     print_warnings(console, exported.warnings)
-    print_files(console, exported.folder, "the design as it was", exported.files)
+    print_files(console, exported.folder, exported.files, "the design as it was")

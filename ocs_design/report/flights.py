@@ -21,18 +21,22 @@ MOST_LISTED = 6
 
 
 def print_flights(console: Console, design: OcsDesign) -> None:
+    """See `print_runs`; nothing if none was flown."""
+    if design.validation:
+        print_runs(console, design.validation)
+
+
+def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
     """Verdicts, attitude at touchdown, what the wheels did, and why."""
-    if not design.validation:
-        return
     heading(console, "Proof in MuJoCo: the same flights with and without the device")
     table = columns(
         "scenario", "device", "verdict", "touchdown deg\npitch  roll", "turned\ndeg",
         "wheel\nrpm", "torque\nN m", left=3,
     )  # fmt: skip
-    for run in design.validation:
+    for run in runs:
         table.add_row(*_run_row(run))
     show(console, table)
-    items(console, (run_story(run) for run in design.validation))
+    items(console, (run_story(run) for run in runs))
 
 
 def _run_row(run: ValidationRecord) -> list[Text | str]:
@@ -64,27 +68,32 @@ def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:
 
 def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
     """What was written, and the verdict in one line."""
-    print_files(console, str(folder), "everything in this report", design.files)
+    print_files(console, str(folder), design.files, "everything in this report")
     console.print()
-    console.print(summary([run.passed for run in design.validation if run.ocs]))
+    print_verdicts(console, design.validation)
 
 
-def print_files(console: Console, folder: str, held: str, files: Iterable[str]) -> None:
+def print_verdicts(console: Console, runs: Sequence[ValidationRecord]) -> None:
+    """The flights with the device in one line."""
+    console.print(summary([run.passed for run in runs if run.ocs]))
+
+
+def print_files(console: Console, folder: str, files: Iterable[str], held: str = "") -> None:
     """What a folder got, by the folders in it.
 
     Args:
         console: to print on.
         folder: that it was written to.
-        held: what its design.json holds.
-        files: paths in that folder, without the design itself.
+        files: paths in that folder, without a design.json.
+        held: what its design.json holds; empty: it has none.
     """
     heading(console, f"Written to {folder}/")
-    rows = [("design.json", f"{held}, and the hashes of the other files")]
+    rows = [("design.json", f"{held}, and the hashes of the other files")] if held else []
     folders: dict[str, list[str]] = {}
     for name in files:
         folder_name, _, file = name.rpartition("/")
         folders.setdefault(folder_name, []).append(file)
-    rows += [(f"{name}/", _listed(names)) for name, names in sorted(folders.items())]
+    rows += [(f"{name or '.'}/", _listed(names)) for name, names in sorted(folders.items())]
     facts(console, rows)
 
 

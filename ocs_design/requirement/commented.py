@@ -3,10 +3,11 @@
 from collections.abc import Collection, Iterator, Mapping
 from itertools import chain
 
+from ocs_design.requirement.key import Key
 from ocs_design.requirement.key_notes import FIELD_NOTES, KEY_NOTES, MANEUVER_NOTES, KeyNote
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.maneuver_table import kind_of
-from ocs_design.requirement.specification import SECTIONS, Key, Specification, all_keys, keys_of
+from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, keys_of
 from ocs_design.requirement.values import Value
 from ocs_design.requirement.writing import Figures, written
 

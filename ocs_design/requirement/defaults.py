@@ -5,10 +5,13 @@ from ocs_design.requirement.froude import (
     default_bus_voltage,
     default_envelope,
     default_maneuvers,
+    standing_height,
 )
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.requirement.reality import default_reality
 from ocs_design.requirement.specification import (
     AUTO,
+    CONTROL_PERIOD,
     DISC,
     LIGHTEST,
     PROJECTIONS,
@@ -47,7 +50,15 @@ def default_specification(
         ),
         motor=MotorSection(name=AUTO, gear=AUTO, bus_voltage=default_bus_voltage(robot)),
         validation=ValidationSection(
-            enabled=True, projection=PROJECTIONS[0], kp=kp, kd=kd, seed=0, video=False
+            enabled=True,
+            projection=PROJECTIONS[0],
+            kp=kp,
+            kd=kd,
+            seed=0,
+            control_period=CONTROL_PERIOD,
+            desaturate=False,
+            video=False,
         ),
+        reality=default_reality(standing_height(robot)),
         maneuvers=default_maneuvers(robot, gravity),
     )

@@ -116,6 +116,28 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "validation.kd": KeyNote("2 sqrt(kp) damps critically."),
         "validation.seed": KeyNote("The same seed gives the same figures."),
         "validation.video": KeyNote("true: each maneuver as a film, with the device and without."),
+        "validation.control_period": KeyNote("That of your controller; longer ones fly worse."),
+        "validation.desaturate": KeyNote("true: wheels let go of their momentum after landing."),
+        "reality.mass_error": KeyNote("After weighing the robot: the balance's error."),
+        "reality.inertia_error": KeyNote("From CAD 5 % is common, from a pendulum 1 %."),
+        "reality.com_error": KeyNote("Batteries and cables are seldom where CAD has them."),
+        "reality.incidence_error": KeyNote("Play and tolerance of the mounts."),
+        "reality.torque_constant_error": KeyNote("Makers state 5 to 10 % at most."),
+        "reality.resistance_error": KeyNote("A warm winding has 0.4 % more for each degree."),
+        "reality.bus_voltage_error": KeyNote("From a full battery to one that is to be charged."),
+        "reality.coulomb_friction": KeyNote(
+            "Measure it: run the wheel down.", "half of the motor's no-load torque", '"5 mN m"'
+        ),
+        "reality.viscous_friction": KeyNote(
+            "The same at speed.", "the other half at the speed it is stated for", '"3 uN m s/rad"'
+        ),
+        "reality.air_drag": KeyNote("0: a vacuum, as on the Moon."),
+        "reality.torque_delay": KeyNote("Bus, filters and the motor's own controller."),
+        "reality.attitude_noise": KeyNote("The data sheet of your inertial sensor has it."),
+        "reality.attitude_bias": KeyNote("Most of what a flight is off level by."),
+        "reality.gyro_noise": KeyNote("Noise density times the root of the bandwidth."),
+        "reality.gyro_bias": KeyNote("What is left after it was calibrated."),
+        "reality.contact_friction": KeyNote("Of your feet on your floor."),
     }
 )
 """By the path of the key, as in `flywheel.r_max`."""

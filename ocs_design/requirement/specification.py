@@ -8,9 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from math import pi
-from typing import Annotated, Any, TypeVar, get_args, get_type_hints
+from typing import Annotated, TypeVar, get_args, get_type_hints
 
+from ocs_design.requirement.key import Key
 from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.reality import RealitySection
 from ocs_design.requirement.values import (
     Choice,
     Count,
@@ -21,7 +23,6 @@ from ocs_design.requirement.values import (
     Sign,
     Switch,
     Text,
-    Value,
 )
 from ocs_design.units import Dimension
 
@@ -50,23 +51,11 @@ NO_WEB = "none"
 
 WEBS = (DISC, NO_WEB)
 
+CONTROL_PERIOD = 0.005
+"""From one torque of the wheels to the next, where nothing is stated [s]."""
+
 PROJECTIONS = ("pseudo-inverse", "transpose")
 """How a torque on the trunk becomes torques of the wheels (docs/theory.md, The control law)."""
-
-
-@dataclass(frozen=True)
-class Key:
-    """What a field of a section means outside the program.
-
-    Attributes:
-        value: how it is read.
-        summary: what it is, for help and for messages.
-        option: its name on the command line; empty: the key's own, with dashes.
-    """
-
-    value: Value[Any]
-    summary: str
-    option: str = ""
 
 
 _LENGTH = Quantity(Dimension.LENGTH)
@@ -194,6 +183,13 @@ class ValidationSection:
     kd: Annotated[float | None, Key(Number(), "gain on the rate error")] = None
     seed: Annotated[int | None, Key(Count(), "seed of all random numbers")] = None
     video: Annotated[bool | None, Key(Switch(), "whether to film the flights")] = None
+    control_period: Annotated[
+        float | None,
+        Key(Quantity(Dimension.TIME, most=0.1), "from one torque to the next, whole milliseconds"),
+    ] = None
+    desaturate: Annotated[
+        bool | None, Key(Switch(), "whether the wheels are braked while the robot stands")
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -210,6 +206,7 @@ class Specification:
     flywheel: FlywheelSection = field(default_factory=FlywheelSection)
     motor: MotorSection = field(default_factory=MotorSection)
     validation: ValidationSection = field(default_factory=ValidationSection)
+    reality: RealitySection = field(default_factory=RealitySection)
     maneuvers: tuple[Maneuver, ...] = ()
 
     @property
@@ -251,12 +248,13 @@ def merge(base: Specification, override: Specification) -> Specification:
     elif override.robot.mass is not None or override.robot.inertia is not None:
         base = replace(base, robot=replace(base.robot, file=None))
     sections = {
-        name: _merge_section(getattr(base, name), getattr(override, name)) for name in SECTIONS
+        name: merge_section(getattr(base, name), getattr(override, name)) for name in SECTIONS
     }
     return Specification(**sections, maneuvers=override.maneuvers or base.maneuvers)
 
 
-def _merge_section(base: Section, override: Section) -> Section:
+def merge_section(base: Section, override: Section) -> Section:
+    """One section, with everything that `override` states in its place."""
     changes = {
         name: _merge_value(getattr(base, name), getattr(override, name)) for name in vars(base)
     }

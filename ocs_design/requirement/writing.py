@@ -5,13 +5,16 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import Enum, auto
+from functools import partial
 from math import isclose
 from pathlib import Path
 from typing import Any
 
+from ocs_design.requirement.distributions import Distribution
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.maneuver_table import kind_of
 from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
+from ocs_design.requirement.spread import Spread
 from ocs_design.requirement.values import Quantities, Quantity, Value
 from ocs_design.units import Dimension, format_quantity, parse_quantity, si_unit
 
@@ -98,6 +101,9 @@ def written(value: object, how: Value[Any], figures: Figures = Figures.SI) -> st
     match how, value:
         case Quantity(dimension=dimension), float() | int():
             return _text(_quantity(value, dimension, figures))
+        case Spread(dimension=dimension), Distribution():
+            told = partial(_told, dimension=dimension, unit=how.unit, figures=figures)
+            return _text(value.written(told))
         case Quantities(dimension=dimension), Sequence():
             entries = (_text(_quantity(entry, dimension, figures)) for entry in value)
             return f"[{', '.join(entries)}]"
@@ -110,6 +116,11 @@ def written(value: object, how: Value[Any], figures: Figures = Figures.SI) -> st
 def _quantity(value: float, dimension: Dimension, figures: Figures) -> str:
     small = dimension is not Dimension.LENGTH or abs(value) < 1.0
     unit = PEOPLE_UNITS.get(dimension, si_unit(dimension)) if small else si_unit(dimension)
+    return _told(value, dimension, unit, figures)
+
+
+def _told(value: float, dimension: Dimension, unit: str, figures: Figures) -> str:
+    """In `unit` or in SI, as `figures` wants."""
     if figures is Figures.ROUNDED:
         return format_quantity(value, unit)
     told = format_quantity(value, unit, digits=12)
@@ -117,7 +128,7 @@ def _quantity(value: float, dimension: Dimension, figures: Figures) -> str:
         parse_quantity(told, dimension, ""), value, rel_tol=_SAME
     ):
         return told
-    return f"{value!r} {si_unit(dimension)}"
+    return repr(value) if dimension is Dimension.RATIO else f"{value!r} {si_unit(dimension)}"
 
 
 def _plain(value: object) -> str:

@@ -10,6 +10,8 @@ from mujoco.rollout import Rollout
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.controller import WheelLaw
+from ocs_design.simulation.desaturation import WheelBrake
+from ocs_design.simulation.imperfections import Drives, Sensing
 from ocs_design.simulation.recording import Recording, empty_recording, pose_stride
 from ocs_design.simulation.schedule import References, push_torques
 from ocs_design.simulation.world import World, start_states
@@ -40,6 +42,8 @@ class Batch:
         self._references = References(worlds, times, self._period)
         self._pushes = push_torques(worlds, times, self._period)
         self._law = WheelLaw.stack([world.law for world in worlds])
+        self._sensing, self._drives = self._reality(worlds)
+        self._brake = WheelBrake.of(worlds, self._period)
         self._chain, self._addresses = worlds[0].chain, worlds[0].addresses
         self._wheels, self._motors = list(self._addresses.wheels), list(self._addresses.motors)
         self._state = start_states(worlds)
@@ -47,6 +51,20 @@ class Batch:
             self._state[:, 1 : 1 + first.nq + first.nv], [first.nq], 1
         )
         self._make_buffers(np.stack([world.ctrl for world in worlds]), first)
+
+    def _reality(self, worlds: Sequence[World]) -> tuple[Sensing | None, Drives | None]:
+        """Sensors and drives; None where they are perfect, as in all of a batch or in none."""
+        own = [world.imperfections for world in worlds if world.imperfections is not None]
+        if not own:
+            return None, None
+        drives = Drives(
+            own,
+            response=self._law.wheel_response,
+            instants=int(self._lengths[0]),
+            hold=self._hold,
+            step=worlds[0].model.opt.timestep,
+        )
+        return Sensing(own, self._lengths.tolist()), drives
 
     def _make_buffers(self, ctrl: FloatArray, model: mujoco.MjModel) -> None:
         """What `rollout` reads and writes; every step of a control step has its own row."""
@@ -91,7 +109,10 @@ class Batch:
             begin = end
 
     def _observe_and_decide(self, k: int, running: int, law: WheelLaw | None) -> FloatArray:
-        """Record trunk and wheels at instant `k`; the motor torques from then on, shape (n, 2)."""
+        """Record trunk and wheels at instant `k`; torques on the wheels from then on.
+
+        Shape (n, 1, 2) where they are held for the control step, (n, hold, 2) where they are not.
+        """
         record, qpos, qvel = self._record, self._qpos[:running], self._qvel[:running]
         attitude, rate = self._chain.attitude(qpos), self._chain.rate(qpos, qvel)
         speed = qvel[:, self._wheels]
@@ -105,9 +126,16 @@ class Batch:
         else:
             target = self._references.at(k, running)
             vertical = quaternions.vertical(attitude)
+            if self._brake is not None:
+                target = self._brake.added(target, speed, record.contact[k - 1, :running])
+            if self._sensing is not None:
+                vertical, rate = self._sensing.measured(k, vertical, rate)
             torque = law.torque(vertical, rate, speed, target, self._period)
+        acting = torque[:, None]
+        if self._drives is not None:
+            torque, acting = self._drives.driven(k, torque, speed)
         record.wheel_torque[k, :running] = torque
-        return torque
+        return acting
 
     def _push_in_world(self, k: int, running: int) -> FloatArray | None:
         """The outer torque of this step in the world; its impulse is added to the record."""
@@ -134,7 +162,7 @@ class Batch:
             control, specification = self._pushed_control, _PUSHED
             first = self._push_address
             control[:n, :, first : first + 3] = push[:, None]
-        control[:n, :, self._motors] = torque[:, None]
+        control[:n, :, self._motors] = torque
         pool.rollout(
             self._models[:n],
             data,

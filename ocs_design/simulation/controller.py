@@ -13,7 +13,7 @@ from enum import StrEnum
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.simulation.motor_limits import MotorLimits, clipped
 from ocs_design.sizing.gyrostat import Gyrostat
 
 
@@ -135,20 +135,16 @@ class WheelLaw:
         return self.stiffness[:, None] * error + self.damping[:, None] * slip + target.acceleration
 
     def _limited(self, torque: FloatArray, wheel_speed: FloatArray, period: float) -> FloatArray:
-        """Clipped to current limit, voltage line and top speed at the end of the control step.
-
-        Both taken at the end, at `W + tau * response * period`, are backward Euler: the exact line
-        as the period goes to zero, stable for any motor, and a wheel just keeps from passing its
-        top speed. They cut driving torque and leave braking.
-        """
-        gain = (self.wheel_response * period)[:, None]
-        give = gain + self.line_slope[:, None]
-        line, top = self.no_load_speed[:, None], self.speed_max[:, None]
-        limit = self.torque_limit[:, None]
-        highest = np.minimum((line - wheel_speed) / give, (top - wheel_speed) / gain)
-        lowest = np.maximum((-line - wheel_speed) / give, (-top - wheel_speed) / gain)
-        driven = np.minimum(np.maximum(torque, lowest), highest)
-        return np.minimum(np.maximum(driven, -limit), limit)
+        """What the motors that the law believes in can give."""
+        return clipped(
+            torque,
+            wheel_speed,
+            gain=(self.wheel_response * period)[:, None],
+            line_slope=self.line_slope[:, None],
+            no_load_speed=self.no_load_speed[:, None],
+            torque_limit=self.torque_limit[:, None],
+            speed_max=self.speed_max[:, None],
+        )
 
 
 @dataclass(frozen=True, eq=False)

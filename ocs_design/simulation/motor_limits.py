@@ -9,6 +9,34 @@ from ocs_design.design import Motor
 from ocs_design.drive.line import RESERVE
 
 
+def clipped(
+    torque: FloatArray,
+    speed: FloatArray,
+    *,
+    gain: FloatArray,
+    line_slope: FloatArray,
+    no_load_speed: FloatArray,
+    torque_limit: FloatArray,
+    speed_max: FloatArray | float = np.inf,
+) -> FloatArray:
+    """Torques cut to current limit, voltage line and top speed at the end of the control step.
+
+    Both taken at the end, at `W + tau * gain`, are backward Euler: the exact line as the period
+    goes to zero, stable for any motor, and a wheel just keeps from passing its top speed. They cut
+    driving torque and leave braking.
+
+    Args:
+        torque: asked for [N m]. speed: of the wheels now [rad/s].
+        gain: change of speed in a control step per torque [rad/s/(N m)].
+        line_slope, no_load_speed, torque_limit, speed_max: see `MotorLimits`.
+    """
+    give = gain + line_slope
+    highest = np.minimum((no_load_speed - speed) / give, (speed_max - speed) / gain)
+    lowest = np.maximum((-no_load_speed - speed) / give, (-speed_max - speed) / gain)
+    driven = np.minimum(np.maximum(torque, lowest), highest)
+    return np.minimum(np.maximum(driven, -torque_limit), torque_limit)
+
+
 @dataclass(frozen=True)
 class MotorLimits:
     """Limits of a motor at its wheel (docs/theory.md, What a motor can do).

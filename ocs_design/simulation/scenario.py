@@ -32,6 +32,7 @@ class Options:
         gains: of the wheel law; None: `wheel_gains` of the robot.
         drop_profile: how a dropped robot is turned to level; `Step()` is the paper's command.
         hold: physics steps of 1 ms per control step.
+        desaturate: whether the wheels are braked while the robot stands.
         threads: of the physics; None: one per processor.
         pose_rate: of the recorded poses [1/s]; None: none are.
     """
@@ -40,6 +41,7 @@ class Options:
     gains: Gains | None = None
     drop_profile: Profile = field(default_factory=Quintic)
     hold: int = 5
+    desaturate: bool = False
     threads: int | None = None
     pose_rate: float | None = None
 
@@ -54,6 +56,7 @@ class Run:
         metrics: None if the simulation became unstable.
         series: of time. note: see `World`.
         poses: to show the flight again; None if none were recorded.
+        can_stand: whether the legs bear a level landing from this flight, see `judge`.
     """
 
     scenario: str
@@ -63,6 +66,7 @@ class Run:
     metrics: Metrics | None
     series: Series
     note: str
+    can_stand: bool | None
     poses: Poses | None = None
 
 
@@ -104,6 +108,7 @@ def run_scenarios(
         allocation=chosen.allocation,
         gains=chosen.gains,
         drop_profile=chosen.drop_profile,
+        desaturate=chosen.desaturate,
     )
     planned = references or {}
     worlds = [
@@ -121,6 +126,7 @@ def run_scenarios(
             flight,
             Verdict(None, refusal) if refusal else judge(flight.metrics, maneuver, can_stand=legs),
             ocs=ocs,
+            can_stand=legs,
         )
         for maneuver, pair, legs in zip(maneuvers, pairs, can_stand, strict=True)
         for flight, ocs in zip(pair, (True, False), strict=True)
@@ -188,7 +194,9 @@ def _refusal(robot: Robot) -> str:
     )
 
 
-def _run(maneuver: Maneuver, flight: _Flight, verdict: Verdict, *, ocs: bool) -> Run:
+def _run(
+    maneuver: Maneuver, flight: _Flight, verdict: Verdict, *, ocs: bool, can_stand: bool | None
+) -> Run:
     return Run(
         scenario=maneuver.name,
         ocs=ocs,
@@ -198,4 +206,5 @@ def _run(maneuver: Maneuver, flight: _Flight, verdict: Verdict, *, ocs: bool) ->
         series=flight.series,
         note=flight.world.note,
         poses=flight.poses,
+        can_stand=can_stand,
     )

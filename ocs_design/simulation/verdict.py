@@ -1,6 +1,7 @@
 """When a run counts as passed, in one place."""
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
@@ -14,12 +15,22 @@ MOMENTUM_GATE = 1e-6
 """Largest relative momentum error of a flight that is judged at all."""
 
 
+class Fault(StrEnum):
+    """What kept a run from passing."""
+
+    UNSOUND = "not judged"
+    TURN = "not turned far enough"
+    LANDING = "not level at touchdown"
+    STANDING = "fell after a level touchdown"
+
+
 @dataclass(frozen=True)
 class Verdict:
     """Whether a run passed, None where it cannot be judged, and why in one sentence."""
 
     passed: bool | None
     reason: str
+    fault: Fault | None = None
 
 
 def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None) -> Verdict:
@@ -34,10 +45,10 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
     """
     unsound = _unsound(metrics)
     if metrics is None or unsound:
-        return Verdict(None, unsound)
+        return Verdict(None, unsound, Fault.UNSOUND)
     failure = _flight_failure(metrics, maneuver)
-    if failure:
-        return Verdict(False, failure)
+    if failure is not None:
+        return failure
     landing = f"touches down at {_tilt(metrics)}"
     if can_stand is None:
         return Verdict(True, f"{landing}; without legs there is nothing to stand on")
@@ -47,7 +58,8 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
             f"{landing}; standing is not judged: the legs do not bear this landing even when level",
         )
     if not metrics.upright_at_end:
-        return Verdict(False, f"{landing} but does not stay up: ends at {_final_tilt(metrics)}")
+        ends = f"{landing} but does not stay up: ends at {_final_tilt(metrics)}"
+        return Verdict(False, ends, Fault.STANDING)
     return Verdict(True, f"{landing} and stands")
 
 
@@ -55,7 +67,7 @@ def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
     """Whether a run passes in everything but standing."""
     if metrics is None or _unsound(metrics):
         return False
-    return not _flight_failure(metrics, maneuver)
+    return _flight_failure(metrics, maneuver) is None
 
 
 def stands(metrics: Metrics | None) -> bool:
@@ -83,9 +95,13 @@ def _unsound(metrics: Metrics | None) -> str:
     return ""
 
 
-def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> str:
-    """What was wrong up to touchdown; empty if nothing."""
-    return _turn_failure(metrics, maneuver) or _landing_failure(metrics)
+def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
+    """What was wrong up to touchdown; None if nothing."""
+    if failure := _turn_failure(metrics, maneuver):
+        return Verdict(False, failure, Fault.TURN)
+    if failure := _landing_failure(metrics):
+        return Verdict(False, failure, Fault.LANDING)
+    return None
 
 
 def _turn_failure(metrics: Metrics, maneuver: Maneuver) -> str:

@@ -13,8 +13,10 @@ from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Disturbance, Maneu
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.frames import quaternion
 from ocs_design.simulation.controller import Allocation, Gains, WheelLaw
+from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.drives import DRIVE, leg_joints, set_gains
 from ocs_design.simulation.ground import lowest_point
+from ocs_design.simulation.imperfections import Imperfections
 from ocs_design.simulation.launch import Launch, Push, flight_time, launch, level_launch
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, Turn, fit_turn
@@ -73,6 +75,8 @@ class World:
         flight_time: expected [s]. duration: of the run [s].
         note: of what the trunk should do: how the turn was changed to suit the wheels, or what is
             to be said of the trajectory; empty if nothing.
+        imperfections: of sensors and drives; None: they are as the law believes.
+        desaturation: of the wheels in stance; None: they are left to the law.
     """
 
     model: mujoco.MjModel
@@ -91,6 +95,8 @@ class World:
     flight_time: float
     duration: float
     note: str
+    imperfections: Imperfections | None = None
+    desaturation: Desaturation | None = None
 
 
 class WorldBuilder:
@@ -104,12 +110,14 @@ class WorldBuilder:
         allocation: Allocation = Allocation.PSEUDO_INVERSE,
         gains: Gains | None = None,
         drop_profile: Profile | None = None,
+        desaturate: bool = False,
     ) -> None:
         self._robot = robot
         self._device = device
         self._allocation = allocation
         self._gains = wheel_gains(robot) if gains is None else gains
         self._drop_profile = Quintic() if drop_profile is None else drop_profile
+        self._desaturate = desaturate
         self._limits = MotorLimits.of(device.motor)
         self._scene = robot_scene(robot)
 
@@ -171,7 +179,15 @@ class WorldBuilder:
             flight_time=flight,
             duration=flight + settling_time(self._robot, maneuver.gravity),
             note=fitted.note,
+            desaturation=self._desaturation(body, wheels, standing, maneuver.gravity),
         )
+
+    def _desaturation(
+        self, body: Gyrostat, wheels: Wheels, standing: float, gravity: float
+    ) -> Desaturation | None:
+        if not self._desaturate or wheels is not Wheels.ACTIVE:
+            return None
+        return Desaturation.of(self._robot, standing, body.spin_inertia, gravity)
 
     def _fit(
         self, turn: Turn, body: Gyrostat, wheels: Wheels, trajectory: Trajectory | None
@@ -268,8 +284,8 @@ def start_states(worlds: Sequence[World]) -> FloatArray:
     """Full physics states of all worlds at the start, shape (n, nstate)."""
     kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
     states = np.empty((len(worlds), mujoco.mj_stateSize(worlds[0].model, kind)))
+    data = mujoco.MjData(worlds[0].model)
     for state, world in zip(states, worlds, strict=True):
-        data = mujoco.MjData(world.model)
         data.qpos[:], data.qvel[:] = world.qpos, world.qvel
         mujoco.mj_getState(world.model, data, state, kind)
     return states

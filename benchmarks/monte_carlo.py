@@ -1,0 +1,125 @@
+"""What reality costs: Monte Carlo against open-loop `rollout`, threads and Dask workers, memory.
+
+Ratios of one process on one machine, each case once a round so that other load meets all alike:
+
+    python benchmarks/monte_carlo.py speed      closed loop with everything drawn / open loop
+    python benchmarks/monte_carlo.py threads    two threads / one
+    python benchmarks/monte_carlo.py workers    two Dask workers / one
+    python benchmarks/monte_carlo.py memory     10,000 drops, within 2 GiB
+
+Goals: 0.85, 1.8, 1.7 and 2 GiB.
+"""
+
+import resource
+import sys
+import time
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+
+from batch import interleaved, open_loop_rate, paper_device, spread
+from distributed import LocalCluster
+
+from ocs_design.monte_carlo.blocks import blocks_of
+from ocs_design.monte_carlo.campaign import make_campaign
+from ocs_design.monte_carlo.cluster import Cluster
+from ocs_design.monte_carlo.reality import Reality
+from ocs_design.monte_carlo.running import ThisMachine, run_campaign
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.requirement.reality import RealitySection
+from ocs_design.robot.reader import read_robot
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.scenario import Options
+
+SOLO12 = Path(__file__).parents[1] / "examples" / "solo12.urdf"
+WORLDS, SECONDS = 1024, 0.2
+
+
+def drops(until=None):
+    """A campaign of drops of Solo12 with the paper's wheels on a motor of some power."""
+    robot, device = read_robot(SOLO12), paper_device()
+    motor = replace(device.motor, torque_limit=1.0, stall_torque=1.5, no_load_speed=2000.0)
+    device = replace(device, motor=motor)
+    campaign = make_campaign(
+        robot,
+        device,
+        default_maneuvers(robot)[1:2],
+        options=Options(),
+        references={},
+        can_stand=[True],
+        reality=Reality.of(RealitySection(), robot, device),
+        seed=0,
+    )
+    (flight,) = campaign.flights
+    world = flight.world if until is None else replace(flight.world, duration=until)
+    return replace(campaign, flights=(replace(flight, world=world),))
+
+
+def speed():
+    """The same drawn models with nothing but their physics, and with all that acts on them."""
+    campaign = drops(SECONDS)
+    worlds = [world for n in range(WORLDS) for world in campaign.worlds(campaign.sample(n))]
+    plain = [replace(world, imperfections=None) for world in worlds]
+
+    def closed(those):
+        start = time.perf_counter()
+        recording = simulate(those, threads=2)
+        return int(recording.lengths.sum()) * 5 / (time.perf_counter() - start)
+
+    rates = interleaved(
+        {
+            "open loop": lambda: open_loop_rate(worlds, 2),
+            "law alone": lambda: closed(plain),
+            "with reality": lambda: closed(worlds),
+        }
+    )
+    print(f"{WORLDS} worlds, 2 threads")
+    for name, rate in rates.items():
+        print(f"{name:14s}{rate.max():9.0f} steps/s, ratio {spread(rate / rates['open loop'])}")
+
+
+def threads():
+    """Blocks of samples on one thread and on two, building them included."""
+    campaign = drops()
+    blocks = blocks_of(128)
+
+    def rate(count):
+        start = time.perf_counter()
+        run_campaign(campaign, blocks, workers=ThisMachine(count))
+        return 128 / (time.perf_counter() - start)
+
+    rates = interleaved({"one": lambda: rate(1), "two": lambda: rate(2)})
+    print(f"two threads over one: {spread(rates['two'] / rates['one'])}")
+
+
+def workers():
+    """The same on Dask workers of one thread each."""
+    campaign, blocks = drops(), blocks_of(128, 8)
+    with (
+        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as single,
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as double,
+    ):
+
+        def rate(cluster):
+            with closing(Cluster(cluster.scheduler_address)) as own:
+                start = time.perf_counter()
+                run_campaign(campaign, blocks, workers=own)
+                return 128 / (time.perf_counter() - start)
+
+        rates = interleaved({"one": lambda: rate(single), "two": lambda: rate(double)})
+    print(f"two workers over one: {spread(rates['two'] / rates['one'])}")
+
+
+def memory(samples=10_000):
+    """The peak of this process after all of them."""
+    campaign = drops()
+    start = time.perf_counter()
+    outcomes = run_campaign(campaign, blocks_of(samples), workers=ThisMachine())
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+    took = time.perf_counter() - start
+    print(f"{samples:,} drops in {took:.0f} s, {peak:.2f} GiB, {outcomes.passed.mean():.1%} pass")
+
+
+if __name__ == "__main__":
+    for wanted in sys.argv[1:]:
+        {"speed": speed, "threads": threads, "workers": workers, "memory": memory}[wanted]()

@@ -1,0 +1,1 @@
+"""How often a design does its work in a world that is not as designed."""

@@ -1,0 +1,143 @@
+"""`validate`: the flights of a design again, and many of them as they might come out."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from commands import BOUND, BY_HAND, run
+
+DROP = """[[maneuver]]
+kind = "drop"
+name = "drop"
+height = 1.0
+pitch = "20deg"
+"""
+
+
+@pytest.fixture(scope="module")
+def by_hand(tmp_path_factory):
+    """The quickest flight: a trunk, two wheels and no legs, dropped once."""
+    folder = tmp_path_factory.mktemp("by_hand")
+    (folder / "drop.toml").write_text(DROP)
+    sized = ("size", *BY_HAND, *BOUND, "--spec", folder / "drop.toml", "-q", "-o", folder / "ocs")
+    assert run(*sized).code == 0
+    return folder / "ocs"
+
+
+def test_the_flights_are_those_of_size_to_the_last_bit(product, folder):
+    result = run("validate", product.folder, "-o", "again", "--json")
+    recorded = json.loads((product.folder / "design.json").read_text())
+    assert result.code == product.said.code
+    assert result.document["validation"] == recorded["validation"]
+    again = json.loads(Path("again/design.json").read_text())
+    assert again["ocs"] == recorded["ocs"]
+    for name in again["files"]:
+        assert (Path("again") / name).read_bytes() == (product.folder / name).read_bytes()
+
+
+def test_samples_go_on_where_they_were_left_and_can_be_flown_again(by_hand, folder):
+    command = ("validate", by_hand, "--samples", "5", "--seed", "3", "-o", "mc", "--json")
+    first = run(*command)
+    assert first.code == 0
+    record = first.document["monte_carlo"]
+    assert (record["samples"], record["seed"]) == (5, 3)
+    before = Path("mc/samples/0000000.npz").stat().st_mtime_ns
+    assert run(*command).document == first.document
+    assert Path("mc/samples/0000000.npz").stat().st_mtime_ns == before
+    assert json.loads(Path("mc/monte_carlo.json").read_text()) == record
+    with Path("mc/samples.csv").open(newline="") as stream:
+        assert len(list(csv.DictReader(stream))) == 5
+    kept = sorted(Path("mc/worst").glob("drop-*.json"))
+    case = json.loads(kept[0].read_text())
+    drawn = ("--sample", case["sample"], "--seed", "3")
+    for how in (("--replay", kept[0]), drawn):
+        again = run("validate", by_hand, *how, "--json").document
+        assert again["sample"]["values"] == case["values"]
+        for flight in again["validation"]:
+            assert flight["metrics"] == case["metrics"][flight["scenario"]]
+
+
+def test_samples_are_told_in_words(by_hand, folder):
+    said = run("validate", by_hand, "--samples", "2").said
+    for words in (
+        "touches down at pitch",
+        "1 of 1 scenarios pass",
+        "2 robots as they might be built",
+        "95% interval",
+        "worst are samples",
+        "15.8 .. 100.0 %",
+    ):
+        assert words in said
+
+
+def test_reality_is_taken_from_the_specification(by_hand, folder):
+    Path("certain.toml").write_text(
+        "[reality]\n"
+        + "\n".join(f"{name} = 0" for name in CERTAIN)
+        + '\ncontact_friction = 1\n[validation]\ncontrol_period = "4ms"\n'
+    )
+    spec = ("--spec", "certain.toml")
+    designed = run("validate", by_hand, *spec, "--json").document["validation"]
+    sample = run("validate", by_hand, *spec, "--sample", "1", "--json").document["validation"]
+    flown = [flight["metrics"] for flight in designed if flight["ocs"]]
+    assert [flight["metrics"] for flight in sample] == flown
+    recorded = json.loads((by_hand / "design.json").read_text())["validation"]
+    assert flown[0] != recorded[0]["metrics"]
+
+
+CERTAIN = (
+    "mass_error",
+    "inertia_error",
+    "com_error",
+    "incidence_error",
+    "torque_constant_error",
+    "resistance_error",
+    "bus_voltage_error",
+    "coulomb_friction",
+    "viscous_friction",
+    "air_drag",
+    "torque_delay",
+    "attitude_noise",
+    "attitude_bias",
+    "gyro_noise",
+    "gyro_bias",
+)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--samples", "0"), "must be 1 or more"),
+        (("--samples", "2", "--sample", "1"), "exclude each other"),
+        (("--until-width", "5%"), "add --samples"),
+        (("--samples", "2", "--until-width", "2"), "between 0 and 100 %"),
+        (("--samples", "2", "--until-width", "5deg"), "unit of angle"),
+        (("--replay", "nothing.json"), "cannot read the case"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(by_hand, folder, options, words):
+    result = run("validate", by_hand, *options)
+    assert result.code in {2, 3}
+    assert words in result.said
+
+
+def test_a_case_of_another_design_is_refused(by_hand, folder):
+    assert run("validate", by_hand, "--samples", "1", "-o", "mc", "-q").code == 0
+    Path("drop.toml").write_text(DROP)
+    spec = ("--spec", "drop.toml", "--alpha", "20deg", "--no-validate")
+    other = ("size", *BY_HAND, *BOUND, *spec, "-q", "-o", "other")
+    assert run(*other).code == 0
+    case = next(Path("mc/worst").iterdir())
+    result = run("validate", "other", "--replay", case)
+    assert result.code == 3
+    assert "another design" in result.said
+
+
+def test_a_design_without_maneuvers_has_nothing_to_fly(folder):
+    sized = ("size", *BY_HAND, *BOUND, "--rate-change", "6rad/s", "-q", "-o", "ocs")
+    Path("none.toml").write_text('[requirement]\nmaneuvers = "none"\n')
+    assert run(*sized, "--spec", "none.toml").code == 0
+    result = run("validate", "ocs")
+    assert result.code == 3
+    assert "nothing to fly" in result.said

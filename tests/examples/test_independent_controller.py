@@ -1,0 +1,30 @@
+"""A controller written anew, in a plain loop on the exported robot, flies as the batch engine."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+from commands import SOLO12, run
+
+SCRIPT = Path(__file__).parents[2] / "examples" / "independent_controller.py"
+
+
+def example():
+    specification = importlib.util.spec_from_file_location(SCRIPT.stem, SCRIPT)
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("motor", ["none", "EC 45 flat 70 W 411812"])
+def test_it_touches_down_alike(motor, tmp_path):
+    folder = tmp_path / "ocs"
+    assert run("size", SOLO12, "--motor", motor, "-q", "-o", folder).code in {0, 1}
+    design = json.loads((folder / "design.json").read_text())
+    runs = [r for r in design["validation"] if r["scenario"] == "disturbance"]
+    flown = {r["ocs"]: r["metrics"] for r in runs}
+    roll, pitch = example().touchdown(folder, design)
+    assert roll == pytest.approx(flown[True]["touchdown_roll"], abs=1e-9)
+    assert pitch == pytest.approx(flown[True]["touchdown_pitch"], abs=1e-9)
+    assert abs(pitch - flown[False]["touchdown_pitch"]) > 0.1

@@ -1,0 +1,119 @@
+"""A built robot against one that MuJoCo compiles from the same figures."""
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+from campaigns import NOTHING, short_campaign
+from wheels import driven_device, paper_device
+
+from ocs_design.monte_carlo.built import built
+from ocs_design.requirement.distributions import Constant
+from ocs_design.requirement.reality import RealitySection
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
+
+
+def drawn(robot, device=None, **stated):
+    """World as designed, and as built with these errors and no others."""
+    given = {**NOTHING, **{name: Constant(value) for name, value in stated.items()}}
+    campaign = short_campaign(robot, RealitySection(**given), device=device, drop_only=True)
+    world = campaign.flights[0].world
+    return world, built(world, campaign.sample(0), 0, campaign.air)
+
+
+def accelerations(model):
+    """In some state of motion."""
+    data, rng = mujoco.MjData(model), np.random.default_rng(0)
+    data.qpos[:] = data.qpos + 0.1 * rng.normal(size=model.nq)
+    data.qvel[:] = rng.normal(size=model.nv)
+    data.qpos[2] = 5.0
+    mujoco.mj_normalizeQuat(model, data.qpos)
+    mujoco.mj_forward(model, data)
+    return data.qacc.copy()
+
+
+def recompiled(robot, change):
+    """The scene with one change before it is compiled."""
+    scene = robot_scene(robot)
+    change(scene)
+    return compile_scene(scene, robot, driven_device(), Wheels.ACTIVE, 9.81)
+
+
+def with_gains_of(model, world):
+    """Of the legs, which follow from the masses as designed."""
+    model.actuator_gainprm[:] = world.model.actuator_gainprm
+    model.actuator_biasprm[:] = world.model.actuator_biasprm
+    model.dof_damping[:] = world.model.dof_damping
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    return model
+
+
+def scale_all(scene):
+    for body in scene.bodies[1:]:
+        body.mass *= 1.1
+        body.inertia = 1.1 * np.asarray(body.inertia)
+
+
+def shift_trunk(scene):
+    trunk = scene.body("base_link")
+    trunk.ipos = np.asarray(trunk.ipos) + np.array([0.01, 0.01, 0.01])
+
+
+@pytest.mark.parametrize(
+    ("stated", "change"),
+    [({"mass_error": 0.1}, scale_all), ({"com_error": 0.01}, shift_trunk)],
+)
+def test_it_moves_as_one_that_is_compiled_so(solo12, stated, change):
+    world, robot = drawn(solo12, **stated)
+    expected = accelerations(with_gains_of(recompiled(solo12, change), world))
+    assert np.abs(expected - accelerations(world.model)).max() > 1e-3
+    np.testing.assert_allclose(accelerations(robot.model), expected, rtol=1e-9, atol=1e-9)
+
+
+def test_wheels_that_are_both_off_are_a_device_at_another_incidence(solo12):
+    error = np.radians(2.0)
+    device = paper_device()
+    world, robot = drawn(solo12, device, incidence_error=error)
+    turned = device.at_incidence(device.incidence + error)
+    model = compile_scene(robot_scene(solo12), solo12, turned, Wheels.ACTIVE, 9.81)
+    expected = accelerations(with_gains_of(model, world))
+    np.testing.assert_allclose(accelerations(robot.model), expected, rtol=1e-9, atol=1e-9)
+
+
+def test_second_moments_of_mass_grow_by_what_is_drawn(solo12):
+    """About the trunk's centre of mass: `S = tr(I)/2 - I` scales with 1 + e in every direction."""
+    world, robot = drawn(solo12, inertia_error=0.2)
+    trunk = world.addresses.trunk
+
+    def inertia(model):
+        axes = np.empty(9)
+        mujoco.mju_quat2Mat(axes, model.body_iquat[trunk])
+        axes = axes.reshape(3, 3)
+        return axes @ np.diag(model.body_inertia[trunk]) @ axes.T
+
+    np.testing.assert_allclose(inertia(robot.model), 1.2 * inertia(world.model), rtol=1e-12)
+    assert robot.model.body_mass[trunk] == world.model.body_mass[trunk]
+
+
+def test_an_inertia_stays_physical_however_far_it_is_off(solo12):
+    campaign = short_campaign(solo12, drop_only=True)
+    world = campaign.flights[0].world
+    for seed in range(20):
+        errors = np.random.default_rng(seed).uniform(-0.9, 0.9, 3)
+        sample = campaign.sample(0)
+        values = sample.values.copy()
+        values[1:4] = errors
+        own = built(world, replace(sample, values=values), 0, campaign.air).model
+        low, middle, high = np.sort(own.body_inertia[world.addresses.trunk])
+        assert low > 0.0
+        assert high <= (low + middle) * (1.0 + 1e-12)
+
+
+def test_a_world_without_errors_flies_to_the_last_bit_as_designed(solo12):
+    world, robot = drawn(solo12)
+    designed, flown = simulate([world]), simulate([robot])
+    for name in ("attitude", "rate", "wheel_speed", "wheel_torque", "com", "momentum"):
+        np.testing.assert_array_equal(getattr(designed, name), getattr(flown, name))
+    assert designed.wheel_torque.any()

@@ -1,0 +1,77 @@
+"""Samples flown: alone or among others, on one thread or two, they have the same numbers."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from campaigns import short_campaign
+
+from ocs_design.monte_carlo.campaign import fly_samples
+from ocs_design.monte_carlo.cases import case_of, metrics_of, read_case, write_case
+from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
+from ocs_design.monte_carlo.replay import replayed
+from ocs_design.monte_carlo.summary import summarised
+from ocs_design.simulation.verdict import MOMENTUM_GATE
+
+
+@pytest.fixture(scope="module")
+def campaign(solo12):
+    return short_campaign(solo12)
+
+
+@pytest.fixture(scope="module")
+def outcomes(campaign):
+    return fly_samples(campaign, range(6))
+
+
+def assert_same(one, other):
+    for field in fields(Outcomes):
+        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
+
+
+def test_numbers_do_not_depend_on_company_or_threads(campaign, outcomes):
+    assert_same(fly_samples(campaign, [4], threads=1), outcomes.take(slice(4, 5)))
+    pair = fly_samples(campaign, [5, 2], threads=1)
+    assert_same(pair.take(slice(1, 2)), outcomes.take(slice(2, 3)))
+
+
+def test_another_seed_gives_other_numbers(campaign, outcomes):
+    other = fly_samples(replace(campaign, seed=8), [0])
+    pitch = METRICS.index("touchdown_pitch")
+    assert other.metrics[0, 0, pitch] != outcomes.metrics[0, 0, pitch]
+
+
+def test_momentum_is_conserved_with_friction_and_errors(outcomes):
+    """Friction acts between wheel and trunk: whatever it does, the whole keeps its momentum."""
+    assert outcomes.metric("momentum_error").max() < MOMENTUM_GATE
+
+
+def test_no_two_robots_are_alike(outcomes):
+    for name in ("touchdown_pitch", "touchdown_roll", "peak_wheel_speed"):
+        assert np.unique(outcomes.metric(name)).size == outcomes.metric(name).size
+
+
+def test_a_case_is_flown_again_to_the_last_bit(campaign, outcomes, tmp_path):
+    case = case_of(campaign, outcomes, 3, 1, "hash")
+    again = read_case(write_case(case, tmp_path))
+    assert again == case
+    for number, run in enumerate(replayed(campaign, again.drawn())):
+        assert run.metrics == metrics_of(outcomes, 3, number)
+
+
+def test_outcomes_are_read_back_as_they_were(outcomes, tmp_path):
+    outcomes.save(tmp_path / "block.npz")
+    assert_same(Outcomes.load(tmp_path / "block.npz"), outcomes)
+    assert [path.name for path in tmp_path.iterdir()] == ["block.npz"]
+
+
+def test_the_record_counts_what_was_flown(campaign, outcomes):
+    record = summarised(campaign, outcomes, 10)
+    assert (record.samples, record.asked, record.seed) == (6, 10, 7)
+    for number, scenario in enumerate(record.scenarios):
+        assert scenario.success.passed == outcomes.passed[:, number].sum()
+        assert scenario.success.passed + sum(scenario.faults.values()) == 6
+        speeds = outcomes.metric("peak_wheel_speed")[:, number]
+        assert scenario.peak_wheel_speed.quantiles[2] == np.median(speeds)
+        assert sum(scenario.peak_wheel_speed.counts) == 6
+        assert len(set(scenario.worst)) == 3

@@ -1,0 +1,123 @@
+"""Blocks come in any order, from anybody, in several goes: what is counted stays the same."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+from made_outcomes import made_outcomes
+
+from ocs_design.exceptions import OutputError
+from ocs_design.monte_carlo.blocks import blocks_of
+from ocs_design.monte_carlo.outcomes import Outcomes
+from ocs_design.monte_carlo.running import Workers, run_campaign
+from ocs_design.monte_carlo.storage import Identity, Storage
+
+BLOCKS = blocks_of(100, 8)
+IDENTITY = Identity(
+    schema_version=1,
+    tool="1",
+    simulator="4",
+    design="d",
+    robot="r",
+    reality={"mass_error": "normal(0.0, 0.02)"},
+    seed=0,
+    hold=5,
+    desaturate=False,
+)
+
+
+class Made(Workers):
+    """Fly nothing; `order` is that in which blocks arrive, `most` after which all is cut short."""
+
+    def __init__(self, order=1, most=1000):
+        self.flown, self._order, self._most = [], order, most
+
+    def fly(self, campaign, blocks, progress):
+        for done, block in enumerate(blocks[:: self._order]):
+            if done == self._most:
+                raise KeyboardInterrupt
+            self.flown.append(block)
+            progress((done + 1) / len(blocks))
+            yield block, made_outcomes(block.samples, 2, fail_from=1.5)
+
+
+def assert_same(one, other):
+    for field in fields(Outcomes):
+        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
+
+
+def test_blocks_hold_every_sample_once():
+    assert [n for block in BLOCKS for n in block.samples] == list(range(100))
+
+
+def test_the_order_of_arrival_does_not_matter():
+    whole = run_campaign(None, BLOCKS, workers=Made())
+    assert_same(whole, run_campaign(None, BLOCKS, workers=Made(-1)))
+    assert whole.index.tolist() == list(range(100))
+
+
+def test_it_stops_when_enough_is_known_at_the_same_sample_whoever_was_faster():
+    forward, backward = Made(), Made(-1)
+    found = run_campaign(None, BLOCKS, workers=forward, until_width=0.3)
+    assert len(found.index) == 8 * len(forward.flown) < 100
+    assert_same(found, run_campaign(None, BLOCKS, workers=backward, until_width=0.3))
+
+
+def test_a_run_that_was_cut_short_goes_on(tmp_path):
+    folder = tmp_path / "mc"
+    with pytest.raises(KeyboardInterrupt):
+        run_campaign(
+            None, BLOCKS, workers=Made(most=5), storage=Storage(folder, IDENTITY, force=False)
+        )
+    told, rest = [], Made()
+    storage = Storage(folder, IDENTITY, force=False)
+    again = run_campaign(None, BLOCKS, workers=rest, storage=storage, progress=told.append)
+    assert rest.flown == list(BLOCKS[5:])
+    assert_same(again, run_campaign(None, BLOCKS, workers=Made()))
+    assert told == sorted(told)
+    assert told[0] > 5 / len(BLOCKS)
+    assert told[-1] == pytest.approx(1.0)
+
+
+def test_more_samples_of_the_same_campaign_need_only_those(tmp_path):
+    run_campaign(
+        None, BLOCKS, workers=Made(), storage=Storage(tmp_path / "mc", IDENTITY, force=False)
+    )
+    more = Made()
+    storage = Storage(tmp_path / "mc", IDENTITY, force=False)
+    run_campaign(None, blocks_of(120, 8), workers=more, storage=storage)
+    # The last block was not full.
+    assert [block.start for block in more.flown] == [96, 104, 112]
+
+
+@pytest.mark.parametrize("spoil", [lambda text: b"", lambda text: text[: len(text) // 2]])
+def test_a_spoilt_block_is_flown_again(tmp_path, spoil):
+    storage = Storage(tmp_path / "mc", IDENTITY, force=False)
+    run_campaign(None, BLOCKS, workers=Made(), storage=storage)
+    path = sorted((tmp_path / "mc" / "samples").iterdir())[2]
+    path.write_bytes(spoil(path.read_bytes()))
+    again = Made()
+    run_campaign(None, BLOCKS, workers=again, storage=storage)
+    assert again.flown == [BLOCKS[2]]
+
+
+def test_another_campaign_is_not_mixed_in(tmp_path):
+    Storage(tmp_path / "mc", IDENTITY, force=False).keep(BLOCKS[0], made_outcomes(range(8)))
+    other = Identity(**{**vars_of(IDENTITY), "seed": 1})
+    with pytest.raises(OutputError, match="not the same: seed"):
+        Storage(tmp_path / "mc", other, force=False)
+    anew = Storage(tmp_path / "mc", other, force=True)
+    assert not anew.found(BLOCKS)
+
+
+def test_a_folder_of_something_else_is_left_alone(tmp_path):
+    (tmp_path / "thesis.tex").write_text("years of work")
+    with pytest.raises(OutputError, match="holds no samples"):
+        Storage(tmp_path, IDENTITY, force=True)
+    with pytest.raises(OutputError, match="not a folder"):
+        Storage(tmp_path / "thesis.tex", IDENTITY, force=True)
+    assert (tmp_path / "thesis.tex").read_text() == "years of work"
+
+
+def vars_of(identity):
+    return {field.name: getattr(identity, field.name) for field in fields(identity)}

@@ -1,0 +1,70 @@
+"""Distributions against SciPy's, and their text."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+from ocs_design.exceptions import OcsError
+from ocs_design.requirement.distributions import CUT, Constant, Normal, Uniform
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.spread import Spread
+from ocs_design.requirement.writing import specification_to_toml
+from ocs_design.units import Dimension
+
+ANGLE = Spread(Dimension.ANGLE, "deg")
+finite = st.floats(-1e6, 1e6)
+
+
+def test_a_normal_distribution_is_cut_at_three_deviations():
+    parts = np.linspace(0.0, 1.0, 101)
+    ours = [Normal(2.0, 0.5).at(part) for part in parts]
+    theirs = stats.truncnorm(-CUT, CUT, loc=2.0, scale=0.5).ppf(parts)
+    np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-9)
+
+
+def test_a_uniform_one_goes_from_end_to_end():
+    assert [Uniform(-1.0, 3.0).at(part) for part in (0.0, 0.25, 1.0)] == [-1.0, 0.0, 3.0]
+    assert [Constant(4.0).at(part) for part in (0.0, 1.0)] == [4.0, 4.0]
+
+
+@given(finite, st.floats(0.0, 1e6))
+def test_text_is_read_back_to_the_last_bit(mean, width):
+    for spread in (Normal(mean, width), Uniform(mean, mean + width), Constant(mean)):
+        assert ANGLE.read(spread.written(), "x") == spread
+
+
+def test_ends_may_have_units():
+    assert ANGLE.read("normal(0, 180deg)", "x") == Normal(0.0, math.pi)
+    assert Spread(Dimension.TIME, "ms").read(" uniform( 1ms ,3 ms ) ", "x") == Uniform(0.001, 0.003)
+    assert ANGLE.read(0.5, "x") == Constant(0.5)
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("normal(0, 40%)", "reaches -1.2"),
+        ("normal(0, -1%)", "deviation"),
+        ("uniform(1%, 0%)", "low end"),
+        ("uniform(0)", "no distribution"),
+        ("gamma(1, 2)", "no distribution"),
+        ("normal(0, 1deg)", "angle"),
+        ("2", "beyond 0.9"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(text, word):
+    with pytest.raises(OcsError, match=word):
+        Spread(Dimension.RATIO, "%", -0.9, 0.9).read(text, "reality.mass_error")
+
+
+def test_a_specification_keeps_its_distributions():
+    text = (
+        '[reality]\nmass_error = "normal(0, 2%)"\nattitude_noise = "0.1deg"\n'
+        'viscous_friction = "uniform(0, 3 uN m s/rad)"'
+    )
+    given = parse_specification(text, "spec")
+    assert parse_specification(specification_to_toml(given), "again") == given
+    assert given.reality.mass_error == Normal(0.0, 0.02)

@@ -1,0 +1,40 @@
+"""Wheels that are braked while the robot stands."""
+
+import numpy as np
+import pytest
+from wheels import paper_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.simulation.desaturation import SETTLING
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder
+
+
+@pytest.fixture(scope="module")
+def landed(solo12):
+    """The push leaves momentum in the wheels; the same without and with braking."""
+    jump = default_maneuvers(solo12)[0]
+    worlds = [
+        WorldBuilder(solo12, paper_device(), desaturate=brake).flight(jump, Wheels.ACTIVE)
+        for brake in (False, True)
+    ]
+    return simulate(worlds), worlds
+
+
+def test_nothing_changes_before_the_robot_has_stood_for_a_while(landed):
+    recording, _ = landed
+    touchdown = recording.time[recording.contact[:, 0].argmax()]
+    before = recording.time < touchdown + SETTLING
+    assert recording.wheel_speed[before, 0].any()
+    np.testing.assert_array_equal(
+        recording.wheel_speed[before, 0], recording.wheel_speed[before, 1]
+    )
+
+
+def test_the_wheels_slow_down_and_the_robot_stays_on_its_feet(landed):
+    recording, worlds = landed
+    free, braked = np.abs(recording.wheel_speed[-1]).max(axis=1)
+    assert braked < 0.5 * free
+    assert recording.height[-1, 1] == pytest.approx(recording.height[-1, 0], abs=0.01)
+    assert worlds[1].desaturation.torque_max > 0.0
