@@ -38,7 +38,7 @@ class Case:
         options: of the command. headings: of its report, so many.
         words: that its report has among others.
         slack: relative, of what is held to a capacity.
-        pieces: of the wheel, each a file.
+        pieces: of the wheel, each a file. standing: meshes of what stands still.
     """
 
     options: tuple[str, ...]
@@ -46,14 +46,23 @@ class Case:
     words: tuple[str, ...]
     slack: float
     pieces: tuple[str, ...]
+    standing: tuple[str, ...] = ()
 
     @property
     def files(self) -> list[str]:
-        return [*FILES, *(f"cad/{piece}.stl" for piece in self.pieces)]
+        meshes = [f"robot/meshes/ocs_{part}.stl" for part in self.standing]
+        return [*FILES, *meshes, *(f"cad/{piece}.stl" for piece in self.pieces)]
 
 
 CASES = {
-    "motor": Case((), 5, ("24 V", "housing", "rated for"), 1e-5, ("flywheel_rim", "flywheel_hub")),
+    "motor": Case(
+        (),
+        5,
+        ("24 V", "housing", "rated for"),
+        1e-5,
+        ("flywheel_rim", "flywheel_hub"),
+        ("housing", "foot"),
+    ),
     "no motor": Case(("--motor", "none"), 5, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)),
 }
 
