@@ -1,6 +1,7 @@
 """The flywheel in binary STL: whole for robot files, piece by piece for the workshop."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 
 from ocs_design.design import Flywheel
@@ -29,6 +30,7 @@ def stl_bytes(flywheel: Flywheel, *, units_per_metre: float) -> bytes:
     return mesh_stl(whole, "flywheel", units_per_metre=units_per_metre)
 
 
+@lru_cache(maxsize=1)
 def wheel_meshes(flywheel: Flywheel) -> Mapping[str, Mesh]:
-    """Each piece as it is made, by its name."""
+    """Each piece as it is made, by its name; several formats ask for them."""
     return {part.name: part_mesh(part) for part in wheel_parts(made_wheel(flywheel))}
