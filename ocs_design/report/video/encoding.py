@@ -62,7 +62,9 @@ def _gif(pictures: Sequence[Picture], seconds: float, path: Path) -> Path:
     """All frames in the colours of some: one palette is small, and nothing flickers."""
     some = pictures[:: max(1, len(pictures) // _SAMPLES)]
     palette = Image.fromarray(np.concatenate(some)).quantize(GIF_COLORS)
-    frames = [Image.fromarray(each).quantize(palette=palette) for each in pictures]
+    # Dithered colours pack badly: twice the size and more.
+    plain = Image.Dither.NONE
+    frames = [Image.fromarray(each).quantize(palette=palette, dither=plain) for each in pictures]
     frames[0].save(
         path,
         save_all=True,
