@@ -9,6 +9,7 @@ import msgspec
 
 from ocs_design import __version__
 from ocs_design.exceptions import OcsError, OutputError, UsageError
+from ocs_design.export.folder import CURES
 from ocs_design.flight_control import flight_options
 from ocs_design.monte_carlo.blocks import blocks_of
 from ocs_design.monte_carlo.campaign import Campaign, make_campaign
@@ -20,7 +21,7 @@ from ocs_design.monte_carlo.storage import Identity, Storage
 from ocs_design.monte_carlo.summary import MonteCarloRecord, summarised
 from ocs_design.monte_carlo.tables import write_tables
 from ocs_design.simulation.engine import Progress
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.scenario import Run, refusal
 from ocs_design.validating import SCHEMA_VERSION, Task
 
 RESULT_FILE = "monte_carlo.json"
@@ -61,7 +62,12 @@ def campaign_of(task: Task, runs: tuple[Run, ...], seed: int) -> Campaign:
         task: see `Task`.
         runs: of it as designed: they show what its legs bear.
         seed: of all samples.
+
+    Raises:
+        OcsError: no flight of this robot says anything.
     """
+    if unclear := refusal(task.robot):
+        raise OcsError(unclear, hint="name a link of the trunk whose z axis points up by --trunk")
     return make_campaign(
         task.robot,
         task.device,
@@ -154,7 +160,8 @@ def _write(
                 case = case_of(campaign, outcomes, rows[sample], number, design_hash(task))
                 written.append(write_case(case, worst))
     except OSError as error:
-        raise OutputError(f"{error.filename or folder}: {error.strerror or error}") from error
+        hint = CURES.get(error.errno or 0, "")
+        raise OutputError(f"{error.filename or folder}: {error.strerror}", hint=hint) from error
     return tuple(written)
 
 

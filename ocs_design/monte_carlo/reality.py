@@ -54,11 +54,16 @@ class Reality:
     @property
     def by_name(self) -> Mapping[str, Distribution]:
         """Of every number that is drawn, in the order of `NAMES`."""
-        return {name: self.spreads[name.partition(".")[0]] for name in NAMES}
+        return {name: self.spreads[key_of(name)] for name in NAMES}
 
     def written(self) -> Mapping[str, str]:
         """As text that tells any two apart, SI."""
         return {key: spread.written() for key, spread in self.spreads.items()}
+
+
+def key_of(name: str) -> str:
+    """The key of `[reality]` that one of `NAMES` is drawn from."""
+    return name.partition(".")[0]
 
 
 def no_load_torque(motor: Motor) -> float:

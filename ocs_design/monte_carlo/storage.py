@@ -10,6 +10,7 @@ from pathlib import Path
 import msgspec
 
 from ocs_design.exceptions import OutputError
+from ocs_design.export.folder import CURES
 from ocs_design.monte_carlo.blocks import Block
 from ocs_design.monte_carlo.outcomes import Outcomes
 
@@ -68,7 +69,8 @@ class Storage:
             record = msgspec.json.format(msgspec.json.encode(identity), indent=2)
             (folder / CAMPAIGN_FILE).write_bytes(record + b"\n")
         except OSError as error:
-            raise OutputError(f"{error.filename}: {error.strerror}") from error
+            hint = CURES.get(error.errno or 0, "")
+            raise OutputError(f"{error.filename}: {error.strerror}", hint=hint) from error
 
     def found(self, blocks: Sequence[Block]) -> Mapping[Block, Outcomes]:
         """Those that have been flown already."""
@@ -84,7 +86,8 @@ class Storage:
         try:
             outcomes.save(self._path(block))
         except OSError as error:
-            raise OutputError(f"{self._path(block)}: {error.strerror or error}") from error
+            hint = CURES.get(error.errno or 0, "")
+            raise OutputError(f"{self._path(block)}: {error.strerror}", hint=hint) from error
 
     def _check(self, identity: Identity, *, force: bool) -> None:
         """Whether this folder may be added to; other samples are thrown away if that is wanted."""

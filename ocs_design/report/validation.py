@@ -5,9 +5,12 @@ from pathlib import Path
 
 from rich.console import Console
 
+from ocs_design.monte_carlo.reality import key_of
 from ocs_design.report.flights import print_files, print_runs, print_verdicts
 from ocs_design.report.layout import facts, heading, print_warnings
 from ocs_design.report.monte_carlo import print_monte_carlo
+from ocs_design.requirement.reality import spreads
+from ocs_design.units import format_quantity
 from ocs_design.validating import Drawn, Validated
 
 
@@ -34,6 +37,13 @@ def print_validated(
 
 
 def _print_drawn(console: Console, drawn: Drawn) -> None:
-    """The sample's values, SI."""
+    """The sample's values in the units that people think in."""
     heading(console, f"Sample {drawn.index} of seed {drawn.seed}")
-    facts(console, ((name, f"{value:.6g}") for name, value in drawn.values.items()))
+    units = {key: spread.unit for key, spread in spreads().items()}
+    facts(
+        console,
+        (
+            (name.replace("_", " ").replace(".", " "), format_quantity(value, units[key_of(name)]))
+            for name, value in drawn.values.items()
+        ),
+    )

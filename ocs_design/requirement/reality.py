@@ -130,7 +130,7 @@ def default_reality(standing_height: float) -> RealitySection:
 
 def reality_texts(section: RealitySection) -> Mapping[str, str]:
     """What is stated, by key, as `design.json` keeps it: SI, to the last bit."""
-    stated = {name: getattr(section, name) for name in _spreads()}
+    stated = {name: getattr(section, name) for name in spreads()}
     return {name: spread.written() for name, spread in stated.items() if spread is not None}
 
 
@@ -140,13 +140,13 @@ def reality_of_texts(texts: Mapping[str, str], where: str) -> RealitySection:
     Raises:
         OcsError: one is no distribution, or of no key.
     """
-    spreads, faults = _spreads(), Faults()
-    for name in texts.keys() - spreads.keys():
-        faults.unknown(f"{where}: reality.{name}", name, tuple(spreads))
+    known, faults = spreads(), Faults()
+    for name in sorted(texts.keys() - known.keys()):
+        faults.unknown(f"{where}: reality.{name}", name, tuple(known))
     read = {
-        name: faults.read(spreads[name], text, f"{where}: reality.{name}")
+        name: faults.read(known[name], text, f"{where}: reality.{name}")
         for name, text in texts.items()
-        if name in spreads
+        if name in known
     }
     if faults:
         raise SpecificationError(f"{where} states what cannot be read:", problems=faults)
@@ -154,7 +154,7 @@ def reality_of_texts(texts: Mapping[str, str], where: str) -> RealitySection:
 
 
 @cache
-def _spreads() -> Mapping[str, Spread]:
+def spreads() -> Mapping[str, Spread]:
     """How each key is read."""
     hints = get_type_hints(RealitySection, include_extras=True)
     return {item.name: get_args(hints[item.name])[1].value for item in fields(RealitySection)}

@@ -118,13 +118,13 @@ def run_scenarios(
     ]
     flights = _fly(worlds, chosen, progress)
     pairs = list(zip(flights[::2], flights[1::2], strict=True))
-    refusal = _refusal(robot)
+    unclear = refusal(robot)
     can_stand = _legs_bear_landings(builder, robot, maneuvers, pairs, chosen)
     return tuple(
         _run(
             maneuver,
             flight,
-            Verdict(None, refusal) if refusal else judge(flight.metrics, maneuver, can_stand=legs),
+            Verdict(None, unclear) if unclear else judge(flight.metrics, maneuver, can_stand=legs),
             ocs=ocs,
             can_stand=legs,
         )
@@ -184,7 +184,7 @@ def _is_doubtful(maneuver: Maneuver, pair: Sequence[_Flight]) -> bool:
     return bool(down) and not any(stands(metrics) for metrics in down)
 
 
-def _refusal(robot: Robot) -> str:
+def refusal(robot: Robot) -> str:
     """Why no flight of this robot says anything; empty if they do."""
     if not robot.legs or up_axis(robot.tree, robot.trunk, robot.legs)[2] == 1.0:
         return ""
