@@ -96,8 +96,8 @@ def workers():
     """The same on Dask workers of one thread each."""
     campaign, blocks = drops(), blocks_of(128, 8)
     with (
-        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as single,
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as double,
+        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0") as single,
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as double,
     ):
 
         def rate(cluster):

@@ -24,7 +24,6 @@ from ocs_design.design_file import (
     RequirementRecord,
     SizingRecord,
     Tool,
-    ValidationRecord,
 )
 from ocs_design.designing import Designed
 from ocs_design.device_warnings import device_warnings
@@ -36,6 +35,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.robot_record import RobotRecord
+from ocs_design.run_files import record_run
 from ocs_design.selection_recording import record_selection
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.housing import CLEARANCE, WALL
@@ -78,7 +78,7 @@ def record_design(
         sizing=_sizing(designed.sized),
         selection=None if designed.choice is None else record_selection(designed.choice),
         margins=record_margins(resolved, designed, runs, plans),
-        validation=tuple(record_run(run) for run in runs),
+        validation=tuple(map(record_run, runs)),
         control=control,
         reality=reality or {},
         files=files,
@@ -184,16 +184,4 @@ def _sizing(sized: Sized) -> SizingRecord:
         gap=sized.gap,
         residual=sized.residual,
         iterations=sized.iterations,
-    )
-
-
-def record_run(run: Run) -> ValidationRecord:
-    """One flight, without its time series."""
-    return ValidationRecord(
-        scenario=run.scenario,
-        ocs=run.ocs,
-        passed=run.passed,
-        reason=run.reason,
-        note=run.note,
-        metrics={} if run.metrics is None else asdict(run.metrics),
     )

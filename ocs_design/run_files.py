@@ -1,13 +1,27 @@
-"""The time series of flights as files."""
+"""Flights as they are kept: their record, and their time series as files."""
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 
+from ocs_design.design_file import ValidationRecord
 from ocs_design.export.naming import safe_name
 from ocs_design.export.time_series import export_time_series
 from ocs_design.simulation.scenario import Run
 
 FOLDER = "validation"
+
+
+def record_run(run: Run) -> ValidationRecord:
+    """One flight, without its time series."""
+    return ValidationRecord(
+        scenario=run.scenario,
+        ocs=run.ocs,
+        passed=run.passed,
+        reason=run.reason,
+        note=run.note,
+        metrics={} if run.metrics is None else asdict(run.metrics),
+    )
 
 
 def write_runs(runs: Sequence[Run], folder: Path) -> None:

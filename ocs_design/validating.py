@@ -23,7 +23,6 @@ from ocs_design.monte_carlo.sample import Sample
 from ocs_design.monte_carlo.summary import MonteCarloRecord
 from ocs_design.recorded import device_of, maneuver_of
 from ocs_design.recorded_robot import Whereabouts, read_recorded_robot
-from ocs_design.recording import record_run
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.reality import RealitySection, reality_of_texts
@@ -33,7 +32,7 @@ from ocs_design.requirement.specification import (
     merge_section,
 )
 from ocs_design.robot.robot import Robot
-from ocs_design.run_files import write_runs
+from ocs_design.run_files import record_run, write_runs
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.sizing.trajectory import Trajectory

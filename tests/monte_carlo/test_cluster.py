@@ -38,7 +38,7 @@ def test_without_dask_the_command_that_installs_it_is_named(monkeypatch):
 def two_workers():
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
     ) as cluster:
         yield cluster
 
