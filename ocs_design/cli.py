@@ -18,7 +18,7 @@ from ocs_design.cli_doctor import doctor
 from ocs_design.cli_export import export
 from ocs_design.cli_init import init
 from ocs_design.cli_pareto import pareto
-from ocs_design.cli_stated import stated_package_paths, stated_specification
+from ocs_design.cli_stated import stated_package_paths, stated_specification, typed_command
 from ocs_design.cli_validate import validate
 
 app = typer.Typer(
@@ -106,6 +106,7 @@ def size(
         force=force,
         strict=strict,
         steps=steps,
+        command=typed_command(),
     )
     if as_json:
         sys.stdout.buffer.write(design_to_json(outcome.design))

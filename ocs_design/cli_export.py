@@ -7,7 +7,7 @@ from typing import Annotated, TypeAlias
 import typer
 
 from ocs_design import cli_options as opt
-from ocs_design.cli_stated import stated_package_paths
+from ocs_design.cli_stated import stated_package_paths, typed_command
 
 DesignFile: TypeAlias = Annotated[
     Path, typer.Argument(metavar="DESIGN", help="design.json, or the folder that it lies in.")
@@ -22,7 +22,7 @@ Formats: TypeAlias = Annotated[
         "--formats",
         metavar="NAMES",
         help="stl, bom, drawing, urdf, mjcf, glb, snippets (these are the default), 3mf, step, "
-        "printed, pictures, with commas between them; or all.",
+        "printed, pictures, figures, report, with commas between them; or all.",
     ),
 ]
 OtherRobot: TypeAlias = Annotated[
@@ -58,8 +58,10 @@ def export(
     from ocs_design.exporting import export_order, exported_to_json, read_order
     from ocs_design.report.console import Steps, make_console
     from ocs_design.report.export import print_export
+    from ocs_design.report.on_request import ON_DESIGN, finishing
 
-    chosen = formats_named([name for text in formats or () for name in text.split(",")])
+    names = [name for text in formats or () for name in text.split(",")]
+    chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
     console = make_console(color=not no_color)
     steps = Steps(console, quiet=quiet or as_json)
     with steps.step("read the design and its robot") as step:
@@ -71,8 +73,8 @@ def export(
             strict=strict,
         )
         step.note = order.subject.name
-    with steps.step("write " + ", ".join(each.name for each in chosen)):
-        exported = export_order(order, out or order.default_folder, force=force)
+    with steps.step("write " + ", ".join(names or (each.name for each in chosen))):
+        exported = export_order(order, out or order.default_folder, force=force, finish=finish)
     if as_json:
         sys.stdout.buffer.write(exported_to_json(exported))
     elif not quiet:

@@ -1,5 +1,7 @@
 """From the options of a command to a specification."""
 
+import shlex
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,6 +26,11 @@ def stated_specification(context: typer.Context) -> "Specification":
     file = context.params["spec"]
     base = Specification() if file is None else read_specification(Path(file))
     return merge(base, specification_from_options(_options(context.params)))
+
+
+def typed_command() -> str:
+    """What was typed, as a shell takes it."""
+    return shlex.join(["ocs-design", *sys.argv[1:]])
 
 
 def stated_package_paths(context: typer.Context) -> Mapping[str, Path]:

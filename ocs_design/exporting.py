@@ -1,14 +1,14 @@
 """`ocs-design export`: every file again from `design.json`."""
 
 import shutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import msgspec
 
 from ocs_design.design_file import OcsDesign, design_to_json, read_design
-from ocs_design.export.folder import DESIGN_FILE, file_hashes, staged_folder
+from ocs_design.export.folder import DESIGN_FILE, file_hashes, recorded_hashes, staged_folder
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS, Format, Subject, export_formats
 from ocs_design.export.naming import safe_name
 from ocs_design.recorded import device_of, seat_of
@@ -42,6 +42,10 @@ class Order:
     def default_folder(self) -> Path:
         """Where it is written if nothing else is said, in the working directory."""
         return Path(f"{self.subject.name}-ocs-export")
+
+
+Finish = Callable[[Order, Path], tuple[str, ...]]
+"""Writes into a folder; gives what is to be told of it, one sentence each."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,7 +95,9 @@ def read_order(
     return Order(path, design, Subject.of(robot, device, name), formats, warnings)
 
 
-def export_order(order: Order, folder: Path, *, force: bool = False) -> Exported:
+def export_order(
+    order: Order, folder: Path, *, force: bool = False, finish: Finish | None = None
+) -> Exported:
     """Write it.
 
     The folder gets a `design.json` too, with the hashes of what is there. In the design's own
@@ -101,16 +107,19 @@ def export_order(order: Order, folder: Path, *, force: bool = False) -> Exported
         order: see `read_order`.
         folder: to write.
         force: replace an existing folder, once the new one is complete.
+        finish: writes what rests on the design and its other files, when those are there.
 
     Raises:
         OutputError: it cannot be written, or exists already.
     """
     with staged_folder(folder, force=force) as staging:
         remarks = export_formats(order.subject, order.formats, staging)
+        if finish is not None:
+            remarks += finish(order, staging)
         made = file_hashes(staging)
         if _same(folder, order.path.parent):
             _keep(order, staging)
-        design = replace(order.design, files=file_hashes(staging))
+        design = replace(order.design, files=recorded_hashes(staging))
         (staging / DESIGN_FILE).write_bytes(design_to_json(design))
     known = order.design.robot.warnings
     return Exported(

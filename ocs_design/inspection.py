@@ -11,6 +11,7 @@ from ocs_design.arrays import vector
 from ocs_design.design_file import SCHEMA_VERSION
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
+from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance.sensitivity import PostureRow, posture_sensitivity
 from ocs_design.robot_record import RobotRecord
 from ocs_design.sizing.incidence import Criterion, heading_drift, incidence_by_criterion
@@ -60,13 +61,18 @@ def inspect_robot(
             str(name): angle for name, angle in incidence_by_criterion(robot.inertia).items()
         },
         heading_drift=(float(roll), float(pitch)),
-        incidence_by_posture=tuple(_line(row) for row in posture_sensitivity(robot)),
+        incidence_by_posture=posture_lines(robot),
     )
 
 
 def inspection_to_json(inspection: Inspection) -> bytes:
     """As indented UTF-8 JSON."""
     return msgspec.json.format(msgspec.json.encode(inspection), indent=2) + b"\n"
+
+
+def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:
+    """Inertia and alpha* over plausible postures; see `posture_sensitivity`."""
+    return tuple(_line(row) for row in posture_sensitivity(robot))
 
 
 def _line(row: PostureRow) -> PostureLine:

@@ -10,13 +10,18 @@ from ocs_design.design import Device
 from ocs_design.design_file import ControlRecord, OcsDesign, design_to_json
 from ocs_design.designing import Designed, design_device
 from ocs_design.device_warnings import device_warnings
-from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
+from ocs_design.export.folder import DESIGN_FILE, check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.export.naming import safe_name
 from ocs_design.flight_control import control_of, flight_options, trajectories
+from ocs_design.inspection import posture_lines
 from ocs_design.mounting import mounting_of, placement_warnings
 from ocs_design.recording import record_design
 from ocs_design.report.console import Steps
+from ocs_design.report.figures.figures import FOLDER, all_charts, write_figures
+from ocs_design.report.flight import flights_of
+from ocs_design.report.html.page import write_report
+from ocs_design.report.story import story_in
 from ocs_design.report.video.filming import film_or_tell
 from ocs_design.requirement.reality import reality_texts
 from ocs_design.requirement.resolving import Resolved, resolve
@@ -66,6 +71,7 @@ def design_ocs(
     force: bool = False,
     strict: bool = False,
     steps: Steps | None = None,
+    command: str = "",
 ) -> Outcome:
     """Size a device for a robot, write it, fly it, and record all of it in one folder.
 
@@ -76,6 +82,7 @@ def design_ocs(
         force: replace an existing output folder, once the new one is complete.
         strict: warnings are errors.
         steps: where progress goes; None: nowhere.
+        command: that was typed, for the report.
 
     Raises:
         OcsError: see `exceptions`; nothing is written then.
@@ -131,9 +138,11 @@ def design_ocs(
             mounting=mounting,
             warnings=remarks_on_place,
             seed=specification.validation.seed or 0,
-            files=file_hashes(staging),
+            files={},
             package_paths=package_paths,
         )
+        with steps.step("write the report"):
+            design = _write_report(design, robot, runs, staging, command)
         (staging / DESIGN_FILE).write_bytes(design_to_json(design))
     return Outcome(design, folder, robot, device, runs)
 
@@ -191,3 +200,16 @@ def _fly(
         references=trajectories(plans),
         progress=progress,
     )
+
+
+def _write_report(
+    design: OcsDesign, robot: Robot, runs: Sequence[Run], folder: Path, command: str
+) -> OcsDesign:
+    """Figures and report; the design with the hashes of all files but the report, which has it."""
+    story = story_in(
+        [folder], design, flights=flights_of(runs), postures=posture_lines(robot), command=command
+    )
+    write_figures(all_charts(story), folder / FOLDER)
+    whole = replace(design, files=recorded_hashes(folder))
+    write_report(replace(story, design=whole), folder)
+    return whole

@@ -5,8 +5,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from ocs_design.design_file import ValidationRecord
-from ocs_design.export.naming import safe_name
-from ocs_design.export.time_series import export_time_series
+from ocs_design.export.time_series import export_time_series, series_file
 from ocs_design.simulation.scenario import Run
 
 FOLDER = "validation"
@@ -29,5 +28,5 @@ def write_runs(runs: Sequence[Run], folder: Path) -> None:
     if runs:
         (folder / FOLDER).mkdir()
     for run in runs:
-        name = f"{safe_name(run.scenario)}_{'with' if run.ocs else 'without'}_ocs.csv"
-        export_time_series(run.series.columns(), folder / FOLDER / name)
+        path = folder / FOLDER / series_file(run.scenario, ocs=run.ocs)
+        export_time_series(run.series.columns(), path)

@@ -8,7 +8,20 @@ import numpy as np
 import pinocchio as pin
 from commands import Result
 
+OF_MANEUVERS = ("tilt", "rates", "wheel_speed", "wheel_torque")
+FIGURES = [
+    "bound_pitch",
+    "bound_roll",
+    "incidence_criterion",
+    "incidence_posture",
+    "inertia_ellipsoid",
+    "momentum",
+    "torque_speed",
+    *(f"{kind}_{name}" for kind in OF_MANEUVERS for name in ("disturbance", "drop", "back-flip")),
+]
+
 FILES = [
+    *(f"figures/{name}.svg" for name in FIGURES),
     "cad/bill_of_materials.csv",
     "cad/wheel.svg",
     "cad/wheel.pdf",

@@ -13,6 +13,7 @@ from ocs_design.exceptions import OutputError
 
 DESIGN_FILE = "design.json"
 FRONT_FILE = "front.json"
+REPORT_FILE = "report.html"
 
 CURES = {
     errno.ENOSPC: "free some space, or choose another folder with -o",
@@ -91,6 +92,12 @@ def file_hashes(folder: Path) -> Mapping[str, str]:
         path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in files
     }
+
+
+def recorded_hashes(folder: Path) -> Mapping[str, str]:
+    """What a design says of its files: not of those that hold the design, these hashes and all."""
+    found = file_hashes(folder)
+    return {name: found[name] for name in found if name not in (DESIGN_FILE, REPORT_FILE)}
 
 
 def _take_place(staging: Path, target: Path) -> None:

@@ -176,18 +176,22 @@ ALL = "all"
 """Stands for every format."""
 
 
-def formats_named(names: Collection[str]) -> tuple[Format, ...]:
+def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple[Format, ...]:
     """The formats of these names; the usual ones if there are none.
+
+    Args:
+        names: as users say them.
+        others: names of what is written too, but is no format of a device; they are passed over.
 
     Raises:
         UsageError: a name is none of a format.
     """
     if not names:
         return USUAL_FORMATS
-    known = {ALL, *(each.name for each in FORMATS)}
+    known = (*(each.name for each in FORMATS), *others, ALL)
     for name in names:
         if name not in known:
-            available = ", ".join((*(each.name for each in FORMATS), ALL))
+            available = ", ".join(known)
             raise UsageError(f"there is no format '{name}'", hint=f"available: {available}")
     return tuple(each for each in FORMATS if ALL in names or each.name in names)
 

@@ -23,7 +23,12 @@ def fill(template: str, values: dict[str, str]) -> str:
         template: file name.
         values: ready to stand in XML; see `quoted` and `numbers`.
     """
-    return _AtTemplate((_folder() / template).read_text(encoding="utf-8")).substitute(values)
+    return _AtTemplate(template_text(template)).substitute(values)
+
+
+def template_text(template: str) -> str:
+    """The text of `templates/<template>` as it stands."""
+    return (_folder() / template).read_text(encoding="utf-8")
 
 
 def _folder() -> Traversable:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.export.naming import safe_name
 
 
 def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:
@@ -19,3 +20,8 @@ def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:
     rows = [",".join([f"{value:.6g}" for value in row]) for row in table.tolist()]
     path.write_text("\n".join([",".join(columns), *rows, ""]), encoding="utf-8")
     return path
+
+
+def series_file(scenario: str, *, ocs: bool) -> str:
+    """Name of the CSV of a run, with the device or without."""
+    return f"{safe_name(scenario)}_{'with' if ocs else 'without'}_ocs.csv"

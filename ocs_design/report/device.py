@@ -8,7 +8,7 @@ from rich.console import Console
 from ocs_design.design import Motor
 from ocs_design.design_file import OcsDesign, OcsRecord
 from ocs_design.drive.gear import DIRECT
-from ocs_design.report.layout import columns, facts, heading, items, note, print_warnings, show
+from ocs_design.report.layout import columns, facts, heading, items, print_warnings, show
 from ocs_design.report.mounting import could_hit, mounted
 from ocs_design.report.quantities import (
     degrees,
@@ -32,9 +32,7 @@ def print_device(console: Console, design: OcsDesign) -> None:
     heading(console, "Device: two flywheels" + ("" if ocs.motor.bus_voltage else ", no motors yet"))
     facts(console, device_facts(design))
     print_warnings(console, ocs.warnings)
-    items(console, (*could_hit(ocs), *ocs.fitting), style="yellow")
-    for warning in overrated(ocs.motor):
-        note(console, warning, style="yellow")
+    items(console, cautions(ocs), style="yellow")
     table = columns("incidence by criterion", "deg", "robot alone")
     for name, angle in ocs.incidence_by_criterion.items():
         before = ocs.incidence_by_criterion_robot_alone.get(name)
@@ -98,6 +96,11 @@ def _drive(motor: Motor) -> Iterator[tuple[str, str]]:
     if motor.speed_max is not None:
         limits.append(f"never above {rpm(motor.speed_max)}")
     yield "drive at the wheel", ", ".join(limits)
+
+
+def cautions(ocs: OcsRecord) -> tuple[str, ...]:
+    """What limbs could hit, what does not fit, and a motor at more volts than it is made for."""
+    return (*could_hit(ocs), *ocs.fitting, *overrated(ocs.motor))
 
 
 def overrated(motor: Motor) -> Iterator[str]:

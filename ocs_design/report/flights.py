@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.design_file import OcsDesign, ValidationRecord
+from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
 from ocs_design.report.layout import columns, facts, heading, items, show
 from ocs_design.report.quantities import degrees
 
@@ -88,9 +89,13 @@ def print_files(console: Console, folder: str, files: Iterable[str], held: str =
         held: what its design.json holds; empty: it has none.
     """
     heading(console, f"Written to {folder}/")
-    rows = [("design.json", f"{held}, and the hashes of the other files")] if held else []
+    rows = [(DESIGN_FILE, f"{held}, and the hashes of the other files")] if held else []
+    if (Path(folder) / REPORT_FILE).is_file():
+        rows.append(
+            (REPORT_FILE, "all of it to look at, to mail and to sign: open it in a browser")
+        )
     folders: dict[str, list[str]] = {}
-    for name in files:
+    for name in (name for name in files if name != REPORT_FILE):
         folder_name, _, file = name.rpartition("/")
         folders.setdefault(folder_name, []).append(file)
     rows += [(f"{name or '.'}/", _listed(names)) for name, names in sorted(folders.items())]

@@ -12,6 +12,9 @@ from ocs_design.report.quantities import grams, rpm
 from ocs_design.selection_record import RankedRecord, RejectionRecord, SelectionRecord
 from ocs_design.sizing.selection.result import TaskDemand
 
+TASKS = ("asked by", "alpha\ndeg", "spin inertia\nkg m2", "needed\ns", "given\ns", "peak\nrpm")
+"""Columns of what is asked of the drive."""
+
 RANKED = ("lightest drives", "mass\ng", "rim", "R\nmm", "h\nmm", "alpha\ndeg")
 """Columns of the ranking; the last ones are left out where the terminal is too narrow."""
 SHOWN = 5
@@ -31,26 +34,29 @@ def print_selection(console: Console, selection: SelectionRecord, *, verbose: bo
         f"Needed: the least time at {selection.reserve:.0%} of voltage and current; "
         f"{selection.binding_maneuver} asks for the most.",
     )
-    drives = _drives(selection.ranking)
+    drives = best_drives(selection.ranking)
     _print_ranking(console, drives if verbose else drives[:SHOWN])
     _print_rejections(console, selection.rejections, verbose=verbose)
     _print_co_design(console, selection)
 
 
 def _print_tasks(console: Console, tasks: tuple[TaskDemand, ...]) -> None:
-    table = columns(
-        "asked by", "alpha\ndeg", "spin inertia\nkg m2", "needed\ns", "given\ns", "peak\nrpm"
-    )
+    table = columns(*TASKS)
     for task in tasks:
-        table.add_row(
-            Text(task.source),
-            f"{np.degrees(task.incidence):.1f}",
-            f"{task.spin_inertia:.3e}",
-            "-" if task.time_needed is None else f"{task.time_needed:.3f}",
-            "-" if task.time_given is None else f"{task.time_given:.3f}",
-            rpm(task.peak_speed).removesuffix(" rpm"),
-        )
+        table.add_row(*map(Text, task_cells(task)))
     show(console, table)
+
+
+def task_cells(task: TaskDemand) -> tuple[str, ...]:
+    """In the columns of `TASKS`."""
+    return (
+        task.source,
+        f"{np.degrees(task.incidence):.1f}",
+        f"{task.spin_inertia:.3e}",
+        "-" if task.time_needed is None else f"{task.time_needed:.3f}",
+        "-" if task.time_given is None else f"{task.time_given:.3f}",
+        rpm(task.peak_speed).removesuffix(" rpm"),
+    )
 
 
 def _print_ranking(console: Console, ranking: tuple[RankedRecord, ...]) -> None:
@@ -60,13 +66,14 @@ def _print_ranking(console: Console, ranking: tuple[RankedRecord, ...]) -> None:
         for column in table.columns[2:3]:
             column.justify = "left"
         for entry in ranking:
-            table.add_row(*map(Text, _ranked(entry)[:count]))
+            table.add_row(*map(Text, ranked_cells(entry)[:count]))
         if fits(console, table):
             break
     show(console, table)
 
 
-def _ranked(entry: RankedRecord) -> tuple[str, ...]:
+def ranked_cells(entry: RankedRecord) -> tuple[str, ...]:
+    """In the columns of `RANKED`."""
     direct = entry.gear == DIRECT.name
     return (
         entry.motor if direct else f"{entry.motor}, {entry.gear}",
@@ -78,7 +85,7 @@ def _ranked(entry: RankedRecord) -> tuple[str, ...]:
     )
 
 
-def _drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
+def best_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
     """The lightest of each motor and gear: what other materials make of them is nothing new."""
     best: dict[tuple[str, str], RankedRecord] = {}
     for entry in ranking:

@@ -47,7 +47,7 @@ def test_it_succeeds_and_leaves_nothing_but_its_folder(product):
     assert (product.said.code, product.said.stdout) == (0, "")
     assert list(product.folder.parent.iterdir()) == [product.folder]
     written = {name for name in everything_in(product.folder) if (product.folder / name).is_file()}
-    assert written == {*product.case.files, "design.json"}
+    assert written == {*product.case.files, "design.json", "report.html"}
 
 
 @pytest.mark.parametrize(("path", "keys"), SCHEMA.items())

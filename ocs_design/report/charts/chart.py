@@ -1,0 +1,47 @@
+"""A chart as a value: what `svg` draws on a page or into a file."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.report.charts.marks import Mark
+from ocs_design.report.charts.scales import Axis
+
+MOST_POINTS = 320
+"""Of a line: more than there are pixels."""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """One pair of axes.
+
+    Attributes:
+        name: of the file and of the element. title: above it.
+        description: what one sees in it, for those who cannot.
+        x, y: axes.
+        marks: drawn in this order.
+        rows: names at y = 0, 1, ... in place of numbers; empty: numbers.
+        equal: one unit is as long on both axes.
+        height: of the drawing, whose width is always the same [px].
+    """
+
+    name: str
+    title: str
+    description: str
+    x: Axis
+    y: Axis
+    marks: tuple[Mark, ...]
+    rows: tuple[str, ...] = ()
+    equal: bool = False
+    height: float = 250.0
+
+
+def thinned(x: FloatArray, y: FloatArray, most: int = MOST_POINTS) -> tuple[FloatArray, FloatArray]:
+    """A line with fewer points that has the same peaks: the least and the largest of each piece."""
+    if len(x) <= most:
+        return x, y
+    pieces = np.array_split(np.arange(len(x)), most // 2)
+    ends = (piece[[np.argmin(y[piece]), np.argmax(y[piece])]] for piece in pieces)
+    kept = np.unique(np.concatenate([[0], *ends, [len(x) - 1]]))
+    return x[kept], y[kept]

@@ -1,0 +1,96 @@
+"""Axes: from values to places, and where their ticks stand."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import ceil, floor, log10
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+
+_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+"""Between ticks, times a power of ten."""
+
+_ANGLES = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
+"""Between ticks of degrees, from that of the first on."""
+
+_MOST_DECADES = 6
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One direction of a chart.
+
+    Attributes:
+        label: of what. unit: of its values, empty for plain numbers.
+        low, high: ends. log: equal ratios at equal distances.
+    """
+
+    label: str
+    unit: str
+    low: float
+    high: float
+    log: bool = False
+
+    @classmethod
+    def around(
+        cls, label: str, unit: str, values: Iterable[float], *, room: float = 0.06
+    ) -> "Axis":
+        """From the least to the largest of the finite values, with room at both ends."""
+        found = np.array([value for value in values if np.isfinite(value)])
+        low, high = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
+        span = (high - low) or abs(high) or 1.0
+        return cls(label, unit, low - room * span, high + room * span)
+
+    @property
+    def title(self) -> str:
+        """Label and unit as under an axis."""
+        return f"{self.label} [{self.unit}]" if self.unit else self.label
+
+    def parts(self, values: FloatArray) -> FloatArray:
+        """Places along the axis, 0 at the low and 1 at the high end."""
+        if self.log:
+            low, high = log10(self.low), log10(self.high)
+            positive = np.where(np.asarray(values) > 0.0, values, self.low * 1e-3)
+            return np.asarray((np.log10(positive) - low) / (high - low))
+        return np.asarray((np.asarray(values) - self.low) / (self.high - self.low))
+
+    def ticks(self, most: int = 7) -> list[float]:
+        """Round values between the ends."""
+        if self.log:
+            return self._powers()
+        step = self._step((self.high - self.low) / most)
+        first, last = ceil(self.low / step - 1e-9), floor(self.high / step + 1e-9)
+        return [round(index * step, 12) for index in range(first, last + 1)]
+
+    def _step(self, least: float) -> float:
+        if self.unit == "deg" and least > _ANGLES[0] / 2.0:
+            return next((step for step in _ANGLES if step >= least), 360.0 * ceil(least / 360.0))
+        power = 10.0 ** floor(log10(least))
+        return next(step * power for step in _STEPS if step * power >= least * (1.0 - 1e-9))
+
+    def _powers(self) -> list[float]:
+        first, last = ceil(log10(self.low) - 1e-9), floor(log10(self.high) + 1e-9)
+        stride = max(1, (last - first) // _MOST_DECADES)
+        powers = [10.0**power for power in range(first, last + 1, stride)]
+        if len(powers) > 2:
+            return powers
+        finer = [digit * 10.0**power for power in range(first - 1, last + 1) for digit in (1, 2, 5)]
+        return [value for value in finer if self.low <= value <= self.high]
+
+
+def tick_text(value: float) -> str:
+    """A tick's number: plain where that is short, else as a power of ten."""
+    if value == 0.0:
+        return "0"
+    size = abs(value)
+    if 1e-3 <= size < 1e5:
+        text = f"{value:,.6g}" if size >= 1e4 else f"{value:.6g}"
+        return text.replace("-", "\N{MINUS SIGN}").replace(",", "\N{THIN SPACE}")
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    factor = "" if mantissa == "1.0" else f"{mantissa.removesuffix('.0')}·"
+    return f"{factor}10{_raised(int(exponent))}".replace("-", "\N{MINUS SIGN}")
+
+
+def _raised(exponent: int) -> str:
+    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))

@@ -1,0 +1,1 @@
+"""The figures of a design: each function makes charts, for the page and for files."""

@@ -1,0 +1,67 @@
+"""All figures of a report: of the design, of its drive, of each maneuver."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from ocs_design.export.naming import safe_name
+from ocs_design.report.charts.chart import Chart
+from ocs_design.report.charts.svg import svg_file
+from ocs_design.report.figures.bound import bound_charts
+from ocs_design.report.figures.incidence import criterion_chart, posture_chart
+from ocs_design.report.figures.time_series import time_charts
+from ocs_design.report.figures.top_view import ellipsoid_chart, momentum_chart
+from ocs_design.report.figures.torque_speed import torque_speed_chart
+from ocs_design.report.story import Story
+
+FOLDER = "figures"
+"""Of an output folder."""
+
+
+def plane_charts(story: Story) -> Iterator[Chart]:
+    """What lies in the plane of the wheel axes."""
+    yield ellipsoid_chart(story.design)
+    yield momentum_chart(story)
+
+
+def incidence_charts(story: Story) -> Iterator[Chart]:
+    """How the wheel axes could stand."""
+    yield criterion_chart(story.design)
+    if story.postures:
+        yield posture_chart(story.design, story.postures)
+
+
+def drive_charts(story: Story) -> Iterator[Chart]:
+    """What the motors are asked for."""
+    chart = torque_speed_chart(story.design.ocs.motor, story.flights)
+    if chart is not None:
+        yield chart
+
+
+def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
+    """Time series of each maneuver, by its name."""
+    scenarios = dict.fromkeys(flight.scenario for flight in story.flights)
+    return {
+        scenario: time_charts(
+            scenario,
+            safe_name(scenario),
+            [flight for flight in story.flights if flight.scenario == scenario],
+        )
+        for scenario in scenarios
+    }
+
+
+def all_charts(story: Story) -> Iterator[Chart]:
+    """Everything that has a file of its own."""
+    yield from bound_charts(story)
+    yield from plane_charts(story)
+    yield from incidence_charts(story)
+    yield from drive_charts(story)
+    for charts in scenario_charts(story).values():
+        yield from charts
+
+
+def write_figures(charts: Iterable[Chart], folder: Path) -> None:
+    """Each as `<name>.svg`."""
+    folder.mkdir(exist_ok=True)
+    for chart in charts:
+        (folder / f"{chart.name}.svg").write_bytes(svg_file(chart))

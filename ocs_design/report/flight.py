@@ -1,0 +1,69 @@
+"""A simulated run as a report draws it, as it was flown or from its CSV file."""
+
+import csv
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.design_file import ValidationRecord
+from ocs_design.export.time_series import series_file
+from ocs_design.simulation.poses import Poses
+from ocs_design.simulation.scenario import Run
+
+
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """One run, to be drawn.
+
+    Attributes:
+        scenario: name of the maneuver. ocs: with the device.
+        columns: time series as in the CSV files, headings with units; SI.
+        poses: to show it again; None: only its time series are known.
+    """
+
+    scenario: str
+    ocs: bool
+    columns: Mapping[str, FloatArray]
+    poses: Poses | None
+
+    @property
+    def time(self) -> FloatArray:
+        """[s], shape (k,)."""
+        return self.columns["time_s"]
+
+    @property
+    def touchdown(self) -> float | None:
+        """First time that anything touches the floor [s]; None: never."""
+        touching = np.flatnonzero(self.columns["contact"])
+        return float(self.time[touching[0]]) if touching.size else None
+
+    @property
+    def airborne(self) -> slice:
+        """The instants up to touchdown."""
+        touching = np.flatnonzero(self.columns["contact"])
+        return slice(int(touching[0]) if touching.size else None)
+
+
+def flights_of(runs: Sequence[Run]) -> tuple[Flight, ...]:
+    """The runs of a simulation."""
+    return tuple(Flight(run.scenario, run.ocs, run.series.columns(), run.poses) for run in runs)
+
+
+def first_file(folders: Sequence[Path], name: str) -> Path | None:
+    """Of that name below the first folder that has it."""
+    return next((folder / name for folder in folders if (folder / name).is_file()), None)
+
+
+def recorded_flight(folders: Sequence[Path], record: ValidationRecord) -> Flight | None:
+    """The time series of a run, where its file is still there."""
+    path = first_file(folders, f"validation/{series_file(record.scenario, ocs=record.ocs)}")
+    if path is None:
+        return None
+    with path.open(encoding="utf-8", newline="") as file:
+        heading, *rows = csv.reader(file)
+    values = np.array(rows, dtype=np.float64)
+    columns = dict(zip(heading, values.T, strict=True))
+    return Flight(record.scenario, record.ocs, columns, None)

@@ -1,0 +1,157 @@
+"""A picture of the robot without OpenGL: for print, for mail, and while the page loads.
+
+Triangles are cut into rows of pixels, and at each pixel the nearest one wins (a z-buffer, as in
+Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 15.4).
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.arrays import FloatArray
+from ocs_design.report.viewer.bodies import ShownBody
+
+WIDTH, HEIGHT = 800, 500
+"""[pixels]"""
+
+_OVERSAMPLING = 2
+_AZIMUTH, _ELEVATION = np.radians(-37.0), np.radians(22.0)
+"""Of the camera, seen from the robot: in front of it, on its right, above."""
+
+_ROOM = 1.06
+_AMBIENT, _BACKGROUND = 0.42, 255
+_BITS = 24
+"""Of the number of a triangle."""
+
+_DEPTHS = float(2**38)
+"""Steps of nearness that are told apart."""
+
+
+def still(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
+    """Red, green and blue, shape (HEIGHT, WIDTH, 3), on white; parallel rays."""
+    corners, colors = _triangles(bodies)
+    right, up, towards = _camera()
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    seen = length > 0.0
+    shade = np.abs(normal[seen] @ _light(right, up, towards)) / length[seen]
+    plane, depth = _on_screen(corners[seen], right, up, towards)
+    index = _nearest(plane, depth)
+    lit = colors[seen] * (_AMBIENT + (1.0 - _AMBIENT) * shade)[:, None]
+    return _picture(index, lit)
+
+
+def _camera() -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Unit vectors in B: to the right and up on the screen, and towards the viewer."""
+    towards = np.array(
+        [
+            np.cos(_ELEVATION) * np.cos(_AZIMUTH),
+            np.cos(_ELEVATION) * np.sin(_AZIMUTH),
+            np.sin(_ELEVATION),
+        ]
+    )
+    right = np.cross([0.0, 0.0, 1.0], towards)
+    right /= np.linalg.norm(right)
+    return right, np.cross(towards, right), towards
+
+
+def _light(right: FloatArray, up: FloatArray, towards: FloatArray) -> FloatArray:
+    """From over the viewer's left shoulder."""
+    light = towards + 0.55 * up - 0.45 * right
+    return np.asarray(light / np.linalg.norm(light))
+
+
+def _triangles(bodies: Sequence[ShownBody]) -> tuple[FloatArray, FloatArray]:
+    """Corners in B, shape (n, 3, 3), and colours, shape (n, 3), of what is not glass."""
+    corners, colors = [np.empty((0, 3, 3))], [np.empty((0, 3))]
+    for body in bodies:
+        place = body.placement
+        for surface in body.surfaces:
+            if surface.color[3] < 0.9:
+                continue
+            points = surface.vertices @ place.rotation.T + place.position
+            corners.append(points[surface.faces])
+            colors.append(np.tile(surface.color[:3], (len(surface.faces), 1)))
+    return np.concatenate(corners), np.concatenate(colors)
+
+
+def _on_screen(
+    corners: FloatArray, right: FloatArray, up: FloatArray, towards: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Pixels from the upper left, shape (n, 3, 2), and how near each corner is, shape (n, 3)."""
+    flat = np.stack([corners @ right, -(corners @ up)], axis=-1)
+    width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
+    if len(flat):
+        low, high = flat.min(axis=(0, 1)), flat.max(axis=(0, 1))
+        size = _ROOM * np.max((high - low) / (width, height))
+        flat = (flat - (low + high) / 2.0) / size + np.array([width, height]) / 2.0
+    return flat, corners @ towards
+
+
+def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
+    """Number of the triangle that each pixel shows; -1: none. Shape (height, width)."""
+    width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
+    shown = np.full(width * height, -1, dtype=np.int64)
+    triangle, y = _rows(plane)
+    left, right = _spans(plane[triangle], y)
+    count = np.maximum(right - left, 0)
+    row = np.repeat(np.arange(len(count)), count)
+    x = left[row] + np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+    near = _nearness(plane, depth, triangle, y)
+    at = near[0][row] + near[1][row] * x
+    # The upper part of a number is how near, the lower which triangle: the largest one wins.
+    step = _DEPTHS / max(float(np.ptp(depth)) if depth.size else 0.0, 1e-12)
+    nearness = np.clip((at - depth.min(initial=np.inf)) * step, 0.0, _DEPTHS).astype(np.int64)
+    np.maximum.at(shown, y[row] * width + x, (nearness << _BITS) | triangle[row])
+    return np.where(shown < 0, -1, shown & ((1 << _BITS) - 1)).reshape(height, width)
+
+
+def _rows(plane: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Each row of pixels whose centres a triangle may cover: the triangle and the row."""
+    low = np.ceil(plane[:, :, 1].min(axis=1) - 0.5).astype(np.int64)
+    high = np.floor(plane[:, :, 1].max(axis=1) - 0.5).astype(np.int64)
+    count = np.maximum(high - low + 1, 0)
+    triangle = np.repeat(np.arange(len(plane)), count)
+    within = np.arange(len(triangle)) - np.repeat(np.cumsum(count) - count, count)
+    return triangle, low[triangle] + within
+
+
+def _spans(corners: FloatArray, y: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
+    """First pixel inside, and the first behind, of each row of a triangle."""
+    begin, end = corners, np.roll(corners, -1, axis=1)
+    height = end[:, :, 1] - begin[:, :, 1]
+    part = np.divide(
+        (y + 0.5)[:, None] - begin[:, :, 1],
+        height,
+        out=np.full(height.shape, np.nan),
+        where=height != 0.0,
+    )
+    crossing = begin[:, :, 0] + part * (end[:, :, 0] - begin[:, :, 0])
+    outside = ~((part >= 0.0) & (part <= 1.0))
+    first = np.where(outside, np.inf, crossing).min(axis=1)
+    last = np.where(outside, -np.inf, crossing).max(axis=1)
+    first, last = np.where(first > last, 0.0, first), np.where(first > last, 0.0, last)
+    return np.ceil(first - 0.5).astype(np.int64), np.ceil(last - 0.5).astype(np.int64)
+
+
+def _nearness(
+    plane: FloatArray, depth: FloatArray, triangle: NDArray[np.int64], y: NDArray[np.int64]
+) -> tuple[FloatArray, FloatArray]:
+    """In each row, how near the centre of its pixel 0 would be, and the change per pixel."""
+    b, c = plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0]
+    db, dc = depth[:, 1] - depth[:, 0], depth[:, 2] - depth[:, 0]
+    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
+    scale = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0.0)
+    along = scale * (db * c[:, 1] - dc * b[:, 1])
+    across = scale * (dc * b[:, 0] - db * c[:, 0])
+    start = depth[:, 0] + along * (0.5 - plane[:, 0, 0]) - across * plane[:, 0, 1]
+    return start[triangle] + across[triangle] * (y + 0.5), along[triangle]
+
+
+def _picture(index: NDArray[np.int64], lit: FloatArray) -> NDArray[np.uint8]:
+    """Each pixel the mean of those that it was drawn with."""
+    colors = np.concatenate([lit, np.ones((1, 3))])[index]
+    k = _OVERSAMPLING
+    mean = colors.reshape(HEIGHT, k, WIDTH, k, 3).mean(axis=(1, 3))
+    return np.asarray(np.round(_BACKGROUND * np.minimum(mean, 1.0)), dtype=np.uint8)

@@ -1,0 +1,97 @@
+"""The page as a text, read by the standard library's parser."""
+
+import base64
+import hashlib
+import json
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import pytest
+from stories import design, story
+
+from ocs_design.design_file import design_to_json
+from ocs_design.report.html.page import report_page
+
+HOSTILE = "</script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&"
+
+
+class Page(HTMLParser):
+    """Elements with their attributes, and the texts in scripts and styles."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.elements, self.inside, self._open = [], {}, None
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.elements.append((tag, dict(attrs)))
+        self._open = dict(attrs).get("id", tag) if tag in {"script", "style"} else None
+
+    def handle_endtag(self, tag):
+        self._open = None
+
+    def handle_data(self, text):
+        if self._open is not None:
+            self.inside[self._open] = self.inside.get(self._open, "") + text
+
+    def named(self, tag):
+        return [attributes for name, attributes in self.elements if name == tag]
+
+
+@pytest.fixture(scope="module")
+def page():
+    return Page(report_page(story()))
+
+
+def test_it_holds_the_design_byte_for_byte(page):
+    assert json.loads(page.inside["design"]) == json.loads(design_to_json(story().design))
+
+
+def test_no_name_gets_out_of_its_place():
+    told = story(HOSTILE)
+    robot = replace(told.design.robot, name=HOSTILE, warnings=(HOSTILE,), trunk=HOSTILE)
+    found = Page(
+        report_page(replace(told, design=replace(told.design, robot=robot), command=HOSTILE))
+    )
+    plain = Page(report_page(replace(story(), command="x")))
+    assert found.named("script") == plain.named("script")
+    assert len(found.named("img")) == len(plain.named("img"))
+    assert json.loads(found.inside["design"])["robot"]["name"] == HOSTILE
+
+
+def test_only_what_is_written_here_may_run(page):
+    (policy,) = [m["content"] for m in page.named("meta") if "http-equiv" in m]
+    assert policy.startswith("default-src 'none'; img-src data:;")
+    for kind, name in (("style-src", "style"), ("script-src", "script")):
+        digest = base64.b64encode(hashlib.sha256(page.inside[name].encode()).digest()).decode()
+        assert f"{kind} 'sha256-{digest}'" in policy
+
+
+def test_nothing_points_out_of_the_file(page):
+    for _, attributes in page.elements:
+        for name in ("src", "href", "action", "data", "poster"):
+            assert re.match(r"#|data:|$", attributes.get(name) or "")
+        assert not any(name.startswith("on") or name == "style" for name in attributes)
+
+
+def test_every_link_leads_somewhere_and_no_name_is_there_twice(page):
+    names = [attributes["id"] for _, attributes in page.elements if "id" in attributes]
+    assert len(names) == len(set(names))
+    for _, attributes in page.elements:
+        for pointing in ("aria-labelledby", "aria-describedby", "for"):
+            assert set(attributes.get(pointing, "").split()) <= set(names)
+        if attributes.get("href", "").startswith("#"):
+            assert attributes["href"][1:] in names
+
+
+def test_without_flights_it_says_that_nothing_is_proved():
+    text = report_page(replace(story(), design=design(), flights=()))
+    assert "Not proved" in text
+    assert "No flight was simulated" in text
+    assert "canvas" not in {name for name, _ in Page(text).elements}
+
+
+def test_equal_stories_make_equal_pages():
+    assert report_page(story()) == report_page(story())

@@ -1,0 +1,106 @@
+"""What the page's script unpacks, unpacked here, against MuJoCo's poses."""
+
+import base64
+import zlib
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+from robots import SOLO12
+from wheels import paper_device
+
+from ocs_design.report.flight import flights_of
+from ocs_design.report.viewer.blob import Blob
+from ocs_design.report.viewer.bodies import ShownBody, Surface
+from ocs_design.report.viewer.encoding import encoded_scene
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.tree import Placement
+from ocs_design.simulation.scenario import Options, run_scenarios
+
+KINDS = {"f4": "<f4", "i2": "<i2", "u2": "<u2", "u4": "<u4"}
+TRIANGLE = np.array([[0.0, 0.0, 0.0], [0.4, 0.0, 0.1], [0.0, 0.2, 0.1]])
+
+
+@pytest.fixture(scope="module")
+def flights(solo12):
+    drop = default_maneuvers(solo12)[1]
+    return flights_of(
+        run_scenarios(solo12, paper_device(), [drop], options=Options(pose_rate=20.0))
+    )
+
+
+@pytest.fixture(scope="module")
+def solo12():
+    return read_robot(SOLO12)
+
+
+def shown(name):
+    surface = Surface(TRIANGLE, np.array([[0, 1, 2]]), (1.0, 0.5, 0.0, 1.0))
+    return ShownBody(name, Placement.identity(), (surface,))
+
+
+@pytest.fixture(scope="module")
+def scene(flights):
+    names = ("base_link", "HL_LOWER_LEG", "ocs_left_flywheel", "ocs_right_flywheel")
+    blob = Blob()
+    found = encoded_scene([shown(name) for name in names], flights, ["drop"], blob)
+    return found, zlib.decompress(base64.b64decode(blob.text()))
+
+
+def unpack(content, place):
+    return np.frombuffer(content, KINDS[place["kind"]], place["length"], place["at"]).astype(float)
+
+
+def test_poses_come_back_to_a_tenth_of_a_millimetre_and_a_hundredth_of_a_degree(scene, flights):
+    found, content = scene
+    for record, flight in zip(found["flights"], flights, strict=True):
+        count, poses = record["frames"], flight.poses
+        position = unpack(content, record["position"]).reshape(count, 4, 3)
+        attitude = unpack(content, record["attitude"]).reshape(count, 4, 4) / 32767.0
+        wheels = unpack(content, record["wheels"]).reshape(count, 2)
+        for place, body in enumerate(found["bodies"]):
+            true = poses.bodies.index(body["name"])
+            np.testing.assert_allclose(position[:, place], poses.position[:, true], atol=6e-5)
+            turned = attitude[:, place]
+            if body["wheel"] is not None:
+                turned = np.array(
+                    [spun(q, a) for q, a in zip(turned, wheels[:, body["wheel"]], strict=True)]
+                )
+            assert np.degrees(between(turned, poses.attitude[:, true])).max() < 0.01
+
+
+def between(some, others):
+    """Angles between rough and true quaternions, small ones [rad]."""
+    unit = some / np.linalg.norm(some, axis=1, keepdims=True)
+    same = np.sign(np.sum(unit * others, axis=1, keepdims=True))
+    return 2.0 * np.linalg.norm(same * unit - others, axis=1)
+
+
+def spun(quaternion, angle):
+    """By MuJoCo: turned about its own z axis."""
+    about_z, result = np.zeros(4), np.zeros(4)
+    mujoco.mju_axisAngle2Quat(about_z, np.array([0.0, 0.0, 1.0]), angle)
+    mujoco.mju_mulQuat(result, quaternion, about_z)
+    return result
+
+
+def test_surfaces_come_back_to_a_part_of_their_box(scene):
+    found, content = scene
+    surface = found["bodies"][0]["surfaces"][0]
+    parts = unpack(content, surface["vertices"]).reshape(-1, 3) / 65535.0
+    vertices = np.array(surface["low"]) + parts * np.array(surface["size"])
+    np.testing.assert_allclose(vertices, TRIANGLE, atol=1e-5)
+    assert unpack(content, surface["faces"]).tolist() == [0.0, 1.0, 2.0]
+
+
+def test_the_readout_is_the_tilt_of_the_flight(scene, flights):
+    found, content = scene
+    tilt = unpack(content, found["flights"][0]["tilt"]).reshape(-1, 2)
+    assert tilt[0] == pytest.approx([30.0, 0.0], abs=1e-4)
+
+
+def test_flights_of_which_no_poses_are_known_are_not_replayed(flights):
+    bare = [replace(flight, poses=None) for flight in flights]
+    assert encoded_scene([shown("base_link")], bare, [], Blob())["flights"] == []

@@ -1,0 +1,42 @@
+import numpy as np
+import pytest
+import trimesh
+
+from ocs_design.report.viewer.bodies import ShownBody, Surface
+from ocs_design.report.viewer.still import HEIGHT, WIDTH, still
+from ocs_design.robot.tree import Placement
+
+RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
+
+
+def body(mesh, color, at=(0.0, 0.0, 0.0)):
+    surface = Surface(np.array(mesh.vertices), np.array(mesh.faces), color)
+    return ShownBody("link", Placement(np.eye(3), np.array(at)), (surface,))
+
+
+def drawn(image):
+    return (image < 250).any(axis=2)
+
+
+def test_a_ball_is_a_disc_that_fills_the_picture():
+    image = still([body(trimesh.creation.icosphere(subdivisions=4), RED)])
+    assert image.shape == (HEIGHT, WIDTH, 3)
+    across, down = (np.ptp(np.flatnonzero(drawn(image).any(axis=axis))) + 1 for axis in (0, 1))
+    assert across == pytest.approx(down, abs=2)
+    assert down == pytest.approx(HEIGHT / 1.06, rel=0.01)
+    assert drawn(image).sum() == pytest.approx(np.pi / 4.0 * down**2, rel=0.01)
+
+
+def test_what_is_in_front_hides_what_is_behind():
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=0.5)
+    towards = np.array([np.cos(0.38) * np.cos(-0.65), np.cos(0.38) * np.sin(-0.65), np.sin(0.38)])
+    for near, far in ((RED, BLUE), (BLUE, RED)):
+        image = still([body(ball, far), body(ball, near, at=2.0 * towards)])
+        middle = image[HEIGHT // 2, WIDTH // 2].astype(int)
+        assert np.argmax(middle) == np.argmax(near[:3])
+
+
+def test_glass_is_left_out_and_nothing_is_white():
+    glass = body(trimesh.creation.box(), (0.0, 0.0, 0.0, 0.3))
+    assert not drawn(still([glass])).any()
+    assert not drawn(still([])).any()

@@ -1,0 +1,59 @@
+"""A report's story without a simulator: a device for Solo12's figures and flights made of sines."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+from designed import MOTOR, designed
+
+from ocs_design.design_file import ValidationRecord
+from ocs_design.recording import record_design
+from ocs_design.report.flight import Flight
+from ocs_design.report.story import Story
+
+TOUCHDOWN = 0.4
+"""[s]"""
+
+
+@cache
+def design(motor=MOTOR):
+    """As it would be written, not flown."""
+    task, made = designed(motor)
+    return record_design(
+        task.robot, task.resolved, made, (), plans={}, mounting=None, seed=7, files={"a.stl": "0"}
+    )
+
+
+def flight(scenario="drop", *, ocs=True, limits=True):
+    """Half a swing of the trunk and of both wheels, then a touch of the floor."""
+    time = np.linspace(0.0, 0.6, 601)
+    swing = np.sin(np.pi * time / TOUCHDOWN)
+    columns = {
+        "time_s": time,
+        "roll_rad": 0.02 * swing,
+        "pitch_rad": -0.3 * swing,
+        "rate_x_rad_s": 0.1 * swing,
+        "rate_y_rad_s": -2.0 * swing,
+        "wheel_speed_left_rad_s": 300.0 * swing,
+        "wheel_speed_right_rad_s": 200.0 * swing,
+        "wheel_torque_left_nm": 0.2 * swing,
+        "wheel_torque_right_nm": -0.1 * swing,
+        "contact": (time >= TOUCHDOWN).astype(float),
+    }
+    if limits:
+        columns["wheel_torque_lowest_left_nm"] = np.full_like(time, -1.0)
+        columns["wheel_torque_highest_left_nm"] = np.full_like(time, 1.0)
+    return Flight(scenario, ocs, columns, None)
+
+
+def story(scenario="drop", motor=MOTOR):
+    """One maneuver with the device and without."""
+    outcomes = tuple(
+        ValidationRecord(
+            scenario=scenario, ocs=ocs, passed=ocs, reason="as told", note="",
+            metrics={"touchdown_pitch": 0.1, "peak_wheel_speed": 300.0},
+        )
+        for ocs in (True, False)
+    )  # fmt: skip
+    flights = flight(scenario), flight(scenario, ocs=False)
+    return Story(replace(design(motor), validation=outcomes), flights, ())
