@@ -1,6 +1,6 @@
 """The whole chain on one page: read, require, size, export, prove, record."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path

@@ -41,13 +41,14 @@ def _print_success(console: Console, record: MonteCarloRecord) -> None:
     table.columns[-1].justify = "left"
     for scenario in record.scenarios:
         other = ", ".join(f"{count} {fault}" for fault, count in scenario.faults.items())
-        table.add_row(scenario.scenario, *_share(scenario.success), other or "-")
+        table.add_row(scenario.scenario, *share_cells(scenario.success), other or "-")
     if len(record.scenarios) > 1:
-        table.add_row(Text("all of them", style="bold"), *_share(record.success), "-")
+        table.add_row(Text("all of them", style="bold"), *share_cells(record.success), "-")
     show(console, table)
 
 
-def _share(share: Share) -> tuple[str, str, str]:
+def share_cells(share: Share) -> tuple[str, str, str]:
+    """How many, their part of all, and the interval of that."""
     return (
         f"{share.passed:,}",
         f"{100.0 * share.estimate:.1f} %",

@@ -4,11 +4,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
+
 from ocs_design.design_file import OcsDesign
+from ocs_design.exceptions import OcsError
 from ocs_design.export.naming import safe_name
 from ocs_design.inspection import PostureLine
+from ocs_design.monte_carlo.summary import MonteCarloRecord
 from ocs_design.report.flight import Flight, first_file, recorded_flight
 from ocs_design.report.viewer.bodies import ShownBody, read_bodies
+from ocs_design.sampling import RESULT_FILE
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +25,7 @@ class Story:
         flights: in the order of its validation.
         bodies: of the robot with its device; empty where there is no picture of them.
         postures: alpha* in other postures; empty where the robot was not read.
+        monte_carlo: many flights, where some were flown.
         command: that made the report; empty: none, a program did.
     """
 
@@ -27,6 +33,7 @@ class Story:
     flights: tuple[Flight, ...]
     bodies: tuple[ShownBody, ...]
     postures: tuple[PostureLine, ...] = ()
+    monte_carlo: MonteCarloRecord | None = None
     command: str = ""
 
 
@@ -53,4 +60,20 @@ def story_in(
     ]
     picture = first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
     bodies = () if picture is None else read_bodies(picture.read_bytes())
-    return Story(design, tuple(recorded), bodies, postures, command)
+    return Story(design, tuple(recorded), bodies, postures, read_campaign(folders), command=command)
+
+
+def read_campaign(folders: Sequence[Path]) -> MonteCarloRecord | None:
+    """What `validate --samples` wrote into one of these folders, or below one.
+
+    Raises:
+        OcsError: it is there and cannot be read.
+    """
+    places = (path for folder in folders for path in sorted(folder.glob(f"**/{RESULT_FILE}")))
+    path = next(places, None)
+    if path is None:
+        return None
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=MonteCarloRecord)
+    except msgspec.DecodeError as error:
+        raise OcsError(f"{path}: {error}", hint="fly the samples again") from error

@@ -7,6 +7,7 @@ from ocs_design.export.naming import safe_name
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import svg_file
 from ocs_design.report.figures.bound import bound_charts
+from ocs_design.report.figures.distributions import distribution_charts
 from ocs_design.report.figures.incidence import criterion_chart, posture_chart
 from ocs_design.report.figures.time_series import time_charts
 from ocs_design.report.figures.top_view import ellipsoid_chart, momentum_chart
@@ -58,6 +59,8 @@ def all_charts(story: Story) -> Iterator[Chart]:
     yield from drive_charts(story)
     for charts in scenario_charts(story).values():
         yield from charts
+    if story.monte_carlo is not None:
+        yield from distribution_charts(story.monte_carlo)
 
 
 def write_figures(charts: Iterable[Chart], folder: Path) -> None:

@@ -12,6 +12,7 @@ from ocs_design.report.html.angles import angles_section, bound_section, drive_s
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.head import page_head, title_of
 from ocs_design.report.html.maneuvers import maneuvers_section
+from ocs_design.report.html.monte_carlo import monte_carlo_section
 from ocs_design.report.html.record import record_section
 from ocs_design.report.html.robot import robot_section
 from ocs_design.report.html.sizes import limits_section, sizes_section
@@ -30,6 +31,7 @@ _PARTS = {
     "angles": "Incidence",
     "drive": "Drive",
     "maneuvers": "Maneuvers",
+    "samples": "Monte Carlo",
     "record": "Provenance",
 }
 """The contents: sections and their short names."""
@@ -62,7 +64,11 @@ def report_page(story: Story) -> str:
 def _body(story: Story) -> Iterator[Markup]:
     scenarios = tuple(dict.fromkeys(each.scenario for each in story.flights if each.poses))
     bodies = decimated(story.bodies, MOST_TRIANGLES)
-    links = (element("a", name, href=f"#{part}") for part, name in _PARTS.items())
+    links = (
+        element("a", name, href=f"#{part}")
+        for part, name in _PARTS.items()
+        if part != "samples" or story.monte_carlo is not None
+    )
     yield element("a", "Skip to the content", href="#robot", class_="skip")
     yield page_head(story.design)
     yield element("nav", *links, aria_label="Contents")
@@ -75,6 +81,7 @@ def _body(story: Story) -> Iterator[Markup]:
         angles_section(story),
         drive_section(story),
         maneuvers_section(story, scenarios),
+        monte_carlo_section(story.monte_carlo),
         record_section(story),
     )
     yield data("design", design_to_json(story.design).decode())
