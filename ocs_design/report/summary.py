@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.design_file import OcsDesign, OcsRecord
-from ocs_design.export.folder import DESIGN_FILE
+from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
 from ocs_design.report.device import device_facts, overrated
 from ocs_design.report.doubts import doubts
 from ocs_design.report.flights import WITH_DEVICE, WITHOUT_DEVICE, run_story, summary
@@ -151,8 +151,8 @@ def _reachable(ocs: OcsRecord) -> Iterator[str]:
 
 
 def _written(design: OcsDesign) -> Iterator[str]:
-    """The artefact, the other files beside it, and the folders."""
-    yield DESIGN_FILE
+    """The artefact, the report, the other files beside them, and the folders."""
+    yield from (DESIGN_FILE, REPORT_FILE)
     paths = [PurePosixPath(name) for name in design.files]
     yield from sorted(str(path) for path in paths if len(path.parts) == 1)
     yield from sorted({f"{path.parts[0]}/" for path in paths if len(path.parts) > 1})

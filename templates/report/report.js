@@ -19,23 +19,16 @@ class Replay {
     find("scene-choice").addEventListener("change", () => { this.time = 0; this.choose(); });
     find("scene-device").addEventListener("change", () => this.choose());
     find("scene-follow").addEventListener("change", () => this.refresh());
-    find("scene-fade").addEventListener("change", (event) => { this.viewer.fade = event.target.checked; this.viewer.ask(); });
     find("scene-play").addEventListener("click", () => this.play(!this.playing));
     find("scene-time").addEventListener("input", (event) => { this.play(false); this.time = Number(event.target.value); this.refresh(); });
     this.viewer.canvas.addEventListener("keydown", (event) => {
       if (event.key !== " " || !this.chosen.length) return;
       event.preventDefault(); this.play(!this.playing);
     });
-    document.querySelectorAll("[data-look]").forEach((button) => button.addEventListener("click", () => {
-      const { home, device } = this.viewer, angles = button.dataset.look.split(" ").map(Number);
-      const [azimuth, elevation] = angles.length === 2 ? angles : [home.azimuth, home.elevation];
-      this.viewer.look(azimuth, elevation, button.dataset.look === "device" ? device : home);
-    }));
     document.querySelectorAll("[data-replay]").forEach((button) => button.addEventListener("click", () => {
       find("scene-choice").value = button.dataset.replay; this.time = 0;
       this.choose(); find("robot").scrollIntoView(); this.play(true); find("scene-play").focus();
     }));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.viewer.ask());
   }
 
   // The flights that are shown: one, or both beside each other.
@@ -86,11 +79,7 @@ class Replay {
   }
 
   pose() {
-    if (!this.chosen.length) {
-      const frames = this.scene.bodies.map((body) => placed(body.attitude, body.position));
-      this.viewer.show([{ device: true, frames }], this.scene.ground, null);
-      return;
-    }
+    if (!this.chosen.length) { showDesign(this.viewer, this.scene); return; }
     const apart = this.chosen.length > 1 ? this.scene.apart : 0;
     const robots = this.chosen.map((flight, i) => ({ device: flight.ocs, ...this.posed(flight, apart * (0.5 - i)) }));
     const middle = [0, 1, 2].map((k) => robots.reduce((sum, robot) => sum + robot.middle[k], 0) / robots.length);
@@ -143,13 +132,31 @@ class Replay {
   }
 }
 
+// As designed: in its nominal posture.
+function showDesign(viewer, scene) {
+  const frames = scene.bodies.map((body) => placed(body.attitude, body.position));
+  viewer.show([{ device: true, frames }], scene.ground, null);
+}
+
+// What can be done without any flight.
+function listenToLooks(viewer) {
+  document.querySelectorAll("[data-look]").forEach((button) => button.addEventListener("click", () => {
+    const { home, device } = viewer, angles = button.dataset.look.split(" ").map(Number);
+    const [azimuth, elevation] = angles.length === 2 ? angles : [home.azimuth, home.elevation];
+    viewer.look(azimuth, elevation, button.dataset.look === "device" ? device : home);
+  }));
+  find("scene-fade").addEventListener("change", (event) => { viewer.fade = event.target.checked; viewer.ask(); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => viewer.ask());
+}
+
 async function start() {
   const canvas = find("viewer");
   if (!canvas) return;
   const scene = JSON.parse(find("scene").textContent);
   const array = await unpacked(find("scene-numbers").textContent.trim());
   const viewer = new Viewer(canvas, scene, array);
-  new Replay(viewer, scene, array);
+  listenToLooks(viewer);
+  if (scene.flights.length) new Replay(viewer, scene, array); else showDesign(viewer, scene);
   canvas.dataset.state = "ready";
   document.documentElement.classList.add("orbits");
 }
