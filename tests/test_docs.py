@@ -74,6 +74,14 @@ def test_links_within_the_repository_lead_somewhere(page):
         assert not anchor or anchor in anchors(found), target
 
 
+def test_the_gallery_shows_each_of_its_pictures_and_all_are_small():
+    shown = re.findall(r"\(_static/gallery/([\w-]+\.webp)\)", (DOCS / "gallery.md").read_text())
+    pictures = list((DOCS / "_static" / "gallery").iterdir())
+    assert sorted(shown) == sorted(path.name for path in pictures)
+    assert len(shown) >= 8
+    assert max(path.stat().st_size for path in pictures) < 60_000
+
+
 TOML = re.compile(r"^```toml\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 

@@ -128,7 +128,8 @@ def _told(value: float, dimension: Dimension, unit: str, figures: Figures) -> st
         parse_quantity(told, dimension, ""), value, rel_tol=_SAME
     ):
         return told
-    return repr(value) if dimension is Dimension.RATIO else f"{value!r} {si_unit(dimension)}"
+    bare = _plain(value)
+    return bare if dimension is Dimension.RATIO else f"{bare} {si_unit(dimension)}"
 
 
 def _plain(value: object) -> str:
@@ -137,6 +138,9 @@ def _plain(value: object) -> str:
             return str(value).lower()
         case str():
             return _text(value)
+        case float():
+            # NumPy's own floats are floats too, and call themselves by their type.
+            return repr(float(value))
         case Mapping():
             pairs = ", ".join(f"{_text(name)} = {_plain(entry)}" for name, entry in value.items())
             return f"{{ {pairs} }}"

@@ -2,6 +2,7 @@
 
 from dataclasses import fields
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,6 +16,7 @@ from ocs_design.requirement.specification import (
     RequirementSection,
     RobotSection,
     Specification,
+    ValidationSection,
 )
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 
@@ -40,6 +42,15 @@ def test_a_robot_by_hand():
         requirement=RequirementSection(maneuvers="none", rate_change=2.0),
     )
     assert same(parse_specification(specification_to_toml(by_hand), "written"), by_hand)
+
+
+def test_numbers_of_numpy():
+    stated = Specification(
+        robot=RobotSection(mass=np.float64(2.5), inertia=tuple(np.array([0.03, 0.05, 0.07]))),
+        ocs=OcsSection(alpha=np.radians(40.0)),
+        validation=ValidationSection(kp=np.float64(60.0)),
+    )
+    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
 
 
 def test_nothing_is_written_of_nothing():
