@@ -30,6 +30,12 @@ Inertia: TypeAlias = Annotated[
         help="Robot by hand: inertia about its centre of mass [kg m2].",
     ),
 ]
+Weighed: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--weighed", metavar="MASS", help="What the robot weighs on scales, to check its file."
+    ),
+]
 Spec: TypeAlias = Annotated[
     Path | None, typer.Option("--spec", metavar="FILE", help="Specification file (TOML).")
 ]
@@ -191,6 +197,7 @@ ROBOT_OPTIONS: Mapping[str, object] = {
     "robot": RobotFile,
     "mass": Mass,
     "inertia": Inertia,
+    "weighed": Weighed,
     "spec": Spec,
     "trunk": Trunk,
     "posture": Posture,

@@ -35,6 +35,7 @@ FULL = Specification(
         trunk="t",
         posture="stand",
         joints={"a b": 1 / 3},
+        weighed=2.7,
     ),
     requirement=RequirementSection(
         rate_change=0.1, wheel_speed_max=31415.926, spin_inertia=7.11e-5, gravity=9.81

@@ -81,6 +81,10 @@ class RobotSection:
             "inertia about the centre of mass: Ixx, Iyy, Izz[, Ixy, Ixz, Iyz]",
         ),
     ] = None
+    weighed: Annotated[
+        float | None,
+        Key(Quantity(Dimension.MASS), "what the robot weighs on scales, to check its file's parts"),
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,7 @@
 """The robot that a specification names, or gives by hand."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from ocs_design.exceptions import RobotError, UsageError
@@ -8,6 +9,9 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
+
+SCALES = 0.02
+"""Of a robot's mass over what it weighs: a battery or a harness that its file lacks is more."""
 
 
 def read_stated_robot(
@@ -46,6 +50,18 @@ def read_stated_robot(
             hint="give a robot file, or --mass and --inertia, or [robot] in the specification; "
             "see docs/tutorial.md",
         )
+    if stated.weighed is not None:
+        doubts = tuple(_mass_doubts(robot.mass, stated.weighed))
+        robot = replace(robot, warnings=(*robot.warnings, *doubts))
     if strict and robot.warnings:
         raise RobotError("--strict: " + "; ".join(robot.warnings), hint="mend the robot's file")
     return robot
+
+
+def _mass_doubts(mass: float, weighed: float) -> Iterator[str]:
+    """Whether the parts in the file [kg] add up to the robot on the scales [kg]."""
+    if abs(mass - weighed) > SCALES * weighed:
+        yield (
+            f"the parts' masses add up to {mass:.4g} kg, but the robot weighs {weighed:.4g} kg: "
+            f"{'something is missing' if mass < weighed else 'something is too heavy'} in its file"
+        )

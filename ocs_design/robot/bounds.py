@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.robot.files.meshes import mesh_bounds
+from ocs_design.robot.files.mesh_bounds import mesh_bounds
 from ocs_design.robot.tree import Body, Placement, Shape, ShapeKind, Tree
 
 _CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.exceptions import RobotError
+from ocs_design.robot.doubts.doubts import doubts_of
 from ocs_design.robot.files.loader import load
 from ocs_design.robot.mass_properties import MassProperties, physical_defect
 from ocs_design.robot.robot import Robot
@@ -47,7 +48,8 @@ def read_robot(
     chosen = resolve_posture(tree, base, legs, posture, joints or {})
     weighed = tree.locked_mass_properties(chosen.values, base)
     _check_physical(weighed)
-    warnings = (*tree.warnings, *told, *chosen.warnings)
+    doubts = doubts_of(tree, base, legs, chosen.values, weighed)
+    warnings = (*tree.warnings, *told, *chosen.warnings, *doubts)
     return Robot(
         name=tree.name,
         source=loaded.source,

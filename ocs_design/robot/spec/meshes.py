@@ -5,6 +5,7 @@ from pathlib import Path
 
 import mujoco
 
+from ocs_design.robot.files.mesh_bounds import check_mesh_file
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.spec.unused_name import unused_name
 from ocs_design.robot.tree import Shape
@@ -64,6 +65,7 @@ class MeshLibrary:
 
 def read_mesh(path: Path) -> tuple[str, bytes]:
     """Suffix and bytes of a mesh that MuJoCo reads; other formats become STL or OBJ in metres."""
+    check_mesh_file(path)
     suffix = path.suffix.lower()
     content = path.read_bytes()
     if suffix == ".obj" or (suffix == ".stl" and _is_binary_stl(content)):

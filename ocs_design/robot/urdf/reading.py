@@ -14,6 +14,7 @@ from ocs_design.robot.files.mimics import resolve_mimics
 from ocs_design.robot.files.plausibility import check_plausible
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.tree import Tree
+from ocs_design.robot.urdf.angles import remark_on_degrees
 from ocs_design.robot.urdf.colors import read_palette
 from ocs_design.robot.urdf.graph import children_by_parent, find_root, free_base, unique
 from ocs_design.robot.urdf.joints import read_connection
@@ -35,6 +36,7 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
     children = children_by_parent(links, _read_connections(root, remarks))
     base = free_base(find_root(links, children), links, children)
     bodies = resolve_mimics(lump(base, links, children, remarks), remarks)
+    remark_on_degrees(root, remarks)
     tree = Tree(root.get("name") or base, bodies)
     check_plausible(tree, remarks)
     return replace(tree, warnings=remarks.sentences())

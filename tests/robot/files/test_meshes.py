@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from ocs_design.robot.files.meshes import MeshFinder, mesh_bounds
+from ocs_design.robot.files.mesh_bounds import mesh_bounds
+from ocs_design.robot.files.meshes import MeshFinder
 
 
 @pytest.fixture(autouse=True)
