@@ -70,7 +70,7 @@ def _load(read: Source, package_paths: Mapping[str, Path]) -> Loaded:
     finder = MeshFinder(folder, package_paths)
     content = read.content
     if root.tag == "robot" and is_xacro(root):
-        content = expand_xacro(content, folder / Path(read.path_text).name, finder.package_folder)
+        content = expand_xacro(content, folder / Path(read.path_text).name, package_paths)
     tree = _with_remarks(read_urdf(content, find_mesh=finder), finder, read)
     return Loaded(tree, Format.URDF, content, read.sha256, read.path_text)
 

@@ -1,78 +1,79 @@
-"""Expands xacro files through the optional package `xacro`."""
+"""Expands xacro files through the optional package `xacro`, in a process that may do little.
 
-import io
+A xacro file holds Python expressions, so it is a program. `xacro_child` says what it may do.
+"""
+
+import json
+import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
-from types import ModuleType
 
 from ocs_design.exceptions import MissingToolError, RobotError
 
-FindPackage = Callable[[str], Path | None]
+SECONDS = 5.0
+"""Longest processor time of an expansion, and half of its longest time; large robots take one."""
+
+# Isolated: the current folder may hold a file named like a module.
+_START = (
+    "import json, sys; job = json.load(sys.stdin); sys.path[:] = job.pop('path'); "
+    "from ocs_design.robot.files.xacro_child import expand_job; expand_job(**job)"
+)
 
 
-def expand_xacro(content: bytes, path: Path, find_package: FindPackage) -> bytes:
+def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) -> bytes:
     """The URDF that a xacro file stands for.
 
     Args:
         content: of the file, unzipped.
         path: of the file; files that it includes are looked for beside it.
-        find_package: from the name in `$(find name)` to the package's folder.
+        package_paths: folder of each package that `$(find name)` names; more are looked for as
+            `MeshFinder` does.
     """
-    xacro = _import_xacro()
-    try:
-        with _package_index(find_package):
-            xacro.init_stacks(str(path))
-            document = xacro.parse(io.BytesIO(content), str(path))
-            xacro.process_doc(document)
-    except Exception as error:  # xacro evaluates expressions: whatever Python can raise
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise RobotError(
-            f"xacro cannot expand the file: {reason}",
-            hint="expand it where its packages are installed: xacro robot.urdf.xacro > robot.urdf; "
-            "or say where they are with --package-path NAME=DIR",
-        ) from error
-    expanded: bytes = document.toxml(encoding="utf-8")
-    return expanded
+    _require_xacro()
+    job = {
+        "path": sys.path,
+        "content": content.decode("latin-1"),
+        "file": str(path),
+        "packages": {name: str(folder) for name, folder in package_paths.items()},
+        "seconds": SECONDS,
+    }
+    answer = _run(json.dumps(job))
+    if "error" in answer:
+        raise RobotError(f"xacro cannot expand the file: {answer['error']}", hint=_HINT)
+    return answer["urdf"].encode()
 
 
-def _import_xacro() -> ModuleType:
-    try:
-        import xacro  # noqa: PLC0415 - optional
-    except ImportError as error:
+_HINT = (
+    "expand it where its packages are installed: xacro robot.urdf.xacro > robot.urdf; "
+    "or say where they are with --package-path NAME=DIR"
+)
+
+
+def _require_xacro() -> None:
+    if "xacro" in sys.modules and sys.modules["xacro"] is None or find_spec("xacro") is None:
         raise MissingToolError(
             "the file is a xacro that has not been expanded, and xacro is not installed",
             hint="pip install 'ocs-design[xacro]', or: xacro robot.urdf.xacro > robot.urdf",
-        ) from error
-    module: ModuleType = xacro
-    return module
+        )
 
 
-@contextmanager
-def _package_index(find_package: FindPackage) -> Iterator[None]:
-    """Lets `$(find name)` work without ROS: stands in for ROS 2's package index meanwhile."""
-    names = ("ament_index_python", "ament_index_python.packages")
-    before = {name: sys.modules.get(name) for name in names}
-    index = ModuleType(names[1])
-    vars(index)["get_package_share_directory"] = _folder_of(find_package)
-    sys.modules.update({names[0]: ModuleType(names[0]), names[1]: index})
+def _run(job: str) -> Mapping[str, str]:
+    """What the process answers: `urdf` or `error`."""
     try:
-        yield
-    finally:
-        for name, module in before.items():
-            if module is None:
-                del sys.modules[name]
-            else:
-                sys.modules[name] = module
+        done = subprocess.run(
+            [sys.executable, "-I", "-c", _START],
+            input=job.encode(),
+            capture_output=True,
+            timeout=2.0 * SECONDS,
+            check=False,
+        )
+        answer: Mapping[str, str] = json.loads(done.stdout)
+    except (subprocess.TimeoutExpired, ValueError):
+        # Killed at one of its limits, it had no time to answer.
+        return {"error": _ENDLESS}
+    return answer
 
 
-def _folder_of(find_package: FindPackage) -> Callable[[str], str]:
-    def get_package_share_directory(name: str) -> str:
-        """In place of ament's function of this name."""
-        folder = find_package(name)
-        if folder is None:
-            raise LookupError(f"package {name!r} was not found")
-        return str(folder)
-
-    return get_package_share_directory
+_ENDLESS = f"it takes more than {SECONDS:.0f} s or 1 GiB: is there an endless expression in it?"

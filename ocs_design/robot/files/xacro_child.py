@@ -1,0 +1,198 @@
+"""The process that expands a xacro file: it reads the robot's packages and does nothing else.
+
+xacro evaluates Python expressions. Its own check for names with two underscores looks at an
+expression's outermost code only, `$(eval ...)` has all built-in functions, and both can read and
+write any file. So here each expression is parsed and refused if it reaches for what lies behind an
+object, the process has limits of time and memory, and Python's audit events stop everything but
+reading below the folders that belong to the robot.
+"""
+
+import ast
+import errno
+import io
+import json
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ocs_design.robot.files.meshes import MeshFinder
+
+MEMORY = 1 << 30
+"""Of the process [bytes]."""
+
+LARGEST = 64 << 20
+"""URDF that it may make [bytes]."""
+
+_FUNCTIONS = (list, dict, map, str, float, int, bool, len, min, max, abs, round)
+
+_PYTHON = Path(os.__file__).parent
+"""Modules that are imported as they are needed."""
+
+# Behind these lie the code, the frames and the globals of what is running.
+_HIDDEN = ("_", "gi_", "cr_", "ag_", "f_", "tb_", "co_", "func_")
+_REFUSED_ATTRIBUTES = {"format", "format_map", "mro"}
+_REFUSED_FUNCTIONS = ("vars", "type")
+
+_SECRET = ("TOKEN", "SECRET", "PASSW", "CREDENTIAL", "KEY", "AUTH")
+
+# Importing modules of Python's own takes the first of these, includes with wildcards the last.
+_HARMLESS = {"import", "marshal.loads", "compile", "exec", "os.listdir", "os.scandir", "glob.glob"}
+_HARMLESS |= {"builtins.id"}
+
+
+def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds: float) -> None:
+    """Expand a file and print the answer, `urdf` or `error`, as JSON.
+
+    Args:
+        content: of the file, as Latin-1. file: its path. packages: folders by name.
+        seconds: of processor time.
+    """
+    _limit(seconds)
+    answer = {}
+    try:
+        answer["urdf"] = _expanded(content.encode("latin-1"), Path(file), packages)
+    except Exception as error:  # xacro evaluates expressions: whatever Python can raise
+        answer["error"] = " ".join(str(error).split()) or type(error).__name__
+    sys.__stdout__.write(json.dumps(answer))  # type: ignore[union-attr]  # a pipe of our own
+
+
+def _expanded(content: bytes, path: Path, packages: Mapping[str, str]) -> str:
+    import xacro  # noqa: PLC0415 - optional
+    import yaml  # noqa: F401, PLC0415 - while importing is still allowed
+
+    finder = MeshFinder(path.parent, {name: Path(folder) for name, folder in packages.items()})
+    roots = [path.parent, *_package_around(path.parent), *finder.package_paths.values()]
+    _tame(xacro, finder, roots)
+    _guard(roots)
+    sys.stdout = io.StringIO()
+    xacro.init_stacks(str(path))
+    document = xacro.parse(io.BytesIO(content), str(path))
+    xacro.process_doc(document)
+    expanded = str(document.toxml())
+    if len(expanded) > LARGEST:
+        raise MemoryError(f"it expands to more than {LARGEST >> 20} MiB")
+    return expanded
+
+
+def _limit(seconds: float) -> None:
+    """Bound the time and memory of this process, and let it write no file."""
+    try:
+        import resource  # noqa: PLC0415 - not on Windows
+    except ImportError:
+        return
+    for limit, value in (
+        (resource.RLIMIT_CPU, int(seconds)),
+        (resource.RLIMIT_AS, MEMORY),
+        (resource.RLIMIT_FSIZE, LARGEST * 2),
+    ):
+        _, hard = resource.getrlimit(limit)
+        resource.setrlimit(limit, (value, hard))
+
+
+def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
+    """Put checked evaluation and the finding of packages in place of xacro's own."""
+    from xacro import substitution_args  # noqa: PLC0415 - optional
+
+    evaluate = xacro.safe_eval
+
+    def safe_eval(expression: str, symbols: Any, inner: Any = None) -> Any:  # noqa: ANN401 - xacro's
+        """In place of xacro's function of this name."""
+        check_expression(expression)
+        return evaluate(expression, symbols, inner)
+
+    def evaluate_argument(expression: str, _: object, names: Any) -> Any:  # noqa: ANN401 - xacro's
+        """In place of Python's `eval` for `$(eval ...)`."""
+        check_expression(expression)
+        known = {each.__name__: each for each in _FUNCTIONS}
+        return eval(expression, {"__builtins__": known}, names)  # noqa: S307 - has been checked
+
+    def find(name: str) -> str:
+        """In place of ROS 2's package index."""
+        folder = finder.package_folder(name)
+        if folder is None:
+            raise LookupError(f"package {name!r} was not found")
+        if (folder / "package.xml").is_file() or _is_in(finder.folder, folder):
+            roots.append(folder)
+        return str(folder)
+
+    def environment(name: str) -> str:
+        """In place of xacro's access to the environment."""
+        check_variable(name)
+        return os.environ[name]
+
+    vars(xacro).update(safe_eval=safe_eval)
+    vars(substitution_args).update(eval=evaluate_argument, _eval_find=find, _eval_env=environment)
+    substitution_args._eval_dict.update(find=find, env=environment, optenv=_optional)
+    substitution_args._eval_optenv = _optional
+    for name in _REFUSED_FUNCTIONS:
+        xacro._global_symbols["python"].pop(name, None)
+
+
+def _optional(name: str, default: str = "") -> str:
+    check_variable(name)
+    return os.environ.get(name, default)
+
+
+def check_expression(expression: str) -> None:
+    """Refuse what reaches for the inside of Python.
+
+    Raises:
+        ValueError: it does.
+    """
+    for node in ast.walk(ast.parse(expression.strip(), mode="eval")):
+        name = node.attr if isinstance(node, ast.Attribute) else ""
+        if isinstance(node, ast.Name) and node.id.startswith("__"):
+            name = node.id
+        if name.startswith(_HIDDEN) or name in _REFUSED_ATTRIBUTES:
+            raise ValueError(f"the expression {expression!r} is refused for its {name!r}")
+
+
+def check_variable(name: str) -> None:
+    """Refuse environment variables that may hold a secret.
+
+    Raises:
+        ValueError: its name says so.
+    """
+    if any(word in name.upper() for word in _SECRET):
+        raise ValueError(f"the environment variable {name} may be secret and is not read")
+
+
+def _package_around(folder: Path) -> list[Path]:
+    """The ROS package that a folder lies in."""
+    return [each for each in (folder, *folder.parents) if (each / "package.xml").is_file()][:1]
+
+
+def _is_in(path: Path, folder: Path) -> bool:
+    return path.resolve().is_relative_to(folder.resolve())
+
+
+def _guard(roots: list[Path]) -> None:
+    """Stop whatever this process would do beyond reading files below `roots`, for good."""
+
+    def stop(event: str, arguments: tuple[Any, ...]) -> None:
+        """Called by Python before each thing of consequence."""
+        if event == "open" and _may_open(arguments, roots):
+            return
+        if event not in _HARMLESS:
+            raise PermissionError(f"{event!r} is refused to xacro files")
+
+    sys.addaudithook(stop)
+
+
+def _may_open(arguments: tuple[Any, ...], roots: list[Path]) -> bool:
+    path, mode, flags = arguments
+    reads = mode in {"r", "rb", None} and not (flags or 0) & (os.O_WRONLY | os.O_RDWR)
+    if not reads or not isinstance(path, (str, bytes, os.PathLike)):
+        return False
+    target = Path(os.fsdecode(path))
+    if any(_is_in(target, root) for root in (*roots, _PYTHON)):
+        return True
+    # xacro's own message takes the name of the file from the error.
+    raise PermissionError(
+        errno.EACCES,
+        f"outside of the robot's folder and packages; --package-path NAME={target.parent} allows it",
+        str(target),
+    )
