@@ -18,6 +18,8 @@ from rich.progress import (
 )
 from rich.text import Text
 
+from ocs_design.report.clean import CleanHook
+
 NARROWEST = 60
 WIDEST = 110
 
@@ -27,6 +29,7 @@ def make_console(*, color: bool = True) -> Console:
     plain = not color or bool(os.environ.get("NO_COLOR"))
     console = Console(stderr=True, color_system=None if plain else "auto", highlight=False)
     console.width = min(max(console.width, NARROWEST), WIDEST)
+    console.push_render_hook(CleanHook())
     return console
 
 
@@ -69,7 +72,8 @@ class Steps:
         if not self._quiet:
             seconds = time.perf_counter() - start
             note = f"  {current.note}" if current.note else ""
-            self._console.print(f"[dim]{seconds:6.2f} s[/dim]  {label}{note}", soft_wrap=True)
+            line = Text.assemble((f"{seconds:6.2f} s", "dim"), f"  {label}{note}")
+            self._console.print(line, soft_wrap=True)
 
 
 class Step:
@@ -89,7 +93,7 @@ class Step:
 def _bar(console: Console) -> Progress:
     return Progress(
         SpinnerColumn(),
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(bar_width=24),
         TimeElapsedColumn(),
         TextColumn("[dim]left[/dim]"),
