@@ -40,9 +40,6 @@ USES: Mapping[str, Use] = MappingProxyType(
         "pyarrow": Use("its samples as Parquet"),
         "pillow": Use("words on videos", "PIL"),
         "imageio-ffmpeg": Use("videos where the system has no ffmpeg"),
-        "dask": Use("Monte Carlo on many machines"),
-        "distributed": Use("the same: its scheduler and workers"),
-        "pyarrow": Use("samples of Monte Carlo as Parquet"),
         "cadquery-ocp-novtk": Use("parts in STEP for CAD", "OCP"),
     }
 )
