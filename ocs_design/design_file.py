@@ -12,6 +12,7 @@ from typing import Literal
 import msgspec
 
 from ocs_design.arrays import Matrix, Vector
+from ocs_design.bounded_files import read_plain_file
 from ocs_design.design import NO_CARRIER, Flywheel, Motor
 from ocs_design.exceptions import OcsError
 from ocs_design.robot_record import RobotRecord
@@ -19,6 +20,9 @@ from ocs_design.selection_record import SelectionRecord
 from ocs_design.sizing.carrier import Carrier
 
 SCHEMA_VERSION = 1
+
+LARGEST = 16 << 20
+"""Of a `design.json` [bytes]; that of a humanoid takes a fiftieth."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -222,13 +226,13 @@ def read_design(path: Path) -> OcsDesign:
         OcsError: the file cannot be read, or is not a design of this schema version.
     """
     try:
-        content = path.read_bytes()
+        content = read_plain_file(path, LARGEST)
         version = msgspec.json.decode(content, type=_Version).schema_version
     except OSError as error:
         raise OcsError(
             f"{path}: {error.strerror}", hint="give the path of a design.json"
         ) from error
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: not a design.json: {error}") from error
     if version != SCHEMA_VERSION:
         raise OcsError(
@@ -237,7 +241,7 @@ def read_design(path: Path) -> OcsDesign:
         )
     try:
         return msgspec.json.decode(content, type=OcsDesign)
-    except msgspec.DecodeError as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: {error}", hint="run `ocs-design size` again") from error
 
 

@@ -148,7 +148,7 @@ def _keep(order: Order, staging: Path) -> None:
             target = staging / place
             target.parent.mkdir(parents=True, exist_ok=True)
             if not target.exists():
-                shutil.copy2(path, target)
+                shutil.copy2(path, target, follow_symlinks=False)
 
 
 def _same(folder: Path, other: Path) -> bool:

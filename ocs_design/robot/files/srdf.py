@@ -33,7 +33,9 @@ def read_group_states(content: bytes) -> Postures:
 def find_srdfs(folder: Path, stem: str, robot_name: str) -> list[Path]:
     """SRDFs in `folder` or its sister `srdf`: the one named like the robot file, else all that
     name the same robot."""
-    found = sorted([*folder.glob("*.srdf"), *folder.glob("../srdf/*.srdf")])
+    named = sorted([*folder.glob("*.srdf"), *folder.glob("../srdf/*.srdf")])
+    # A pipe of that name would be waited for without end.
+    found = [path for path in named if path.is_file()]
     same_stem = [path for path in found if path.stem == stem]
     return same_stem[:1] or [path for path in found if _robot_name(path) == robot_name]
 

@@ -52,7 +52,9 @@ _HINT = (
 
 
 def _require_xacro() -> None:
-    if ("xacro" in sys.modules and sys.modules["xacro"] is None) or find_spec("xacro") is None:
+    # What is None there is hidden, as in tests; `find_spec` would raise an error.
+    hidden = "xacro" in sys.modules and sys.modules["xacro"] is None
+    if hidden or find_spec("xacro") is None:
         raise MissingToolError(
             "the file is a xacro that has not been expanded, and xacro is not installed",
             hint="pip install 'ocs-design[xacro]', or: xacro robot.urdf.xacro > robot.urdf",

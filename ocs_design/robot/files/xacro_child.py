@@ -19,6 +19,7 @@ from types import ModuleType
 from typing import Any
 
 from ocs_design.robot.files.meshes import MeshFinder
+from ocs_design.robot.files.roots import is_below, package_roots, roots_of
 
 MEMORY = 1 << 30
 """Of the process [bytes]."""
@@ -61,10 +62,9 @@ def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds:
 
 def _expanded(content: bytes, path: Path, packages: Mapping[str, str]) -> str:
     import xacro  # noqa: PLC0415 - optional
-    import yaml  # noqa: F401, PLC0415 - while importing is still allowed
 
     finder = MeshFinder(path.parent, {name: Path(folder) for name, folder in packages.items()})
-    roots = [path.parent, *_package_around(path.parent), *finder.package_paths.values()]
+    roots = [*roots_of(path), *finder.package_paths.values()]
     _tame(xacro, finder, roots)
     _guard(roots)
     sys.stdout = io.StringIO()
@@ -114,8 +114,9 @@ def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
         folder = finder.package_folder(name)
         if folder is None:
             raise LookupError(f"package {name!r} was not found")
-        if (folder / "package.xml").is_file() or _is_in(finder.folder, folder):
+        if is_below(finder.folder, [folder]):
             roots.append(folder)
+        roots.extend(package_roots(folder))
         return str(folder)
 
     def environment(name: str) -> str:
@@ -160,15 +161,6 @@ def check_variable(name: str) -> None:
         raise ValueError(f"the environment variable {name} may be secret and is not read")
 
 
-def _package_around(folder: Path) -> list[Path]:
-    """The ROS package that a folder lies in."""
-    return [each for each in (folder, *folder.parents) if (each / "package.xml").is_file()][:1]
-
-
-def _is_in(path: Path, folder: Path) -> bool:
-    return path.resolve().is_relative_to(folder.resolve())
-
-
 def _guard(roots: list[Path]) -> None:
     """Stop whatever this process would do beyond reading files below `roots`, for good."""
 
@@ -188,11 +180,11 @@ def _may_open(arguments: tuple[Any, ...], roots: list[Path]) -> bool:
     if not reads or not isinstance(path, (str, bytes, os.PathLike)):
         return False
     target = Path(os.fsdecode(path))
-    if any(_is_in(target, root) for root in (*roots, _PYTHON)):
+    if is_below(target, (*roots, _PYTHON)):
         return True
     # xacro's own message takes the name of the file from the error.
     raise PermissionError(
         errno.EACCES,
-        f"outside of the robot's folder and packages; --package-path NAME={target.parent} allows it",
+        "outside of the robot's folder and packages, to which --package-path NAME=DIR adds",
         str(target),
     )

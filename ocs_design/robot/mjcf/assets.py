@@ -6,11 +6,16 @@ from typing import TypeAlias
 
 import mujoco
 
+from ocs_design.bounded_files import read_plain_file
+from ocs_design.exceptions import RobotError
 from ocs_design.robot.mjcf.inertials import require_inertial
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.spec.unused_name import unused_name
 
 Asset: TypeAlias = "mujoco.MjsMesh | mujoco.MjsTexture | mujoco.MjsHField | mujoco.MjsSkin"
+
+LARGEST_ASSET = 128 << 20
+"""[bytes]."""
 
 
 def embed_assets(spec: mujoco.MjSpec, folder: Path, remarks: Remarks) -> None:
@@ -53,12 +58,22 @@ def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, st
             return str(file)
         if path not in names:
             names[path] = unused_name(path.stem, path.suffix, spec.assets)
-            spec.assets[names[path]] = path.read_bytes()
+            spec.assets[names[path]] = _content(path)
         asset.file = names[path] if asset.file == file else asset.file
         sides = [names[path] if side == file else side for side in sides]
     if any(sides):
         asset.cubefiles = sides
     return None
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return read_plain_file(path, LARGEST_ASSET)
+    except OSError as error:
+        raise RobotError(
+            f"the file {path} cannot be read: {error.strerror}",
+            hint="reduce its size, or take it out of the model",
+        ) from error
 
 
 def _drop(spec: mujoco.MjSpec, asset: Asset) -> None:

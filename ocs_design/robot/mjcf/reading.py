@@ -25,6 +25,7 @@ from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.spec.warnings import mujoco_warnings_to
 from ocs_design.robot.tree import Tree
+from ocs_design.robot.urdf.xml import LARGEST_NUMBER
 
 _LOOPS = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
 
@@ -47,9 +48,31 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
         raise RobotError(
             "the model's bodies are nested too deeply", hint="a thousand levels are too many"
         ) from error
+    _check_numbers(model)
     tree = _tree(model, spec.modelname, remarks)
     check_plausible(tree, remarks)
     return replace(tree, named_postures=_keyframes(model, tree), warnings=remarks.sentences())
+
+
+_NUMBERS = {
+    "body": ("pos", "quat", "ipos", "iquat", "mass", "inertia"),
+    "geom": ("pos", "quat", "size", "aabb"),
+    "jnt": ("pos", "axis"),
+    "key": ("qpos",),
+}
+"""Of a compiled model, by what they are of."""
+
+
+def _check_numbers(model: mujoco.MjModel) -> None:
+    """Refuse numbers that MuJoCo compiles but that nothing can be computed from."""
+    named = [(kind, each) for kind, quantities in _NUMBERS.items() for each in quantities]
+    for kind, quantity in named:
+        numbers = np.asarray(getattr(model, f"{kind}_{quantity}"))
+        if not (np.abs(numbers) <= LARGEST_NUMBER).all():
+            raise RobotError(
+                f"the {quantity} of a {kind} is not finite or beyond all measure",
+                hint="metres, kilograms and radians or degrees are meant",
+            )
 
 
 def _tree(model: mujoco.MjModel, name: str, remarks: Remarks) -> Tree:

@@ -7,7 +7,10 @@ from xml.etree import ElementTree as ET
 
 import mujoco
 
+from ocs_design.bounded_files import read_plain_file
 from ocs_design.exceptions import RobotError
+from ocs_design.robot.files.roots import is_below, roots_of
+from ocs_design.robot.files.source import MAX_BYTES
 from ocs_design.robot.mjcf.assets import embed_assets
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.spec.unused_name import unused_name
@@ -77,20 +80,25 @@ def _expand_includes(parent: ET.Element, folder: Path, seen: set[Path]) -> None:
         if child.tag != "include":
             _expand_includes(child, folder, seen)
             continue
-        included = _read_include(folder / child.get("file", ""), seen)
+        included = _read_include(folder / child.get("file", ""), folder, seen)
         _expand_includes(included, folder, seen)
         place = list(parent).index(child)
         parent[place : place + 1] = list(included)
 
 
-def _read_include(path: Path, seen: set[Path]) -> ET.Element:
+def _read_include(path: Path, folder: Path, seen: set[Path]) -> ET.Element:
+    if not is_below(path, roots_of(folder / "model.xml")):
+        raise RobotError(
+            f"the included file {path} lies outside of the model's folder and repository",
+            hint="put it into the model's folder",
+        )
     if path.resolve() in seen:
         raise RobotError(
             f"{path} is included twice", hint="MJCF allows each file to be included once"
         )
     seen.add(path.resolve())
     try:
-        return parse_xml(path.read_bytes(), Remarks())
+        return parse_xml(read_plain_file(path, MAX_BYTES), Remarks())
     except OSError as error:
         raise RobotError(
             f"the included file {path} cannot be read: {error.strerror}",

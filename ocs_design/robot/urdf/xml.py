@@ -15,6 +15,9 @@ from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import RobotError
 from ocs_design.robot.remarks import Remarks
 
+LARGEST_NUMBER = 1e75
+"""Beyond it a square of a square overflows, and zero times that is no number."""
+
 
 def parse_xml(content: bytes, remarks: Remarks) -> ET.Element:
     """The root element of a robot file, its tags without namespaces other than xacro's.
@@ -144,5 +147,11 @@ def _finite(word: str, element: ET.Element, attribute: str, where: str) -> float
         raise RobotError(
             f'{where}: {attribute}="{word}" of <{element.tag}> is not a finite number',
             hint="write a plain number with a decimal point, such as 0.25",
+        )
+    # Limits are only compared; files write the largest number there is for none.
+    if abs(value) > LARGEST_NUMBER and element.tag != "limit":
+        raise RobotError(
+            f'{where}: {attribute}="{word}" of <{element.tag}> is beyond all measure',
+            hint="metres, kilograms and radians are meant",
         )
     return value

@@ -1,3 +1,4 @@
+import os
 from pathlib import Path
 
 import pinocchio as pin
@@ -81,3 +82,8 @@ def test_solo12_stands_as_pinocchio_has_it():
         assert posture == {
             joint: q[model.joints[model.getJointId(joint)].idx_q] for joint in posture
         }
+
+
+def test_a_pipe_named_like_an_srdf_is_left_alone(tmp_path):
+    os.mkfifo(tmp_path / "robot.srdf")
+    assert find_srdfs(tmp_path, "robot", "robot") == []

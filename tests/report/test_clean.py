@@ -1,0 +1,50 @@
+import io
+
+import pytest
+from rich.console import Console
+from rich.panel import Panel
+from rich.table import Table
+from rich.text import Text
+
+from ocs_design.report.clean import CleanHook, cleaned
+from ocs_design.report.console import Steps
+
+EVIL = "a\x1b[31mb\x9b2Jc\x07d\u202ee\x7f\x85[bold]f[/nope]"
+
+
+def printed(what, **options):
+    stream = io.StringIO()
+    console = Console(file=stream, width=80, **options)
+    console.push_render_hook(CleanHook())
+    console.print(what)
+    return stream.getvalue()
+
+
+def table(text):
+    grid = Table.grid()
+    grid.add_row(Text(text))
+    return grid
+
+
+@pytest.mark.parametrize("make", [Text, lambda text: Panel(Text(text)), table])
+def test_nothing_but_marks_is_left_of_control_characters(make):
+    shown = printed(make(EVIL))
+    assert not set(shown) & set("\x1b\x9b\x07\u202e\x7f\x85")
+    assert "[bold]f[/nope]" in shown
+
+
+def test_colours_of_our_own_are_kept():
+    assert "\x1b[31m" in printed(
+        Text("a", style="red"), force_terminal=True, color_system="standard"
+    )
+
+
+def test_lines_and_letters_of_any_language_stay():
+    assert cleaned("Größe\tभाषा\n日本 🤖") == "Größe\tभाषा\n日本 🤖"
+
+
+def test_a_step_is_shown_as_it_is_named():
+    stream = io.StringIO()
+    with Steps(Console(file=stream, width=80)).step("read") as step:
+        step.note = "[/nope]"
+    assert "[/nope]" in stream.getvalue()
