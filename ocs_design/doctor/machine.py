@@ -113,4 +113,4 @@ def _ffmpeg_version(path: str) -> str:
     except (OSError, subprocess.SubprocessError):
         return ""
     # "ffmpeg version 6.1.1-3 Copyright ..."
-    return said.split()[2] if len(said.split()) > 2 else "unknown"
+    return said.split()[2].partition("-")[0] if len(said.split()) > 2 else "unknown"

@@ -132,7 +132,8 @@ def _warnings(design: OcsDesign) -> Iterator[str]:
     yield from doubts(design)
     yield from overrated(design.ocs.motor)
     yield from _reachable(design.ocs)
-    yield from design.ocs.fitting
+    if design.ocs.fitting:
+        yield f"for the workshop there are {len(design.ocs.fitting)} notes more: see them with -v"
     if design.ocs.flywheel.stress_margin is None:
         yield f"the stress is NOT checked: no strength of {design.ocs.flywheel.material} is known"
     yield from (

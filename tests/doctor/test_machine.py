@@ -32,7 +32,7 @@ def test_processors_are_counted():
 @pytest.mark.parametrize(
     ("script", "state", "found"),
     [
-        ("echo ffmpeg version 6.1.1-3 Copyright", State.WORKS, "6.1.1-3"),
+        ("echo ffmpeg version 6.1.1-3 Copyright", State.WORKS, "6.1.1"),
         ("exit 1", State.MISSING, ""),
         (None, State.MISSING, ""),
     ],

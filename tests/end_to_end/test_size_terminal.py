@@ -78,6 +78,8 @@ def test_the_whole_report_fits_its_terminal(width, product):
     for word in ("locked inertia", "What binds", "Margins", "incidence by criterion", "Written to"):
         assert word in text
     assert ("fell out" in text) == (design.selection is not None)
+    for note in design.ocs.fitting:
+        assert note in " ".join(text.split())
 
 
 def test_a_wider_terminal_breaks_fewer_lines(product, wide):
