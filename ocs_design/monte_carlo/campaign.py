@@ -17,10 +17,10 @@ from ocs_design.simulation.engine import Progress, simulate
 from ocs_design.simulation.imperfections import AirDrag
 from ocs_design.simulation.metrics import Metrics, measure
 from ocs_design.simulation.recording import Recording
-from ocs_design.simulation.scenario import Options
+from ocs_design.simulation.scenario import Options, world_builder
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
-from ocs_design.simulation.world import World, WorldBuilder
+from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory import Trajectory
 
 
@@ -90,14 +90,7 @@ def make_campaign(
         can_stand: of each maneuver, as its flights as designed showed it.
         reality: see `Reality`. seed: of all samples.
     """
-    builder = WorldBuilder(
-        robot,
-        device,
-        allocation=options.allocation,
-        gains=options.gains,
-        drop_profile=options.drop_profile,
-        desaturate=options.desaturate,
-    )
+    builder = world_builder(robot, device, options)
     flights = tuple(
         Flight(
             maneuver,

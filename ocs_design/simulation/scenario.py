@@ -102,14 +102,7 @@ def run_scenarios(
         progress: told the part of the work that is done, 0..1.
     """
     chosen = options or Options()
-    builder = WorldBuilder(
-        robot,
-        device,
-        allocation=chosen.allocation,
-        gains=chosen.gains,
-        drop_profile=chosen.drop_profile,
-        desaturate=chosen.desaturate,
-    )
+    builder = world_builder(robot, device, chosen)
     planned = references or {}
     worlds = [
         builder.flight(maneuver, wheels, planned.get(maneuver.name))
@@ -130,6 +123,18 @@ def run_scenarios(
         )
         for maneuver, pair, legs in zip(maneuvers, pairs, can_stand, strict=True)
         for flight, ocs in zip(pair, (True, False), strict=True)
+    )
+
+
+def world_builder(robot: Robot, device: Device, options: Options) -> WorldBuilder:
+    """Of worlds that are flown with these options."""
+    return WorldBuilder(
+        robot,
+        device,
+        allocation=options.allocation,
+        gains=options.gains,
+        drop_profile=options.drop_profile,
+        desaturate=options.desaturate,
     )
 
 
