@@ -8,6 +8,7 @@ import msgspec
 import numpy as np
 
 from ocs_design.exceptions import OcsError
+from ocs_design.export.naming import safe_name
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
 from ocs_design.monte_carlo.reality import NAMES
@@ -78,7 +79,7 @@ def metrics_of(outcomes: Outcomes, row: int, scenario: int) -> Metrics | None:
 
 def write_case(case: Case, folder: Path) -> Path:
     """As JSON, named after scenario and sample."""
-    path = folder / f"{case.scenario}-{case.sample}.json"
+    path = folder / f"{safe_name(case.scenario)}-{case.sample}.json"
     path.write_bytes(msgspec.json.format(msgspec.json.encode(case), indent=2) + b"\n")
     return path
 

@@ -1,5 +1,6 @@
 """All samples of a campaign as one table: CSV always, Parquet where pyarrow is installed."""
 
+import csv
 import math
 from collections.abc import Mapping, Sequence
 from importlib import import_module
@@ -47,8 +48,10 @@ def _columns(outcomes: Outcomes, scenarios: Sequence[str]) -> Mapping[str, NDArr
 def _write_csv(columns: Mapping[str, NDArray[np.generic]], path: Path) -> Path:
     """Numbers to six digits; an empty cell where there is none."""
     cells = [_texts(values) for values in columns.values()]
-    rows = (",".join(row) for row in zip(*cells, strict=True))
-    path.write_text("\n".join([",".join(columns), *rows, ""]), encoding="utf-8")
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*cells, strict=True))
     return path
 
 

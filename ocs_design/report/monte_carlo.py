@@ -41,7 +41,7 @@ def _print_success(console: Console, record: MonteCarloRecord) -> None:
     table.columns[-1].justify = "left"
     for scenario in record.scenarios:
         other = ", ".join(f"{count} {fault}" for fault, count in scenario.faults.items())
-        table.add_row(scenario.scenario, *share_cells(scenario.success), other or "-")
+        table.add_row(Text(scenario.scenario), *share_cells(scenario.success), other or "-")
     if len(record.scenarios) > 1:
         table.add_row(Text("all of them", style="bold"), *share_cells(record.success), "-")
     show(console, table)
@@ -66,7 +66,7 @@ def _print_spreads(console: Console, record: MonteCarloRecord) -> None:
         column.no_wrap = True
     for scenario in record.scenarios:
         for row in _spread_rows(scenario):
-            table.add_row(*row)
+            table.add_row(*map(Text, row))
     show(console, table)
 
 

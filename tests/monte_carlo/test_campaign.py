@@ -59,6 +59,12 @@ def test_a_case_is_flown_again_to_the_last_bit(campaign, outcomes, tmp_path):
         assert run.metrics == metrics_of(outcomes, 3, number)
 
 
+def test_a_case_is_filed_whatever_its_maneuver_is_called(campaign, outcomes, tmp_path):
+    case = replace(case_of(campaign, outcomes, 0, 0, "hash"), scenario="../up and away")
+    assert write_case(case, tmp_path).parent == tmp_path
+    assert [path.name for path in tmp_path.iterdir()] == ["up_and_away-0.json"]
+
+
 def test_outcomes_are_read_back_as_they_were(outcomes, tmp_path):
     outcomes.save(tmp_path / "block.npz")
     assert_same(Outcomes.load(tmp_path / "block.npz"), outcomes)

@@ -12,12 +12,12 @@ from ocs_design.monte_carlo.tables import write_tables
 def test_csv_and_parquet_hold_the_same_rows(tmp_path):
     outcomes = made_outcomes(range(20), 2)
     outcomes.metrics[0, 0, 0] = np.nan
-    text, parquet = write_tables(outcomes, ["drop", "flip"], tmp_path)
+    text, parquet = write_tables(outcomes, ["a drop, tilted", "flip"], tmp_path)
     with text.open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     table = pyarrow.parquet.read_table(parquet).to_pylist()
     assert len(rows) == len(table) == 40
-    assert [row["scenario"] for row in rows[:2]] == ["drop", "flip"]
+    assert [row["scenario"] for row in rows[:2]] == ["a drop, tilted", "flip"]
     assert rows[0]["touchdown_time"] == ""
     for one, other in zip(rows, table, strict=True):
         assert int(one["sample"]) == other["sample"]
