@@ -1,0 +1,90 @@
+"""The report and its figures from `export`, as `docs/report.md` shows it."""
+
+import json
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from browser import browser
+from commands import run
+from renewed import files_in
+
+from ocs_design.design_file import read_design
+from ocs_design.exceptions import OcsError
+from ocs_design.report.on_request import ON_DESIGN
+from ocs_design.report.story import read_campaign, story_in
+
+DOC = (Path(__file__).parents[2] / "docs" / "report.md").read_text()
+
+pytestmark = pytest.mark.parametrize("product", ["motor"], indirect=True)
+
+
+def shown(language):
+    """The blocks of the page in a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", DOC, re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def design(product, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return Path(shutil.copytree(product.folder, "solo12-ocs"))
+
+
+@pytest.mark.slow
+def test_the_commands_of_the_page_work(design, capsys):
+    for line in "".join(shown("sh")).splitlines():
+        result = run(*line.replace("--samples 200", "--samples 20").split()[1:])
+        assert result.code == 0, result.said
+    exec(shown("python")[0], {})
+    assert float(capsys.readouterr().out) == read_design(design / "design.json").ocs.incidence
+    pictures = {Path(name).suffix for name in files_in("figures-as-png/figures")}
+    assert pictures == {".svg", ".png"}
+    page = Path("with-samples/report.html").read_text()
+    assert 'id="samples"' in page
+    assert "20 robots as they might be built" in page
+
+
+def test_a_report_made_again_has_its_view_and_its_time_series_but_no_replay(design):
+    assert run("export", design, "-o", "again", "-q", "--formats", "report").code == 0
+    again = files_in("again")
+    assert set(again) == {"design.json", "report.html"}
+    assert json.loads(again["design.json"])["files"] == {}
+    with browser() as tab:
+        tab.open(Path("again/report.html"))
+        tab.wait("document.documentElement.classList.contains('orbits')")
+        tab.value("document.querySelector('[data-look=device]').click()")
+        assert tab.value("document.querySelectorAll('#maneuvers svg').length") == 12
+        assert tab.value("document.getElementById('scene-choice')") is None
+        assert tab.of_kind("Runtime.exceptionThrown", "Log.entryAdded") == []
+
+
+def test_in_its_own_folder_everything_else_stays(design):
+    before = files_in(design)
+    assert run("export", design, "-o", design, "--force", "-q", "--formats", "report").code == 0
+    after = files_in(design)
+    assert {name for name in after if after[name] != before.get(name)} == {"report.html"}
+
+
+def test_names_are_listed_with_those_of_the_formats(design):
+    result = run("export", design, "-o", "again", "--formats", "nothing")
+    assert result.code == 2
+    for name in ON_DESIGN:
+        assert name in result.said
+
+
+def test_flights_come_from_their_files_as_they_were_flown(product):
+    folder = product.folder
+    story = story_in([Path("/nowhere"), folder], read_design(folder / "design.json"))
+    assert [(each.scenario, each.ocs) for each in story.flights] == [
+        (run.scenario, run.ocs) for run in story.design.validation
+    ]
+    for flight, record in zip(story.flights, story.design.validation, strict=True):
+        assert flight.touchdown == pytest.approx(record.metrics["touchdown_time"], abs=0.006)
+
+
+def test_a_campaign_that_cannot_be_read_is_told(tmp_path, product):
+    assert read_campaign([product.folder, tmp_path]) is None
+    (tmp_path / "monte_carlo.json").write_text("{")
+    with pytest.raises(OcsError, match=r"monte_carlo\.json"):
+        read_campaign([tmp_path])
