@@ -1,22 +1,15 @@
-"""What `export` writes of a design and its flights, when it is asked for."""
+"""What `export` writes of a design and its flights, beside the formats of a device."""
 
 from collections.abc import Collection
-from dataclasses import replace
 from pathlib import Path
 
-from ocs_design.exceptions import MissingToolError
-from ocs_design.export.folder import recorded_hashes
 from ocs_design.export.formats import ALL
 from ocs_design.exporting import Finish, Order
-from ocs_design.report.charts.png import png_chart
-from ocs_design.report.figures.figures import FOLDER, all_charts, write_figures
-from ocs_design.report.html.page import write_report
-from ocs_design.report.story import Story, story_in
 
 FIGURES, REPORT = "figures", "report"
 
 ON_DESIGN = (FIGURES, REPORT)
-"""Names beside those of the formats of a device."""
+"""Names that users say."""
 
 
 def finishing(names: Collection[str], command: str) -> Finish | None:
@@ -30,23 +23,9 @@ def finishing(names: Collection[str], command: str) -> Finish | None:
 
     def finish(order: Order, folder: Path) -> tuple[str, ...]:
         """See `Finish`."""
-        story = story_in([folder, order.path.parent], order.design, command=command)
-        remarks = _write_figures(story, folder) if FIGURES in wanted else ()
-        if REPORT in wanted:
-            whole = replace(order.design, files=recorded_hashes(folder))
-            write_report(replace(story, design=whole), folder)
-        return remarks
+        # It needs the simulator's values, which parts and snippets do without.
+        from ocs_design.report.made_again import write_wanted  # noqa: PLC0415
+
+        return write_wanted(wanted, order, folder, command)
 
     return finish if wanted else None
-
-
-def _write_figures(story: Story, folder: Path) -> tuple[str, ...]:
-    """As SVG, and as PNG where matplotlib is installed."""
-    charts = tuple(all_charts(story))
-    write_figures(charts, folder / FOLDER)
-    try:
-        for chart in charts:
-            (folder / FOLDER / f"{chart.name}.png").write_bytes(png_chart(chart))
-    except MissingToolError as error:
-        return (f"{error.message}: {error.hint}",)
-    return ()
