@@ -9,6 +9,7 @@ import numpy as np
 from ocs_design.arrays import Matrix
 from ocs_design.design import Device, Module
 from ocs_design.design_file import ManeuverRecord, ModuleRecord, OcsRecord
+from ocs_design.device_checks import check_device
 from ocs_design.exceptions import OcsError, RobotError
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
@@ -29,9 +30,15 @@ class RecordedSeat:
 
 
 def device_of(record: OcsRecord) -> Device:
-    """The device that was designed, to the last digit."""
+    """The device that was designed, to the last digit.
+
+    Raises:
+        OcsError: no such device can be: the file was edited.
+    """
     left, right = (_module(each) for each in record.modules)
-    return Device(record.incidence, (left, right), record.flywheel, record.motor, record.carrier)
+    device = Device(record.incidence, (left, right), record.flywheel, record.motor, record.carrier)
+    check_device(device)
+    return device
 
 
 def seat_of(record: RobotRecord) -> RecordedSeat:

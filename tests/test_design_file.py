@@ -1,13 +1,16 @@
 """design.json is a contract: files that older versions wrote still read, new fields come back."""
 
 import json
+import os
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from wheels import EC45, EC45_BODY, geared
 
 from ocs_design.design import NO_CARRIER
-from ocs_design.design_file import design_to_json, read_design
+from ocs_design.design_file import LARGEST, design_to_json, read_design
+from ocs_design.exceptions import OcsError
 
 OLD = Path(__file__).parent / "data" / "design_0_1_0.json"
 """By `size examples/solo12.urdf --no-validate` of version 0.1.0, which knew no motors."""
@@ -52,3 +55,27 @@ def assert_within(old, new, where):
             assert_within(one, other, f"{where}[{index}]")
     else:
         assert old == new, where
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"[" * 100_000, "not a design.json"),
+        (b'{"schema_version": 1, "tool": ' + b"[" * 100_000, "design.json"),
+        (b'{"schema_version": 1, "tool": {"name": "\xa9"}}', "utf-8"),
+        (b'{"schema_version": 1, "tool": {"name": "\\ud800"}}', "design.json"),
+        (b" " * (LARGEST + 1), "larger than 16 MiB"),
+    ],
+    ids=["deep", "deep inside", "not UTF-8", "half a character", "gigantic"],
+)
+def test_what_no_program_wrote_is_refused(tmp_path, content, words):
+    path = tmp_path / "design.json"
+    path.write_bytes(content)
+    with pytest.raises(OcsError, match=words):
+        read_design(path)
+
+
+def test_a_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "design.json")
+    with pytest.raises(OcsError, match="no plain file"):
+        read_design(tmp_path / "design.json")
