@@ -3,8 +3,25 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ocs_design.exceptions import RobotError
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.robot.tree import Joint, Placement, Shape
+
+MOST_LINKS = 2000
+"""Of a robot; public ones have up to 150, and time grows with the square."""
+
+
+def check_number_of_links(count: int) -> None:
+    """Refuse what is no robot but would be computed for minutes.
+
+    Raises:
+        RobotError: there are too many.
+    """
+    if count > MOST_LINKS:
+        raise RobotError(
+            f"the file has {count} links, more than {MOST_LINKS}",
+            hint="leave out what is not the robot's, or join what moves as one",
+        )
 
 
 @dataclass(frozen=True, eq=False)

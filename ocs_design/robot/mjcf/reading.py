@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from ocs_design.exceptions import RobotError
-from ocs_design.robot.files.links import Connection, Link
+from ocs_design.robot.files.links import Connection, Link, check_number_of_links
 from ocs_design.robot.files.lumping import lump
 from ocs_design.robot.files.mimics import resolve_mimics
 from ocs_design.robot.files.plausibility import check_plausible
@@ -48,6 +48,7 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
         raise RobotError(
             "the model's bodies are nested too deeply", hint="a thousand levels are too many"
         ) from error
+    check_number_of_links(model.nbody)
     _check_numbers(model)
     tree = _tree(model, spec.modelname, remarks)
     check_plausible(tree, remarks)

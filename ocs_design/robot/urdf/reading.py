@@ -8,7 +8,7 @@ from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 from ocs_design.exceptions import RobotError
-from ocs_design.robot.files.links import Connection, Link
+from ocs_design.robot.files.links import Connection, Link, check_number_of_links
 from ocs_design.robot.files.lumping import lump
 from ocs_design.robot.files.mimics import resolve_mimics
 from ocs_design.robot.files.plausibility import check_plausible
@@ -44,6 +44,7 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
 
 def _read_links(root: ET.Element, find_mesh: FindMesh, remarks: Remarks) -> Mapping[str, Link]:
     palette = read_palette(root)
+    check_number_of_links(len(root.findall("link")))
     links = [read_link(element, find_mesh, palette, remarks) for element in root.findall("link")]
     if not links:
         raise RobotError(

@@ -15,6 +15,8 @@ from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import RobotError
 from ocs_design.robot.remarks import Remarks
 
+MOST_ELEMENTS = 500_000
+
 LARGEST_NUMBER = 1e75
 """Beyond it a square of a square overflows, and zero times that is no number."""
 
@@ -24,8 +26,9 @@ def parse_xml(content: bytes, remarks: Remarks) -> ET.Element:
 
     Bytes that are not what the file declares are read as Windows-1252, with a remark.
     """
+    _check_size(content)
     try:
-        root = ET.fromstring(content)
+        root = _parsed(content)
     except ET.ParseError as error:
         root = _parse_as_cp1252(content, error, remarks)
     except (ValueError, LookupError) as error:
@@ -39,6 +42,42 @@ def parse_xml(content: bytes, remarks: Remarks) -> ET.Element:
     return root
 
 
+def _check_size(content: bytes) -> None:
+    """Refuse what would take gigabytes as elements: each takes fifty times its four bytes."""
+    if content.count(b"<") > 2 * MOST_ELEMENTS:
+        raise _too_many_elements()
+
+
+def _parsed(content: bytes | str) -> ET.Element:
+    """The root; where the file defines entities, which may hold elements, those are counted."""
+    defines = "ENTITY" in content if isinstance(content, str) else _has_entities(content)
+    return ET.fromstring(content, ET.XMLParser(target=_CountingBuilder()) if defines else None)
+
+
+def _has_entities(content: bytes) -> bool:
+    """In whatever encoding."""
+    return b"ENTITY" in content or b"E\0N\0T\0I\0T\0Y" in content
+
+
+class _CountingBuilder(ET.TreeBuilder):
+    """Stops at more elements than any robot has."""
+
+    _count = 0
+
+    def start(self, tag: str, attrs: dict[str, str], /) -> ET.Element:
+        self._count += 1
+        if self._count > MOST_ELEMENTS:
+            raise _too_many_elements()
+        return super().start(tag, attrs)
+
+
+def _too_many_elements() -> RobotError:
+    return RobotError(
+        f"the XML has more than {MOST_ELEMENTS:,} elements",
+        hint="a robot of a thousand links has twenty thousand; leave out what is not the robot's",
+    )
+
+
 def _parse_as_cp1252(content: bytes, error: ET.ParseError, remarks: Remarks) -> ET.Element:
     try:
         content.decode("utf-8")
@@ -48,7 +87,7 @@ def _parse_as_cp1252(content: bytes, error: ET.ParseError, remarks: Remarks) -> 
         raise _explained(content, error) from error
     try:
         # A str is parsed as it is, whatever encoding its first line declares.
-        root = ET.fromstring(content.decode("cp1252", errors="replace"))
+        root = _parsed(content.decode("cp1252", errors="replace"))
     except ET.ParseError:
         raise _explained(content, error) from error
     remarks.add(

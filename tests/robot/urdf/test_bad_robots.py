@@ -8,6 +8,8 @@ from urdf_text import LIMIT, TWO_LINKS, inertial, joint, link, robot
 
 from ocs_design.exceptions import RobotError
 from ocs_design.robot.files.loader import load
+from ocs_design.robot.remarks import Remarks
+from ocs_design.robot.urdf.xml import parse_xml
 
 HIP = joint("hip", "trunk", "leg", LIMIT)
 LEG = link("leg", inertial())
@@ -140,3 +142,27 @@ def test_a_missing_mesh_only_warns_once_with_the_count(tmp_path: Path):
     (warning,) = load(path).tree.warnings
     assert warning.startswith("2 meshes")
     assert "package://gone/a.stl" in warning
+
+
+ENTITIES = (
+    '<!DOCTYPE r [<!ENTITY a "'
+    + "<x/>" * 100
+    + '">'
+    + f'<!ENTITY b "{"&a;" * 100}">]><robot>{"&b;" * 60}</robot>'
+)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"<robot>" + b"<x/>" * 1_000_001 + b"</robot>", ENTITIES.encode(), ENTITIES.encode("utf-16")],
+    ids=["in the file", "of entities", "of entities in UTF-16"],
+)
+def test_more_elements_than_any_robot_has_are_refused(content):
+    with pytest.raises(RobotError, match="more than 500,000 elements"):
+        parse_xml(content, Remarks())
+
+
+def test_more_links_than_any_robot_has_are_refused(tmp_path):
+    (tmp_path / "robot.urdf").write_bytes(robot(*(link(f"l{i}") for i in range(2001))))
+    with pytest.raises(RobotError, match="2001 links, more than 2000"):
+        load(tmp_path / "robot.urdf")
