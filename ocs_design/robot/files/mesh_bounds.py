@@ -20,6 +20,9 @@ LARGEST_MESH = {".stl": 128 << 20} | dict.fromkeys(
 Kinds that are not here are not read: those in archives grow without bound when unpacked.
 """
 
+LARGEST_MESH_LENGTH = 1e30
+"""In the mesh's own unit; whatever is larger, or no number, is broken."""
+
 _QUICK_STL, _QUICK_OBJ = 8 << 20, 1 << 16
 """Largest binary STL and OBJ that are read in some ten milliseconds [bytes]."""
 
@@ -80,7 +83,9 @@ def _read_bounds(path: Path, readers: Iterable[BoundsReader]) -> FloatArray | No
         bounds = next((each for each in told if each is not None), None)
     except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
         return None
-    return frozen(bounds) if bounds is not None and np.isfinite(bounds).all() else None
+    if bounds is None or not (np.abs(bounds) < LARGEST_MESH_LENGTH).all():
+        return None
+    return frozen(bounds)
 
 
 def _binary_stl_bounds(path: Path) -> FloatArray | None:

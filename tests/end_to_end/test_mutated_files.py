@@ -1,0 +1,35 @@
+"""A few changed files for every reader; `benchmarks/hostile_input.py` reads thousands of them."""
+
+import random
+from contextlib import suppress
+
+import pytest
+from hostile_readers import READERS
+from mutated import mutated
+
+from ocs_design.exceptions import OcsError
+
+CASES = {"xacro": 4}
+USUAL = 20
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_what_was_not_changed_is_read(name, tmp_path):
+    if name == "xacro":
+        pytest.importorskip("xacro")
+    for content in READERS[name].seeds:
+        (tmp_path / READERS[name].file).write_bytes(content)
+        READERS[name].read(tmp_path / READERS[name].file)
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_a_changed_file_is_read_or_explained(name, tmp_path):
+    if name == "xacro":
+        pytest.importorskip("xacro")
+    reader, draw = READERS[name], random.Random(20261121)
+    path = tmp_path / reader.file
+    for _ in range(CASES.get(name, USUAL)):
+        path.write_bytes(mutated(reader.seeds, reader.words, draw))
+        with suppress(OcsError):
+            reader.read(path)
+        assert {each.name for each in tmp_path.iterdir()} <= {reader.file, "mesh.urdf"}

@@ -1,0 +1,233 @@
+"""Every reader of users' files as one call, and files to begin a search for faults with."""
+
+import struct
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from bad_input import MOTORS, SOLO12_TEXT
+from commands import ROOT
+from exported import MJCF
+from urdf_text import LIMIT, inertial, joint, link, robot
+
+from ocs_design.catalogue.gears import load_gears
+from ocs_design.catalogue.motors import load_motors
+from ocs_design.design_file import design_to_json, read_design
+from ocs_design.export.naming import safe_name
+from ocs_design.inspection import inspect_robot, inspection_to_json
+from ocs_design.recorded import device_of, robot_of, seat_of
+from ocs_design.requirement.reading import read_specification
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.robot.bounds import size
+from ocs_design.robot.files.mesh_bounds import mesh_bounds
+from ocs_design.robot.files.srdf import read_group_states
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.spec.model import build_spec
+
+GEARS = b"""[[gear]]
+name = "one to five"
+maker = "me"
+source = "bench"
+kind = "fixed"
+ratios = "5"
+mass_kg = 0.05
+inertia_kg_m2 = 1e-7
+inertia_at = "motor"
+efficiency = 0.8
+torque_max_nm = 2.0
+
+[[gear]]
+name = "belt"
+maker = "me"
+source = "bench"
+kind = "belt"
+efficiency = 0.95
+mass_kg = 0.0358
+teeth = "20 30 40"
+pitch_m = 0.002
+width_m = 0.006
+belt_mass_kg_per_m = 0.0112
+working_tension_n = 26.2
+belt_speed_max_m_s = 33
+pulley_density_kg_m3 = 2700
+"""
+SRDF = b"""<robot name="test"><group name="leg"><joint name="hip"/></group>
+<group_state name="sit" group="leg"><joint name="hip" value="0.5"/></group_state>
+<group_state name="lie" group="leg"><joint name="hip" value="1 0 0"/></group_state></robot>"""
+XACRO = b"""<robot name="test" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:property name="m" value="2.5"/><xacro:arg name="side" default="left"/>
+<xacro:macro name="leg" params="prefix mass:=1 *block"><xacro:if value="${mass > 0}">
+<link name="${prefix}leg"><inertial><mass value="${2*mass}"/>
+<inertia ixx="1" iyy="${max(1, 0.5)}" izz="1"/></inertial></link><xacro:insert_block name="block"/>
+</xacro:if></xacro:macro><xacro:leg prefix="$(arg side)_" mass="${m}"><origin xyz="0 0 1"/>
+</xacro:leg></robot>"""
+URDF = robot(
+    link(
+        "trunk",
+        inertial(2.0, "0.01 0.02 0.03"),
+        '<visual><origin xyz="0 0 1" rpy="0 1 0"/><geometry><box size="1 2 3"/></geometry>'
+        '<material name="red"><color rgba="1 0 0 1"/></material></visual>',
+        '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+        '<collision><geometry><cylinder radius="0.1" length="1"/></geometry></collision>'
+        '<collision><geometry><mesh filename="package://a/b.stl" scale="1 1 1"/></geometry>'
+        "</collision>",
+    ),
+    link("hip", inertial(), "<collision/>"),
+    link("leg", inertial()),
+    joint("h", "trunk", "hip", LIMIT, '<axis xyz="1 0 0"/><origin xyz="0 1 0"/>'),
+    joint("k", "hip", "leg", LIMIT, '<mimic joint="h" multiplier="2" offset="1"/>'),
+)
+TETRAHEDRON = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+FACETS = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
+OBJ = (
+    "mtllib x.mtl\n"
+    + "".join(f"v {x} {y} {z}\n" for x, y, z in TETRAHEDRON)
+    + "vt 0 0\nvn 0 0 1\n"
+    + "".join(f"f {a + 1}/1/1 {b + 1}/1/1 {c + 1}/1/1\n" for a, b, c in FACETS)
+).encode()
+ASCII_STL = (
+    "solid x\n"
+    + "".join(
+        "facet normal 0 0 1\nouter loop\n"
+        + "".join("vertex {} {} {}\n".format(*TETRAHEDRON[corner]) for corner in facet)
+        + "endloop\nendfacet\n"
+        for facet in FACETS
+    )
+    + "endsolid x\n"
+).encode()
+BINARY_STL = (
+    bytes(80)
+    + struct.pack("<I", len(FACETS))
+    + b"".join(
+        struct.pack("<12fH", 0, 0, 1, *(x for corner in facet for x in TETRAHEDRON[corner]), 0)
+        for facet in FACETS
+    )
+)
+DAE = (
+    b'<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>'
+    b'<unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>'
+    b'<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">'
+    b'0 0 0 1 0 0 0 1 1</float_array><technique_common><accessor source="#a" count="3" stride="3">'
+    b'<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>'
+    b'</accessor></technique_common></source><vertices id="v"><input semantic="POSITION" '
+    b'source="#p"/></vertices><triangles count="1"><input semantic="VERTEX" source="#v" '
+    b'offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>'
+    b'<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node>'
+    b'</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>'
+    b"</COLLADA>"
+)
+BY_HAND = robot_by_hand(2.5, (0.032, 0.055, 0.07))
+
+
+@dataclass(frozen=True)
+class Reader:
+    """What reads one kind of file.
+
+    Attributes:
+        file: the name that it is given.
+        read: reads it and does what comes at once of it; an OcsError is the only way out.
+        seeds: that it can read.
+        words: that have a meaning for it.
+    """
+
+    file: str
+    read: Callable[[Path], object]
+    seeds: tuple[bytes, ...]
+    words: tuple[bytes, ...] = field(default=())
+
+
+def read_and_inspect(path: Path) -> object:
+    """As `ocs-design inspect` does."""
+    return inspection_to_json(inspect_robot(Specification(robot=RobotSection(file=str(path)))))
+
+
+def read_and_build(path: Path) -> object:
+    """A robot and MuJoCo's model of it."""
+    read_and_inspect(path)
+    return build_spec(read_robot(path), visuals=False).spec.compile()
+
+
+def read_and_resolve(path: Path) -> object:
+    """A specification, and all that it leaves open."""
+    specification = read_specification(path)
+    return resolve(specification, BY_HAND, size(BY_HAND.tree, BY_HAND.posture, BY_HAND.trunk))
+
+
+def read_and_restore(path: Path) -> object:
+    """A design, the live values behind it, and what is made from them without a robot."""
+    design = read_design(path)
+    robot = robot_of(design.robot, path, {}) if design.robot.format == "manual" else None
+    device = device_of(design.ocs)
+    return (
+        safe_name(design.robot.name),
+        device.mass,
+        seat_of(design.robot),
+        robot,
+        design_to_json(design),
+    )
+
+
+def read_mesh_bounds(path: Path) -> object:
+    """How large a mesh is; one that cannot be read has no bounds."""
+    for cached in ("_raw_bounds", "_quick_bounds"):
+        mesh_bounds.__globals__[cached].cache_clear()
+    return mesh_bounds(path, (1.0, 1.0, 1.0))
+
+
+def build_with_mesh(path: Path) -> object:
+    """A robot whose trunk is that mesh, in MuJoCo."""
+    urdf = path.with_name("mesh.urdf")
+    shape = f'<collision><geometry><mesh filename="{path.name}"/></geometry></collision>'
+    urdf.write_bytes(robot(link("trunk", inertial(2.0, "0.01 0.02 0.03"), shape)))
+    read_mesh_bounds(path)
+    return build_spec(read_robot(urdf), visuals=False).spec.compile()
+
+
+XML_WORDS = (
+    *(b"<origin ", b"<robot>", b"<link name=", b"<joint ", b'type="fixed"', b'type="floating"'),
+    *(b"<mimic ", b"<limit ", b"xyz=", b"rpy=", b"<!DOCTYPE ", b"<!ENTITY ", b"&#0;", b"&amp;"),
+    *(b"<![CDATA[", b'<?xml encoding="utf-16"?>', b"xmlns=", b"xmlns:xacro="),
+)
+MJCF_WORDS = (
+    *(b'<include file="x.xml"/>', b"<default class=", b"<freejoint/>", b'type="ball"', b"quat="),
+    *(b'type="mesh"', b"euler=", b"<compiler ", b"<option ", b"<size memory=", b"<flag "),
+    *(b"<composite ", b"<replicate count=", b"<frame ", b"<key ", b"childclass=", b"<tendon>"),
+    *(b"fromto=", b"<plugin ", b"<flexcomp ", b"inertiafromgeom=", b"meshdir=", b"<equality>"),
+)
+XACRO_WORDS = (
+    *(b"${", b"$(arg x)", b"$(eval 1)", b"$(env HOME)", b"$(find x)", b"xacro:include", b"**"),
+    *(b"xacro:property", b"xacro:if", b"xacro:macro", b"xacro:element", b"xacro:call", b"lambda"),
+    *(b"xacro.load_yaml('a')", b"python.", b"lazy_eval=", b'scope="global"'),
+)
+TOML_WORDS = tuple(
+    b"[[maneuver]]|[flywheel]|[ocs]|[motor]|[requirement]|kind = 'pitch'|r_max|'30mm'|{|}|'''|0x10|"
+    b"1979-05-27|true|nan|inf|-0.0|1e400|[robot]|mass =|inertia =".split(b"|")
+)
+
+READERS = {
+    "urdf": Reader("x.urdf", read_and_inspect, (URDF, SOLO12_TEXT), XML_WORDS),
+    "mjcf": Reader("x.xml", read_and_build, (MJCF.encode(),), XML_WORDS + MJCF_WORDS),
+    "xacro": Reader("x.xacro", read_and_inspect, (XACRO,), XML_WORDS + XACRO_WORDS),
+    "srdf": Reader("x.srdf", lambda path: read_group_states(path.read_bytes()), (SRDF,), XML_WORDS),
+    "specification": Reader(
+        "x.toml",
+        read_and_resolve,
+        tuple((ROOT / "examples" / name).read_bytes() for name in ("by_hand.toml", "solo12.toml")),
+        TOML_WORDS,
+    ),
+    "motors": Reader(
+        "x.csv", load_motors, (MOTORS.replace(b"plenty", b"1").replace(b"413.5", b""),)
+    ),
+    "gears": Reader("x.toml", load_gears, (GEARS,), TOML_WORDS),
+    "design": Reader(
+        "design.json",
+        read_and_restore,
+        ((ROOT / "tests" / "data" / "design_0_1_0.json").read_bytes(),),
+        (b"null", b"1e999", b"NaN", b"[", b"{", b'"\\u001b"', b'"\\ud800"'),
+    ),
+    "stl": Reader("x.stl", build_with_mesh, (BINARY_STL, ASCII_STL)),
+    "obj": Reader("x.obj", build_with_mesh, (OBJ,)),
+    "dae": Reader("x.dae", build_with_mesh, (DAE,), XML_WORDS),
+}
