@@ -29,7 +29,7 @@ from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world import WorldBuilder
-from ocs_design.sizing.carrier import drive_carrier
+from ocs_design.sizing.carrier import Carrier, drive_moments
 from ocs_design.sizing.margins.driven_wheel import DrivenWheel
 from ocs_design.sizing.placement import place_on_top
 
@@ -70,7 +70,7 @@ def on_paper_wheel(robot: Robot, motor: Motor, voltage: float) -> Device:
         bus_voltage=voltage,
     )
     centers = place_on_top(robot)(OUTER_RADIUS, HEIGHT)
-    return assemble_driven(wheel, drive_carrier(motor, DIRECT), INCIDENCE, centers)
+    return assemble_driven(wheel, Carrier.of(drive_moments(motor, DIRECT)), INCIDENCE, centers)
 
 
 def fly(

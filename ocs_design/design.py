@@ -152,7 +152,8 @@ class Device:
         modules: left and right.
         flywheel: of each module.
         motor: of each module.
-        carrier: what of each module stands still with the trunk, at the wheel's centre.
+        carrier: what of each module stands still with the trunk, in the module's own frame
+            (`sizing.incidence.module_frames`).
     """
 
     incidence: float
@@ -163,7 +164,7 @@ class Device:
 
     @property
     def mass(self) -> float:
-        """Of both modules: wheels, motors, gears and housings [kg]."""
+        """Of both modules: wheels, motors, gears, housings and feet [kg]."""
         return 2.0 * (self.flywheel.mass + self.carrier.mass)
 
     @property

@@ -2,13 +2,15 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain, product
 
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.design import Device, Module
+from ocs_design.design import Device
 from ocs_design.exceptions import SpecificationError
 from ocs_design.export.naming import flywheel_name
+from ocs_design.module_solids import ModuleSolids, device_size, module_solids
 from ocs_design.requirement.envelope import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass_properties import MassProperties
@@ -19,7 +21,6 @@ from ocs_design.robot.obstacles.probes import Drum
 from ocs_design.robot.obstacles.reach import Reach, reaches
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.free_place import place_free
-from ocs_design.sizing.housing import housing_height, housing_outer_radius
 from ocs_design.units import format_quantity
 
 
@@ -38,7 +39,7 @@ class Clearance:
 
 @dataclass(frozen=True, eq=False)
 class Mounting:
-    """Modules are their housings, or bare wheels where they have none, at every incidence flown.
+    """Modules are their housings, motors and feet, or bare wheels, at every incidence flown.
 
     Attributes:
         nearest: in the nominal posture; None if the robot has no geometry.
@@ -69,10 +70,10 @@ def mounting_of(
     """
     obstacles = obstacles_of(robot)
     turned = {each.incidence: each for each in (device, *(device.as_flown(m) for m in maneuvers))}
-    drums = [_drums(each) for each in turned.values()]
-    solids = [drum for pair in drums for drum in pair]
+    pairs = [_both(each) for each in turned.values()]
+    solids = [solid for pair in pairs for module in pair for solid in module.all]
     return Mounting(
-        nearest=_nearest_of_all(obstacles, device, drums),
+        nearest=_nearest_of_all(obstacles, device, pairs),
         landing=_clearance(_in_landings(obstacles, solid) for solid in solids),
         reachable=reaches(obstacles, solids),
         com_shift=whole.com - robot.com,
@@ -122,26 +123,37 @@ def _hits(mounting: Mounting) -> Iterator[str]:
 def _hint(robot: Robot, device: Device, envelope: Envelope, *, stated: bool) -> str:
     if not stated:
         return "no free place was found: give one with --position X,Y,Z"
-    best, wheel = place_free(robot, envelope), device.flywheel
+    best = place_free(robot, envelope)
     if not best.free:
         return "no free place was found"
-    housing = housing_outer_radius(wheel.outer_radius), housing_height(wheel.height)
-    place = ",".join(f"{1e3 * float(value):.1f}mm" for value in best.place(*housing)[0])
+    left, _ = best.place.centers(device_size(device))
+    place = ",".join(f"{1e3 * float(value):.1f}mm" for value in left)
     return f"free would be --position {place}, {best.face} the trunk"
 
 
 def _nearest_of_all(
-    obstacles: Obstacles, device: Device, drums: Sequence[tuple[Drum, Drum]]
+    obstacles: Obstacles, device: Device, pairs: Sequence[tuple[ModuleSolids, ModuleSolids]]
 ) -> Clearance | None:
-    """Of all links and of the other module, which is named after its wheel."""
+    """Of all links and of the other module, which is named after its wheel.
+
+    A foot stands on the trunk, and is not near it.
+    """
+    limbs = [part for part in obstacles.parts if part.limb]
+    modules = [module for pair in pairs for module in pair]
+    around = ((module.body, obstacles.parts) for module in modules)
+    below = ((module.foot, limbs) for module in modules)
     nearest = _clearance(
-        obstacles.nearest(drum, obstacles.nominal, obstacles.parts)
-        for pair in drums
-        for drum in pair
+        obstacles.nearest(solid, obstacles.nominal, parts)
+        for solids, parts in chain(around, below)
+        for solid in solids
     )
     if nearest is None:
         return None
-    apart = min(obstacles.between(*pair) for pair in drums)
+    apart = min(
+        obstacles.between(*solids)
+        for left, right in pairs
+        for solids in product(left.all, right.all)
+    )
     if apart < nearest.distance:
         return Clearance(flywheel_name(device.modules[1]), apart)
     return nearest
@@ -163,14 +175,6 @@ def _clearance(found: Iterable[Nearest | None]) -> Clearance | None:
     return Clearance(least.part.name, least.distance)
 
 
-def _drums(device: Device) -> tuple[Drum, Drum]:
+def _both(device: Device) -> tuple[ModuleSolids, ModuleSolids]:
     left, right = device.modules
-    return _drum(device, left), _drum(device, right)
-
-
-def _drum(device: Device, module: Module) -> Drum:
-    wheel = device.flywheel
-    radius, height = wheel.outer_radius, wheel.height
-    if device.carrier.mass > 0.0:
-        radius, height = housing_outer_radius(radius), housing_height(height)
-    return Drum(module.position, module.axis, radius, height)
+    return module_solids(device, left), module_solids(device, right)

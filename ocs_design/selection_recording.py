@@ -37,7 +37,7 @@ def _ranked(entry: Candidate) -> RankedRecord:
         wheels_mass=2.0 * entry.wheel_mass,
         motors_mass=2.0 * (entry.motor.mass or 0.0),
         gears_mass=2.0 * entry.gear.mass,
-        housings_mass=2.0 * entry.housing_mass,
+        housings_mass=2.0 * entry.printed_mass,
         spin_inertia=entry.spin_inertia,
         outer_radius=entry.outer_radius,
         height=entry.height,

@@ -3,16 +3,26 @@
 Written from the physics, not from the package: bodies are solid cylinders less their cavities,
 moments are taken about B's origin and moved to the common centre of mass, both wheels and the trunk
 are three coupled equations, and the quickest turn accelerates as long as it can still be braked in
-time. Only the figures of housing, web and hub and the data types come from the package.
+time. Only the figures of web and hub, the outlines of what is printed (`naive_module`) and the data
+types come from the package.
 """
 
-from dataclasses import dataclass
-from math import inf, pi, sqrt
+from math import inf, sqrt
 
 import numpy as np
+from naive_module import (
+    GAP,
+    behind,
+    least_outer,
+    mount_of,
+    printed,
+    room_taken,
+    round_thing,
+)
+from naive_wheel import hub_body
 
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.sizing.housing import CLEARANCE, DENSITY, WALL
+from ocs_design.sizing.foot import PLATE_THICKNESS
 from ocs_design.sizing.web import LIGAMENT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
 
 USABLE = 0.95
@@ -22,81 +32,13 @@ PROOF_SPEED = 1.2
 LEAST_BORE = 0.01
 
 
-@dataclass(frozen=True)
-class Rims:
-    """Hollow cylinders of one density: outer and inner radius and height [m], shape (n,)."""
-
-    outer: np.ndarray
-    inner: np.ndarray
-    height: np.ndarray
-    density: float
-
-    def take(self, rows):
-        return Rims(self.outer[rows], self.inner[rows], self.height[rows], self.density)
-
-    @property
-    def body(self):
-        whole = solid(self.outer, self.height, self.density)
-        return whole - solid(self.inner, self.height, self.density)
-
-    @property
-    def web(self):
-        return solid(self.inner, WEB_THICKNESS, WEB_DENSITY)
-
-    @property
-    def housing(self):
-        gap = CLEARANCE + WALL
-        across, tall = self.outer + gap, self.height + 2.0 * gap
-        cavity = solid(across - WALL, tall - 2.0 * WALL, DENSITY)
-        return solid(across, tall, DENSITY) - cavity
-
-    @property
-    def reach(self):
-        """From the centre of a housing to its edge [m]."""
-        gap = CLEARANCE + WALL
-        return np.hypot(self.outer + gap, self.height / 2.0 + gap)
-
-
-def solid(radius, height, density):
-    """Mass, inertia about the axis and across it of a solid cylinder, shape (3, n)."""
-    mass = density * pi * radius**2 * height
-    return np.stack([mass, mass * radius**2 / 2.0, mass * (3.0 * radius**2 + height**2) / 12.0])
-
-
-def hub_body(hub):
-    """Beyond the web that it stands in, less its bore and its bolts' holes, one by one."""
-    boss = solid(hub.radius, hub.height, WEB_DENSITY) - solid(
-        hub.radius, WEB_THICKNESS, WEB_DENSITY
-    )
-    body = boss - solid(hub.bore_radius, hub.height, WEB_DENSITY)
-    for bolt in range(hub.bolts):
-        mass, axial, across = solid(hub.bolt_hole_radius, hub.height, WEB_DENSITY)
-        angle = 2.0 * pi * bolt / hub.bolts
-        off = mass * hub.bolt_circle_radius**2
-        body = body - np.array([mass, axial + off, across + off * np.sin(angle) ** 2])
-    return body
-
-
-def wheel_of(chosen):
-    """Mass, inertia about the axis and across it of a selected wheel, without its rotor."""
-    size = (chosen.outer_radius, chosen.inner_radius, chosen.height)
-    rims = Rims(*size, chosen.material.density)
-    return rims.body if chosen.hub is None else rims.body + rims.web + hub_body(chosen.hub)
-
-
 class Drive:
     """A motor behind a gear at a supply, seen at the wheel; None of its figures is missing."""
 
     def __init__(self, problem, motor, gear, points=3000):
         rotor = motor.rotor_inertia or 0.0
-        radius, length = (motor.diameter or 0.0) / 2.0, motor.length or 0.0
-        self.standing = np.array(
-            [
-                motor.mass + gear.mass,
-                motor.mass * radius**2 / 2.0,
-                motor.mass * (3.0 * radius**2 + length**2) / 12.0,
-            ]
-        )
+        self.motor, self.mount = motor, mount_of(motor)
+        self.motor_mass, self.gear_mass = motor.mass, gear.mass
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
         if problem.web:
             hub = hub_of(motor, direct=gear.name == "direct")
@@ -147,6 +89,17 @@ class Drive:
             2.0 * self.limit
         )
 
+    def standing(self, rims):
+        """Motor, gear, housing and foot, see `naive_module`, shape (6, n)."""
+        radius, length = (self.motor.diameter or 0.0) / 2.0, self.motor.length or 0.0
+        axial = self.motor_mass * radius**2 / 2.0
+        across = self.motor_mass * (3.0 * radius**2 + length**2) / 12.0
+        there = -(rims.height / 2.0 + GAP + PLATE_THICKNESS + length / 2.0)
+        one = np.ones_like(rims.outer)
+        motor = round_thing(self.motor_mass * one, axial * one, across * one)
+        gear = round_thing(self.gear_mass * one, 0.0 * one, 0.0 * one)
+        return behind(motor + gear, there) + printed(rims.outer, rims.height, self.mount)
+
     def wheel(self, rims):
         """Rim, web and hub: mass, inertia about the axis and across it, shape (3, n)."""
         return rims.body + rims.web + self.hub[:, None] if self.webbed else rims.body
@@ -186,20 +139,25 @@ def usable(motor, gear):
 
 def inertia_on(problem, drive, rims, angle):
     """Of robot and both modules about roll and pitch through the common centre, braked."""
-    mass, axial, across = drive.wheel(rims) + rims.housing + drive.standing[:, None]
+    module = round_thing(*drive.wheel(rims)) + drive.standing(rims)
+    mass, along, up, across, axis, upright = module
     robot, place = problem.robot, problem.place
-    x, y, z = (o + d * rims.reach for o, d in zip(place.origin, place.outward, strict=True))
+    reach, standing = room_taken(rims.outer, rims.height, drive.motor)
+    x, y, z = (o + d * reach for o, d in zip(place.origin, place.outward, strict=True))
+    z = z + standing if place.upright else z
+    sine, cosine = np.sin(angle), np.cos(angle)
     whole = robot.mass + 2.0 * mass
     px, py, pz = robot.com
-    cx = (robot.mass * px + 2.0 * mass * x) / whole
+    cx = (robot.mass * px + 2.0 * (mass * x + along * sine)) / whole
     cy = robot.mass * py / whole
-    cz = (robot.mass * pz + 2.0 * mass * z) / whole
-    tilted = across + (axial - across) * np.array([np.sin(angle) ** 2, np.cos(angle) ** 2])
-    roll = robot.inertia[0, 0] + robot.mass * (py**2 + pz**2) + 2.0 * mass * (y**2 + z**2)
-    pitch = robot.inertia[1, 1] + robot.mass * (px**2 + pz**2) + 2.0 * mass * (x**2 + z**2)
-    roll = roll + 2.0 * tilted[0] - whole * (cy**2 + cz**2)
-    pitch = pitch + 2.0 * tilted[1] - whole * (cx**2 + cz**2)
-    return np.stack([roll, pitch])
+    cz = (robot.mass * pz + 2.0 * (mass * z + up)) / whole
+    # Of one module about B's origin, which is the other's too.
+    xx = mass * x**2 + 2.0 * x * along * sine + across * cosine**2 + axis * sine**2
+    yy = mass * y**2 + 2.0 * y * along * cosine + across * sine**2 + axis * cosine**2
+    zz = mass * z**2 + 2.0 * z * up + upright
+    roll = robot.inertia[0, 0] + robot.mass * (py**2 + pz**2) + 2.0 * (yy + zz)
+    pitch = robot.inertia[1, 1] + robot.mass * (px**2 + pz**2) + 2.0 * (xx + zz)
+    return np.stack([roll - whole * (cy**2 + cz**2), pitch - whole * (cx**2 + cz**2)])
 
 
 def fits(problem, rims, slack=0.0):
@@ -219,6 +177,7 @@ def holds(problem, drive, rims, material, slack=0.0):
     seated = (rims.inner * more >= drive.hub_radius) & (
         rims.height * more >= drive.seat(material.density)
     )
+    seated &= rims.outer * more >= least_outer(drive.mount)
     if material.yield_strength is None or material.poisson_ratio is None:
         return seated
     nu = material.poisson_ratio
@@ -295,4 +254,4 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
 
 def device_mass(drive, rims):
     """Of both modules [kg]."""
-    return 2.0 * (drive.wheel(rims)[0] + rims.housing[0] + drive.standing[0])
+    return 2.0 * (drive.wheel(rims)[0] + drive.standing(rims)[0])

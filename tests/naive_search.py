@@ -5,7 +5,8 @@ from itertools import product
 from math import inf, log, pi
 
 import numpy as np
-from naive_device import Drive, Rims, device_mass, fits, holds, margin, usable
+from naive_device import Drive, device_mass, fits, holds, margin, usable
+from naive_wheel import Rims
 
 COARSE = (31, 12, 8, 26)
 FINE = (7, 7, 7, 81)

@@ -116,8 +116,16 @@ def with_modules(document, device, incidence):
         rim = wheel.spin_inertia - device.motor.rotor_inertia
         parts.append((wheel.mass, module.position, wheel.transverse_inertia * across + rim * along))
         carrier = device.carrier
-        own = carrier.transverse_inertia * across + carrier.axial_inertia * along
-        parts.append((carrier.mass, module.position, own))
+        outward, up = side * axis, np.array([0.0, 0.0, 1.0])
+        forward = np.cross(outward, up)
+        own = (
+            carrier.transverse_inertia * np.outer(forward, forward)
+            + carrier.axial_inertia * along
+            + carrier.vertical_inertia * np.outer(up, up)
+            + carrier.product_of_inertia * (np.outer(outward, up) + np.outer(up, outward))
+        )
+        place = module.position + carrier.along * outward + carrier.up * up
+        parts.append((carrier.mass, place, own))
     mass = sum(part[0] for part in parts)
     com = sum(part[0] * part[1] for part in parts) / mass
     return mass, com, sum(own + shifted(m, c - com) for m, c, own in parts)

@@ -1,5 +1,6 @@
 """The paper's device, and variants of it, for tests."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -90,20 +91,27 @@ def braked_inertia(robot: Robot, device: Device) -> MassProperties:
 
     The rotors' own inertia is the carriers' already.
     """
-    rim, rotor, carrier = device.flywheel, device.motor.rotor_inertia, device.carrier
-    modules = [
+    rim, rotor = device.flywheel, device.motor.rotor_inertia
+    bodies = [
         MassProperties(
-            rim.mass + carrier.mass,
+            rim.mass,
             module.position,
-            _body_of_revolution(
-                rim.spin_inertia - rotor + carrier.axial_inertia,
-                rim.transverse_inertia + carrier.transverse_inertia,
-                module.axis,
-            ),
+            _body_of_revolution(rim.spin_inertia - rotor, rim.transverse_inertia, module.axis),
         )
         for module in device.modules
     ]
-    return combine([robot.mass_properties, *modules])
+    return combine([robot.mass_properties, *bodies, *_carriers(device)])
+
+
+def _carriers(device: Device) -> Iterator[MassProperties]:
+    """Each in the frame that looks away from the other module."""
+    carrier = device.carrier
+    up = np.array([0.0, 0.0, 1.0])
+    for module, side in zip(device.modules, (1.0, -1.0), strict=True):
+        outward = side * module.axis
+        frame = np.column_stack([np.cross(outward, up), outward, up])
+        place = module.position + carrier.along * outward + carrier.up * up
+        yield MassProperties(carrier.mass, place, frame @ carrier.inertia @ frame.T)
 
 
 def _body_of_revolution(axial: float, transverse: float, axis: FloatArray) -> FloatArray:

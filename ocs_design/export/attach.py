@@ -3,7 +3,7 @@
 import mujoco
 
 from ocs_design.design import Device, Module, Motor
-from ocs_design.export.inertials import Inertial, carrier_inertial, flywheel_inertial
+from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
 from ocs_design.export.motor import largest_torque
 from ocs_design.export.naming import (
     PREFIX,
@@ -16,8 +16,10 @@ from ocs_design.export.naming import (
     require_free,
 )
 from ocs_design.export.wheel_frame import wheel_placement
+from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.frames import quaternion
+from ocs_design.robot.spec.inertia import inertial
 from ocs_design.robot.spec.model import trunk_body
 from ocs_design.robot.tree import Placement
 
@@ -39,10 +41,10 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     trunk, base = trunk_body(spec, robot)
     wheels = mujoco.MjSpec()
     frame = wheels.worldbody.add_frame()
-    carrier = carrier_inertial(device)
     for module in device.modules:
         place = base @ wheel_placement(module)
         _add_wheel(wheels, module, device, place).set_frame(frame)
+        carrier = carrier_inertial(device, module)
         if carrier is not None:
             _add_body(wheels, carrier_name(module), carrier, place).set_frame(frame)
     # Bodies added in any other way shift the values of keyframes to wrong joints.
@@ -82,18 +84,18 @@ def _add_wheel(
 
 
 def _add_body(
-    spec: mujoco.MjSpec, name: str, inertial: Inertial, placement: Placement
+    spec: mujoco.MjSpec, name: str, raw: MassProperties, placement: Placement
 ) -> mujoco.MjsBody:
-    """Add a body of revolution; attaching puts the prefix in front of its name."""
-    across = inertial.transverse_inertia
+    """Add a body of these mass properties; attaching puts the prefix in front of its name."""
+    body = inertial(raw)
     return spec.worldbody.add_body(
         name=name.removeprefix(PREFIX),
         pos=placement.position,
         quat=quaternion(placement.rotation),
-        mass=inertial.mass,
-        ipos=(0.0, 0.0, 0.0),
-        iquat=(1.0, 0.0, 0.0, 0.0),
-        inertia=(across, across, inertial.axial_inertia),
+        mass=body.mass,
+        ipos=body.position,
+        iquat=body.quaternion,
+        inertia=body.moments,
         explicitinertial=True,
     )
 

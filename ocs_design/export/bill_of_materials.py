@@ -10,13 +10,8 @@ from ocs_design.design import Device, Flywheel, Motor, Web
 from ocs_design.drive.gear import DIRECT
 from ocs_design.export.fastenings import fastenings
 from ocs_design.export.fitting import standing_remarks
-from ocs_design.sizing.housing import (
-    CLEARANCE,
-    WALL,
-    housing_height,
-    housing_mass,
-    housing_outer_radius,
-)
+from ocs_design.export.workshop import printed_foot, printed_parts
+from ocs_design.sizing.housing import CLEARANCE, WALL
 
 COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
 
@@ -62,7 +57,7 @@ def bill_rows(device: Device) -> Sequence[BillRow]:
     standing = device.carrier.mass - motor.mass - motor.gear_mass
     printed = standing > _MASSLESS
     if printed:
-        rows.append(_housing(wheel))
+        rows += _printed(device)
     return [*rows, *_screws(device, printed=printed)]
 
 
@@ -159,11 +154,14 @@ def _gear(motor: Motor) -> BillRow:
     return BillRow(f"gear {motor.gear}", 2, "", "", motor.gear_mass, source)
 
 
-def _housing(wheel: Flywheel) -> BillRow:
-    radius, height = wheel.outer_radius, wheel.height
-    outside = f"{_mm(2.0 * housing_outer_radius(radius))} x {_mm(housing_height(height))}"
+def _printed(device: Device) -> Iterator[BillRow]:
+    foot = printed_foot(device)
+    drum, lid, base = (part.mass_properties().mass for part in printed_parts(device))
+    across, tall = 2.0 * foot.housing.radius, 2.0 * foot.housing.half_height
     made = f"3-D print, wall {_mm(WALL)}, {_mm(CLEARANCE)} clear of the rim"
-    return BillRow("housing", 2, "PETG", outside, housing_mass(radius, height), made)
+    yield BillRow("housing", 2, "PETG", f"{_mm(across)} x {_mm(tall)}", drum + lid, made)
+    size = f"{_mm(2.0 * foot.base_radius)} x {_mm(foot.wheel_height)} to the axis"
+    yield BillRow("foot", 2, "PETG", size, base, "3-D print, turned to the incidence by hand")
 
 
 def _screws(device: Device, *, printed: bool) -> Iterator[BillRow]:

@@ -1,13 +1,14 @@
 """The device as links and joints of a URDF."""
 
 from ocs_design.design import Device, Flywheel, Module
-from ocs_design.export.inertials import Inertial, carrier_inertial, flywheel_inertial
+from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
 from ocs_design.export.motor import highest_speed, largest_torque
 from ocs_design.export.naming import carrier_name, flywheel_name, joint_name
 from ocs_design.export.standing import plain_standing_visuals, standing_visuals
 from ocs_design.export.standing_text import visuals_urdf
 from ocs_design.export.templates import fill, numbers, quoted
 from ocs_design.export.wheel_frame import wheel_rpy
+from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.robot.robot import Mount
 from ocs_design.robot.rotations import rpy_from_rotation
 from ocs_design.robot.stance.base_frame import BASE_FRAME
@@ -63,29 +64,21 @@ def _module_urdf(device: Device, module: Module, parent: str, mesh: str | None) 
         },
     )
     visuals = visuals_urdf(look(device, module))
-    return wheel + carrier_urdf(device, {**place, "link": carrier_name(module)}, visuals)
-
-
-def carrier_urdf(device: Device, place: dict[str, str], visuals: str) -> str:
-    """What stands still as a fixed link; nothing if it is massless.
-
-    Args:
-        device: to write.
-        place: `link`, `parent`, `position` and `rpy`, ready to stand in XML.
-        visuals: its elements to look at.
-    """
-    carrier = carrier_inertial(device)
+    carrier = carrier_inertial(device, module)
     if carrier is None:
-        return ""
-    return fill("carrier.urdf", {**place, **inertial_values(carrier), "visuals": visuals})
+        return wheel
+    values = {**place, **inertial_values(carrier), "link": carrier_name(module)}
+    return wheel + fill("carrier.urdf", {**values, "visuals": visuals})
 
 
-def inertial_values(inertial: Inertial) -> dict[str, str]:
-    """Mass properties, for templates."""
+def inertial_values(body: MassProperties) -> dict[str, str]:
+    """Mass properties of a body that is symmetric to its yz plane, for templates."""
+    moments = {f"i{axis}{axis}": body.inertia[k, k] for k, axis in enumerate("xyz")}
     return {
-        "mass": numbers(inertial.mass),
-        "transverse_inertia": numbers(inertial.transverse_inertia),
-        "axial_inertia": numbers(inertial.axial_inertia),
+        "mass": numbers(body.mass),
+        "com": numbers(body.com),
+        "iyz": numbers(body.inertia[1, 2]),
+        **{name: numbers(value) for name, value in moments.items()},
     }
 
 

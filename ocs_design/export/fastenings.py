@@ -5,11 +5,15 @@ from dataclasses import dataclass
 
 from ocs_design.design import Device
 from ocs_design.drive.mounting import BoltCircle, Mounting
-from ocs_design.export.workshop import LID_SCREW, printed_foot
+from ocs_design.export.workshop import printed_foot
 from ocs_design.fasteners import IN_PLASTIC, Screw, screw
-from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, TRUNK_SCREW, TRUNK_SCREW_COUNT
-from ocs_design.parts.housing import EAR_COUNT
-from ocs_design.sizing.housing import WALL
+from ocs_design.sizing.foot import (
+    BASE_THICKNESS,
+    PLATE_THICKNESS,
+    TRUNK_SCREW,
+    TRUNK_SCREW_COUNT,
+)
+from ocs_design.sizing.housing import EAR_COUNT, LID_SCREW, WALL
 
 _DEPTH = "check the depth of the motor's thread"
 
@@ -51,7 +55,7 @@ def fastenings(device: Device, *, printed: bool) -> Iterator[Fastening]:
         return
     if printed_foot(device).housing.mount.rings and mounting.stator is not None:
         yield _of(mounting.stator, WALL + PLATE_THICKNESS, "motor on housing and foot")
-    yield Fastening(screw(LID_SCREW), EAR_COUNT, WALL, "lid on drum, which is tapped", IN_PLASTIC)
+    yield Fastening(LID_SCREW, EAR_COUNT, WALL, "lid on drum, which is tapped", IN_PLASTIC)
     mind = "foot on trunk; longer if its thread begins deeper"
     yield Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, BASE_THICKNESS, mind)
 

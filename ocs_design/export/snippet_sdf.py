@@ -56,7 +56,7 @@ def _module(device: Device, module: Module, place: dict[str, str]) -> str:
             "limit": _limit(device),
         },
     )
-    carrier = carrier_inertial(device)
+    carrier = carrier_inertial(device, module)
     if carrier is None:
         return wheel
     link = carrier_name(module)

@@ -9,7 +9,6 @@ import numpy as np
 from ocs_design.design import Device, Module
 from ocs_design.export.attach import WHEEL_CONTACT_BIT
 from ocs_design.export.device_urdf import (
-    carrier_urdf,
     cylinder_urdf,
     device_urdf,
     inertial_values,
@@ -89,11 +88,25 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
         "right_position": numbers(right.position),
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
-        "carrier": indent(carrier_urdf(device, _MACRO_PLACE, _macro_visuals(device)), "  "),
+        "carrier": indent(_macro_carrier(device), "  "),
         "plugin": MOCK_PLUGIN,
         "ros2_control": indent(_macro_ros2_control(device), "    "),
     }
     return _write(path, fill("ocs.urdf.xacro", values))
+
+
+def _macro_carrier(device: Device) -> str:
+    """What stands still, with what differs between the sides left to the macro's argument."""
+    left, right = (carrier_inertial(device, module) for module in device.modules)
+    if left is None or right is None:
+        return ""
+    own, other = inertial_values(left), inertial_values(right)
+    sided = {
+        name: f"${{'{own[name]}' if side == 'left' else '{other[name]}'}}"
+        for name in ("com", "iyz")
+    }
+    values = {**_MACRO_PLACE, **own, **sided, "visuals": _macro_visuals(device)}
+    return fill("carrier.urdf", values)
 
 
 def _macro_visuals(device: Device) -> str:
@@ -135,7 +148,8 @@ def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
 
 
 def _module_mjcf(device: Device, module: Module) -> str:
-    placement, wheel, carrier = wheel_placement(module), device.flywheel, carrier_inertial(device)
+    placement, wheel = wheel_placement(module), device.flywheel
+    carrier = carrier_inertial(device, module)
     place = {
         "position": numbers(placement.position),
         "quaternion": numbers(quaternion(placement.rotation)),

@@ -14,11 +14,12 @@ import numpy as np
 from ocs_design.design import Device, Module
 from ocs_design.drive.gear import DIRECT
 from ocs_design.export.workshop import printed_foot
-from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
+from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.mesh import Mesh, part_mesh
 from ocs_design.parts.part import Part
 from ocs_design.robot.tree import Placement, ShapeKind
+from ocs_design.sizing.foot import BASE_THICKNESS, PLATE_THICKNESS
 
 HOUSING_MESH, FOOT_MESH = Path("meshes/ocs_housing.stl"), Path("meshes/ocs_foot.stl")
 """In metres, beside every exported robot file: drum with lid in the frame of the left wheel, and

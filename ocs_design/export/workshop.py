@@ -7,7 +7,6 @@ from typing import TypeVar
 from ocs_design.design import Device
 from ocs_design.export.made_wheel import made_wheel
 from ocs_design.export.stl import MILLIMETRES, wheel_meshes
-from ocs_design.fasteners import screw
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.mesh import part_mesh
@@ -16,9 +15,7 @@ from ocs_design.parts.part import Part
 from ocs_design.parts.stl import mesh_stl
 from ocs_design.parts.threemf import threemf_bytes
 from ocs_design.parts.wheel_parts import wheel_parts
-from ocs_design.sizing.housing import WALL, housing_outer_radius
-
-LID_SCREW = "M2"
+from ocs_design.sizing.housing import LID_SCREW, WALL, housing_outer_radius
 
 Piece = TypeVar("Piece")
 
@@ -52,7 +49,7 @@ def export_printed(device: Device, folder: Path) -> str:
     """Drum, lid and foot of one module as STL, and all of them in `housing.3mf`.
 
     Returns:
-        What they weigh against what the design counts.
+        What they weigh, and whether the design counts it.
     """
     parts = printed_parts(device)
     meshes = {part.name: part_mesh(part) for part in parts}
@@ -78,16 +75,16 @@ def printed_foot(device: Device) -> Foot:
     wheel, mount = device.flywheel, motor_mount(device.motor.mounting)
     if mount.reach > housing_outer_radius(wheel.outer_radius) - 2.0 * WALL:
         mount = Mount()
-    return Foot(Housing(wheel.outer_radius, wheel.height, mount, screw(LID_SCREW)))
+    return Foot(Housing(wheel.outer_radius, wheel.height, mount, LID_SCREW))
 
 
 def _weighed(parts: tuple[Part, ...], device: Device) -> str:
     masses = {part.name: 1e3 * part.mass_properties().mass for part in parts}
-    counted = 1e3 * (device.carrier.mass - device.motor.mass - device.motor.gear_mass)
     shell = sum(mass for name, mass in masses.items() if name != "foot")
+    counted = "" if device.carrier.mass > 0.0 else "; a device without motors counts none of it"
     return (
-        f"printed parts of one module: drum and lid {shell:.1f} g, where the design counts "
-        f"{counted:.1f} g; the foot's {masses['foot']:.1f} g are not in the design"
+        f"printed parts of one module: drum and lid {shell:.1f} g, foot {masses['foot']:.1f} g"
+        f"{counted}"
     )
 
 

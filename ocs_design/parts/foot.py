@@ -7,47 +7,38 @@ points forward stands at the mark of the angle.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import hypot, pi, sqrt
+from math import pi
 
 import numpy as np
 
-from ocs_design.fasteners import Screw, screw
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.outline import Outline, arc_slot, rectangle
 from ocs_design.parts.part import Part
 from ocs_design.parts.solids import Prism, hollow_cylinder
 from ocs_design.robot.rotations import rotation_about
 from ocs_design.robot.tree import Placement
-from ocs_design.sizing.housing import CLEARANCE, DENSITY, WALL
-
-BASE_THICKNESS = 3.0e-3
-"""[m]: the trunk's screws press on it."""
-
-PLATE_THICKNESS = 5.0e-3
-"""[m]: 20 g on a module of 0.35 kg, 40 mm above the base, bend a plate 30 mm wide with 22 MPa."""
-
-PLATE_MARGIN = 3.0e-3
-"""Of the plate around the mount's holes [m]."""
-
-PLATE_SHARE = 0.5
-"""Of the plate's half width in the housing's radius, at least."""
-
-TRUNK_SCREW = screw("M3")
-
-TRUNK_SCREW_COUNT = 2
-"""Through a slot each."""
+from ocs_design.sizing.foot import (
+    BASE_THICKNESS,
+    LONG_MARK_EVERY,
+    LONG_MARK_LENGTH,
+    MARK_DEPTH,
+    MARK_EVERY,
+    MARK_LENGTH,
+    MARK_WIDTH,
+    TRUNK_SCREW,
+    base_radius,
+    plate_back,
+    plate_half_width,
+    slot_radius,
+    wheel_height,
+)
+from ocs_design.sizing.housing import DENSITY, WALL
 
 HALF_SWING = pi / 4.0
 """Of each slot to both sides of the wheel's axis [rad]: incidence 0..90 degrees.
 
 So the trunk's screws stand at 45 degrees to the lateral direction.
 """
-
-MARK_EVERY, LONG_MARK_EVERY, MARKS_TO = 10, 30, 90
-"""Degrees, to both sides: left and right feet are the same part."""
-
-MARK_WIDTH, MARK_DEPTH, MARK_LENGTH, LONG_MARK_LENGTH = 0.8e-3, 0.4e-3, 2.5e-3, 4.0e-3
-"""[m]: two lines of a 0.4 mm nozzle wide, two layers of 0.2 mm deep."""
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -58,40 +49,35 @@ class Foot:
 
     Attributes:
         housing: that it carries, with the holes that its plate shares.
-        trunk_screw: two of them hold the foot.
     """
 
     housing: Housing
-    trunk_screw: Screw = TRUNK_SCREW
 
     @property
     def wheel_height(self) -> float:
         """Of the wheel's centre above the underside [m]."""
-        return BASE_THICKNESS + CLEARANCE + self.housing.radius
+        return wheel_height(self.housing.rim_radius)
 
     @property
     def half_width(self) -> float:
         """Of the plate [m]."""
-        reach = self.housing.mount.reach + PLATE_MARGIN
-        return max(reach, PLATE_SHARE * self.housing.radius)
+        return plate_half_width(self.housing.rim_radius, self.housing.mount.reach)
 
     @property
     def back(self) -> float:
         """Of the plate, from the wheel's middle [m]."""
-        return self.housing.half_height + PLATE_THICKNESS
+        return plate_back(self.housing.half_height)
 
     @property
     def slot_radius(self) -> float:
         """Where heads clear the plate at the ends of the slots [m]."""
-        return sqrt(2.0) * (self.back + self.trunk_screw.head_diameter / 2.0 + WALL)
+        return slot_radius(self.housing.rim_height)
 
     @property
     def base_radius(self) -> float:
         """Around the marks outside the slots, the heads in them and the plate [m]."""
-        head = self.trunk_screw.head_diameter / 2.0
-        wall = self.trunk_screw.clearance_hole / 2.0 + WALL
-        inside = max(self.slot_radius + max(head, wall), hypot(self.half_width, self.back))
-        return inside + LONG_MARK_LENGTH + WALL
+        size = self.housing.rim_radius, self.housing.rim_height
+        return base_radius(*size, self.housing.mount.reach)
 
     @property
     def placement(self) -> Placement:
@@ -127,7 +113,7 @@ def _slots(foot: Foot) -> Iterator[Prism]:
     for middle in (pi / 2.0, -pi / 2.0):
         outline = arc_slot(
             foot.slot_radius,
-            foot.trunk_screw.clearance_hole,
+            TRUNK_SCREW.clearance_hole,
             middle - HALF_SWING,
             middle + HALF_SWING,
         )
@@ -135,8 +121,8 @@ def _slots(foot: Foot) -> Iterator[Prism]:
 
 
 def _marks(foot: Foot) -> Iterator[Prism]:
-    """Grooves along the base's edge, symmetric to forward."""
-    for degrees in range(-MARKS_TO, MARKS_TO + 1, MARK_EVERY):
+    """Grooves all along the base's edge."""
+    for degrees in range(0, 360, MARK_EVERY):
         length = MARK_LENGTH if degrees % LONG_MARK_EVERY else LONG_MARK_LENGTH
         end = foot.base_radius - WALL
         groove = rectangle(end - length, end, -MARK_WIDTH / 2.0, MARK_WIDTH / 2.0)

@@ -18,12 +18,11 @@ from ocs_design.parts.solids import Prism
 from ocs_design.robot.rotations import rotation_about
 from ocs_design.sizing.housing import (
     DENSITY,
+    EAR_COUNT,
     WALL,
-    housing_height,
+    half_height,
     housing_outer_radius,
 )
-
-EAR_COUNT = 4
 
 FIRST_EAR = pi / 4.0
 """Angle from the x axis [rad]: nothing stands out below, above, before and behind."""
@@ -70,7 +69,7 @@ class Housing:
     @property
     def half_height(self) -> float:
         """From the wheel's middle to the outside of floor and lid [m]."""
-        return housing_height(self.rim_height) / 2.0
+        return half_height(self.rim_height)
 
     @property
     def ear_reach(self) -> float:

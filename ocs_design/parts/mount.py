@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ocs_design.drive.mounting import Face, Mounting
+from ocs_design.drive.mounting import Mounting
 from ocs_design.parts.outline import circle
 from ocs_design.parts.solids import Prism
 from ocs_design.parts.wheel import HoleRing
 from ocs_design.robot.tree import Placement
-from ocs_design.sizing.housing import WALL
+from ocs_design.sizing.mount import mount_holes
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,8 @@ class Mount:
 
 
 def motor_mount(mounting: Mounting | None) -> Mount:
-    """Of a motor that is screwed on by the face that its shaft comes out of; else no holes.
-
-    A motor whose threads are at its back needs a bracket, or stands in the wheel. The hole in the
-    middle takes any centring collar that fits between the screws.
-    """
-    if mounting is None or mounting.stator is None or mounting.stator_face is not Face.OUTPUT:
-        return Mount()
-    stator, shaft = mounting.stator, (mounting.shaft_diameter or 0.0) / 2.0
-    pilot = max(stator.inside - WALL, (stator.inside + shaft) / 2.0)
-    return Mount(pilot, (HoleRing(stator.radius, stator.bolts, stator.hole_radius),))
+    """Of a motor that is screwed on by the face that its shaft comes out of; else no holes."""
+    holes = mount_holes(mounting)
+    screws = holes.screws
+    rings = () if screws is None else (HoleRing(screws.radius, screws.bolts, screws.hole_radius),)
+    return Mount(holes.pilot_radius, rings)

@@ -1,51 +1,103 @@
-"""What of a module stands still with the trunk: motor, gear and housing."""
+"""What of a module stands still with the trunk: motor, gear, housing and foot, as one body."""
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from ocs_design.arrays import FloatArray
 from ocs_design.drive.gear import Gear
 from ocs_design.drive.motor import Motor
-from ocs_design.sizing.housing import (
-    housing_axial_inertia,
-    housing_mass,
-    housing_transverse_inertia,
-)
+from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.sizing.foot import plate_back
+from ocs_design.sizing.housing import half_height
+from ocs_design.sizing.mass_moments import MassMoments, point, round_body
+from ocs_design.sizing.mount import MountHoles, mount_holes
+from ocs_design.sizing.shell import printed_moments
 
 
 @dataclass(frozen=True)
 class Carrier:
-    """A body of revolution about the wheel's axis, its centre of mass at the wheel's centre.
+    """A body that is symmetric to the vertical plane through a wheel's axis.
+
+    With the mass and both inertias alone it is a body of revolution at the wheel's centre.
 
     Attributes:
         mass: [kg].
-        axial_inertia: about the wheel's axis, the rotor held still [kg m^2].
-        transverse_inertia: about any axis across it through its centre of mass [kg m^2].
+        axial_inertia: about the axis through its centre of mass that is parallel to the wheel's,
+            the rotor held still [kg m^2].
+        transverse_inertia: about the horizontal one across it [kg m^2].
+        vertical_inertia: about the vertical one [kg m^2]; None: as about the other across.
+        product_of_inertia: entry yz of its inertia tensor, y along the wheel's axis away from the
+            other module, z up [kg m^2].
+        along, up: of its centre of mass from the wheel's centre [m]; negative: towards the other
+            module, below the axis.
     """
 
     mass: float
     axial_inertia: float
     transverse_inertia: float
+    vertical_inertia: float | None = None
+    product_of_inertia: float = 0.0
+    along: float = 0.0
+    up: float = 0.0
+
+    @classmethod
+    def of(cls, moments: MassMoments[float]) -> "Carrier":
+        """From its mass and moments about the wheel's centre."""
+        mass = moments.mass
+        along, up = (moments.y / mass, moments.z / mass) if mass else (0.0, 0.0)
+        xx, yy, zz = moments.xx, moments.yy - mass * along**2, moments.zz - mass * up**2
+        return cls(
+            mass=float(mass),
+            axial_inertia=float(xx + zz),
+            transverse_inertia=float(yy + zz),
+            vertical_inertia=float(xx + yy),
+            product_of_inertia=float(mass * along * up - moments.yz),
+            along=float(along),
+            up=float(up),
+        )
+
+    @property
+    def inertia(self) -> FloatArray:
+        """About its centre of mass in the module's frame [kg m^2], shape (3, 3)."""
+        across, upright = self.transverse_inertia, self.vertical_inertia
+        found = np.diag([across, self.axial_inertia, across if upright is None else upright])
+        found[1, 2] = found[2, 1] = self.product_of_inertia
+        return found
+
+    def mass_properties(self) -> MassProperties:
+        """In the module's frame (`mass_moments`)."""
+        return MassProperties(self.mass, np.array([0.0, self.along, self.up]), self.inertia)
 
 
-def drive_carrier(motor: Motor, gear: Gear) -> Carrier:
-    """Of motor and gear alone.
+def drive_moments(motor: Motor, gear: Gear) -> MassMoments[float]:
+    """Of motor and gear about the middle of the motor.
 
     The motor is a solid cylinder; a thin disc if its length is not known, a point without its
-    diameter. The gear is a point. Either errs on the side of less inertia, by little: a motor of
-    0.1 kg and 40 mm has 2e-5 kg m^2 about its axis, Solo12 5e-2 kg m^2.
+    diameter. The gear is a point in its middle. Either errs on the side of less inertia, by
+    little: a motor of 0.1 kg and 40 mm has 2e-5 kg m^2 about its axis, Solo12 5e-2 kg m^2.
     """
     mass, radius = motor.mass or 0.0, (motor.diameter or 0.0) / 2.0
-    return Carrier(
-        mass=mass + gear.mass,
-        axial_inertia=mass * radius**2 / 2.0,
-        transverse_inertia=mass * (3.0 * radius**2 + (motor.length or 0.0) ** 2) / 12.0,
-    )
+    across = mass * (3.0 * radius**2 + (motor.length or 0.0) ** 2) / 12.0
+    return round_body(mass, mass * radius**2 / 2.0, across) + point(gear.mass)
 
 
-def housed(drive: Carrier, outer_radius: float, height: float) -> Carrier:
-    """Motor and gear in the housing of a wheel of that outer radius and height [m]."""
-    return Carrier(
-        mass=drive.mass + housing_mass(outer_radius, height),
-        axial_inertia=drive.axial_inertia + housing_axial_inertia(outer_radius, height),
-        transverse_inertia=drive.transverse_inertia
-        + housing_transverse_inertia(outer_radius, height),
-    )
+def behind_floor(motor: Motor, gear: Gear, holes: MountHoles) -> MassMoments[float]:
+    """What does not depend on the wheel, about the middle of the outside of the housing's floor.
+
+    The motor stands on the back of the foot's plate; its mount's holes go through floor and plate.
+    """
+    return drive_moments(motor, gear).shifted(motor_middle(motor), 0.0) + holes.cut_out()
+
+
+def motor_middle(motor: Motor) -> float:
+    """Along the axis from the outside of the housing's floor [m]; see `behind_floor`."""
+    return -(plate_back(0.0) + (motor.length or 0.0) / 2.0)
+
+
+def standing(motor: Motor, gear: Gear, outer_radius: float, height: float) -> Carrier:
+    """Motor, gear, housing and foot of a wheel of that outer radius and height [m]."""
+    holes = mount_holes(motor.mounting)
+    behind = behind_floor(motor, gear, holes).shifted(-half_height(height), 0.0)
+    printed = printed_moments(outer_radius, height, holes.reach)
+    return Carrier.of(behind + printed)

@@ -32,6 +32,7 @@ class Face:
         name: for people, as in "on top of the trunk".
         normal, along, across: unit vectors in B: outwards, and two in the face, shape (3,).
         outward: how the left module stands off as it grows; see `Place`.
+        upright: whether it stands on its foot; see `Place`.
         nearest: point of the face that is nearest to the centre of mass, in B [m], shape (3,).
         shifts, offsets: ranges along and across, from `nearest`, that stay on the face [m].
     """
@@ -44,6 +45,7 @@ class Face:
     nearest: FloatArray
     shifts: tuple[float, float]
     offsets: tuple[float, float]
+    upright: bool = False
 
     def place(self, spot: Spot) -> Place:
         """Of modules at a spot, to the micrometre."""
@@ -52,7 +54,7 @@ class Face:
         # A rounding error of the centre of mass must not reach the files.
         x, y, z = (round(float(value), 6) + 0.0 for value in origin)
         out_x, out_y, out_z = (float(value) for value in self.outward)
-        return Place(origin=(x, y, z), outward=(out_x, out_y, out_z))
+        return Place((x, y, z), (out_x, out_y, out_z), self.upright)
 
     def spots(self, reach: float) -> Iterator[Spot]:
         """To try for modules that fill a sphere of radius `reach` [m]."""
@@ -79,15 +81,17 @@ def faces(robot: Robot) -> tuple[Face, ...]:
 def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArray) -> Face:
     """Both modules on one face, side by side, as far apart as the trunk is wide or less."""
     shift, shifts = _range(robot, along)
+    upright = name == ON_TOP
     return Face(
         name,
         normal,
         along,
         LEFT,
-        CLEARANCE * (normal + LEFT),
+        CLEARANCE * (LEFT if upright else normal + LEFT),
         _plane(robot, normal) * normal + shift * along,
         shifts,
         (0.0, max(_plane(robot, LEFT), _plane(robot, -LEFT))),
+        upright,
     )
 
 

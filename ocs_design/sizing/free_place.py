@@ -1,5 +1,6 @@
 """The place for both modules that is nearest to the centre of mass and where they hit nothing."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -13,8 +14,14 @@ from ocs_design.robot.obstacles.parts import Part
 from ocs_design.robot.obstacles.probes import Ball
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.faces import ON_TOP, STEP, Face, Spot, faces
-from ocs_design.sizing.housing import housing_height, housing_outer_radius
-from ocs_design.sizing.placement import CLEARANCE, Place, place_at, place_on_top, sphere_radius
+from ocs_design.sizing.placement import (
+    CLEARANCE,
+    Place,
+    Size,
+    module_size,
+    place_at,
+    place_on_top,
+)
 
 _ROUNDING = 2e-6
 """Places are rounded to the micrometre [m]."""
@@ -30,19 +37,25 @@ _HALVINGS = 5
 
 @dataclass(frozen=True)
 class Sizes:
-    """Radii of the spheres that the smallest and the largest module sweep at any incidence [m]."""
+    """The smallest and the largest housing on its foot, whatever motor is behind it."""
 
-    smallest: float
-    largest: float
+    smallest: Size[float]
+    largest: Size[float]
 
     @classmethod
     def of(cls, envelope: Envelope) -> "Sizes":
         """Of modules in their housings around rims that an envelope allows."""
         least_radius = envelope.inner_radius_min + envelope.wall_min
         return cls(
-            _reach(least_radius, envelope.height_min),
-            _reach(envelope.outer_radius_max, envelope.height_max),
+            _housing(least_radius, envelope.height_min),
+            _housing(envelope.outer_radius_max, envelope.height_max),
         )
+
+    def all(self) -> Iterator[Size[float]]:
+        """From the largest down; balls of these overlap so far that all between is covered."""
+        for share in np.linspace(1.0, 0.0, _SIZES).tolist():
+            pairs = zip(self.smallest, self.largest, strict=True)
+            yield Size(*((1.0 - share) * small + share * large for small, large in pairs))
 
 
 @dataclass(frozen=True)
@@ -100,7 +113,7 @@ class _Search:
         found = [
             (face, spot)
             for face in faces(self.obstacles.robot)
-            for spot in face.spots(self.sizes.largest)
+            for spot in face.spots(self.sizes.largest.reach)
         ]
         return sorted(found, key=lambda each: self._cost(each[0].place(each[1])))
 
@@ -113,9 +126,8 @@ class _Search:
 
     def blocker(self, place: Place) -> Part | None:
         """What of the robot comes too near."""
-        # Balls of these sizes overlap so far that what lies between them is covered.
-        for reach in np.linspace(self.sizes.largest, self.sizes.smallest, _SIZES):
-            hits = [self._hit(ball) for ball in self._balls(place, float(reach))]
+        for size in self.sizes.all():
+            hits = [self._hit(ball) for ball in self._balls(place, size)]
             found = [hit for hit in hits if hit is not None]
             if found:
                 return min(found, key=lambda hit: hit.distance).part
@@ -124,7 +136,7 @@ class _Search:
     def drawn_in(self, face: Face, spot: Spot) -> Spot:
         """Nearer than the grid of spots has it: to the face, to the middle, to the trunk's own."""
         for axis in (2, 1, 0):
-            step = np.sign(spot[axis]) * min(STEP * self.sizes.largest, abs(spot[axis]))
+            step = np.sign(spot[axis]) * min(STEP * self.sizes.largest.reach, abs(spot[axis]))
             for _ in range(_HALVINGS):
                 step /= 2.0
                 nearer = [*spot]
@@ -153,10 +165,10 @@ class _Search:
     def _ranges(self) -> Ranges:
         return landing_ranges(self.obstacles.robot)
 
-    def _balls(self, place: Place, reach: float) -> tuple[Ball, Ball]:
+    def _balls(self, place: Place, size: Size[float]) -> tuple[Ball, Ball]:
         """Both modules of one size, with the room around them."""
-        x, y, z = place.left_of_reach(reach)
-        radius = CLEARANCE * reach
+        x, y, z = place.left(size)
+        radius = CLEARANCE * size.reach
         return Ball(np.array([x, y, z]), radius), Ball(np.array([x, -y, z]), radius)
 
     @cached_property
@@ -167,9 +179,9 @@ class _Search:
     def _cost(self, place: Place) -> float:
         """What the largest module adds to the inertia about roll and pitch, over the robot's."""
         robot = self.obstacles.robot
-        x, y, z = np.array(place.left_of_reach(self.sizes.largest)) - robot.com
+        x, y, z = np.array(place.left(self.sizes.largest)) - robot.com
         return float((y**2 + z**2) / robot.inertia[0, 0] + (x**2 + z**2) / robot.inertia[1, 1])
 
 
-def _reach(outer_radius: float, height: float) -> float:
-    return sphere_radius(housing_outer_radius(outer_radius), housing_height(height))
+def _housing(outer_radius: float, height: float) -> Size[float]:
+    return module_size(outer_radius, height, 0.0, 0.0, 0.0)

@@ -37,6 +37,22 @@ def module_axes(incidence: float) -> FloatArray:
     return frozen([[sine, -sine], [cosine, cosine], [0.0, 0.0]])
 
 
+def module_frames(incidence: float) -> tuple[FloatArray, FloatArray]:
+    """Attitudes of the left and the right module in B, shape (3, 3) each.
+
+    Their x axis is forward in the left one, y along the wheel's axis away from the other module, z
+    up: the right one is the left one turned about the vertical, and its mirror image.
+
+    Args:
+        incidence: see `module_axes` [rad].
+    """
+    sine, cosine = np.sin(incidence), np.cos(incidence)
+    return (
+        frozen([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]]),
+        frozen([[-cosine, sine, 0.0], [-sine, -cosine, 0.0], [0.0, 0.0, 1.0]]),
+    )
+
+
 def incidence_by_criterion(
     inertia: FloatArray, momenta: FloatArray | None = None
 ) -> Mapping[Criterion, float]:

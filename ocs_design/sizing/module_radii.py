@@ -34,7 +34,9 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     by_share = full / tall / (1.0 - (1.0 - web / tall) * share)
     square = np.sqrt(np.maximum(by_bore, by_share))
     by_wall = np.maximum(bore + wall, wall / (1.0 - BORE_SHARE))
-    radius: FloatArray = np.maximum(np.sqrt(square), by_wall)
+    radius: FloatArray = np.maximum(
+        np.maximum(np.sqrt(square), by_wall), np.asarray(limits.outer_radius_min)
+    )
     if np.all(np.isinf(limits.mass_max)):
         return radius
     return np.maximum(radius, _smallest_by_mass(full, limits))

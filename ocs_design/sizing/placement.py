@@ -1,11 +1,15 @@
 """Where the two modules stand on the trunk."""
 
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 from ocs_design.arrays import FloatArray, frozen
+from ocs_design.drive.motor import Motor
 from ocs_design.robot.bounds import trunk_top
 from ocs_design.robot.robot import Robot
+from ocs_design.sizing.foot import base_radius, larger, plate_back, wheel_height
+from ocs_design.sizing.housing import half_height, housing_outer_radius
+from ocs_design.sizing.mount import mount_holes
 
 CLEARANCE = 1.1
 """Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
@@ -13,34 +17,79 @@ CLEARANCE = 1.1
 Real = TypeVar("Real", float, FloatArray)
 
 
+class Size(NamedTuple, Generic[Real]):
+    """How much room a module takes.
+
+    Attributes:
+        reach: radius that housing, motor and the foot's base stay within at any incidence [m].
+        standing: of the wheel's centre over what it stands on [m].
+    """
+
+    reach: Real
+    standing: Real
+
+
+def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
+    """Of a bare wheel, that turns freely over what carries it."""
+    reach = sphere_radius(outer_radius, height)
+    return Size(reach, CLEARANCE * reach)
+
+
+def module_size(
+    outer_radius: Real,
+    height: Real,
+    motor_length: Real,
+    motor_radius: Real,
+    mount_reach: Real,
+) -> Size[Real]:
+    """Of a housing on its foot, around a wheel of that outer radius and height, with its motor.
+
+    All in metres. The motor stands on the back of the foot's plate.
+    """
+    half = half_height(height)
+    housing = (housing_outer_radius(outer_radius) ** 2 + half**2) ** 0.5
+    motor = ((plate_back(half) + motor_length) ** 2 + motor_radius**2) ** 0.5
+    base = base_radius(outer_radius, height, mount_reach)
+    return Size(larger(larger(housing, motor), base), wheel_height(outer_radius))
+
+
+def motor_size(motor: Motor, outer_radius: Real, height: Real) -> Size[Real]:
+    """Of a module with this motor, as far as its size is known."""
+    zero = 0.0 * outer_radius
+    length, radius = zero + (motor.length or 0.0), zero + (motor.diameter or 0.0) / 2.0
+    return module_size(
+        outer_radius, height, length, radius, zero + mount_holes(motor.mounting).reach
+    )
+
+
 @dataclass(frozen=True)
 class Place:
     """Centres of both modules as their size grows, the right one mirrored in y.
 
-    The left one stands at `origin + outward * reach` with `reach = sqrt(R^2 + h^2 / 4)`, the radius
-    of the sphere that a module of outer radius R and height h sweeps at any incidence.
-
     Attributes:
         origin: of the left one, if it had no size, in B [m].
-        outward: how far it stands off, per radius of that sphere, in B.
+        outward: how far it stands off, per radius of the sphere that it sweeps, in B.
+        upright: whether it stands on what is below it, and so as high as its foot makes it.
     """
 
     origin: tuple[float, float, float]
     outward: tuple[float, float, float]
+    upright: bool = False
 
     def __call__(self, outer_radius: float, height: float) -> FloatArray:
-        """Centres in B for R and h [m], left first, shape (2, 3)."""
-        x, y, z = self.left(outer_radius, height)
+        """Centres of bare wheels in B for R and h [m], left first, shape (2, 3)."""
+        return self.centers(wheel_size(outer_radius, height))
+
+    def centers(self, size: Size[float]) -> FloatArray:
+        """In B [m], left first, shape (2, 3)."""
+        x, y, z = self.left(size)
         return frozen([[x, y, z], [x, -y, z]])
 
-    def left(self, outer_radius: Real, height: Real) -> tuple[Real, Real, Real]:
+    def left(self, size: Size[Real]) -> tuple[Real, Real, Real]:
         """Centre of the left module in B [m], of numbers, arrays or CasADi's symbols alike."""
-        return self.left_of_reach(sphere_radius(outer_radius, height))
-
-    def left_of_reach(self, reach: Real) -> tuple[Real, Real, Real]:
-        """Likewise, by the radius of its sphere [m]."""
         (x, y, z), (along_x, along_y, along_z) = self.origin, self.outward
-        return x + along_x * reach, y + along_y * reach, z + along_z * reach
+        reach, standing = size.reach, size.standing if self.upright else 0.0 * size.standing
+        return x + along_x * reach, y + along_y * reach, z + along_z * reach + standing
 
 
 def sphere_radius(outer_radius: Real, height: Real) -> Real:
@@ -60,7 +109,7 @@ def place_on_top(robot: Robot) -> Place:
     # To the micrometre, so that no rounding error of the centre of mass reaches the files.
     forward = round(float(robot.com[0]), 6) + 0.0
     top = round(trunk_top(robot.tree, robot.trunk), 6)
-    return Place(origin=(forward, 0.0, top), outward=(0.0, CLEARANCE, CLEARANCE))
+    return Place(origin=(forward, 0.0, top), outward=(0.0, CLEARANCE, 0.0), upright=True)
 
 
 def place_at(position: tuple[float, ...]) -> Place:

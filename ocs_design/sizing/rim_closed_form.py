@@ -88,6 +88,7 @@ def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
     With its web, if it has one.
     """
     bore = np.maximum(limits.inner_radius_min, limits.wall_min * BORE_SHARE / (1.0 - BORE_SHARE))
+    bore = np.maximum(bore, np.asarray(limits.outer_radius_min) - limits.wall_min)
     spread = (bore + limits.wall_min) ** 4 - bore**4
     full = limits.height_min * spread + limits.web * bore**4
     return np.asarray(np.pi * limits.density * full / 2.0, dtype=np.float64)

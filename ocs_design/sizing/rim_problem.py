@@ -21,6 +21,7 @@ class RimLimits:
         poisson_ratio: nu; of no account where the hoop stress is not limited.
         web: thickness of a disc of the rim's material that weighs as much as the web, which fills
             the bore [m]; 0: massless spokes.
+        outer_radius_min: that leaves room for a motor's mount [m]; 0: any.
     """
 
     density: float | FloatArray
@@ -33,6 +34,7 @@ class RimLimits:
     stretch_max: float | FloatArray
     poisson_ratio: float | FloatArray
     web: float | FloatArray = 0.0
+    outer_radius_min: float | FloatArray = 0.0
 
 
 @dataclass(frozen=True)

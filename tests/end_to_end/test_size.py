@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from naive_device import solid
+from naive_wheel import solid
 
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motors

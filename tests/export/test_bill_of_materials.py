@@ -9,16 +9,16 @@ from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_de
 from ocs_design.design import Web
 from ocs_design.export.bill_of_materials import COLUMNS, bill_rows, export_bill_of_materials, plain
 from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.housing import housing_mass
+from ocs_design.sizing.shell import Printed
 from ocs_design.sizing.web import Hub
 
 GEAR_MASS = 0.02
 
 
 def whole_device():
-    """With everything that a device can hold: rim, motor, gear and housing."""
+    """With everything that a device can hold: rim, motor, gear, housing and foot."""
     drive = replace(geared(4.0), gear_mass=GEAR_MASS)
-    shell = housing_mass(PAPER_WHEEL.outer_radius, PAPER_WHEEL.height)
+    shell = float(Printed(0.0).mass(PAPER_WHEEL.outer_radius, PAPER_WHEEL.height))
     carrier = Carrier(EC45.mass + GEAR_MASS + shell, 1e-4, 1e-4)
     return driven_device(drive=drive, carrier=carrier)
 
@@ -35,6 +35,7 @@ def test_all_parts_together_weigh_what_the_device_weighs(tmp_path):
         "motor",
         "gear",
         "housing",
+        "foot",
         "screw",
         "screw",
     ]

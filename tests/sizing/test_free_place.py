@@ -13,7 +13,7 @@ from ocs_design.robot.obstacles.obstacles import obstacles_of
 from ocs_design.robot.obstacles.probes import Ball
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.free_place import Sizes, place_free, stated_place
-from ocs_design.sizing.placement import CLEARANCE, place_at, place_on_top
+from ocs_design.sizing.placement import CLEARANCE, Size, place_at, place_on_top
 
 ON_TOP = {
     "a1",
@@ -80,8 +80,9 @@ def test_a_mast_in_the_middle_goes_between_the_modules(masted):
     assert (found.face, found.blocked_by, found.free) == ("on top of", "head", True)
     # Balls 1.1 times as large as the module stand clear of the mast's radius, for every size.
     sizes = Sizes.of(envelope)
-    for reach in np.linspace(sizes.smallest, sizes.largest, 30):
-        x, y, _ = found.place.left_of_reach(float(reach))
+    for share in np.linspace(0.0, 1.0, 30):
+        reach, standing = (1.0 - share) * np.array(sizes.smallest) + share * np.array(sizes.largest)
+        x, y, _ = found.place.left(Size(reach, standing))
         assert np.hypot(x, y) - 0.02 >= CLEARANCE * reach - 1e-5
 
 
@@ -91,9 +92,9 @@ def test_nearer_than_the_grid(masted):
     largest = Sizes.of(default_envelope(robot)).largest
     found = place_free(robot, default_envelope(robot))
     x, y, _ = found.place.origin
-    least = np.sqrt(2.0 * CLEARANCE * largest * 0.02 + 0.02**2)
+    least = np.sqrt(2.0 * CLEARANCE * largest.reach * 0.02 + 0.02**2)
     assert y == 0.0
-    assert least - 1e-5 <= abs(x) <= least + 0.5 * largest / 16.0
+    assert least - 1e-5 <= abs(x) <= least + 0.5 * largest.reach / 16.0
 
 
 def test_a_stated_position_is_kept(masted):
@@ -118,13 +119,13 @@ def test_every_legged_robot_has_a_free_place(name):
     found = place_free(robot, envelope)
     assert found.free
     assert (found.place == place_on_top(robot)) == (name.rpartition("/")[2] in ON_TOP)
-    obstacles, reach = obstacles_of(robot), Sizes.of(envelope).largest
+    obstacles, size = obstacles_of(robot), Sizes.of(envelope).largest
     others = [part for part in obstacles.parts if part.limb]
-    x, y, z = found.place.left_of_reach(reach)
+    x, y, z = found.place.left(size)
     poses = obstacles.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):
         # Postures that were not tried find no more than the room around the module.
         assert (
-            obstacles.nearest(Ball(np.array([x, side, z]), reach), poses, others, within=0.0)
+            obstacles.nearest(Ball(np.array([x, side, z]), size.reach), poses, others, within=0.0)
             is None
         )

@@ -1,4 +1,4 @@
-"""The shell around a wheel: a drum less its hollow, and slopes against differences."""
+"""The shell around a wheel: room, and slopes against differences; solids are in `test_carrier`."""
 
 import numpy as np
 import pytest
@@ -7,49 +7,60 @@ from ocs_design.sizing.housing import (
     CLEARANCE,
     DENSITY,
     WALL,
-    housing_axial_inertia,
+    PlainDrum,
+    half_height,
     housing_height,
     housing_mass,
     housing_mass_per_height,
-    housing_mass_per_radius,
+    housing_moments,
     housing_outer_radius,
-    housing_transverse_inertia,
 )
+from ocs_design.sizing.shell import Printed, printed_moments
 
 SIZES = [(0.03, 0.01), (0.05, 0.003), (0.012, 0.03)]
 
 
 def solid(radius, height):
-    """Mass and inertias of a full cylinder (any handbook)."""
-    mass = np.pi * DENSITY * radius**2 * height
-    return np.array([mass, mass * radius**2 / 2.0, mass * (3.0 * radius**2 + height**2) / 12.0])
+    """Mass of a full cylinder."""
+    return np.pi * DENSITY * radius**2 * height
 
 
 @pytest.mark.parametrize(("outer_radius", "height"), SIZES)
-def test_a_full_drum_less_its_hollow(outer_radius, height):
+def test_a_full_drum_less_its_hollow_is_less_than_any_housing(outer_radius, height):
     radius, tall = outer_radius + CLEARANCE, height + 2.0 * CLEARANCE
-    expected = solid(radius + WALL, tall + 2.0 * WALL) - solid(radius, tall)
-    own = (housing_mass, housing_axial_inertia, housing_transverse_inertia)
-    found = [value(outer_radius, height) for value in own]
-    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    plain = PlainDrum().mass(outer_radius, height)
+    assert plain == pytest.approx(solid(radius + WALL, tall + 2.0 * WALL) - solid(radius, tall))
+    assert plain < housing_mass(outer_radius, height) < 1.4 * plain
 
 
 def test_room_for_the_wheel():
     assert housing_outer_radius(0.05) == pytest.approx(0.05 + CLEARANCE + WALL)
     assert housing_height(0.01) == pytest.approx(0.01 + 2.0 * (CLEARANCE + WALL))
+    assert half_height(0.01) == pytest.approx(housing_height(0.01) / 2.0)
+
+
+@pytest.mark.parametrize("shell", [PlainDrum(), Printed(0.0), Printed(0.02)])
+@pytest.mark.parametrize(("outer_radius", "height"), SIZES)
+def test_slopes(shell, outer_radius, height):
+    up, down = (shell.mass(outer_radius, height + step) for step in (1e-6, -1e-6))
+    slope = shell.mass_per_height(outer_radius, height)
+    assert slope == pytest.approx((up - down) / 2e-6, rel=1e-6)
 
 
 @pytest.mark.parametrize(("outer_radius", "height"), SIZES)
-def test_slopes(outer_radius, height):
-    step = 1e-6
-    up, down = housing_mass(outer_radius, height + step), housing_mass(outer_radius, height - step)
-    assert housing_mass_per_height(outer_radius) == pytest.approx((up - down) / 2e-6, rel=1e-6)
-    up, down = housing_mass(outer_radius + step, height), housing_mass(outer_radius - step, height)
-    slope = housing_mass_per_radius(outer_radius, height)
-    assert slope == pytest.approx((up - down) / 2e-6, rel=1e-6)
+def test_masses_are_those_of_the_moments(outer_radius, height):
+    assert housing_moments(outer_radius, height).mass == pytest.approx(
+        housing_mass(outer_radius, height), rel=1e-12
+    )
+    whole = printed_moments(outer_radius, height, 0.01).mass
+    assert Printed(0.01).mass(outer_radius, height) == pytest.approx(whole, rel=1e-12)
 
 
 def test_arrays_as_numbers():
     outer, height = np.array(SIZES).T
     masses = [housing_mass(*size) for size in SIZES]
     np.testing.assert_allclose(housing_mass(outer, height), masses, rtol=1e-15)
+    slopes = [housing_mass_per_height(size[0]) for size in SIZES]
+    np.testing.assert_allclose(housing_mass_per_height(outer), slopes, rtol=1e-15)
+    alone = [printed_moments(*size, 0.01).yz for size in SIZES]
+    np.testing.assert_allclose(printed_moments(outer, height, 0.01).yz, alone, rtol=1e-12)

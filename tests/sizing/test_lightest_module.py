@@ -8,11 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rims import random_problem, rim_problems
 
-from ocs_design.sizing.housing import housing_mass
 from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
 from ocs_design.sizing.rim_closed_form import lightest_rim
+from ocs_design.sizing.shell import Printed
 
-GRID = 500
+GRID = 350
+
+SHELL = Printed(mount_reach=0.012)
+"""With a plate that is as wide as its mount around small wheels."""
 
 
 def on_a_grid(inertia, limits):
@@ -28,7 +31,7 @@ def on_a_grid(inertia, limits):
     fits = (height <= limits.height_max) & (height >= limits.height_min)
     fits &= (outer - inner >= limits.wall_min) & (inner >= limits.inner_radius_min)
     fits &= (rim <= limits.mass_max) & (stretch <= limits.stretch_max)
-    return np.where(fits, rim + web + housing_mass(outer, height), np.inf).min()
+    return np.where(fits, rim + web + SHELL.mass(outer, height), np.inf).min()
 
 
 def with_web(limits, share):
@@ -44,7 +47,7 @@ def test_never_heavier_than_on_a_grid(web):
     for _ in range(60):
         problem = random_problem(rng)
         limits = with_web(problem.limits, web)
-        shape = lightest_module(problem.spin_inertia, limits)
+        shape = lightest_module(problem.spin_inertia, limits, SHELL)
         grid = on_a_grid(problem.spin_inertia, limits)
         if not np.isfinite(grid):
             continue
@@ -76,7 +79,7 @@ def meets(shape, inertia, limits):
 def test_there_is_one_where_there_is_a_rim(problem):
     limits = replace(problem.limits, height_min=max(problem.limits.height_min, 1e-5))
     rim = lightest_rim(problem.spin_inertia, limits)
-    shape = lightest_module(problem.spin_inertia, limits)
+    shape = lightest_module(problem.spin_inertia, limits, SHELL)
     assert np.isnan(float(shape.mass)) == np.isnan(float(rim.mass))
     if float(shape.mass) > 0.0:
         meets(shape, problem.spin_inertia, limits)
@@ -87,7 +90,7 @@ def test_there_is_one_where_there_is_a_rim(problem):
 def test_a_web_leaves_the_limits_met(problem, share):
     """Wherever a grid finds a wheel there is one, and it is no heavier."""
     limits = with_web(problem.limits, share)
-    shape = lightest_module(problem.spin_inertia, limits)
+    shape = lightest_module(problem.spin_inertia, limits, SHELL)
     found, grid = float(shape.mass), on_a_grid(problem.spin_inertia, limits)
     assert grid == np.inf or found <= grid * (1.0 + 1e-9)
     if found > 0.0:
@@ -97,7 +100,7 @@ def test_a_web_leaves_the_limits_met(problem, share):
 @given(rim_problems(), st.sampled_from([0.0, 0.5]))
 def test_more_spin_inertia_is_no_lighter(problem, web):
     inertia = problem.spin_inertia * np.geomspace(0.05, 1.0, 40)
-    mass = lightest_module(inertia, with_web(problem.limits, web)).mass
+    mass = lightest_module(inertia, with_web(problem.limits, web), SHELL).mass
     mass = mass[np.isfinite(mass)]
     assert (np.diff(mass) >= -1e-9 * mass[1:]).all()
 
@@ -106,16 +109,16 @@ def test_of_a_given_radius():
     """No other radius is lighter, the nearest is taken where none fits, and flatter is heavier."""
     rng = np.random.default_rng(5)
     problem = random_problem(rng)
-    while np.isnan(float(lightest_module(problem.spin_inertia, problem.limits).mass)):
+    while np.isnan(float(lightest_module(problem.spin_inertia, problem.limits, SHELL).mass)):
         problem = random_problem(rng)
     inertia, limits = problem.spin_inertia, problem.limits
-    best = lightest_module(inertia, limits)
+    best = lightest_module(inertia, limits, SHELL)
     radii = best.outer_radius * np.geomspace(0.01, 100.0, 50)
-    others = lightest_module_at(inertia, radii, limits)
+    others = lightest_module_at(inertia, radii, limits, SHELL)
     assert (others.mass >= best.mass * (1.0 - 1e-12)).all()
     for index in (0, -1):
         meets(_nth(others, index), inertia, limits)
-    flat = lightest_module_at(inertia, best.outer_radius, limits, 5.0)
+    flat = lightest_module_at(inertia, best.outer_radius, limits, SHELL, 5.0)
     assert flat.height <= best.height * (1.0 + 1e-12)
     assert flat.mass >= best.mass * (1.0 - 1e-12)
 
@@ -133,5 +136,5 @@ def test_limits_that_are_none_hold_nothing(web):
     ample = replace(limits, mass_max=1e3 * disc / limits.outer_radius_max**2, stretch_max=1.0)
     for names in ([], ["stretch_max"], ["mass_max"], ["stretch_max", "mass_max"]):
         free = replace(ample, **dict.fromkeys(names, np.inf))
-        shape, grid = lightest_module(0.4 * disc, free), on_a_grid(0.4 * disc, free)
+        shape, grid = lightest_module(0.4 * disc, free, SHELL), on_a_grid(0.4 * disc, free)
         assert float(shape.mass) <= grid < np.inf

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from naive_device import hub_body, solid
+from naive_wheel import hub_body, solid
 from wheels import PAPER_WHEEL
 
 from ocs_design.catalogue.motors import motor, motors

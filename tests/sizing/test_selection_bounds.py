@@ -1,5 +1,7 @@
 """The inertia of the whole for many devices, and bounds that no device falls below."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 from selections import random_problem
@@ -7,7 +9,8 @@ from selections import random_problem
 from ocs_design.drive.wheel_pair import smallest_spin_inertia
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.placement import Place
+from ocs_design.sizing.mass_moments import MassMoments, point, round_body, rows_of
+from ocs_design.sizing.placement import Place, Size
 from ocs_design.sizing.selection.bounds import (
     RimFloor,
     cells_of,
@@ -19,47 +22,66 @@ from ocs_design.sizing.selection.demand import needed_by_maneuvers, pair_task, s
 from ocs_design.sizing.selection.drive_table import drive_table
 from ocs_design.sizing.selection.fixed_point import Design, Tolerance, fixed_point
 from ocs_design.sizing.selection.lot import lot_of
-from ocs_design.sizing.selection.trunk import Modules, least_trunk_inertia, trunk_inertia
+from ocs_design.sizing.selection.trunk import (
+    Least,
+    Modules,
+    least_trunk_inertia,
+    trunk_inertia,
+)
 
 ROBOT = MassProperties(
     5.0, [0.02, 0.003, -0.04], [[0.06, 0.001, 0.0], [0.001, 0.1, 0.0], [0.0, 0.0, 0.13]]
 )
-PLACE = Place(origin=(0.05, 0.01, 0.02), outward=(0.0, 1.1, -0.8))
+PLACE = Place(origin=(0.05, 0.01, 0.02), outward=(0.0, 1.1, -0.8), upright=True)
 
 
 def random_modules(rng, count):
-    return Modules(
-        mass=rng.uniform(0.05, 1.0, count),
-        axial_inertia=rng.uniform(1e-5, 1e-3, count),
-        transverse_inertia=rng.uniform(1e-5, 1e-3, count),
-        outer_radius=rng.uniform(0.01, 0.1, count),
-        height=rng.uniform(0.005, 0.05, count),
-    )
+    """Wheels and drums about their centres, motors behind them and feet below."""
+    wheel = round_body(*rng.uniform([[0.05], [1e-5], [1e-5]], [[0.5], [1e-3], [1e-3]], (3, count)))
+    motor = point(rng.uniform(0.02, 0.5, count))
+    foot = point(rng.uniform(0.005, 0.1, count))
+    depth, below = rng.uniform(0.01, 0.06, count), rng.uniform(0.01, 0.05, count)
+    size = Size(rng.uniform(0.01, 0.1, count), rng.uniform(0.01, 0.1, count))
+    zero = np.zeros(count)
+    return wheel, motor, depth, foot.shifted(zero, -below), size
+
+
+def whole_of(wheel, motor, depth, foot, size):
+    whole = wheel + motor.shifted(-depth, np.zeros_like(depth)) + foot
+    return whole, Modules.of(whole, size)
 
 
 def test_inertia_as_joined_body_by_body():
-    modules = random_modules(np.random.default_rng(0), 20)
+    whole, modules = whole_of(*random_modules(np.random.default_rng(0), 20))
     angles = np.linspace(0.0, np.pi / 2.0, 7)
     found = trunk_inertia(ROBOT, PLACE, modules).at(shares_of(np.tile(angles, (20, 1))))
     for row in range(20):
-        mass, axial, across, outer, height = (float(values[row]) for values in modules)
-        bodies = (Carrier(mass, axial, across),)
-        whole = [braked(ROBOT, bodies, PLACE(outer, height), angle).inertia for angle in angles]
-        expected = np.diagonal(whole, axis1=1, axis2=2)[:, :2]
+        body = Carrier.of(rows_of(whole, row))
+        centers = PLACE.centers(Size(*(float(values[row]) for values in modules.size)))
+        expected = [np.diag(braked(ROBOT, (body,), centers, a).inertia)[:2] for a in angles]
         np.testing.assert_allclose(found[row], expected, rtol=1e-12)
 
 
 def test_no_larger_or_heavier_module_has_less_inertia():
     """Also where a larger module moves past the robot's centre of mass."""
     rng = np.random.default_rng(1)
-    least = random_modules(rng, 500)
-    more = Modules(*(values * rng.uniform(1.0, 2.0, 500) for values in least))
-    largest = least._replace(outer_radius=2.0 * least.outer_radius, height=2.0 * least.height)
-    bound = least_trunk_inertia(ROBOT, PLACE, least, largest)
+    wheel, motor, depth, foot, size = random_modules(rng, 500)
+    largest = Size(*(2.0 * values for values in size))
+    own = np.minimum(wheel.xx + wheel.zz, wheel.yy + wheel.zz)
+    least = Least(wheel.mass, own, motor.mass, depth, size, largest)
+    grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
+    more, ahead = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
+    _, modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)
+    bound = least_trunk_inertia(ROBOT, PLACE, least)
     angles = shares_of(rng.uniform(0.0, np.pi / 2.0, (500, 1)))
-    whole = trunk_inertia(ROBOT, PLACE, more).at(angles)[:, 0]
+    whole = trunk_inertia(ROBOT, PLACE, modules).at(angles)[:, 0]
     assert (bound <= whole * (1.0 + 1e-12)).all()
     assert np.median(bound / whole) > 0.7
+
+
+def each(bodies, factors):
+    """Every body so many times as heavy."""
+    return MassMoments(*(getattr(bodies, f.name) * factors for f in fields(bodies)))
 
 
 @pytest.mark.parametrize("seed", range(6))

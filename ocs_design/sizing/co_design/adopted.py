@@ -30,7 +30,6 @@ def adopted(problem: CoDesignProblem, found: CoDesign) -> Candidate:
         return problem.selected
     shape, wheel = found.shape, wheel_of(problem, found.shape)
     rim_mass = _rim_mass(problem, shape)
-    carrier = carrier_of(problem, shape)
     return replace(
         problem.selected,
         incidence=shape.incidence,
@@ -40,8 +39,7 @@ def adopted(problem: CoDesignProblem, found: CoDesign) -> Candidate:
         height=shape.height,
         rim_mass=rim_mass,
         web_mass=wheel.mass - rim_mass,
-        housing_mass=carrier.mass - problem.drive.mass,
-        carrier=carrier,
+        carrier=carrier_of(problem, shape),
         total=braked_total(problem, shape),
         centers=centers_of(problem, shape),
         demands=(*_of_maneuvers(problem, found), *_of_rate_change(problem, shape)),
@@ -94,9 +92,8 @@ def _of_rate_change(problem: CoDesignProblem, shape: DeviceShape) -> Iterator[Ta
 
 def _binding(problem: CoDesignProblem, shape: DeviceShape) -> tuple[str, ...]:
     """Names of the limits that the rim touches."""
-    carrier = carrier_of(problem, shape)
     sizes = (shape.inner_radius, shape.outer_radius, shape.height)
-    masses = (_rim_mass(problem, shape), 0.0, carrier.mass - problem.drive.mass)
+    masses = (_rim_mass(problem, shape), 0.0, 0.0)
     module = ModuleShape(*(np.array([value]) for value in (*sizes, *masses)))
     return binding_limits(module, problem.limits, problem.selection.envelope, 0)
 

@@ -5,17 +5,17 @@ The same device as symbols is in `free_device`.
 
 from ocs_design.arrays import FloatArray
 from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.carrier import Carrier, housed
+from ocs_design.sizing.carrier import Carrier, standing
 from ocs_design.sizing.co_design.problem import CoDesignProblem, DeviceShape
 from ocs_design.sizing.gyrostat import Gyrostat
-from ocs_design.sizing.housing import housing_height, housing_outer_radius
 from ocs_design.sizing.incidence import module_axes
+from ocs_design.sizing.placement import motor_size
 from ocs_design.sizing.selection.candidate import braked
 from ocs_design.sizing.web import wheel_body
 
 
 def device_mass(problem: CoDesignProblem, shape: DeviceShape) -> float:
-    """Of both modules: wheels, housings, motors, gears [kg]."""
+    """Of both modules: wheels, motors, gears, housings and feet [kg]."""
     return float(2.0 * (wheel_of(problem, shape).mass + carrier_of(problem, shape).mass))
 
 
@@ -42,8 +42,8 @@ def braked_total(problem: CoDesignProblem, shape: DeviceShape) -> MassProperties
 
 def centers_of(problem: CoDesignProblem, shape: DeviceShape) -> FloatArray:
     """Of the left and the right wheel in B [m], shape (2, 3)."""
-    radius, height = housing_outer_radius(shape.outer_radius), housing_height(shape.height)
-    return problem.selection.place(radius, height)
+    size = motor_size(problem.selected.motor, shape.outer_radius, shape.height)
+    return problem.selection.place.centers(size)
 
 
 def wheel_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:
@@ -53,5 +53,6 @@ def wheel_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:
 
 
 def carrier_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:
-    """What of one module stands still: motor, gear and housing."""
-    return housed(problem.drive, shape.outer_radius, shape.height)
+    """What of one module stands still: motor, gear, housing and foot."""
+    chosen = problem.selected
+    return standing(chosen.motor, chosen.gear, shape.outer_radius, shape.height)

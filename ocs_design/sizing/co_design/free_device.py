@@ -2,22 +2,21 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, cast
+from typing import Any, Protocol, cast
 
 import casadi as ca
 import numpy as np
 
+from ocs_design.sizing.carrier import behind_floor
 from ocs_design.sizing.co_design.problem import CoDesignProblem
 from ocs_design.sizing.cylinder import cylinder_mass
-from ocs_design.sizing.housing import (
-    housing_axial_inertia,
-    housing_height,
-    housing_mass,
-    housing_outer_radius,
-    housing_transverse_inertia,
-)
+from ocs_design.sizing.housing import half_height
+from ocs_design.sizing.mass_moments import MassMoments, round_body
+from ocs_design.sizing.mount import mount_holes
 from ocs_design.sizing.optimal_control.plant import Plant, moments
+from ocs_design.sizing.placement import Size, motor_size
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
+from ocs_design.sizing.shell import printed_moments
 from ocs_design.sizing.web import wheel_body
 
 
@@ -46,8 +45,7 @@ class FreeDevice:
     @property
     def module_mass(self) -> ca.SX:
         """Of one module in all [kg]."""
-        shell = _of_symbols(housing_mass)(self.outer_radius, self.height)
-        return self._wheel.mass + shell + self.problem.drive.mass
+        return ca.SX(self._module.mass)
 
     @property
     def spin_inertia(self) -> ca.SX:
@@ -60,20 +58,18 @@ class FreeDevice:
         Both modules act as one body of twice the mass between them, and two bodies at a distance
         act on their common centre as the reduced mass (parallel axes).
         """
-        robot, mass = self.problem.selection.robot, 2.0 * self.module_mass
-        x, y, z = self._center()
-        apart = ca.vertcat(x - robot.com[0], -robot.com[1], z - robot.com[2])
-        reduced = robot.mass * mass / (robot.mass + mass)
-        axial, across = self._own_inertia()
+        robot, module = self.problem.selection.robot, self._module
         sine, cosine = ca.sin(incidence), ca.cos(incidence)
-        spread = 2.0 * (axial - across)
-        turned = ca.vertcat(sine**2, cosine**2, 0, 0, 0, 0) * spread
-        square = mass * y**2
-        sideways = ca.vertcat(square, 0, square, 0, 0, 0)
-        round_ball = ca.vertcat(1, 1, 1, 0, 0, 0) * (2.0 * across)
-        return (
-            ca.SX(moments(robot.inertia)) + reduced * _point(apart) + sideways + round_ball + turned
-        )
+        one, mass = module.mass, 2.0 * module.mass
+        along, up = module.y / one, module.z / one
+        x, y, z = self._center()
+        apart = ca.vertcat(x + along * sine - robot.com[0], -robot.com[1], z + up - robot.com[2])
+        reduced = robot.mass * mass / (robot.mass + mass)
+        sideways = mass * (y + along * cosine) ** 2
+        spread = ca.vertcat(sideways, 0, sideways, 0, 0, 0)
+        own = 2.0 * _turned(module, along, up, sine, cosine)
+        alone = ca.SX(moments(robot.inertia))
+        return ca.SX(alone + reduced * _point(apart) + spread + own)
 
     def plant(self, incidence: ca.SX) -> Plant:
         """The gyrostat with its wheels at an incidence [rad]."""
@@ -110,25 +106,34 @@ class FreeDevice:
         density = self.problem.selected.material.density
         return self.inner_radius, self.outer_radius, self.height, density
 
+    @property
+    def _module(self) -> MassMoments[Any]:
+        """All of one module about its wheel's centre, braked."""
+        chosen, wheel = self.problem.selected, self._wheel
+        holes = mount_holes(chosen.motor.mounting)
+        behind = behind_floor(chosen.motor, chosen.gear, holes)
+        printed = cast(Callable[..., MassMoments[Any]], printed_moments)
+        half = _of_symbols(half_height)(self.height)
+        turning = cast(Callable[..., MassMoments[Any]], round_body)
+        spun = turning(wheel.mass, wheel.axial_inertia, wheel.transverse_inertia)
+        standing = printed(self.outer_radius, self.height, holes.reach)
+        return spun + standing + cast(MassMoments[Any], behind).shifted(-half, ca.SX(0))
+
     def _center(self) -> tuple[ca.SX, ca.SX, ca.SX]:
-        across = _of_symbols(housing_outer_radius)(self.outer_radius)
-        tall = _of_symbols(housing_height)(self.height)
-        left = cast(
-            Callable[[ca.SX, ca.SX], tuple[ca.SX, ca.SX, ca.SX]], self.problem.selection.place.left
-        )
-        x, y, z = left(across, tall)
+        size = cast(Callable[..., Size[Any]], motor_size)
+        room = size(self.problem.selected.motor, self.outer_radius, self.height)
+        x, y, z = self.problem.selection.place.left(room)
         return ca.SX(x), ca.SX(y), ca.SX(z)
 
-    def _own_inertia(self) -> tuple[ca.SX, ca.SX]:
-        """Of one module about its axis and across it, braked [kg m^2]."""
-        outer, tall, drive = self.outer_radius, self.height, self.problem.drive
-        wheel = self._wheel
-        shell = _of_symbols(housing_axial_inertia)(outer, tall)
-        shell_across = _of_symbols(housing_transverse_inertia)(outer, tall)
-        return (
-            wheel.axial_inertia + shell + drive.axial_inertia,
-            wheel.transverse_inertia + shell_across + drive.transverse_inertia,
-        )
+
+def _turned(module: MassMoments[Any], along: ca.SX, up: ca.SX, sine: ca.SX, cosine: ca.SX) -> ca.SX:
+    """Mean of both modules' inertia about their own centres of mass in B, xx to yz."""
+    axis, upright = module.yy - module.mass * along**2, module.zz - module.mass * up**2
+    product = module.yz - module.mass * along * up
+    forward = module.xx * cosine**2 + axis * sine**2
+    sideways = module.xx * sine**2 + axis * cosine**2
+    rows = (sideways + upright, forward + upright, forward + sideways, 0, -product * sine, 0)
+    return ca.SX(ca.vertcat(*rows))
 
 
 def _of_symbols(form: Callable[..., object]) -> Callable[..., ca.SX]:

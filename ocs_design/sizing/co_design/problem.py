@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 from ocs_design.drive.line import DriveLine
-from ocs_design.sizing.carrier import Carrier, drive_carrier
 from ocs_design.sizing.optimal_control.solution import FineGrid
-from ocs_design.sizing.rim_problem import RimLimits, RimProblem
+from ocs_design.sizing.rim_problem import RimLimits
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
-from ocs_design.sizing.web import limits_with_web
 
 
 @dataclass(frozen=True)
@@ -41,19 +39,12 @@ class CoDesignProblem:
     @property
     def limits(self) -> RimLimits:
         """Of one rim, scalars."""
-        chosen, room = self.selected, self.selection.envelope
-        limits = RimProblem(chosen.spin_inertia, room, chosen.material, chosen.overspeed).limits
-        return limits if chosen.hub is None else limits_with_web(limits, chosen.hub.radius)
+        return self.selected.limits(self.selection.envelope)
 
     @property
     def line(self) -> DriveLine:
         """What of the drives a design may use."""
         return self.selected.line.reserved()
-
-    @property
-    def drive(self) -> Carrier:
-        """Motor and gear of one module."""
-        return drive_carrier(self.selected.motor, self.selected.gear)
 
     @property
     def shape(self) -> DeviceShape:

@@ -59,7 +59,8 @@ def _bounds(problem: CoDesignProblem) -> tuple[FloatArray, FloatArray]:
     # A device for one axis alone stays one: elsewhere the other axis would ask for being stopped.
     if problem.selection.incidence is not None or not nearest < incidence < farthest:
         nearest = farthest = incidence
-    lower = (limits.inner_radius_min, limits.inner_radius_min, limits.height_min, nearest)
+    least = max(float(limits.inner_radius_min), float(limits.outer_radius_min))
+    lower = (limits.inner_radius_min, least, limits.height_min, nearest)
     upper = (limits.outer_radius_max, limits.outer_radius_max, limits.height_max, farthest)
     return np.array(lower, dtype=np.float64), np.array(upper, dtype=np.float64)
 

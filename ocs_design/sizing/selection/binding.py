@@ -10,11 +10,15 @@ from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.rim_problem import RimLimits
 
 HOUSING = "housing"
-"""Stands for the radius where no limit holds it: a larger rim is lighter, its housing heavier."""
+"""Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
+foot are heavier."""
 
 # Relative; a hundredth of what can be turned.
 HUB, WEB = "hub", "web"
 """Stand for the bore and the height where the hub and the web ask for more than was specified."""
+
+MOUNT = "mount"
+"""Stands for the radius where the motor's mount asks for a larger housing."""
 
 _TOUCHING = 1e-5
 
@@ -46,9 +50,12 @@ def binding_limits(
         bore: (inner, at["inner_radius_min"]),
         flat: (height, at["height_min"]),
         "wall_min": (outer - inner, at["wall_min"]),
+        MOUNT: (outer, at["outer_radius_min"]),
     }
     names = tuple(
         name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
     )
-    radius_is_held = {"r_max", "hoop_stress"} & set(names) or {flat, "wall_min"} <= set(names)
+    radius_is_held = {"r_max", "hoop_stress", MOUNT} & set(names) or {flat, "wall_min"} <= set(
+        names
+    )
     return names if radius_is_held else (*names, HOUSING)

@@ -8,10 +8,11 @@ Each is proved by terms that only grow (docs/theory.md, The selection):
 2. It asks for no less over a cell of incidences than with the largest sine and the largest cosine
    in it, each by itself: |P_x| / s + |P_y| / c falls and, by their balance, kappa = 2 (s |P_x| /
    I_xx + c |P_y| / I_yy) / (|P_x| / s + |P_y| / c) grows with either share.
-3. The inertia of the whole is no less than with the lightest module for less spin inertia: mass,
-   rim and distance only add to it (`trunk.least_trunk_inertia`).
+3. The inertia of the whole is no less than with the lightest wheel in a plain drum for less spin
+   inertia, and its motor behind it: mass, rim and distance only add to it
+   (`trunk.least_trunk_inertia`).
 4. The lightest module of more spin inertia is no lighter: of a module with the more, take height,
-   then wall, then radius away, and every limit still holds.
+   then wall, then radius away, and every limit still holds. Housing and foot grow with both.
 
 So a bound on the spin inertia gives one on the mass, that one on the inertia, and that a better one
 on the spin inertia; each pass tightens them.
@@ -24,14 +25,18 @@ from itertools import pairwise
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.sizing.housing import housing_height, housing_outer_radius
+from ocs_design.sizing.foot import PLATE_THICKNESS
+from ocs_design.sizing.housing import PlainDrum, half_height
 from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.placement import module_size
 from ocs_design.sizing.rim_closed_form import BORE_SHARE, smallest_spin_inertia
 from ocs_design.sizing.selection.demand import bound_by_all
 from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.lot import rim_limits
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.trunk import Modules, least_trunk_inertia
+from ocs_design.sizing.selection.trunk import Least, least_trunk_inertia
+from ocs_design.sizing.shell import Printed
 from ocs_design.sizing.web import hub_of
 
 CELLS = 18
@@ -43,37 +48,56 @@ _OFF_THE_EDGE = 1.0 + 1e-10
 
 @dataclass(frozen=True, eq=False)
 class RimFloor:
-    """The least mass of rim and housing by spin inertia, for every material.
+    """The least mass of a rim with what stands around it by spin inertia, for every material.
 
     Attributes:
         spin_inertia: of the rim [kg m^2], increasing along axis 1, shape (materials, rims).
-        mass: of the lightest rim with its housing [kg], never decreasing, inf where there is none.
+        mass: of the lightest rim with its housing and foot [kg], never decreasing, inf where there
+            is none.
+        about_center: likewise, with a plain drum alone, which stands about the wheel's centre.
     """
 
     spin_inertia: FloatArray
     mass: FloatArray
+    about_center: FloatArray
 
     @classmethod
     def of(cls, problem: SelectionProblem) -> "RimFloor":
         """Of rims that turn slowly: no hoop stress adds to their mass."""
         kinds = np.repeat(np.arange(len(problem.materials)), _RIMS)
-        narrow = np.full(kinds.size, _narrowest_hub(problem))
-        limits = rim_limits(problem, kinds, np.full(kinds.size, 1e-3), narrow)
+        narrow, least_reach = _narrowest_hub(problem), _narrowest_mount(problem)
+        limits = rim_limits(
+            problem,
+            kinds,
+            np.full(kinds.size, 1e-3),
+            np.full(kinds.size, narrow),
+            np.full(kinds.size, least_reach),
+        )
         least = smallest_spin_inertia(limits) * _OFF_THE_EDGE
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), len(problem.materials))
         least = np.maximum(least, 1e-9 * disc)
         inertia = least * np.maximum(disc / least, 1.0) ** steps
-        mass = np.nan_to_num(lightest_module(inertia, limits).mass, nan=np.inf)
         shape = (len(problem.materials), _RIMS)
-        return cls(inertia.reshape(shape), mass.reshape(shape))
+        masses = (
+            np.nan_to_num(lightest_module(inertia, limits, shell).mass, nan=np.inf).reshape(shape)
+            for shell in (Printed(least_reach), PlainDrum())
+        )
+        return cls(inertia.reshape(shape), *masses)
 
     def at(self, spin_inertia: FloatArray) -> FloatArray:
-        """Of no more spin inertia than that, shape (materials, n)."""
+        """Mass of no more spin inertia than that, shape (materials, n)."""
+        return self._looked_up(self.mass, spin_inertia)
+
+    def about_center_at(self, spin_inertia: FloatArray) -> FloatArray:
+        """Likewise, of what stands about the wheel's centre."""
+        return self._looked_up(self.about_center, spin_inertia)
+
+    def _looked_up(self, masses: FloatArray, spin_inertia: FloatArray) -> FloatArray:
         rows = [
             mass[np.maximum(np.searchsorted(grid, spin_inertia, side="right") - 1, 0)]
-            for grid, mass in zip(self.spin_inertia, self.mass, strict=True)
+            for grid, mass in zip(self.spin_inertia, masses, strict=True)
         ]
         beyond = spin_inertia > self.spin_inertia[:, -1:]
         return np.where(beyond, np.inf, np.stack(rows))
@@ -86,6 +110,11 @@ def _narrowest_hub(problem: SelectionProblem) -> float:
     return min(
         hub_of(motor, direct=direct).radius for motor in problem.motors for direct in (True, False)
     )
+
+
+def _narrowest_mount(problem: SelectionProblem) -> float:
+    """Reach that the holes of no motor's mount are below [m]."""
+    return min(mount_holes(motor.mounting).reach for motor in problem.motors)
 
 
 @dataclass(frozen=True)
@@ -139,23 +168,22 @@ def least_inertia(
     """Of the robot with modules of at least that spin inertia [kg m^2], shape (n, 2)."""
     room = problem.envelope
     rim = np.maximum(spin_inertia - drives.beside_rim, floor.spin_inertia[:, 0].min())
-    mass = drives.mass + np.where(np.isfinite(rim), floor.at(rim).min(axis=0), 0.0)
+    known = np.isfinite(rim)
+    about_center = np.where(known, floor.about_center_at(rim).min(axis=0), 0.0)
+    about_center = np.where(np.isfinite(about_center), about_center, 0.0)
     radius = max(room.inner_radius_min + room.wall_min, room.wall_min / (1.0 - BORE_SHARE))
-    least = Modules(
-        mass=np.where(np.isfinite(mass), mass, drives.mass),
-        axial_inertia=drives.axial_inertia
-        + drives.hub_share
-        + np.where(np.isfinite(rim), rim, 0.0),
+    zero = np.zeros_like(rim)
+    motor = drives.motor_length, drives.motor_radius, drives.mount_reach
+    least = Least(
+        mass=np.maximum(about_center + drives.hub_mass - drives.mount_mass, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
-        transverse_inertia=drives.transverse_inertia + np.where(np.isfinite(rim), rim, 0.0) / 2.0,
-        outer_radius=np.full(rim.shape, housing_outer_radius(radius)),
-        height=np.full(rim.shape, housing_height(room.height_min)),
+        inertia=np.minimum(drives.hub_share, drives.hub_across) + np.where(known, rim, 0.0) / 2.0,
+        behind=drives.behind.mass + drives.mount_mass,
+        depth=half_height(room.height_max) + PLATE_THICKNESS + drives.motor_length / 2.0,
+        smallest=module_size(zero + radius, zero + room.height_min, *motor),
+        largest=module_size(zero + room.outer_radius_max, zero + room.height_max, *motor),
     )
-    largest = least._replace(
-        outer_radius=np.full(rim.shape, housing_outer_radius(room.outer_radius_max)),
-        height=np.full(rim.shape, housing_height(room.height_max)),
-    )
-    return least_trunk_inertia(problem.robot, problem.place, least, largest)
+    return least_trunk_inertia(problem.robot, problem.place, least)
 
 
 def least_masses(floor: RimFloor, drives: DriveTable, spin_inertia: FloatArray) -> FloatArray:

@@ -11,9 +11,9 @@ from ocs_design.drive.slew_profile import slew_profile
 from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
 from ocs_design.requirement.bound import AXES
 from ocs_design.robot.mass_properties import MassProperties, combine
-from ocs_design.sizing.carrier import Carrier, drive_carrier, housed
-from ocs_design.sizing.housing import housing_height, housing_outer_radius
-from ocs_design.sizing.incidence import module_axes
+from ocs_design.sizing.carrier import Carrier, standing
+from ocs_design.sizing.incidence import module_frames
+from ocs_design.sizing.placement import motor_size
 from ocs_design.sizing.selection.binding import binding_limits
 from ocs_design.sizing.selection.demand import pair_task, shares_of
 from ocs_design.sizing.selection.drive_table import DriveTable
@@ -28,10 +28,10 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
     drives = settled.lot.drives
     motor, gear = problem.motors[drives.motor[row]], problem.gears[drives.gear[row]]
     material = problem.materials[settled.lot.material[row]]
-    inner, outer, height, rim_mass, _, housing_mass = (float(v[row]) for v in settled.point.shapes)
+    inner, outer, height, rim_mass = (float(value[row]) for value in settled.point.shapes[:4])
     hub = hub_of(motor, direct=gear == DIRECT) if problem.web else None
-    carrier = housed(drive_carrier(motor, gear), outer, height)
-    centers = problem.place(housing_outer_radius(outer), housing_height(height))
+    carrier = standing(motor, gear, outer, height)
+    centers = problem.place.centers(motor_size(motor, outer, height))
     wheel = wheel_body(inner, outer, height, material.density, hub)
     modules = (wheel, carrier)
     incidence, spin = float(settled.point.angle[row]), float(settled.point.spin_inertia[row])
@@ -49,7 +49,6 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
         hub=hub,
         rim_mass=rim_mass,
         web_mass=wheel.mass - rim_mass,
-        housing_mass=housing_mass,
         carrier=carrier,
         line=_line(drives, row),
         overspeed=float(drives.overspeed[row]),
@@ -79,16 +78,13 @@ def braked(
 
     Args:
         robot: without the modules.
-        bodies: of one module, all at the wheel's centre.
+        bodies: of one module, in its own frame (`incidence.module_frames`).
         centers: of the wheels in B [m], shape (2, 3).
         incidence: of their axes [rad].
     """
     parts = [robot]
-    for center, axis in zip(centers, module_axes(incidence).T, strict=True):
-        along = np.outer(axis, axis)
-        for body in bodies:
-            across = body.transverse_inertia * (np.eye(3) - along)
-            parts.append(MassProperties(body.mass, center, body.axial_inertia * along + across))
+    for center, attitude in zip(centers, module_frames(incidence), strict=True):
+        parts += [body.mass_properties().moved(attitude, center) for body in bodies]
     return combine(parts)
 
 

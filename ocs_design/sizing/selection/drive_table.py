@@ -16,7 +16,9 @@ from ocs_design.drive.line import (
     rotor_share,
 )
 from ocs_design.drive.motor import Motor
-from ocs_design.sizing.carrier import drive_carrier
+from ocs_design.sizing.carrier import behind_floor, motor_middle
+from ocs_design.sizing.mass_moments import MassMoments, point, rows_of, stacked
+from ocs_design.sizing.mount import mount_holes
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.web import NO_HUB, hub_of
 
@@ -30,23 +32,28 @@ class DriveTable:
 
     Attributes:
         motor, gear: their indices in the problem's sequences.
-        mass: of motor, gear and the wheel's hub [kg].
-        axial_inertia: of motor and gear, see `Carrier` [kg m^2].
-        transverse_inertia: of these and the hub [kg m^2].
-        rotor_share, hub_share: of the spin inertia [kg m^2].
-        hub_radius: [m]; 0 without a web.
+        behind: of motor and gear, less the mount's holes; see `carrier.behind_floor`.
+        motor_length, motor_radius: [m]; 0 where not known.
+        mount_reach, mount_mass: of the mount's holes [m, kg].
+        hub_mass: of the wheel's hub [kg]. hub_radius: [m]; 0 without a web.
+        hub_share: of the spin inertia. hub_across: about any axis across [kg m^2].
+        rotor_share: of the spin inertia [kg m^2].
         armature: what the motor accelerates beyond the spin inertia [kg m^2].
         stall_torque, no_load_speed, torque_limit, speed_max: see `DriveLine`, nothing held back.
     """
 
     motor: NDArray[np.intp]
     gear: NDArray[np.intp]
-    mass: FloatArray
-    axial_inertia: FloatArray
-    transverse_inertia: FloatArray
-    rotor_share: FloatArray
-    hub_share: FloatArray
+    behind: MassMoments[FloatArray]
+    motor_length: FloatArray
+    motor_radius: FloatArray
+    mount_reach: FloatArray
+    mount_mass: FloatArray
+    hub_mass: FloatArray
     hub_radius: FloatArray
+    hub_share: FloatArray
+    hub_across: FloatArray
+    rotor_share: FloatArray
     armature: FloatArray
     stall_torque: FloatArray
     no_load_speed: FloatArray
@@ -58,7 +65,17 @@ class DriveTable:
 
     def take(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> "DriveTable":
         """The drives of these rows."""
-        return DriveTable(*(getattr(self, field.name)[rows] for field in fields(self)))
+        arrays = {
+            field.name: getattr(self, field.name)[rows]
+            for field in fields(self)
+            if field.name != "behind"
+        }
+        return DriveTable(behind=rows_of(self.behind, rows), **arrays)
+
+    @property
+    def mass(self) -> FloatArray:
+        """Of motor, gear and the wheel's hub, less the mount's holes [kg]."""
+        return self.behind.mass + self.hub_mass
 
     @property
     def beside_rim(self) -> FloatArray:
@@ -100,26 +117,48 @@ def drive_table(problem: SelectionProblem, pairs: NDArray[np.intp]) -> DriveTabl
         problem: motors, gears, bus voltage, stated highest speed of a wheel.
         pairs: indices of motor and gear, whose figures are known, shape (n, 2).
     """
-    rows = [
-        (m, g, *_figures(problem, problem.motors[m], problem.gears[g])) for m, g in pairs.tolist()
-    ]
-    columns = np.array(rows, dtype=np.float64).reshape(-1, len(fields(DriveTable))).T.copy()
+    motors, gears = pairs.T
+    rows = [_figures(problem, problem.motors[m], problem.gears[g]) for m, g in pairs.tolist()]
+    columns = np.array(rows, dtype=np.float64).reshape(len(rows), -1).T.copy()
     if problem.wheel_speed_max is not None:
         columns[-1] = np.minimum(columns[-1], problem.wheel_speed_max)
-    return DriveTable(columns[0].astype(np.intp), columns[1].astype(np.intp), *columns[2:])
+    known = sorted(set(motors.tolist()))
+    of_motor = np.searchsorted(known, motors)
+    seats = np.array([_seat(problem.motors[m]) for m in known]).reshape(-1, 4)[of_motor].T
+    return DriveTable(motors, gears, _behind(problem, pairs, known), *seats, *columns)
+
+
+def _behind(
+    problem: SelectionProblem, pairs: NDArray[np.intp], known: Sequence[int]
+) -> MassMoments[FloatArray]:
+    """What stands behind the floor, worked out once for each of the motors that are `known`."""
+    alone = [
+        behind_floor(motor, DIRECT, mount_holes(motor.mounting))
+        for motor in (problem.motors[m] for m in known)
+    ]
+    middles = np.array([motor_middle(problem.motors[m]) for m in known])
+    gears = np.array([problem.gears[g].mass for g in pairs[:, 1].tolist()])
+    of_motor = np.searchsorted(known, pairs[:, 0])
+    return rows_of(stacked(alone), of_motor) + point(gears).shifted(middles[of_motor], 0.0 * gears)
+
+
+def _seat(motor: Motor) -> tuple[float, float, float, float]:
+    """Length, radius, and of the mount's holes the reach and what they take."""
+    holes = mount_holes(motor.mounting)
+    length, radius = motor.length or 0.0, (motor.diameter or 0.0) / 2.0
+    return length, radius, holes.reach, -holes.cut_out().mass
 
 
 def _figures(problem: SelectionProblem, motor: Motor, gear: Gear) -> tuple[float, ...]:
-    line, carrier = drive_line(motor, gear, problem.bus_voltage), drive_carrier(motor, gear)
+    line = drive_line(motor, gear, problem.bus_voltage)
     hub = hub_of(motor, direct=gear == DIRECT) if problem.web else NO_HUB
     rotor = motor.rotor_inertia or 0.0
     return (
-        carrier.mass + hub.mass,
-        carrier.axial_inertia,
-        carrier.transverse_inertia + hub.transverse_inertia,
-        rotor_share(rotor, gear),
-        hub.axial_inertia,
+        hub.mass,
         hub.radius,
+        hub.axial_inertia,
+        hub.transverse_inertia,
+        rotor_share(rotor, gear),
         armature(rotor, gear),
         float(line.stall_torque),
         float(line.no_load_speed),

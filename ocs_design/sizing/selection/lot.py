@@ -7,18 +7,17 @@ from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
 from ocs_design.sizing.cylinder import cylinder_transverse_inertia
-from ocs_design.sizing.housing import (
-    housing_axial_inertia,
-    housing_height,
-    housing_outer_radius,
-    housing_transverse_inertia,
-)
-from ocs_design.sizing.lightest_module import ModuleShape, lightest_module, lightest_module_at
+from ocs_design.sizing.housing import half_height
+from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
+from ocs_design.sizing.mass_moments import round_body
+from ocs_design.sizing.mount import limits_with_mount
+from ocs_design.sizing.placement import module_size
 from ocs_design.sizing.rim_closed_form import smallest_spin_inertia
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.trunk import Modules
+from ocs_design.sizing.shell import Printed, printed_moments
 from ocs_design.sizing.web import WEB_THICKNESS, limits_with_web
 
 # The smallest rim of all must not get lost to rounding.
@@ -42,6 +41,11 @@ class Lot:
     limits: RimLimits
 
     @property
+    def shell(self) -> Printed:
+        """Around their wheels."""
+        return Printed(self.drives.mount_reach)
+
+    @property
     def least_spin_inertia(self) -> FloatArray:
         """With the smallest rim that the lower limits leave [kg m^2], and positive.
 
@@ -50,16 +54,12 @@ class Lot:
         least = smallest_spin_inertia(self.limits) * _OFF_THE_EDGE + self.drives.beside_rim
         return np.maximum(least, _NOTHING)
 
-    def shapes(self, spin_inertia: FloatArray) -> ModuleShape:
-        """The lightest wheels and housings that together with the rotors have it [kg m^2]."""
-        return lightest_module(spin_inertia - self.drives.beside_rim, self.limits)
-
     def shapes_at(
         self, spin_inertia: FloatArray, radius: FloatArray, flatness: FloatArray
     ) -> ModuleShape:
-        """The lightest ones of these outer radii [m]; see `lightest_module_at`."""
+        """The lightest that have it with their rotors [kg m^2]; see `lightest_module_at`."""
         rim = spin_inertia - self.drives.beside_rim
-        return lightest_module_at(rim, radius, self.limits, flatness)
+        return lightest_module_at(rim, radius, self.limits, self.shell, flatness)
 
     def modules(self, spin_inertia: FloatArray, shapes: ModuleShape) -> Modules:
         """One module of each, braked."""
@@ -68,16 +68,16 @@ class Lot:
         across = cylinder_transverse_inertia(inner, outer, height, 1.0) * self.limits.density
         # Of the web, whose mass tells its thickness: m (3 r^2 + t^2) / 12.
         web = shapes.web_mass * (3.0 * inner**2 + WEB_THICKNESS**2) / 12.0
-        return Modules(
-            mass=drives.mass + shapes.mass,
-            axial_inertia=drives.axial_inertia + wheel + housing_axial_inertia(outer, height),
-            transverse_inertia=drives.transverse_inertia
-            + across
-            + web
-            + housing_transverse_inertia(outer, height),
-            outer_radius=housing_outer_radius(outer),
-            height=housing_height(height),
+        mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
+        whole = (
+            round_body(mass, wheel, across + web + drives.hub_across)
+            + printed_moments(outer, height, drives.mount_reach)
+            + drives.behind.shifted(-half_height(height), np.zeros_like(height))
         )
+        size = module_size(
+            outer, height, drives.motor_length, drives.motor_radius, drives.mount_reach
+        )
+        return Modules.of(whole, size)
 
     def take(self, rows: NDArray[np.intp]) -> "Lot":
         """The candidates of these rows."""
@@ -89,6 +89,7 @@ class Lot:
             inner_radius_min=np.asarray(self.limits.inner_radius_min)[rows],
             height_min=np.asarray(self.limits.height_min)[rows],
             web=np.asarray(self.limits.web)[rows],
+            outer_radius_min=np.asarray(self.limits.outer_radius_min)[rows],
         )
         return Lot(self.drives.take(rows), self.material[rows], limits)
 
@@ -99,7 +100,7 @@ class Lot:
 
 def lot_of(problem: SelectionProblem, drives: DriveTable, material: NDArray[np.intp]) -> Lot:
     """Candidates of these drives and materials, entry by entry."""
-    limits = rim_limits(problem, material, drives.overspeed, drives.hub_radius)
+    limits = rim_limits(problem, material, drives.overspeed, drives.hub_radius, drives.mount_reach)
     return Lot(drives, material, limits)
 
 
@@ -108,8 +109,15 @@ def rim_limits(
     material: NDArray[np.intp],
     overspeed: FloatArray,
     hub_radius: FloatArray,
+    mount_reach: FloatArray,
 ) -> RimLimits:
-    """Limits of rims of these materials at these speeds [rad/s] around hubs [m], entry by entry."""
+    """Limits of rims, entry by entry.
+
+    Args:
+        problem: room and materials.
+        material: of each. overspeed: that it must hold at [rad/s].
+        hub_radius: in its middle [m]. mount_reach: of the holes in its housing's floor [m].
+    """
     envelope, materials = problem.envelope, problem.materials
     each = [RimProblem(0.0, envelope, kind, 1.0).limits for kind in materials]
     density = np.array([limits.density for limits in each])[material]
@@ -127,4 +135,5 @@ def rim_limits(
         poisson_ratio=np.array([limits.poisson_ratio for limits in each])[material],
         web=np.zeros_like(density),
     )
-    return limits_with_web(alone, hub_radius) if problem.web else alone
+    mounted = limits_with_mount(alone, mount_reach)
+    return limits_with_web(mounted, hub_radius) if problem.web else mounted

@@ -12,7 +12,6 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.sizing.cylinder import cylinder_mass, cylinder_spin_inertia
-from ocs_design.sizing.housing import housing_mass
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
 from ocs_design.sizing.selection.demand import margins, reach
@@ -77,8 +76,11 @@ class _Programme:
             [self.lot.least_spin_inertia, *(p.following[:, 0] for p in parts)]
         )
         stated = requirement.spin_inertia
-        residual = np.zeros(1) if stated is not None else np.abs(asked / spin - 1.0)
         margin = np.minimum(*(part.margin[:, 0] for part in parts))
+        # Where no larger wheel would do either, a margin that rounding leaves below one asks for
+        # an infinite one.
+        missed = np.where(np.isfinite(asked), np.abs(asked / spin - 1.0), np.abs(margin - 1.0))
+        residual = np.zeros(1) if stated is not None else missed
         return FixedPoint(spin, angle, shapes, np.array([possible]), margin, residual)
 
     def _on_trunk(self, lot: Lot, shapes: ModuleShape) -> tuple[FloatArray, TrunkInertia]:
@@ -97,7 +99,7 @@ class _Programme:
         density = np.asarray(self.lot.limits.density)
         mass = cylinder_mass(inner, outer, height, 1.0) * density
         web = np.pi * density * self.lot.limits.web * inner**2
-        return ModuleShape(inner, outer, height, mass, web, housing_mass(outer, height))
+        return ModuleShape(inner, outer, height, mass, web, self.lot.shell.mass(outer, height))
 
     def _room(self, shapes: ModuleShape) -> FloatArray:
         """By how much rims stay within their limits, as logarithms, shape (k, limits)."""
@@ -109,6 +111,7 @@ class _Programme:
             (height, limits.height_max),
             (shapes.rim_mass, limits.mass_max),
             (stretch, limits.stretch_max),
+            (limits.outer_radius_min, outer),
             (limits.height_min, height),
             (limits.wall_min, outer - inner),
             (np.maximum(limits.inner_radius_min, BORE_SHARE * outer), inner),

@@ -7,6 +7,7 @@ import numpy as np
 
 from ocs_design.drive.line import missing_figures
 from ocs_design.drive.wheel_pair import SlewReason
+from ocs_design.sizing.housing import PlainDrum
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.rim_closed_form import smallest_spin_inertia
 from ocs_design.sizing.selection.attempt import Attempt, Part, attempt
@@ -141,12 +142,14 @@ def _too_fast_or_heavy(
     """A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia."""
     kinds = np.arange(len(problem.materials))
     overspeed = np.full(kinds.size, tried.drives.overspeed[row])
-    limits = rim_limits(
-        problem, kinds, overspeed, np.full(kinds.size, tried.drives.hub_radius[row])
+    hub, mount = (
+        np.full(kinds.size, radius[row])
+        for radius in (tried.drives.hub_radius, tried.drives.mount_reach)
     )
+    limits = rim_limits(problem, kinds, overspeed, hub, mount)
     least = smallest_spin_inertia(limits) * (1.0 + 1e-9)
     rims = np.maximum(needed - tried.drives.beside_rim[row], least)
-    if not (lightest_module(rims, limits).mass > 0.0).any():
+    if not (lightest_module(rims, limits, PlainDrum()).mass > 0.0).any():
         rpm = overspeed[0] * 30.0 / np.pi
         return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"
     return Reason.OWN_WEIGHT, f"{wheel} on the robot alone, and none that fits with its device"

@@ -8,9 +8,12 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.drive.gear import Gear
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.motor import Motor
+from ocs_design.requirement.envelope import Envelope
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.web import Hub, wheel_body
+from ocs_design.sizing.mount import limits_with_mount, mount_holes
+from ocs_design.sizing.rim_problem import RimLimits, RimProblem
+from ocs_design.sizing.web import Hub, limits_with_web, wheel_body
 
 
 @dataclass(frozen=True)
@@ -48,8 +51,8 @@ class Candidate:
         rotor_share: s N J_r of it. armature: what the motor accelerates beyond it [kg m^2].
         inner_radius, outer_radius, height: of the rim [m].
         hub: in the middle of a wheel's web; None: massless spokes.
-        rim_mass: of one module [kg]. web_mass: with the hub. housing_mass: likewise.
-        carrier: what stands still of one module: motor, gear and housing.
+        rim_mass: of one module [kg]. web_mass: with the hub.
+        carrier: what stands still of one module: motor, gear, housing and foot.
         line: of the drive at the wheel, nothing held back.
         overspeed: at which the hoop stress is limited [rad/s].
         total: robot and both modules, braked, in B.
@@ -74,7 +77,6 @@ class Candidate:
     hub: Hub | None
     rim_mass: float
     web_mass: float
-    housing_mass: float
     carrier: Carrier
     line: DriveLine
     overspeed: float
@@ -87,8 +89,19 @@ class Candidate:
 
     @property
     def mass(self) -> float:
-        """Of both modules: wheels, motors, gears and housings [kg]."""
+        """Of both modules: wheels, motors, gears, housings and feet [kg]."""
         return 2.0 * (self.wheel_mass + self.carrier.mass)
+
+    @property
+    def printed_mass(self) -> float:
+        """Of one housing with its foot [kg]."""
+        return self.carrier.mass - (self.motor.mass or 0.0) - self.gear.mass
+
+    def limits(self, room: Envelope) -> RimLimits:
+        """Of its rim, scalars, in the room that is specified."""
+        alone = RimProblem(self.spin_inertia, room, self.material, self.overspeed).limits
+        mounted = limits_with_mount(alone, mount_holes(self.motor.mounting).reach)
+        return mounted if self.hub is None else limits_with_web(mounted, self.hub.radius)
 
     @property
     def wheel_mass(self) -> float:

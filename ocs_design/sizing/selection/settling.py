@@ -63,8 +63,8 @@ _FALL = 0.5
 _NEAR = 0.01
 _ROUGH = Tolerance(residual=1e-7, width=0.05)
 _FINE = Tolerance(residual=1e-12, width=1e-3)
-# Margin of what cannot be, but may if looked at more closely.
-_PROMISING = 0.97
+# Margin of what cannot be, but may if looked at more closely, and to all digits.
+_PROMISING, _ALMOST = 0.97, 0.998
 # [kg], of what cannot be; the closer to possible, the less is added.
 _BEYOND = 1e9
 
@@ -149,7 +149,8 @@ def refine(problem: SelectionProblem, settled: Settled, lightest: float) -> Sett
         search.put(active, some)
         keep = some.score <= (1.0 + _FALL * around.span) * search.score.min()
         # What is not possible yet may be, looked at more closely.
-        active = active[keep | ((some.score >= _BEYOND / 2.0) & (around.span > _HOPELESS))]
+        hope = (around.span > _HOPELESS) | (some.point.margin > _ALMOST)
+        active = active[keep | ((some.score >= _BEYOND / 2.0) & hope)]
     found = search.take(active)
     return replace(settled, point=_polished(settled.point, problem, found, rows[active]))
 

@@ -9,13 +9,14 @@ from ocs_design.arrays import FloatArray
 from ocs_design.requirement.bound import SpinDemand, per_wheel
 from ocs_design.sizing.incidence import incidence_by_criterion
 from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.mount import mount_holes
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.selection.candidate import braked
 from ocs_design.sizing.selection.momenta import design_momenta
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
+from ocs_design.sizing.shell import Printed
 from ocs_design.sizing.sized import Sized
-from ocs_design.sizing.web import limits_with_web
 
 METHOD = "branch and bound over the catalogue, each module in closed form"
 
@@ -91,7 +92,8 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     hub_share = 0.0 if chosen.hub is None else chosen.hub.axial_inertia
     rim_inertia = chosen.spin_inertia - chosen.rotor_share - hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
-    limits = rim.limits if chosen.hub is None else limits_with_web(rim.limits, chosen.hub.radius)
+    limits = chosen.limits(problem.envelope)
+    shell = Printed(mount_holes(chosen.motor.mounting).reach)
     prices = {}
     for name in chosen.binding:
         field = _LIMIT_OF_NAME.get(name)
@@ -99,18 +101,18 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
             per_unit = 1.0
             if name == "hoop_stress":
                 per_unit = rim.stretch_max / rim.hoop_stress_max
-            prices[name] = _slope(rim_inertia, limits, field) * per_unit
+            prices[name] = _slope(rim_inertia, limits, shell, field) * per_unit
     return prices
 
 
-def _slope(rim_inertia: float, limits: RimLimits, field: str) -> float:
+def _slope(rim_inertia: float, limits: RimLimits, shell: Printed, field: str) -> float:
     """dm of one module per dlimit; one-sided where only one side has a module."""
     value = float(np.asarray(getattr(limits, field)))
     steps = np.array([-_STEP, 0.0, _STEP]) * value
     masses = np.array(
         [
-            float(lightest_module(rim_inertia, replace(limits, **{field: value + step})).mass)
-            for step in steps
+            float(lightest_module(rim_inertia, changed, shell).mass)
+            for changed in (replace(limits, **{field: value + step}) for step in steps)
         ]
     )
     known = np.isfinite(masses)

@@ -1,12 +1,14 @@
 """The inertia that the wheels turn: robot and both modules, braked, for many devices at once."""
 
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.placement import Place, sphere_radius
+from ocs_design.sizing.mass_moments import MassMoments
+from ocs_design.sizing.placement import Place, Size
 
 
 class Modules(NamedTuple):
@@ -14,87 +16,142 @@ class Modules(NamedTuple):
 
     Attributes:
         mass: [kg].
-        axial_inertia: about the wheel's axis, braked. transverse_inertia: across it [kg m^2].
-        outer_radius, height: of its housing [m].
+        along, up: of its centre of mass from the wheel's, in the module's frame [m].
+        axial_inertia: about the axis through it that is parallel to the wheel's, braked [kg m^2].
+        transverse_inertia: about the horizontal one across it [kg m^2].
+        size: the room that it takes.
     """
 
     mass: FloatArray
+    along: FloatArray
+    up: FloatArray
     axial_inertia: FloatArray
     transverse_inertia: FloatArray
-    outer_radius: FloatArray
-    height: FloatArray
+    size: Size[FloatArray]
+
+    @classmethod
+    def of(cls, moments: MassMoments[FloatArray], size: Size[FloatArray]) -> "Modules":
+        """From all of a module's mass and its moments about the wheel's centre."""
+        mass = moments.mass
+        along, up = moments.y / mass, moments.z / mass
+        upright = moments.zz - mass * up**2
+        return cls(
+            mass=mass,
+            along=along,
+            up=up,
+            axial_inertia=moments.xx + upright,
+            transverse_inertia=moments.yy - mass * along**2 + upright,
+            size=size,
+        )
+
+
+class Least(NamedTuple):
+    """What no module of a kind is below, all of shape (n,).
+
+    Attributes:
+        mass: of what stands about the wheel's centre, wheel and drum [kg].
+        inertia: of that about any axis [kg m^2].
+        behind: of what stands behind it on the axis [kg].
+        depth: of its middle from the wheel's, at most [m].
+        smallest, largest: rooms that modules take.
+    """
+
+    mass: FloatArray
+    inertia: FloatArray
+    behind: FloatArray
+    depth: FloatArray
+    smallest: Size[FloatArray]
+    largest: Size[FloatArray]
 
 
 class TrunkInertia(NamedTuple):
-    """Of robot and device about roll and pitch, by the incidence of the axes.
+    """Of robot and device about roll and pitch, by the incidence of the axes; shape (n, 2) each.
+
+    With the sine for roll and the cosine for pitch, I = base + spread share^2 + (linear + square
+    other) other, where `other` is the cosine for roll and the sine for pitch.
 
     Attributes:
-        base: with all of a module's inertia taken as transverse [kg m^2], shape (n, 2).
-        spread: what both modules have more about their axes than across [kg m^2], shape (n,).
+        base: with all of a module's inertia taken as transverse, its mass at its wheel [kg m^2].
+        spread: what both modules have more about their axes than across [kg m^2].
+        linear, square: what their centres of mass off the wheels' add [kg m^2].
     """
 
     base: FloatArray
     spread: FloatArray
+    linear: FloatArray
+    square: FloatArray
 
     def at(self, shares: FloatArray) -> FloatArray:
         """I_xx and I_yy at sin and cos of incidences [kg m^2], shape (n, k, 2) as `shares`."""
-        inertia: FloatArray = self.base[:, None, :] + self.spread[:, None, None] * shares * shares
+        other = shares[..., ::-1]
+        off = (self.linear[:, None, :] + self.square[:, None, :] * other) * other
+        inertia: FloatArray = self.base[:, None, :] + self.spread[:, None, :] * shares**2 + off
         return inertia
 
 
 def trunk_inertia(robot: MassProperties, place: Place, modules: Modules) -> TrunkInertia:
     """Of each device on the robot, by parallel axes.
 
-    Both modules together act as one body of twice the mass, its centre of mass in the sagittal
-    plane, and two bodies m at a distance act on their common centre as the reduced mass.
+    The left module's centre of mass is at (x + e sin, y + e cos, z + d), the right one's mirrored.
+    Both together act as one body of twice the mass, its centre of mass in the sagittal plane, and
+    two bodies m at a distance act on their common centre as the reduced mass.
     """
-    x, y, z = place.left(modules.outer_radius, modules.height)
-    forward, up = x - robot.com[0], z - robot.com[2]
-    return _joined(robot, modules, forward**2, y * y, up**2)
+    x, y, z = place.left(modules.size)
+    along, both = modules.along, 2.0 * modules.mass
+    reduced = robot.mass * both / (robot.mass + both)
+    forward, up = x - robot.com[0], z + modules.up - robot.com[2]
+    own = 2.0 * modules.transverse_inertia
+    roll = robot.inertia[0, 0] + reduced * (robot.com[1] ** 2 + up**2) + both * y**2 + own
+    pitch = robot.inertia[1, 1] + reduced * (forward**2 + up**2) + own
+    spread = 2.0 * (modules.axial_inertia - modules.transverse_inertia)
+    return TrunkInertia(
+        base=_pairs(roll, pitch),
+        spread=_pairs(spread, spread),
+        linear=_pairs(2.0 * both * y * along, 2.0 * reduced * forward * along),
+        square=_pairs(both * along**2, reduced * along**2),
+    )
 
 
-def least_trunk_inertia(
-    robot: MassProperties, place: Place, least: Modules, largest: Modules
-) -> FloatArray:
+def least_trunk_inertia(robot: MassProperties, place: Place, least: Least) -> FloatArray:
     """A lower bound over all devices that are no smaller and no lighter [kg m^2], shape (n, 2).
 
     Every term grows with mass, inertia or a distance; each distance is at its own least between
-    where the smallest and where the largest module stands.
-
-    Args:
-        robot, place: of the problem.
-        least: smallest mass, inertias and sizes.
-        largest: sizes; the rest is not looked at.
+    where the smallest and where the largest module stands, at any incidence. What is not looked
+    at, the foot, would only add to the inertia about the common centre of mass.
     """
-    near = sphere_radius(least.outer_radius, least.height)
-    far = sphere_radius(largest.outer_radius, largest.height)
-    com = (robot.com[0], 0.0, robot.com[2])
-    squares = (
-        _least_square(start + along * near - about, start + along * far - about)
-        for start, along, about in zip(place.origin, place.outward, com, strict=True)
-    )
-    inertia, spread = _joined(robot, least, *squares)
-    return inertia + np.minimum(spread, 0.0)[:, None]
+    x, y, z = (_range(values) for values in zip(*_corners(place, least), strict=True))
+    mass = least.mass + least.behind
+    off = least.behind * least.depth / mass
+    zero = np.zeros_like(off)
+    forward = _least_square(x, robot.com[0], off)
+    up = _least_square(z, robot.com[2], zero)
+    sideways = least.mass * _least_square(y, 0.0, zero)
+    sideways = sideways + least.behind * _least_square(y, 0.0, least.depth)
+    reduced = robot.mass * 2.0 * mass / (robot.mass + 2.0 * mass)
+    own = 2.0 * least.inertia
+    roll = robot.inertia[0, 0] + reduced * (robot.com[1] ** 2 + up) + 2.0 * sideways + own
+    return _pairs(roll, robot.inertia[1, 1] + reduced * (forward + up) + own)
 
 
-def _joined(
-    robot: MassProperties,
-    modules: Modules,
-    forward: FloatArray,
-    sideways: FloatArray,
-    up: FloatArray,
-) -> TrunkInertia:
-    """From the squares of the modules' distances, forward and up from the centre of mass."""
-    both = 2.0 * modules.mass
-    reduced = robot.mass * both / (robot.mass + both)
-    own = 2.0 * modules.transverse_inertia
-    roll = robot.inertia[0, 0] + reduced * (robot.com[1] ** 2 + up) + both * sideways + own
-    pitch = robot.inertia[1, 1] + reduced * (forward + up) + own
-    base = np.stack(np.broadcast_arrays(roll, pitch), axis=-1)
-    return TrunkInertia(base, 2.0 * (modules.axial_inertia - modules.transverse_inertia))
+def _pairs(roll: FloatArray, pitch: FloatArray) -> FloatArray:
+    return np.stack(np.broadcast_arrays(roll, pitch), axis=-1)
 
 
-def _least_square(near: FloatArray, far: FloatArray) -> FloatArray:
-    """Of anything between `near` and `far`."""
-    least: FloatArray = np.where(near * far <= 0.0, 0.0, np.minimum(np.abs(near), np.abs(far))) ** 2
+def _corners(place: Place, least: Least) -> Iterator[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Where modules of the least and the largest reach and height stand."""
+    for reach in (least.smallest.reach, least.largest.reach):
+        for standing in (least.smallest.standing, least.largest.standing):
+            yield place.left(Size(reach, standing))
+
+
+def _range(values: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    return np.minimum.reduce(values), np.maximum.reduce(values)
+
+
+def _least_square(
+    between: tuple[FloatArray, FloatArray], about: float, back: FloatArray
+) -> FloatArray:
+    """Of the distance from `about` of anything in a range, or by `back` before it."""
+    low, high = between[0] - back - about, between[1] - about
+    least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
     return least

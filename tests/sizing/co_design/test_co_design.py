@@ -5,7 +5,7 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 import pytest
-from naive_device import wheel_of
+from naive_wheel import wheel_of
 from selections import random_problem
 
 from ocs_design.drive.gear import DIRECT

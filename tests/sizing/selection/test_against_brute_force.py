@@ -9,8 +9,9 @@ proves little.
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, Rims, device_mass, fits, holds, inertia_on, margin
+from naive_device import Drive, device_mass, fits, holds, inertia_on, margin
 from naive_search import Device, refine, search
+from naive_wheel import Rims
 from selections import random_problem
 
 from ocs_design.exceptions import Infeasible

@@ -10,6 +10,7 @@ from ocs_design.requirement.envelope import Envelope
 from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
 from ocs_design.sizing.rim_problem import RimProblem
 from ocs_design.sizing.selection.binding import HOUSING, binding_limits
+from ocs_design.sizing.shell import Printed
 from ocs_design.sizing.web import LIGAMENT, limits_with_web
 
 ROOM = Envelope(
@@ -17,7 +18,8 @@ ROOM = Envelope(
     wall_min=0.001, mass_max=np.inf, stress_safety=2.0,
 )  # fmt: skip
 LIMITS = RimProblem(7.11e-5, ROOM, STEEL, 100.0).limits
-MODULE = lightest_module(np.array([7.11e-5]), LIMITS)
+SHELL = Printed(mount_reach=0.0)
+MODULE = lightest_module(np.array([7.11e-5]), LIMITS, SHELL)
 
 
 def test_as_wide_and_as_tall_as_may_be():
@@ -37,9 +39,17 @@ def test_a_dimension_that_is_off_its_limit_is_held_by_its_housing():
 
 def test_hub_and_web_are_named_where_they_ask_for_more_than_was_specified():
     seated = limits_with_web(LIMITS, 0.02 - LIGAMENT)
-    module = lightest_module_at(np.array([2e-5]), 0.03, seated)._replace(
+    module = lightest_module_at(np.array([2e-5]), 0.03, seated, SHELL)._replace(
         inner_radius=np.array([0.02]), height=np.atleast_1d(seated.height_min)
     )
     named = binding_limits(module, seated, replace(ROOM, height_min=0.001), 0)
     assert {"hub", "web"} <= set(named)
     assert not {"r_min", "h_min"} & set(named)
+
+
+def test_a_motor_whose_mount_asks_for_a_wider_housing_is_named():
+    mounted = replace(LIMITS, outer_radius_min=0.03)
+    assert binding_limits(MODULE, replace(mounted, outer_radius_max=0.04), ROOM, 0) == (
+        "h_max",
+        "mount",
+    )

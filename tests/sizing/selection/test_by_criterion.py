@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, Rims, inertia_on
+from naive_device import Drive, inertia_on
+from naive_wheel import Rims
 
 from ocs_design.exceptions import Infeasible
 from ocs_design.sizing.incidence import Criterion

@@ -42,9 +42,8 @@ def test_the_start_does_not_matter(seed, factors, turn):
     turn = turn if problem.incidence is None else 0.0
     found = polish(problem, lot_for(problem, chosen), beside(chosen, factors, turn))
     assert found.possible.all()
-    rest = chosen.mass / 2.0 - chosen.rim_mass - chosen.web_mass - chosen.housing_mass
     hub = 0.0 if chosen.hub is None else chosen.hub.mass
-    mass = 2.0 * (found.shapes.mass[0] + rest + hub)
+    mass = 2.0 * (found.shapes.mass[0] + chosen.motor.mass + chosen.gear.mass + hub)
     assert mass == pytest.approx(chosen.mass, rel=1e-9)
     assert found.margin[0] >= 1.0 - 1e-9
     assert found.residual[0] < 1e-9

@@ -6,7 +6,7 @@ from math import inf, pi
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import wheel_of
+from naive_wheel import wheel_of
 
 from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
@@ -173,14 +173,14 @@ def summed(robot, device):
     axes = (np.array([np.sin(a), np.cos(a), 0.0]), np.array([-np.sin(a), np.cos(a), 0.0]))
     wheel, *moments = wheel_of(device)
     carrier = device.carrier
-    for center, axis in zip(device.centers, axes, strict=True):
+    about, across = moments
+    for center, axis, side in zip(device.centers, axes, (1.0, -1.0), strict=True):
         along = np.outer(axis, axis)
-        for weight, (about, across) in (
-            (wheel, moments),
-            (carrier.mass, (carrier.axial_inertia, carrier.transverse_inertia)),
-        ):
-            inertia = about * along + across * (np.eye(3) - along)
-            _cloud(masses, points, weight, center, inertia)
+        _cloud(masses, points, wheel, center, about * along + across * (np.eye(3) - along))
+        outward, up = side * axis, np.array([0.0, 0.0, 1.0])
+        frame = np.column_stack([np.cross(outward, up), outward, up])
+        place = center + carrier.along * outward + carrier.up * up
+        _cloud(masses, points, carrier.mass, place, frame @ carrier.inertia @ frame.T)
     weights, places = np.array(masses), np.array(points)
     com = weights @ places / weights.sum()
     arms = places - com

@@ -1,0 +1,160 @@
+"""What of a module stands still, worked out the long way: for checks of the selection.
+
+Areas and second moments come from the outlines of the parts that are printed, one for each radius
+and each height; here they become bodies. A body is its integrals of 1, Y, Z, X^2, Y^2 and Z^2 over
+the mass, about the wheel's centre: X across the axis, Y along it away from the other module, Z up.
+"""
+
+from functools import lru_cache
+from math import pi
+
+import numpy as np
+
+from ocs_design.parts import foot as made_foot
+from ocs_design.parts import housing as made_housing
+from ocs_design.parts.foot import Foot
+from ocs_design.parts.housing import Housing
+from ocs_design.parts.mount import Mount, motor_mount
+from ocs_design.sizing.foot import BASE_THICKNESS, PLATE_THICKNESS
+from ocs_design.sizing.housing import CLEARANCE, DENSITY, LID_SCREW, WALL
+
+GAP = CLEARANCE + WALL
+MARKS = ((24, 2.5e-3), (12, 4.0e-3))
+"""How many there are of each length, 0.8 mm wide and 0.4 mm deep."""
+
+
+def layer(area, second, low, high, axis):
+    """A prism of outlines (area, second moments) between two heights along "y" or "z"."""
+    first_across, second_across = second
+    long, middle = high - low, (high + low) / 2.0
+    mass = DENSITY * area * long
+    along = mass * (middle**2 + long**2 / 12.0)
+    zero = 0.0 * mass
+    first, other = DENSITY * long * first_across + zero, DENSITY * long * second_across + zero
+    if axis == "y":
+        return np.stack([mass, mass * middle, zero, first, along + zero, other])
+    return np.stack([mass, zero, mass * middle, first, other, along + zero])
+
+
+def lifted(body, up):
+    """The same higher up."""
+    mass, y, z, xx, yy, zz = body
+    return np.stack([mass, y, z + mass * up, xx, yy, zz + 2.0 * up * z + mass * up**2])
+
+
+def behind(body, along):
+    """The same moved along the axis."""
+    mass, y, z, xx, yy, zz = body
+    return np.stack([mass, y + mass * along, z, xx, yy + 2.0 * along * y + mass * along**2, zz])
+
+
+def round_thing(mass, axial, across):
+    """A body of revolution about the axis, its middle at the wheel's."""
+    zero = 0.0 * mass
+    return np.stack([mass, zero, zero, axial / 2.0, across - axial / 2.0, axial / 2.0])
+
+
+def printed(outer, height, mount):
+    """Drum, lid and foot of each size, shape (6, n)."""
+    half = height / 2.0 + GAP
+    return drum_and_lid(outer, height, mount, half) + foot_of(outer, height, mount, half)
+
+
+def drum_and_lid(outer, height, mount, half):
+    area, second = per_value(_housing_outline, outer)
+    across = second / 2.0
+    inside = outer + CLEARANCE
+    room = pi * inside**2, (pi * inside**4 / 4.0,) * 2
+    whole = layer(area, (across, across), -half, half, "y")
+    whole = whole - layer(*room, -half + WALL, half - WALL, "y")
+    ears = outer + GAP + LID_SCREW.clearance_hole / 2.0
+    for radius, low in ((LID_SCREW.tapping_drill / 2.0, -half + WALL), (None, half - WALL)):
+        hole = LID_SCREW.clearance_hole / 2.0 if radius is None else radius
+        high = half if radius is None else half - WALL
+        around = 2.0 * pi * hole**2 * (ears**2 + hole**2 / 2.0)
+        whole = whole - layer(4.0 * pi * hole**2, (around, around), low, high, "y")
+    return whole - layer(*_mount_outline(mount), -half, -half + WALL, "y")
+
+
+def foot_of(outer, height, mount, half):
+    back = half + PLATE_THICKNESS
+    edge, tall = bases(outer, height, mount)
+    base = pi * edge**2, (pi * edge**4 / 4.0,) * 2
+    body = layer(*base, 0.0, BASE_THICKNESS, "z")
+    slots, in_x, in_y = per_value(_slots, height)
+    body = body - layer(slots, (in_x, in_y), 0.0, BASE_THICKNESS, "z")
+    for count, length in MARKS:
+        middle = edge - WALL - length / 2.0
+        ring = count * length * 0.8e-3 * (middle**2 + (length**2 + 0.8e-3**2) / 12.0) / 2.0
+        flat = count * length * 0.8e-3 + 0.0 * edge
+        body = body - layer(flat, (ring, ring), BASE_THICKNESS - 0.4e-3, BASE_THICKNESS, "z")
+    body = lifted(body, -tall)
+    area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), outer)
+    plate = layer(area, (in_x, in_z), -back, -half, "y")
+    plate[2] += DENSITY * PLATE_THICKNESS * first_z
+    return body + plate - layer(*_mount_outline(mount), -back, -half, "y")
+
+
+def bases(outer, height, mount):
+    """Radius of each foot's base, and how high it holds the wheel."""
+    sizes, where = np.unique(np.stack([outer, height], axis=1), axis=0, return_inverse=True)
+    feet = [Foot(Housing(r, h, mount, LID_SCREW)) for r, h in sizes.tolist()]
+    return np.array([(foot.base_radius, foot.wheel_height) for foot in feet])[where.ravel()].T
+
+
+def per_value(figures, values):
+    """Some figures for each of many values, worked out once for each that differs."""
+    distinct, where = np.unique(values, return_inverse=True)
+    return (
+        np.array([figures(float(value)) for value in distinct]).reshape(distinct.size, -1)[where].T
+    )
+
+
+@lru_cache(maxsize=100_000)
+def _housing_outline(outer):
+    found = made_housing._outline(Housing(outer, 0.01, Mount(), LID_SCREW)).moments()
+    return found.area, np.trace(found.second)
+
+
+@lru_cache(maxsize=100_000)
+def _slots(height):
+    foot = Foot(Housing(1.0, height, Mount(), LID_SCREW))
+    found = [slot.outline.moments() for slot in made_foot._slots(foot)]
+    second = sum(each.second for each in found)
+    return sum(each.area for each in found), second[0, 0], second[1, 1]
+
+
+@lru_cache(maxsize=100_000)
+def _plate(outer, mount):
+    """About the wheel's axis; the outline stands on the base, and its second axis points down."""
+    foot = Foot(Housing(outer, 0.01, mount, LID_SCREW))
+    up = foot.wheel_height - BASE_THICKNESS
+    found = made_foot._plate(foot).moments().shifted(np.array([0.0, up]))
+    return found.area, -found.first[1], found.second[0, 0], found.second[1, 1]
+
+
+@lru_cache(maxsize=1000)
+def _mount_outline(mount):
+    """Of screw circles of three and more; the first axis is as good as the other."""
+    found = [hole.outline.moments() for hole in mount.holes(0.0, 1.0)]
+    second = sum((each.second for each in found), np.zeros((2, 2)))
+    return sum(each.area for each in found), (second[0, 0], second[1, 1])
+
+
+def mount_of(motor):
+    return motor_mount(motor.mounting)
+
+
+def room_taken(outer, height, motor):
+    """Radius that housing, motor and base stay within, and the wheel's height on its foot."""
+    half, length, radius = height / 2.0 + GAP, motor.length or 0.0, (motor.diameter or 0.0) / 2.0
+    swept = np.maximum(
+        np.hypot(outer + GAP, half), np.hypot(half + PLATE_THICKNESS + length, radius)
+    )
+    edge, _ = bases(outer, height, mount_of(motor))
+    return np.maximum(swept, edge), outer + GAP + CLEARANCE + BASE_THICKNESS
+
+
+def least_outer(mount):
+    """With a wall between the mount's holes and the housing's band."""
+    return mount.reach + WALL - CLEARANCE if mount.reach > 0.0 else 0.0
