@@ -49,6 +49,9 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "robot.inertia": KeyNote(
             "In place of a file, with the mass.", "read", "[0.032, 0.055, 0.070]"
         ),
+        "robot.weighed": KeyNote(
+            "Tells when the parts in the file do not add up to it.", "not checked", '"2.5 kg"'
+        ),
         "requirement.rate_change": KeyNote(
             "The paper's requirement: asked of either axis, on top of the maneuvers.",
             "not asked",
