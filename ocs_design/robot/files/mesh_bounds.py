@@ -12,16 +12,17 @@ from ocs_design.exceptions import RobotError
 BoundsReader = Callable[[Path], FloatArray | None]
 """Lower and upper corner of a mesh, shape (2, 3); None if it is of a kind for another reader."""
 
-LARGEST_MESH = {".stl": 128 << 20} | dict.fromkeys(
-    (".obj", ".dae", ".ply", ".off", ".glb", ".gltf"), 32 << 20
-)
-"""[bytes] by kind: a .dae takes 25 times its size of memory while it is read.
+MESHES = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf")
+"""Kinds that are read. Those in archives are not: they grow without bound when unpacked."""
 
-Kinds that are not here are not read: those in archives grow without bound when unpacked.
-"""
+LARGEST_MESH, LARGEST_BINARY_STL = 28 << 20, 128 << 20
+"""[bytes]; a .dae takes 25 times its size of memory while it is read, a binary STL three times."""
 
 LARGEST_MESH_LENGTH = 1e30
 """In the mesh's own unit; whatever is larger, or no number, is broken."""
+
+_STL_HEADER, _STL_FACET = 84, 50
+"""[bytes]."""
 
 _QUICK_STL, _QUICK_OBJ = 8 << 20, 1 << 16
 """Largest binary STL and OBJ that are read in some ten milliseconds [bytes]."""
@@ -43,17 +44,27 @@ def check_mesh_file(path: Path) -> None:
     Raises:
         RobotError: it is too large, or of a kind that is not read.
     """
-    largest = LARGEST_MESH.get(path.suffix.lower())
-    if largest is None:
+    if path.suffix.lower() not in MESHES:
         raise RobotError(
             f"{path.name} is no mesh that can be read",
-            hint=f"convert it to one of {', '.join(LARGEST_MESH)}",
+            hint=f"convert it to one of {', '.join(MESHES)}",
         )
+    largest = LARGEST_BINARY_STL if _is_binary_stl(path) else LARGEST_MESH
     if path.stat().st_size > largest:
         raise RobotError(
             f"{path.name} is larger than {largest >> 20} MiB",
             hint="reduce its number of facets, or export it as binary STL",
         )
+
+
+def _is_binary_stl(path: Path) -> bool:
+    """Whether the length is what the number of facets says."""
+    if path.suffix.lower() != ".stl":
+        return False
+    with path.open("rb") as stream:
+        header = stream.read(_STL_HEADER)
+    facets = int.from_bytes(header[80:], "little")
+    return facets > 0 and path.stat().st_size == _STL_HEADER + _STL_FACET * facets
 
 
 def _scaled(bounds: FloatArray | None, scale: tuple[float, ...]) -> FloatArray | None:
@@ -90,14 +101,12 @@ def _read_bounds(path: Path, readers: Iterable[BoundsReader]) -> FloatArray | No
 
 def _binary_stl_bounds(path: Path) -> FloatArray | None:
     """Without trimesh, whose import takes longer than reading a whole robot; None if ASCII."""
-    if path.suffix.lower() != ".stl":
+    if not _is_binary_stl(path):
         return None
     raw = path.read_bytes()
-    count = int.from_bytes(raw[80:84], "little")
-    if count == 0 or len(raw) != 84 + 50 * count:
-        return None
+    count = (len(raw) - _STL_HEADER) // _STL_FACET
     facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-    corners = np.frombuffer(raw, facet, count, offset=84)["corners"].reshape(-1, 3)
+    corners = np.frombuffer(raw, facet, count, offset=_STL_HEADER)["corners"].reshape(-1, 3)
     # Along rows it takes a thirtieth of the time.
     coordinates = np.ascontiguousarray(corners.T)
     return np.array([coordinates.min(axis=1), coordinates.max(axis=1)], dtype=np.float64)

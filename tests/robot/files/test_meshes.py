@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from ocs_design.robot.files.mesh_bounds import mesh_bounds
+from ocs_design.exceptions import RobotError
+from ocs_design.robot.files.mesh_bounds import check_mesh_file, mesh_bounds
 from ocs_design.robot.files.meshes import MeshFinder
 
 
@@ -108,3 +109,17 @@ def test_unreadable_meshes_have_no_bounds(tmp_path: Path, name):
     assert mesh_bounds(tmp_path / "gone" / name, (1, 1, 1)) is None
     path.write_bytes(b"\x00garbage\xff")
     assert mesh_bounds(path, (1, 1, 1)) is None
+
+
+def test_meshes_that_are_too_large_or_in_archives_are_not_opened(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr("ocs_design.robot.files.mesh_bounds.LARGEST_MESH", 1000)
+    box = trimesh.creation.box()
+    box.export(tmp_path / "binary.stl")
+    box.export(tmp_path / "text.stl", file_type="stl_ascii")
+    box.export(tmp_path / "box.3mf")
+    np.testing.assert_allclose(mesh_bounds(tmp_path / "binary.stl", (1.0, 1.0, 1.0)), box.bounds)
+    assert mesh_bounds(tmp_path / "text.stl", (1.0, 1.0, 1.0)) is None
+    with pytest.raises(RobotError, match="larger than"):
+        check_mesh_file(tmp_path / "text.stl")
+    with pytest.raises(RobotError, match="no mesh that can be read"):
+        check_mesh_file(tmp_path / "box.3mf")
