@@ -5,6 +5,7 @@ Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 15.4).
 """
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,14 +97,15 @@ def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
     triangle, y = _rows(plane)
     left, right = _spans(plane[triangle], y)
     count = np.maximum(right - left, 0)
-    row = np.repeat(np.arange(len(count)), count)
-    x = left[row] + np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
-    near = _nearness(plane, depth, triangle, y)
-    at = near[0][row] + near[1][row] * x
+    within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    start, along = _nearness(plane, depth, triangle, y)
     # The upper part of a number is how near, the lower which triangle: the largest one wins.
     step = _DEPTHS / max(float(np.ptp(depth)) if depth.size else 0.0, 1e-12)
-    nearness = np.clip((at - depth.min(initial=np.inf)) * step, 0.0, _DEPTHS).astype(np.int64)
-    np.maximum.at(shown, y[row] * width + x, (nearness << _BITS) | triangle[row])
+    first = step * (start + along * left - depth.min(initial=np.inf))
+    near = np.repeat(first, count) + np.repeat(step * along, count) * within
+    number = np.clip(near, 0.0, _DEPTHS, out=near).astype(np.int64) << _BITS
+    number |= np.repeat(triangle, count)
+    np.maximum.at(shown, np.repeat(y * width + left, count) + within, number)
     return np.where(shown < 0, -1, shown & ((1 << _BITS) - 1)).reshape(height, width)
 
 
@@ -151,7 +153,7 @@ def _nearness(
 
 def _picture(index: NDArray[np.int64], lit: FloatArray) -> NDArray[np.uint8]:
     """Each pixel the mean of those that it was drawn with."""
-    colors = np.concatenate([lit, np.ones((1, 3))])[index]
+    colors = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)[index]
     k = _OVERSAMPLING
-    mean = colors.reshape(HEIGHT, k, WIDTH, k, 3).mean(axis=(1, 3))
-    return np.asarray(np.round(_BACKGROUND * np.minimum(mean, 1.0)), dtype=np.uint8)
+    total = sum(colors[row::k, column::k] for row, column in product(range(k), repeat=2))
+    return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)
