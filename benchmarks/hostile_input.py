@@ -86,6 +86,9 @@ def _watch_writing(folder):
             and arguments[2] & (os.O_WRONLY | os.O_RDWR)
         )
         other = event.startswith(("os.rename", "os.remove", "os.mkdir", "os.system", "os.exec"))
+        # Xacro files are expanded by a Python of our own.
+        if event == "subprocess.Popen" and arguments[0] == sys.executable:
+            return
         if not opened and not other and event not in {"subprocess.Popen", "socket.connect"}:
             return
         place = os.path.realpath(str(arguments[0]))

@@ -16,6 +16,9 @@ from ocs_design.arrays import FloatArray, frozen
 from ocs_design.robot.mass_properties import MassProperties, combine
 from ocs_design.robot.rotations import rotation_about
 
+LARGEST_NUMBER = 1e75
+"""Of a robot, SI: beyond it a square of a square overflows, and zero times that is no number."""
+
 
 class JointKind(StrEnum):
     """How a body moves against its parent."""

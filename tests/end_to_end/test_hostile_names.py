@@ -61,6 +61,12 @@ def test_every_file_is_well_formed_and_has_the_name_as_it_is(sized):
     assert json.loads((out / "design.json").read_bytes())["robot"]["trunk"] == EVIL
 
 
+def test_no_page_holds_an_element_of_that_name(sized):
+    pages = [path.read_text() for path in (sized[1] / "out").rglob("*.html")]
+    assert pages
+    assert not [page for page in pages if "<b onload" in page.lower()]
+
+
 def test_no_cell_is_a_formula(sized, tmp_path):
     with (sized[1] / "out" / "cad" / "bill_of_materials.csv").open(newline="") as stream:
         cells = [cell for row in csv.reader(stream) for cell in row]

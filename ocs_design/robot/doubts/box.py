@@ -8,6 +8,9 @@ from ocs_design.arrays import FloatArray
 from ocs_design.robot.files.mesh_bounds import quick_mesh_bounds
 from ocs_design.robot.tree import Body, Shape, ShapeKind
 
+FLAT = 1e-6
+"""A body that is thinner has no box [m]."""
+
 
 @dataclass(frozen=True, eq=False)
 class Box:
@@ -52,7 +55,7 @@ def box_of(body: Body) -> Box | None:
     if not corners:
         return None
     box = Box(np.min(corners, axis=0), np.max(corners, axis=0))
-    return box if np.isfinite(box.sides).all() and box.volume > 0.0 else None
+    return box if (box.sides > FLAT).all() else None
 
 
 def _own_bounds(shape: Shape) -> FloatArray | None:

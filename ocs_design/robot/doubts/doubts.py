@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from ocs_design.robot.doubts.box import box_of
 from ocs_design.robot.doubts.density import link_density_doubts, robot_density_doubts
 from ocs_design.robot.doubts.ground import foot_doubts
@@ -33,14 +35,16 @@ def doubts_of(
         weighed: the whole robot in that posture, in B.
     """
     remarks = Remarks()
-    for doubt in robot_density_doubts(weighed):
-        remarks.add(doubt)
-    for body in tree.bodies:
-        _add_body(body, remarks)
-    for doubt, links in side_doubts(tree, trunk, legs):
-        remarks.add(doubt, links)
-    for doubt in foot_doubts(tree, trunk, legs, posture):
-        remarks.add(doubt)
+    # The quotients of a mass of 1e-300 kg are infinite, and judged rightly as that.
+    with np.errstate(all="ignore"):
+        for doubt in robot_density_doubts(weighed):
+            remarks.add(doubt)
+        for body in tree.bodies:
+            _add_body(body, remarks)
+        for doubt, links in side_doubts(tree, trunk, legs):
+            remarks.add(doubt, links)
+        for doubt in foot_doubts(tree, trunk, legs, posture):
+            remarks.add(doubt)
     return remarks.sentences()
 
 

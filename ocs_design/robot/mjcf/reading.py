@@ -24,8 +24,7 @@ from ocs_design.robot.mjcf.spec import mujoco_refusal, parse_mjcf
 from ocs_design.robot.remarks import Remarks
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.spec.warnings import mujoco_warnings_to
-from ocs_design.robot.tree import Tree
-from ocs_design.robot.urdf.xml import LARGEST_NUMBER
+from ocs_design.robot.tree import LARGEST_NUMBER, Tree
 
 _LOOPS = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
 

@@ -8,7 +8,7 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.robot.bounds import extent, extent_of, solid_shapes
 from ocs_design.robot.stance.chain import Chain
-from ocs_design.robot.tree import Body, JointKind, ShapeKind
+from ocs_design.robot.tree import Body, JointKind, Shape, ShapeKind
 
 ANKLED_JOINTS = 5
 """A leg with at least so many joints, its wheel not counted, can keep its sole flat."""
@@ -110,6 +110,11 @@ def _shank_end(body: Body, down: FloatArray) -> Foot:
     return Foot(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
 
 
+def _reach(shape: Shape, direction: FloatArray) -> float:
+    reach = extent(shape, direction)
+    return -np.inf if reach is None else reach
+
+
 def _lowest_surface(body: Body, down: FloatArray) -> Foot:
     """The middle of what lies within a centimetre of the body's lowest point."""
     shapes = solid_shapes(body)
@@ -117,7 +122,8 @@ def _lowest_surface(body: Body, down: FloatArray) -> Foot:
     if lowest is None:
         link = max(body.links, key=lambda name: float(down @ body.links[name].position))
         return Foot(link, body.links[link].position, 0.0)
-    touching = [s for s in shapes if (extent(s, down) or -np.inf) > lowest - 0.01]
+    # Of shapes beyond all measure a centimetre less is the same number.
+    touching = [s for s in shapes if _reach(s, down) >= lowest - 0.01]
     middle = lowest * down
     for side in _across(down)[:2]:
         ahead, behind = extent_of(touching, side), extent_of(touching, -side)

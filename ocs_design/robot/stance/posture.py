@@ -4,15 +4,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
-import numpy as np
-
 from ocs_design.exceptions import UsageError
 from ocs_design.robot.remarks import listed
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.stance.chain import neutral_posture
 from ocs_design.robot.stance.leg_geometry import standing_height
 from ocs_design.robot.stance.stand import stand
-from ocs_design.robot.tree import Tree
+from ocs_design.robot.tree import LARGEST_NUMBER, Tree
 
 ZERO = "zero"
 STAND = "stand"
@@ -105,7 +103,7 @@ def _check_joints(tree: Tree, joints: Mapping[str, float]) -> None:
     for name, value in joints.items():
         if name not in tree.joints:
             raise unknown_name("moving joint", name, tree.joints)
-        if not np.isfinite(value):
+        if not abs(value) <= LARGEST_NUMBER:
             raise UsageError(f"joint '{name}' cannot be at {value}", hint="give a finite number")
         mimic = tree.joints[name].mimic
         if mimic is not None and mimic[0] in tree.joints:

@@ -14,11 +14,9 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import RobotError
 from ocs_design.robot.remarks import Remarks
+from ocs_design.robot.tree import LARGEST_NUMBER
 
 MOST_ELEMENTS = 500_000
-
-LARGEST_NUMBER = 1e75
-"""Beyond it a square of a square overflows, and zero times that is no number."""
 
 
 def parse_xml(content: bytes, remarks: Remarks) -> ET.Element:

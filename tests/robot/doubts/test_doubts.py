@@ -2,6 +2,7 @@
 
 import re
 import time
+from contextlib import suppress
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from commands import run
 from robots import SOLO12
 
+from ocs_design.exceptions import RobotError
 from ocs_design.robot.doubts.doubts import doubts_of
 from ocs_design.robot.reader import read_robot
 
@@ -241,3 +243,12 @@ def test_solo12_is_sound_and_judged_in_no_time():
     start = time.process_time()
     assert doubts_of(*judge) == ()
     assert time.process_time() - start < 0.1
+
+
+@pytest.mark.parametrize("factor", [1e-300, 1e-75, 1e60])
+@pytest.mark.parametrize("tag", ["mass", "inertia", "box"])
+def test_numbers_at_the_edge_are_judged_without_a_warning_of_arithmetic(tmp_path, tag, factor):
+    root = quadruped()
+    scaled(root, tag, factor)
+    with suppress(RobotError):
+        assert read(root, tmp_path).name == "sound"

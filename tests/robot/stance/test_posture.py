@@ -89,9 +89,10 @@ def test_an_unknown_name_lists_the_nearest_first(arguments, wrong, right):
     assert caught.value.hint.startswith(f"available: {right}")
 
 
-def test_a_joint_needs_a_finite_value():
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e308])
+def test_a_joint_needs_a_value_that_can_be(value):
     with pytest.raises(UsageError, match="FL_HFE"):
-        solo12(joints={"FL_HFE": float("nan")})
+        solo12(joints={"FL_HFE": value})
 
 
 def test_stand_needs_legs():
