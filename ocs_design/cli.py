@@ -70,6 +70,7 @@ def size(
     context: typer.Context,
     co_design: opt.CoDesign = False,
     no_validate: opt.NoValidate = False,
+    ballistic: opt.Ballistic = False,
     video: opt.Video = False,
     seed: opt.Seed = None,
     out: opt.Out = None,

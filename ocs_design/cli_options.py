@@ -169,6 +169,9 @@ CoDesign: TypeAlias = Annotated[
 NoValidate: TypeAlias = Annotated[
     bool, typer.Option("--no-validate", help="Do not simulate the maneuvers.")
 ]
+Ballistic: TypeAlias = Annotated[
+    bool, typer.Option("--ballistic", help="Start jumps at lift-off: no push-off by the legs.")
+]
 Video: TypeAlias = Annotated[
     bool, typer.Option("--video", help="Film the flights with and without the device: MP4 or GIF.")
 ]

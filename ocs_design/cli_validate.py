@@ -58,6 +58,7 @@ def validate(
     sample: OneSample = None,
     replay: CaseFile = None,
     spec: opt.Spec = None,
+    ballistic: opt.Ballistic = False,
     desaturate: Desaturate = False,
     out: FlightsFolder = None,
     robot_file: OtherRobot = None,

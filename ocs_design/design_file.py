@@ -186,13 +186,17 @@ class ValidationRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class ControlRecord:
-    """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s]."""
+    """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s].
+
+    `ballistic` flights start at lift-off; a design that does not say was flown so.
+    """
 
     projection: str
     kp: float
     kd: float
     period: float = 0.005
     desaturate: bool = False
+    ballistic: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)

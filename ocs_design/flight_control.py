@@ -1,10 +1,13 @@
 """The wheel law that flights are flown with, stated and recorded, and what they track."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from ocs_design.design import Device
 from ocs_design.design_file import ControlRecord
 from ocs_design.exceptions import SpecificationError
+from ocs_design.jumping.jump import JumpPlans
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import CONTROL_PERIOD, ValidationSection
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.controller import Allocation, Gains
@@ -26,6 +29,7 @@ def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
         kd=stated.kd or default.damping,
         period=_period(stated),
         desaturate=bool(stated.desaturate),
+        ballistic=bool(stated.ballistic),
     )
 
 
@@ -47,6 +51,7 @@ def overridden(control: ControlRecord, stated: ValidationSection) -> ControlReco
         kd=stated.kd or control.kd,
         period=control.period if stated.control_period is None else _period(stated),
         desaturate=control.desaturate if stated.desaturate is None else stated.desaturate,
+        ballistic=control.ballistic if stated.ballistic is None else stated.ballistic,
     )
 
 
@@ -71,3 +76,15 @@ def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
         for name, planned in plans.items()
         if planned.trajectory is not None
     }
+
+
+def jump_plans(
+    control: ControlRecord, robot: Robot, device: Device, maneuvers: Sequence[Maneuver]
+) -> Mapping[str, JumpPlans]:
+    """How the legs make the maneuvers from the ground; none where flights start at lift-off."""
+    if control.ballistic:
+        return {}
+    # CasADi takes a third of a second to import, and what starts at lift-off does without.
+    from ocs_design.jumping.planning import plan_jumps  # noqa: PLC0415
+
+    return plan_jumps(robot, device, maneuvers)

@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ocs_design.design import Device
-from ocs_design.design_file import ControlRecord, OcsDesign, design_to_json
+from ocs_design.design_file import OcsDesign, design_to_json
 from ocs_design.designing import Designed, design_device
 from ocs_design.device_warnings import device_warnings
 from ocs_design.export.folder import DESIGN_FILE, check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.export.naming import safe_name
-from ocs_design.flight_control import control_of, flight_options, trajectories
+from ocs_design.flight_control import control_of, flight_options, jump_plans, trajectories
 from ocs_design.inspection import posture_lines
+from ocs_design.jumping.jump import JumpPlans
 from ocs_design.mounting import mounting_of, placement_warnings
 from ocs_design.recording import record_design
 from ocs_design.report.console import Steps
@@ -31,7 +32,6 @@ from ocs_design.robot.bounds import size
 from ocs_design.robot.obstacles.obstacles import forget_obstacles
 from ocs_design.robot.robot import Robot
 from ocs_design.run_files import write_runs
-from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.poses import POSE_RATE
 from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.sizing.rim_program import load_solver
@@ -119,8 +119,20 @@ def design_ocs(
         runs: tuple[Run, ...] = ()
         control = control_of(specification.validation, robot)
         if specification.validation.enabled is not False:
+            maneuvers = resolved.requirement.maneuvers
+            with steps.step("plan the jumps") as step:
+                jumps = jump_plans(control, robot, device, maneuvers)
+                step.note = _who_flies(jumps)
             with steps.step("fly the maneuvers with and without the device") as step:
-                runs = _fly(control, robot, designed, resolved, plans=plans, progress=step.update)
+                runs = run_scenarios(
+                    robot,
+                    device,
+                    maneuvers,
+                    options=replace(flight_options(control), pose_rate=POSE_RATE),
+                    references=trajectories(plans),
+                    jumps=jumps,
+                    progress=step.update,
+                )
                 write_runs(runs, staging)
         if runs and specification.validation.video:
             with steps.step("film the flights"):
@@ -183,23 +195,10 @@ def _plan(robot: Robot, designed: Designed, resolved: Resolved) -> Mapping[str, 
     )
 
 
-def _fly(
-    control: ControlRecord,
-    robot: Robot,
-    designed: Designed,
-    resolved: Resolved,
-    *,
-    plans: Mapping[str, "Reference"],
-    progress: Progress,
-) -> tuple[Run, ...]:
-    return run_scenarios(
-        robot,
-        designed.device,
-        resolved.requirement.maneuvers,
-        options=replace(flight_options(control), pose_rate=POSE_RATE),
-        references=trajectories(plans),
-        progress=progress,
-    )
+def _who_flies(jumps: Mapping[str, JumpPlans]) -> str:
+    """Which jumps the legs do not make."""
+    names = [name for name, plans in jumps.items() if plans.carrying.legs is None]
+    return f"at lift-off starts: {', '.join(names)}" if names else ""
 
 
 def _write_report(

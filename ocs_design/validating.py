@@ -17,7 +17,13 @@ from ocs_design.design_file import (
 )
 from ocs_design.exceptions import OcsError
 from ocs_design.export.folder import DESIGN_FILE, file_hashes, staged_folder
-from ocs_design.flight_control import control_of, flight_options, overridden, trajectories
+from ocs_design.flight_control import (
+    control_of,
+    flight_options,
+    jump_plans,
+    overridden,
+    trajectories,
+)
 from ocs_design.monte_carlo.reality import NAMES
 from ocs_design.monte_carlo.sample import Sample
 from ocs_design.monte_carlo.summary import MonteCarloRecord
@@ -157,6 +163,7 @@ def fly_again(task: Task, progress: Progress | None = None) -> tuple[Run, ...]:
         task.maneuvers,
         options=flight_options(task.control),
         references=task.references,
+        jumps=jump_plans(task.control, task.robot, task.device, task.maneuvers),
         progress=progress,
     )
 

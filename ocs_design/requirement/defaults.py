@@ -54,6 +54,7 @@ def default_specification(
             projection=PROJECTIONS[0],
             kp=kp,
             kd=kd,
+            ballistic=False,
             seed=0,
             control_period=CONTROL_PERIOD,
             desaturate=False,

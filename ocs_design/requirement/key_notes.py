@@ -117,6 +117,7 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "validation.projection": KeyNote("transpose is the paper's, which scales the gains."),
         "validation.kp": KeyNote("Higher: quicker, and more torque."),
         "validation.kd": KeyNote("2 sqrt(kp) damps critically."),
+        "validation.ballistic": KeyNote("true: the legs need not make the jumps."),
         "validation.seed": KeyNote("The same seed gives the same figures."),
         "validation.video": KeyNote("true: each maneuver as a film, with the device and without."),
         "validation.control_period": KeyNote("That of your controller; longer ones fly worse."),
@@ -148,6 +149,7 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
 MANEUVER_NOTES: Mapping[str, str] = MappingProxyType(
     {
         "disturbance": "A jump in which something hits the trunk; to stay level until touchdown.",
+        "shove": "A torque on the trunk of a robot that stands; to be at rest soon after.",
         "drop": "A fall from rest with the trunk tilted; to be level before touchdown.",
         "flip": "A turn in pitch during a vertical jump; a back-flip is negative.",
     }
@@ -163,6 +165,7 @@ FIELD_NOTES: Mapping[str, str] = MappingProxyType(
         "torque": "on the trunk, about its x (forward), y (left) and z",
         "onset": "after lift-off",
         "duration": "of the torque, or of the turn",
+        "settling": "from the end of the torque to rest",
         "height": "of the trunk over the ground",
         "roll": "at release",
         "pitch": "at release",

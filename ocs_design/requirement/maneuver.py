@@ -81,21 +81,21 @@ class Maneuver(ABC):
         """What happens, for people, with units."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Disturbance(Maneuver):
-    """A jump during which a torque hits the trunk (paper, section 4, first test).
+class Unforeseen(Maneuver):
+    """A torque on the trunk that nobody knows beforehand.
 
     Attributes:
-        takeoff_velocity: forward and upward at lift-off [m/s].
-        torque: on the trunk in B [N m], shape (3,).
-        onset: time from lift-off to the torque [s].
+        torque: in B [N m], shape (3,).
         duration: of the torque [s].
     """
 
-    takeoff_velocity: tuple[float, float]
     torque: tuple[float, float, float]
-    onset: float
     duration: float
+
+    @property
+    @abstractmethod
+    def time_left(self) -> float:
+        """From the end of the torque until the trunk must be level and at rest again [s]."""
 
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
         """The angular impulse, which the wheels hold until touchdown (docs/theory.md)."""
@@ -111,12 +111,33 @@ class Disturbance(Maneuver):
         """
         momentum = self.momentum(np.zeros((3, 3)), standing_height)
         shape = np.broadcast_shapes(np.shape(inertia), (2,))
-        left = self.flight_time - self.onset - self.duration
         return Slew(
             np.broadcast_to(0.5 * self.duration * momentum, shape),
             np.broadcast_to(momentum, shape),
-            left,
+            self.time_left,
         )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Disturbance(Unforeseen):
+    """A jump during which a torque hits the trunk (paper, section 4, first test).
+
+    Attributes:
+        takeoff_velocity: forward and upward at lift-off [m/s].
+        torque: on the trunk in B [N m], shape (3,).
+        onset: time from lift-off to the torque [s].
+        duration: of the torque [s].
+    """
+
+    takeoff_velocity: tuple[float, float]
+    torque: tuple[float, float, float]
+    onset: float
+    duration: float
+
+    @property
+    def time_left(self) -> float:
+        """Of the flight [s]."""
+        return self.flight_time - self.onset - self.duration
 
     @property
     def flight_time(self) -> float:
@@ -127,11 +148,45 @@ class Disturbance(Maneuver):
     def summary(self) -> str:
         """Lift-off and torque."""
         forward, upward = self.takeoff_velocity
-        torque = ", ".join(f"{value:.3g}" for value in self.torque)
         return (
             f"lift-off at {forward:.3g} m/s forward and {upward:.3g} m/s up, "
-            f"({torque}) N m on the trunk for {self.duration:.3g} s, {self.onset:.3g} s after it"
+            f"{_torque(self.torque)} on the trunk for {self.duration:.3g} s, {self.onset:.3g} s "
+            f"after it"
         )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Shove(Unforeseen):
+    """A torque on the trunk of a robot that stands, to be calmed (paper, section 5).
+
+    What the legs do about it is not counted: the device is sized to do it alone.
+
+    Attributes:
+        torque: on the trunk in B [N m], shape (3,).
+        duration: of the torque [s].
+        settling: from its end until the trunk must be level and at rest again [s].
+    """
+
+    torque: tuple[float, float, float]
+    duration: float
+    settling: float
+
+    @property
+    def time_left(self) -> float:
+        """As stated [s]."""
+        return self.settling
+
+    @property
+    def summary(self) -> str:
+        """Torque and time."""
+        return (
+            f"stands; {_torque(self.torque)} on the trunk for {self.duration:.3g} s, "
+            f"to be at rest {self.settling:.3g} s after it"
+        )
+
+
+def _torque(torque: tuple[float, float, float]) -> str:
+    return f"({', '.join(f'{value:.3g}' for value in torque)}) N m"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -6,7 +6,7 @@ from math import pi
 from types import MappingProxyType
 from typing import Any
 
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
 from ocs_design.requirement.values import Quantities, Quantity, Sign, Text, Value
 from ocs_design.units import Dimension
 
@@ -47,6 +47,15 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
                 "torque": Quantities(Dimension.TORQUE, (3,)),
                 "onset": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE),
                 "duration": _TIME,
+            },
+        ),
+        "shove": ManeuverKind(
+            Shove,
+            {
+                **_COMMON,
+                "torque": Quantities(Dimension.TORQUE, (3,)),
+                "duration": _TIME,
+                "settling": _TIME,
             },
         ),
         "drop": ManeuverKind(

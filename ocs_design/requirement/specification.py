@@ -185,6 +185,9 @@ class ValidationSection:
     ] = None
     kp: Annotated[float | None, Key(Number(), "gain on the attitude error")] = None
     kd: Annotated[float | None, Key(Number(), "gain on the rate error")] = None
+    ballistic: Annotated[
+        bool | None, Key(Switch(), "whether jumps start at lift-off, without a push-off")
+    ] = None
     seed: Annotated[int | None, Key(Count(), "seed of all random numbers")] = None
     video: Annotated[bool | None, Key(Switch(), "whether to film the flights")] = None
     control_period: Annotated[

@@ -12,8 +12,10 @@ from ocs_design.simulation import quaternions
 from ocs_design.simulation.controller import WheelLaw
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.imperfections import Drives, Sensing
+from ocs_design.simulation.legs import LegReferences
+from ocs_design.simulation.lift_off import FlightClock
 from ocs_design.simulation.recording import Recording, empty_recording, pose_stride
-from ocs_design.simulation.schedule import References, push_torques
+from ocs_design.simulation.schedule import Pushes, References
 from ocs_design.simulation.world import World, start_states
 
 _CONTROL = mujoco.mjtState.mjSTATE_CTRL.value
@@ -40,7 +42,9 @@ class Batch:
             times, self._lengths, pose_stride=pose_stride(pose_rate, self._period), nq=first.nq
         )
         self._references = References(worlds, times, self._period)
-        self._pushes = push_torques(worlds, times, self._period)
+        self._pushes = Pushes(worlds, times, self._period)
+        self._legs = LegReferences(worlds, hold)
+        self._clock = FlightClock(worlds, self._period)
         self._law = WheelLaw.stack([world.law for world in worlds])
         self._sensing, self._drives = self._reality(worlds)
         self._brake = WheelBrake.of(worlds, self._period)
@@ -92,10 +96,11 @@ class Batch:
                 if k % _TELLING == 0:
                     progress(float(np.minimum(self._lengths, k).sum() / self._lengths.sum()))
                 torque = self._observe_and_decide(k, running, law)
-                self._advance(pool, data, torque, self._push_in_world(k, running))
+                self._advance(pool, data, k, torque, self._push_in_world(k, running))
                 self._sense(k, running)
         missing = np.abs(self._state[:, 0] - self._lengths * self._period)
         self._record.stable[:] = missing < 0.5 * self._period
+        self._record.lift_off[:] = self._clock.lift_off
         return self._record
 
     def _control_steps(self) -> Iterator[tuple[int, int, WheelLaw | None]]:
@@ -124,13 +129,16 @@ class Batch:
         if law is None:
             torque = np.zeros((running, 2))
         else:
-            target = self._references.at(k, running)
+            steps = self._clock.steps(k, running)
             vertical = quaternions.vertical(attitude)
+            target = self._references.at(steps)
             if self._brake is not None:
                 target = self._brake.added(target, speed, record.contact[k - 1, :running])
             if self._sensing is not None:
                 vertical, rate = self._sensing.measured(k, vertical, rate)
             torque = law.torque(vertical, rate, speed, target, self._period)
+            # The wheels wait for lift-off.
+            torque[steps < 0] = 0.0
         acting = torque[:, None]
         if self._drives is not None:
             torque, acting = self._drives.driven(k, torque, speed)
@@ -139,10 +147,10 @@ class Batch:
 
     def _push_in_world(self, k: int, running: int) -> FloatArray | None:
         """The outer torque of this step in the world; its impulse is added to the record."""
-        record, push, torque = self._record, self._pushes.get(k), None
+        record, push, torque = self._record, self._pushes.at(self._clock.steps(k, running)), None
         if push is not None:
             rotation = quaternions.matrix(record.attitude[k, :running])
-            torque = np.einsum("nij,nj->ni", rotation, push[:running])
+            torque = np.einsum("nij,nj->ni", rotation, push)
         if k + 1 < len(record.time):
             gained = 0.0 if torque is None else torque * self._period
             record.impulse[k + 1, :running] = record.impulse[k, :running] + gained
@@ -152,16 +160,18 @@ class Batch:
         self,
         pool: Rollout,
         data: list[mujoco.MjData],
+        k: int,
         torque: FloatArray,
         push: FloatArray | None,
     ) -> None:
-        """One control step of physics."""
+        """Control step `k` of physics."""
         n = len(torque)
         control, specification = self._control, _CONTROL
         if push is not None:
             control, specification = self._pushed_control, _PUSHED
             first = self._push_address
             control[:n, :, first : first + 3] = push[:, None]
+        self._legs.write(k, control[:n])
         control[:n, :, self._motors] = torque
         pool.rollout(
             self._models[:n],
@@ -185,6 +195,7 @@ class Batch:
         record.height[k, :running] = now[:, where.height]
         touches = self._sensors[:running, :, where.contact] > 0
         record.contact[k, :running] = touches.any(axis=1)
+        self._clock.look(k, touches)
         if k > 0:
             # The last Runge-Kutta stage of the step before has felt this contact already.
             record.contact[k - 1, :running] |= touches[:, 0]

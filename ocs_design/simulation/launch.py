@@ -1,12 +1,12 @@
 """How a maneuver starts, what it asks of the trunk and what hits it on the way."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import SpecificationError
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
 from ocs_design.robot.rotations import rotation_about
 from ocs_design.simulation.reference import LEVEL, Profile, Quintic, Turn
 
@@ -64,6 +64,9 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
             forward, up = maneuver.takeoff_velocity
             push = Push(np.array(maneuver.torque), maneuver.onset, maneuver.duration)
             return Launch(np.eye(3), None, np.array([forward, 0.0, up]), LEVEL, push)
+        case Shove():
+            push = Push(np.array(maneuver.torque), 0.0, maneuver.duration)
+            return Launch(np.eye(3), standing_height, np.zeros(3), LEVEL, push)
         case Drop():
             return _dropped(maneuver, standing_height, profile)
         case Flip():
@@ -78,6 +81,11 @@ def level_launch(maneuver: Maneuver, standing_height: float) -> Launch:
     """The same flight, level and undisturbed: it shows what the legs can bear."""
     start = launch(maneuver, standing_height, Quintic())
     return Launch(np.eye(3), start.height, start.velocity, LEVEL, NO_PUSH)
+
+
+def on_the_ground(start: Launch, standing_height: float) -> Launch:
+    """At rest with the feet on the ground: the legs make the flight."""
+    return replace(start, height=standing_height, velocity=np.zeros(3))
 
 
 def flight_time(start: Launch, standing_height: float, gravity: float) -> float:

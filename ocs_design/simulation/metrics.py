@@ -78,6 +78,9 @@ class Metrics:
     """Figures of one run; None where there is nothing to measure.
 
     Attributes:
+        lift_off_time: of the first instant in free flight [s], or of the torque that hits a robot
+            that stands; None: it never leaves the ground.
+        rise: of the centre of mass from lift-off to its highest [m].
         touchdown_time: of the last instant in free flight [s]; None: it never touches the floor.
         touchdown_roll, touchdown_pitch: of the trunk against level at that instant, within half a
             turn [rad].
@@ -89,8 +92,12 @@ class Metrics:
             over the largest momentum of wheels and trunk in that flight.
         upright_at_end: trunk within 45 deg of upright and above half its standing height.
         final_roll, final_pitch: at the end, within half a turn [rad].
+        roll_swing, pitch_swing: peak to peak after touchdown [rad].
+        settling_time: from touchdown until roll and pitch stay within 1 deg of where they end [s].
     """
 
+    lift_off_time: float | None
+    rise: float
     touchdown_time: float | None
     touchdown_roll: float
     touchdown_pitch: float
@@ -103,6 +110,9 @@ class Metrics:
     upright_at_end: bool
     final_roll: float
     final_pitch: float
+    roll_swing: float
+    pitch_swing: float
+    settling_time: float
 
 
 def series_of(recording: Recording, index: int, world: World) -> Series:
@@ -132,39 +142,71 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     if not recording.stable[index]:
         return None
     series = series_of(recording, index, world)
-    touching = np.flatnonzero(series.contact)
-    last = int(touching[0]) if touching.size else len(series.time) - 1
-    flight = slice(last + 1)
+    flight, lands = _flight(series, int(recording.lift_off[index]))
+    first, last = flight.start, flight.stop - 1
+    after = slice(last, None)
+    driven = flight if world.stands is None else after
     return Metrics(
-        touchdown_time=float(series.time[last]) if touching.size else None,
+        lift_off_time=float(series.time[first]) if recording.lift_off[index] >= 0 else None,
+        rise=float(series.com[flight, 2].max() - series.com[first, 2]),
+        touchdown_time=float(series.time[last]) if lands else None,
         touchdown_roll=float(series.roll[last]),
         touchdown_pitch=_within_half_turn(series.pitch[last]),
         touchdown_rate=float(np.hypot(*series.rate[last, :2])),
-        turned_angle=float(series.pitch[last] - series.pitch[0]),
-        heading_drift=_within_half_turn(series.yaw[last] - series.yaw[0]),
-        peak_wheel_speed=float(np.abs(series.wheel_speed[flight]).max()),
-        peak_wheel_torque=float(np.abs(series.wheel_torque[flight]).max()),
-        momentum_error=_momentum_error(recording, index, last, world),
+        turned_angle=float(series.pitch[last] - series.pitch[first]),
+        heading_drift=_within_half_turn(series.yaw[last] - series.yaw[first]),
+        peak_wheel_speed=float(np.abs(series.wheel_speed[driven]).max()),
+        peak_wheel_torque=float(np.abs(series.wheel_torque[driven]).max()),
+        momentum_error=_momentum_error(recording, index, flight, world),
         upright_at_end=_is_upright(recording, index, world),
         final_roll=float(series.roll[-1]),
         final_pitch=_within_half_turn(series.pitch[-1]),
+        roll_swing=float(np.ptp(series.roll[after])),
+        pitch_swing=float(np.ptp(series.pitch[after])),
+        settling_time=_settling_time(series, after),
     )
 
 
-def _momentum_error(recording: Recording, index: int, last: int, world: World) -> float:
+_AT_REST = np.radians(1.0)
+"""How near to where it ends a trunk must stay to have settled [rad]."""
+
+
+def _settling_time(series: Series, after: slice) -> float:
+    """See `Metrics`."""
+    off = np.maximum(np.abs(series.roll - series.roll[-1]), np.abs(series.pitch - series.pitch[-1]))
+    moving = np.flatnonzero(off[after] > _AT_REST)
+    steps = int(moving[-1]) + 1 if moving.size else 0
+    return float(series.time[after][steps] - series.time[after][0])
+
+
+def _flight(series: Series, lift_off: int) -> tuple[slice, bool]:
+    """Instants in free flight, at least one, and whether something touched the floor after them.
+
+    A robot that never left the ground has them at its end.
+    """
+    end = len(series.time)
+    if lift_off < 0:
+        return slice(end - 1, end), False
+    touching = np.flatnonzero(series.contact[lift_off:])
+    last = lift_off + int(touching[0]) if touching.size else end - 1
+    return slice(lift_off, last + 1), bool(touching.size)
+
+
+def _momentum_error(recording: Recording, index: int, flown: slice, world: World) -> float:
     """`|H(t) - H(0) - impulse|` over the momentum that was moved about (docs/theory.md).
 
     H itself is near zero in most of these flights, as trunk and wheels turn against each other, so
-    the scale is the largest momentum of the wheels plus that of the trunk and its legs. Gravity has
+    the scale is the largest momentum of the wheels plus that of the trunk with its legs, plus what
+    the legs turn against each other as they go back after a push-off. Gravity has
     no moment about the centre of mass.
     """
     # A stage of the step before touchdown may have felt the floor: the last instant is left out.
-    flight = slice(max(last, 1))
-    momentum = recording.momentum[flight, index]
-    unexplained = momentum - momentum[0] - recording.impulse[flight, index]
+    flight = slice(flown.start, max(flown.stop - 1, flown.start + 1))
+    momentum, impulse = recording.momentum[flight, index], recording.impulse[flight, index]
+    unexplained = momentum - momentum[0] - (impulse - impulse[0])
     wheels = world.body.spin_inertia * np.abs(recording.wheel_speed[flight, index]).max()
     turning = recording.rate[flight, index] @ world.body.inertia
-    moved = wheels + np.linalg.norm(turning, axis=1).max()
+    moved = wheels + np.linalg.norm(turning, axis=1).max() + world.leg_momentum
     still = _SLOW * np.trace(world.body.inertia) / 3.0
     return float(np.linalg.norm(unexplained, axis=1).max() / max(moved, still))
 

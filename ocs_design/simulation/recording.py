@@ -29,6 +29,7 @@ class Recording:
         lengths: number of instants of each world, (n,).
         stable: whether MuJoCo got each world to its end, (n,); it stops one whose state is huge or
             not finite, and its last state then stands still.
+        lift_off: first control instant in flight, (n,); -1 for a world that never left the ground.
     """
 
     time: FloatArray
@@ -45,6 +46,7 @@ class Recording:
     qpos: FloatArray
     lengths: NDArray[np.int64]
     stable: NDArray[np.bool_]
+    lift_off: NDArray[np.int64]
 
 
 def empty_recording(
@@ -75,6 +77,7 @@ def empty_recording(
         qpos=np.full((frames, n, nq), np.nan),
         lengths=lengths,
         stable=np.zeros(n, dtype=bool),
+        lift_off=np.zeros(n, dtype=np.int64),
     )
 
 
@@ -103,15 +106,17 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
         nq=longest.qpos.shape[2],
     )
     for part, place in zip(parts, places, strict=True):
-        whole.lengths[place], whole.stable[place] = part.lengths, part.stable
+        for name in _ONCE:
+            getattr(whole, name)[place] = getattr(part, name)
         for name in _SERIES:
             series = getattr(part, name)
             getattr(whole, name)[: len(series), place] = series
     return whole
 
 
+_ONCE = ("lengths", "stable", "lift_off")
+"""What a world has one value of."""
+
 _SERIES = [
-    field.name
-    for field in fields(Recording)
-    if field.name not in {"time", "pose_stride", "lengths", "stable"}
+    field.name for field in fields(Recording) if field.name not in {"time", "pose_stride", *_ONCE}
 ]

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ocs_design.design import Device
+from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance.leg_geometry import up_axis
@@ -87,6 +88,7 @@ def run_scenarios(
     *,
     options: Options | None = None,
     references: Mapping[str, Trajectory] | None = None,
+    jumps: Mapping[str, JumpPlans] | None = None,
     progress: Progress | None = None,
 ) -> tuple[Run, ...]:
     """Fly every maneuver with the device and then without, in that order.
@@ -99,20 +101,23 @@ def run_scenarios(
         references: what the device tracks in a maneuver, by its name; one without follows a smooth
             turn that its wheels can do, and a disturbance, not known beforehand, is met by feedback
             alone.
+        jumps: how the legs make a maneuver, by its name; one without starts at lift-off.
         progress: told the part of the work that is done, 0..1.
     """
     chosen = options or Options()
     builder = world_builder(robot, device, chosen)
-    planned = references or {}
+    planned, starts = references or {}, jumps or {}
     worlds = [
-        builder.flight(maneuver, wheels, planned.get(maneuver.name))
+        builder.flight(maneuver, wheels, planned.get(maneuver.name), start)
         for maneuver in maneuvers
-        for wheels in (Wheels.ACTIVE, Wheels.ABSENT)
+        for wheels, start in zip(
+            (Wheels.ACTIVE, Wheels.ABSENT), starts.get(maneuver.name, BALLISTIC), strict=True
+        )
     ]
     flights = _fly(worlds, chosen, progress)
     pairs = list(zip(flights[::2], flights[1::2], strict=True))
     unclear = refusal(robot)
-    can_stand = _legs_bear_landings(builder, robot, maneuvers, pairs, chosen)
+    can_stand = _legs_bear_landings(builder, robot, maneuvers, pairs, starts, options=chosen)
     return tuple(
         _run(
             maneuver,
@@ -166,6 +171,8 @@ def _legs_bear_landings(
     robot: Robot,
     maneuvers: Sequence[Maneuver],
     pairs: Sequence[tuple[_Flight, _Flight]],
+    starts: Mapping[str, JumpPlans],
+    *,
     options: Options,
 ) -> list[bool | None]:
     """`can_stand` of each maneuver; see `judge`."""
@@ -176,7 +183,11 @@ def _legs_bear_landings(
         for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True))
         if _is_doubtful(maneuver, pair)
     ]
-    level = _fly([builder.level_landing(maneuvers[index]) for index in doubtful], options)
+    worlds = [
+        builder.level_landing(maneuvers[i], starts.get(maneuvers[i].name, BALLISTIC).carrying)
+        for i in doubtful
+    ]
+    level = _fly(worlds, options)
     found: list[bool | None] = [True] * len(maneuvers)
     for index, flight in zip(doubtful, level, strict=True):
         found[index] = stands(flight.metrics)

@@ -1,8 +1,10 @@
-"""What is known of a run before it starts: references and outer torques at each control instant."""
+"""What is known of a run before it starts: references and outer torques, from lift-off on."""
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation import quaternions
@@ -10,9 +12,12 @@ from ocs_design.simulation.controller import Target
 from ocs_design.simulation.tracking import Track, track
 from ocs_design.simulation.world import World
 
+Steps: TypeAlias = NDArray[np.int64]
+"""Control steps since lift-off, one number a world; negative on the ground."""
+
 
 class References:
-    """What every trunk should do at each control instant, tabulated before the run."""
+    """What every trunk should do at each control instant of its flight, tabulated before it."""
 
     def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
         later = np.append(times, times[-1] + period)
@@ -35,20 +40,28 @@ class References:
         self._acceleration[:, index] = 0.0
         self._torque[:, index] = planned.torque
 
-    def at(self, k: int, running: int) -> Target:
-        """At control instant `k`, of the first `running` worlds."""
+    def at(self, steps: Steps) -> Target:
+        """Of the first worlds, each so many control steps after its lift-off."""
+        rows = np.maximum(steps, 0), np.arange(len(steps))
         return Target(
-            self._vertical[k, :running],
-            self._rate[k, :running],
-            self._acceleration[k, :running],
-            self._torque[k, :running],
+            self._vertical[rows], self._rate[rows], self._acceleration[rows], self._torque[rows]
         )
 
 
-def push_torques(
-    worlds: Sequence[World], times: FloatArray, period: float
-) -> dict[int, FloatArray]:
-    """Outer torques in B [N m], shape (n, 3), by control step; steps without any are left out."""
-    shares = np.stack([world.push.share(times, period) for world in worlds], axis=1)
-    torques = np.stack([world.push.torque for world in worlds])
-    return {int(k): shares[k][:, None] * torques for k in np.flatnonzero(shares.any(axis=1))}
+class Pushes:
+    """Outer torques on the trunks in B [N m], by control steps since lift-off."""
+
+    def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
+        self._shares = np.stack([world.push.share(times, period) for world in worlds], axis=1)
+        self._torques = np.stack([world.push.torque for world in worlds])
+        acting = np.flatnonzero(self._shares.any(axis=1))
+        self._first = int(acting[0]) if acting.size else 1
+        self._last = int(acting[-1]) if acting.size else 0
+
+    def at(self, steps: Steps) -> FloatArray | None:
+        """On the first worlds, shape (n, 3); None: on none of them."""
+        if not ((steps >= self._first) & (steps <= self._last)).any():
+            return None
+        rows = np.maximum(steps, 0), np.arange(len(steps))
+        share = np.where(steps < 0, 0.0, self._shares[rows])
+        return share[:, None] * self._torques[: len(steps)]

@@ -5,7 +5,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from ocs_design.requirement.maneuver import Flip, Maneuver
+from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
 from ocs_design.simulation.metrics import UPRIGHT_TILT, Metrics
 
 LANDING_TOLERANCE = np.radians(5.0)
@@ -46,6 +46,13 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
     unsound = _unsound(metrics)
     if metrics is None or unsound:
         return Verdict(None, unsound, Fault.UNSOUND)
+    if isinstance(maneuver, Shove):
+        return _shoved(metrics, can_stand)
+    return _landed(metrics, maneuver, can_stand)
+
+
+def _landed(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Verdict:
+    """Of a flight; see `judge`."""
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
         return failure
@@ -61,6 +68,22 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
         ends = f"{landing} but does not stay up: ends at {_final_tilt(metrics)}"
         return Verdict(False, ends, Fault.STANDING)
     return Verdict(True, f"{landing} and stands")
+
+
+def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
+    """Of a robot that stands; see `judge`."""
+    if can_stand is None:
+        unsupported = "not judged: without legs there is nothing to stand on"
+        return Verdict(None, unsupported, Fault.UNSOUND)
+    if not can_stand:
+        falls = "not judged: the legs do not keep the robot up, not even unshoved"
+        return Verdict(None, falls, Fault.UNSOUND)
+    pitch, roll = np.degrees([metrics.pitch_swing, metrics.roll_swing])
+    swing = f"swings by pitch {_degrees(pitch)}, roll {_degrees(roll)} deg from peak to peak"
+    if not metrics.upright_at_end:
+        ends = f"{swing} and does not stay up: ends at {_final_tilt(metrics)}"
+        return Verdict(False, ends, Fault.STANDING)
+    return Verdict(True, f"{swing}, is at rest after {metrics.settling_time:.2f} s and stands")
 
 
 def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
@@ -90,6 +113,8 @@ def _unsound(metrics: Metrics | None) -> str:
             f"not judged: angular momentum in flight is off by {metrics.momentum_error:.1e}, "
             f"more than {MOMENTUM_GATE:.0e}"
         )
+    if metrics.lift_off_time is None:
+        return "not judged: the legs do not bring the robot off the ground"
     if metrics.touchdown_time is None:
         return "not judged: nothing of the robot touched the floor"
     return ""

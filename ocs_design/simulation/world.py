@@ -8,17 +8,24 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.design import Device
+from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
+from ocs_design.jumping.leg_trajectory import LegTrajectory
 from ocs_design.requirement.froude import Scale
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Disturbance, Maneuver
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Shove, Unforeseen
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.spec.frames import quaternion
 from ocs_design.simulation.controller import Allocation, Gains, WheelLaw
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.drives import DRIVE, leg_joints, set_gains
-from ocs_design.simulation.ground import lowest_point
 from ocs_design.simulation.imperfections import Imperfections
-from ocs_design.simulation.launch import Launch, Push, flight_time, launch, level_launch
+from ocs_design.simulation.launch import (
+    Push,
+    flight_time,
+    launch,
+    level_launch,
+    on_the_ground,
+)
 from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.simulation.placing import place, stand
 from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, Turn, fit_turn
 from ocs_design.simulation.scene import (
     WHEEL_JOINTS,
@@ -34,9 +41,6 @@ from ocs_design.sizing.trajectory import Trajectory
 
 PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
 """K_p and K_d that docs/validation.md, was measured with, for Solo12."""
-
-_CLEARANCE = 1e-3
-"""Gap under the feet at lift-off, over the standing height."""
 
 
 @dataclass(frozen=True)
@@ -71,10 +75,13 @@ class World:
         law: of the wheels. turn: what the trunk should do. push: what hits it.
         limits: of the motors; None where the wheels are not driven, or by no limited torque.
         trajectory: what it should do in place of the turn, with its feed-forward torque.
+        legs: how they push the robot off the ground; None: it starts in flight.
+        leg_momentum: that the legs, as planned, turn against each other in flight [N m s].
         standing_height: of the trunk frame's origin when level with the feet on the ground [m].
-        flight_time: expected [s]. duration: of the run [s].
-        note: of what the trunk should do: how the turn was changed to suit the wheels, or what is
-            to be said of the trajectory; empty if nothing.
+        stands: for how long, before the maneuver [s]; None: it flies or jumps.
+        flight_time: expected [s]. duration: of the run, push-off included [s].
+        note: why it starts in flight where a jump was asked for; how the turn was changed to suit
+            the wheels, or what is to be said of the trajectory; empty if nothing.
         imperfections: of sensors and drives; None: they are as the law believes.
         desaturation: of the wheels in stance; None: they are left to the law.
     """
@@ -90,8 +97,11 @@ class World:
     limits: MotorLimits | None
     turn: Turn
     trajectory: Trajectory | None
+    legs: LegTrajectory | None
     push: Push
+    leg_momentum: float
     standing_height: float
+    stands: float | None
     flight_time: float
     duration: float
     note: str
@@ -122,7 +132,11 @@ class WorldBuilder:
         self._scene = robot_scene(robot)
 
     def flight(
-        self, maneuver: Maneuver, wheels: Wheels, trajectory: Trajectory | None = None
+        self,
+        maneuver: Maneuver,
+        wheels: Wheels,
+        trajectory: Trajectory | None = None,
+        jump: JumpPlan = IN_FLIGHT,
     ) -> World:
         """The maneuver with the wheels active, braked or absent.
 
@@ -131,22 +145,29 @@ class WorldBuilder:
             wheels: see `Wheels`.
             trajectory: that active wheels track; None: a smooth turn that suits them. A disturbance
                 is not known beforehand, and is met by feedback alone.
+            jump: how the legs push the robot off the ground, if they do.
         """
-        if wheels is not Wheels.ACTIVE or isinstance(maneuver, Disturbance):
+        if wheels is not Wheels.ACTIVE or isinstance(maneuver, Unforeseen):
             trajectory = None
-        return self._build(maneuver, wheels, trajectory, level=False)
+        return self._build(maneuver, wheels, trajectory, jump, level=False)
 
-    def level_landing(self, maneuver: Maneuver) -> World:
+    def level_landing(self, maneuver: Maneuver, jump: JumpPlan = IN_FLIGHT) -> World:
         """The same flight, level and undisturbed with braked wheels: what the legs can bear."""
-        return self._build(maneuver, Wheels.BRAKED, None, level=True)
+        return self._build(maneuver, Wheels.BRAKED, None, jump, level=True)
 
     def _build(
-        self, maneuver: Maneuver, wheels: Wheels, trajectory: Trajectory | None, *, level: bool
+        self,
+        maneuver: Maneuver,
+        wheels: Wheels,
+        trajectory: Trajectory | None,
+        jump: JumpPlan,
+        *,
+        level: bool,
     ) -> World:
-        device = self._device.as_flown(maneuver)
+        device, legs = self._device.as_flown(maneuver), jump.legs
         model = compile_scene(self._scene, self._robot, device, wheels, maneuver.gravity)
         data = mujoco.MjData(model)
-        standing = _stand(self._robot, model, data)
+        standing = stand(self._robot, model, data)
         set_gains(model, data, self._robot)
         body = Gyrostat(
             locked_inertia(model, data, np.eye(3)),
@@ -160,8 +181,12 @@ class WorldBuilder:
             else launch(maneuver, standing, self._drop_profile)
         )
         flight = flight_time(start, standing, maneuver.gravity)
+        settling = settling_time(self._robot, maneuver.gravity)
+        stands = settling if isinstance(maneuver, Shove) else None
         fitted = self._fit(start.turn, body, wheels, trajectory)
-        _place(self._robot, model, data, start, standing)
+        if legs is not None:
+            start = on_the_ground(start, standing)
+        place(self._robot, model, data, start, standing)
         return World(
             model=model,
             qpos=data.qpos.copy(),
@@ -174,11 +199,14 @@ class WorldBuilder:
             limits=self._limits if wheels is Wheels.ACTIVE and self._limits.is_finite else None,
             turn=fitted.turn,
             trajectory=trajectory,
+            legs=legs,
             push=start.push,
+            leg_momentum=0.0 if legs is None else _leg_momentum(model, data, legs),
             standing_height=standing,
+            stands=stands,
             flight_time=flight,
-            duration=flight + settling_time(self._robot, maneuver.gravity),
-            note=fitted.note,
+            duration=(stands or 0.0) + (0.0 if legs is None else legs.lift_off) + flight + settling,
+            note="; ".join(filter(None, (jump.note, fitted.note))),
             desaturation=self._desaturation(body, wheels, standing, maneuver.gravity),
         )
 
@@ -230,46 +258,16 @@ def addresses(model: mujoco.MjModel) -> Addresses:
     )
 
 
-def _stand(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    """Put the level trunk at the origin in the nominal posture; its height over its feet [m].
+def _leg_momentum(model: mujoco.MjModel, data: mujoco.MjData, legs: LegTrajectory) -> float:
+    """Largest sum, over the joints, of what each turns times its speed after lift-off [N m s].
 
-    Zero for a robot that has nothing to stand on: its file gives it no shape.
+    The legs of a level jump turn against each other, and most of that is no momentum of the whole.
     """
-    _set_posture(robot, model, data)
-    _set_trunk(robot, model, data, np.eye(3), 0.0)
-    mujoco.mj_forward(model, data)
-    lowest = lowest_point(model, data)
-    return -lowest if np.isfinite(lowest) else 0.0
-
-
-def _place(
-    robot: Robot, model: mujoco.MjModel, data: mujoco.MjData, start: Launch, standing: float
-) -> None:
-    """Write the start of a flight into `data`."""
-    height = standing * (1.0 + _CLEARANCE) if start.height is None else start.height
-    _set_trunk(robot, model, data, start.rotation, height)
-    free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
-    first = int(model.jnt_dofadr[free])
-    data.qvel[first : first + 3] = start.velocity
-
-
-def _set_posture(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    for name, value in robot.posture.items():
-        data.qpos[model.joint(name).qposadr[0]] = value
-
-
-def _set_trunk(
-    robot: Robot, model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatArray, height: float
-) -> None:
-    """Move the floating base so that the trunk's frame stands over the origin as told."""
-    index = robot.tree.body_of_link[robot.trunk]
-    in_body = robot.tree.bodies[index].links[robot.trunk]
-    in_root = robot.tree.placements(robot.posture)[index] @ in_body
-    base = rotation @ in_root.rotation.T
-    free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
-    first = int(model.jnt_qposadr[free])
-    data.qpos[first : first + 3] = np.array([0.0, 0.0, height]) - base @ in_root.position
-    data.qpos[first + 3 : first + 7] = quaternion(base)
+    inertia = np.empty((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, inertia)
+    dofs = [int(model.joint(name).dofadr[0]) for name in legs.joints]
+    speeds = np.abs(legs.velocity[legs.time >= legs.lift_off])
+    return float((speeds @ np.diag(inertia)[dofs]).max())
 
 
 def _posture_control(robot: Robot, model: mujoco.MjModel) -> FloatArray:

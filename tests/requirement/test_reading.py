@@ -122,7 +122,7 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ("robot.joints: ", "table"),
         ("maneuver.fall.heigth: ", "Did you mean 'height'?"),
         ("maneuver.fall.height: ", "missing"),
-        ("maneuver[1].kind: ", "'leap' is unknown; one of disturbance, drop, flip"),
+        ("maneuver[1].kind: ", "'leap' is unknown; one of disturbance, shove, drop, flip"),
         ("maneuver.nothing.kind: ", "missing"),
     ):
         assert [line for line in problems if line.startswith(start) and word in line], (start, word)

@@ -3,11 +3,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ocs_design.requirement.maneuver import Drop, Flip
+from ocs_design.requirement.maneuver import Drop, Flip, Shove
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.verdict import comes_down_well, judge, stands
 
 GOOD = Metrics(
+    lift_off_time=0.0,
+    rise=0.0,
     touchdown_time=0.39,
     touchdown_roll=0.0,
     touchdown_pitch=np.radians(1.0),
@@ -20,8 +22,12 @@ GOOD = Metrics(
     upright_at_end=True,
     final_roll=0.0,
     final_pitch=0.0,
+    roll_swing=0.0,
+    pitch_swing=np.radians(3.0),
+    settling_time=0.2,
 )
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
+SHOVE = Shove(name="shove", torque=(0.0, 1.0, 0.0), duration=0.05, settling=0.5)
 FLIP = Flip(name="flip", jump_height=1.0, angle=-2.0 * np.pi, duration=2.0)
 FALLEN = replace(GOOD, upright_at_end=False, final_pitch=np.pi)
 TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
@@ -32,6 +38,7 @@ TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
     [
         (GOOD, DROP, True, True, "pitch 1.0, roll 0.0 deg and stands"),
         (GOOD, DROP, None, True, "without legs"),
+        (replace(GOOD, lift_off_time=None), DROP, True, None, "do not bring the robot off"),
         (TILTED, DROP, True, False, "roll -5.1 deg, more than 5 deg"),
         (TILTED, DROP, None, False, "roll -5.1 deg"),
         (FALLEN, DROP, True, False, "does not stay up: ends at pitch 180.0"),
@@ -57,3 +64,18 @@ def test_a_robot_that_topples_slowly_does_not_count_as_standing():
     assert not stands(replace(GOOD, final_pitch=np.radians(30.0)))
     assert not stands(FALLEN)
     assert not stands(None)
+
+
+@pytest.mark.parametrize(
+    ("metrics", "can_stand", "passed", "reason"),
+    [
+        (GOOD, True, True, "swings by pitch 3.0, roll 0.0 deg"),
+        (FALLEN, True, False, "does not stay up: ends at pitch 180.0"),
+        (FALLEN, False, None, "not even unshoved"),
+        (GOOD, None, None, "without legs"),
+    ],
+)
+def test_a_shoved_robot_has_to_stay_up(metrics, can_stand, passed, reason):
+    verdict = judge(metrics, SHOVE, can_stand=can_stand)
+    assert verdict.passed is passed
+    assert reason in verdict.reason

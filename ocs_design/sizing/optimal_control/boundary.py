@@ -11,7 +11,7 @@ import numpy as np
 
 from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import SpecificationError
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver
+from ocs_design.requirement.maneuver import Drop, Flip, Maneuver, Unforeseen
 
 UP = np.array([0.0, 0.0, 1.0])
 _PITCH = np.array([0.0, 1.0, 0.0])
@@ -92,14 +92,12 @@ def _flip(maneuver: Flip, standing_height: float) -> Boundary:
 
 
 @boundary.register
-def _disturbance(maneuver: Disturbance, standing_height: float) -> Boundary:
-    """From level at the onset; what is left of the flight after the push is for the turn back."""
+def _unforeseen(maneuver: Unforeseen, standing_height: float) -> Boundary:
+    """From level at the onset; what is left after the torque is for the turn back."""
     del standing_height
-    left = maneuver.flight_time - maneuver.onset - maneuver.duration
-    if left <= 0.0:
+    if maneuver.time_left <= 0.0:
         raise SpecificationError(
-            f"maneuver {maneuver.name!r}: the flight of {maneuver.flight_time:.3g} s ends before "
-            f"the torque does, {maneuver.onset + maneuver.duration:.3g} s after lift-off",
+            f"maneuver {maneuver.name!r}: no time is left after its torque",
             hint="Let the torque start earlier, or the robot jump higher.",
         )
     return Boundary(
@@ -108,7 +106,7 @@ def _disturbance(maneuver: Disturbance, standing_height: float) -> Boundary:
         final_vertical=UP,
         axis=_PITCH,
         angle=0.0,
-        duration=left,
+        duration=maneuver.time_left,
         push=np.array(maneuver.torque),
         push_duration=maneuver.duration,
     )

@@ -15,7 +15,7 @@ TOLERANCE = 1e-8
 ITERATIONS_MAX = 200
 """A program that is solved takes 5 to 100."""
 
-_OPTIONS: dict[str, Any] = {
+IPOPT_OPTIONS: dict[str, Any] = {
     "ipopt.tol": TOLERANCE,
     "ipopt.acceptable_iter": 0,
     # Bounds are bounds: a rim is not to stick out of its envelope by 1e-8 of it.
@@ -87,7 +87,7 @@ def solve_program(program: Program, iterations_max: int = ITERATIONS_MAX) -> Ans
         "f": program.objective,
         "g": ca.veccat(*(constraint.expression for constraint in program.constraints)),
     }
-    solver = ca.nlpsol("ocp", "ipopt", nlp, _OPTIONS | {"ipopt.max_iter": iterations_max})
+    solver = ca.nlpsol("ocp", "ipopt", nlp, IPOPT_OPTIONS | {"ipopt.max_iter": iterations_max})
     lower = _flat([(c.expression, c.lower) for c in program.constraints])
     upper = _flat([(c.expression, c.upper) for c in program.constraints])
     found = solver(

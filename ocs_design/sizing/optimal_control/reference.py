@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from ocs_design.drive.line import RESERVE, DriveLine
-from ocs_design.requirement.maneuver import Disturbance, Maneuver
+from ocs_design.requirement.maneuver import Maneuver, Unforeseen
 from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.optimal_control.boundary import boundary
 from ocs_design.sizing.optimal_control.solution import ManeuverSolution
@@ -41,10 +41,10 @@ def reference(
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
         line: of the drives, nothing held back.
-        maneuver: a disturbance gets no reference, because it comes unforeseen.
+        maneuver: what nobody foresees gets no reference, because it comes unforeseen.
         standing_height: of the trunk over the ground [m].
     """
-    if isinstance(maneuver, Disturbance):
+    if isinstance(maneuver, Unforeseen):
         return Reference(None, _UNFORESEEN, None)
     asked = boundary(maneuver, standing_height)
     solution = solve_maneuver(gyrostat, line.reserved(PLANNED), asked)

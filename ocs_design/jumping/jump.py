@@ -1,0 +1,71 @@
+"""A jump as it is asked for, and what became of it."""
+
+from dataclasses import dataclass
+from math import sqrt
+from typing import NamedTuple
+
+from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
+
+
+@dataclass(frozen=True)
+class Jump:
+    """A push-off from the nominal stance.
+
+    Attributes:
+        forward, upward: velocity of the centre of mass at lift-off [m/s].
+        gravity: [m/s^2].
+    """
+
+    forward: float
+    upward: float
+    gravity: float
+
+    @property
+    def flight_time(self) -> float:
+        """Until the centre of mass is as high again as at lift-off [s]."""
+        return 2.0 * self.upward / self.gravity
+
+
+@dataclass(frozen=True, eq=False)
+class JumpPlan:
+    """How the legs make a jump, or which limit forbids it.
+
+    Attributes:
+        legs: what they track; None: they cannot make the jump.
+        note: one sentence; empty if there is nothing to say.
+    """
+
+    legs: LegTrajectory | None
+    note: str
+
+
+class JumpPlans(NamedTuple):
+    """A jump as each robot makes it: a plan for each, for the device is a load on the legs.
+
+    Attributes:
+        carrying: of the robot with its device. bare: of the robot that carries nothing.
+    """
+
+    carrying: JumpPlan
+    bare: JumpPlan
+
+
+IN_FLIGHT = JumpPlan(None, "")
+"""No push-off is asked for: the start is at lift-off or release."""
+
+BALLISTIC = JumpPlans(IN_FLIGHT, IN_FLIGHT)
+"""Neither robot pushes off."""
+
+
+def jump_of(maneuver: Maneuver) -> Jump | None:
+    """What a maneuver asks of the legs; None: it starts in the air."""
+    match maneuver:
+        case Disturbance():
+            forward, upward = maneuver.takeoff_velocity
+            return Jump(forward, upward, maneuver.gravity)
+        case Flip():
+            upward = sqrt(2.0 * maneuver.gravity * maneuver.jump_height)
+            return Jump(0.0, upward, maneuver.gravity)
+        case _:
+            return None

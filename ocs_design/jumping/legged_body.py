@@ -1,0 +1,151 @@
+"""A robot as a trunk with legs: everything that is in no leg is held, and part of the trunk."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.robot.mass_properties import MassProperties, combine
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance.chain import Chain
+from ocs_design.robot.stance.feet import is_wheel
+from ocs_design.robot.stance.leg_geometry import (
+    LegGeometry,
+    leg_geometries,
+    placements_in_base,
+    up_axis,
+)
+from ocs_design.robot.tree import Joint, Tree
+
+_FEWEST_JOINTS = 3
+"""A leg that holds its foot still while the trunk moves in six directions."""
+
+
+@dataclass(frozen=True, eq=False)
+class JumpingLeg:
+    """One leg, its chain seen from the base frame B.
+
+    Attributes:
+        chain: from the trunk to the foot.
+        bodies: mass properties of each body of the chain in its own frame, with all that hangs on
+            it and is no part of the chain.
+        foot: centre of the foot's ball in the last body's frame [m], shape (3,).
+        foot_radius: of that ball [m].
+        hip: which joint of the chain is the hip's pitch.
+        length: of the stretched leg [m].
+    """
+
+    chain: Chain
+    bodies: tuple[MassProperties, ...]
+    foot: FloatArray
+    foot_radius: float
+    hip: int
+    length: float
+
+
+@dataclass(frozen=True, eq=False)
+class LeggedBody:
+    """A robot as a push-off sees it.
+
+    Attributes:
+        trunk: mass properties of all that is in no leg, in B.
+        legs: see `JumpingLeg`.
+        joints: of all legs, in their order.
+        posture: of those joints in the nominal stance [rad or m], shape (n,).
+        height: of B's origin over the ground in the nominal stance [m].
+    """
+
+    trunk: MassProperties
+    legs: tuple[JumpingLeg, ...]
+    joints: tuple[Joint, ...]
+    posture: FloatArray
+    height: float
+
+    @classmethod
+    def of(cls, robot: Robot) -> "LeggedBody":
+        """Of a robot that `obstacle_to_jumping` has nothing against."""
+        geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
+        masses = _lumped(robot, geometries)
+        legs = tuple(_leg(robot.tree, each, masses) for each in geometries)
+        joints = tuple(joint for leg in legs for joint in leg.chain.joints)
+        assert robot.standing_height is not None
+        return cls(
+            trunk=masses[-1],
+            legs=legs,
+            joints=joints,
+            posture=np.array([robot.posture[joint.name] for joint in joints]),
+            height=robot.standing_height,
+        )
+
+    @property
+    def length(self) -> float:
+        """Of the legs, stretched, in the mean [m]."""
+        return float(np.mean([leg.length for leg in self.legs]))
+
+    @property
+    def leg_mass(self) -> float:
+        """Of all legs [kg]."""
+        return float(sum(body.mass for leg in self.legs for body in leg.bodies))
+
+    @property
+    def joint_slices(self) -> Iterator[tuple[JumpingLeg, slice]]:
+        """Each leg with the places of its joints among all."""
+        first = 0
+        for leg in self.legs:
+            last = first + len(leg.chain.joints)
+            yield leg, slice(first, last)
+            first = last
+
+
+def obstacle_to_jumping(robot: Robot) -> str:
+    """Why no push-off can be planned for a robot, as half a sentence; empty if one can."""
+    if not robot.legs:
+        return "the robot has no legs"
+    if up_axis(robot.tree, robot.trunk, robot.legs)[2] != 1.0:
+        return "the legs do not hang along -z of the trunk frame"
+    geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
+    return next(filter(None, map(_obstacle_of_leg, geometries)), "")
+
+
+def _obstacle_of_leg(each: LegGeometry) -> str:
+    name, joints = each.leg.name, each.chain.joints
+    if is_wheel(each.chain.bodies[-1]):
+        return f"the leg '{name}' ends in a wheel"
+    if each.plane.flat:
+        return f"the leg '{name}' stands on a sole, not on a point"
+    if any(joint.mimic is not None for joint in joints):
+        return f"joints of the leg '{name}' follow each other"
+    if len(joints) < _FEWEST_JOINTS:
+        return f"the leg '{name}' has fewer than {_FEWEST_JOINTS} joints"
+    return ""
+
+
+def _leg(tree: Tree, each: LegGeometry, masses: Mapping[int, MassProperties]) -> JumpingLeg:
+    chain = each.chain
+    index = {body.name: i for i, body in enumerate(tree.bodies)}
+    return JumpingLeg(
+        chain=chain,
+        bodies=tuple(masses[index[body.name]] for body in chain.bodies),
+        foot=each.leg.foot,
+        foot_radius=each.leg.foot_radius,
+        hip=chain.driven[each.plane.pitch[0]],
+        length=each.leg.length,
+    )
+
+
+def _lumped(robot: Robot, geometries: tuple[LegGeometry, ...]) -> dict[int, MassProperties]:
+    """Mass properties by index of the body that carries them; -1 is the trunk, in B."""
+    tree = robot.tree
+    names = {body.name for each in geometries for body in each.chain.bodies}
+    in_chain = {i for i, body in enumerate(tree.bodies) if body.name in names}
+    placements = placements_in_base(tree, robot.trunk, robot.posture)
+    carried: dict[int, list[MassProperties]] = {-1: []}
+    for i, body in enumerate(tree.bodies):
+        carrier = i
+        while carrier >= 0 and carrier not in in_chain:
+            carrier = tree.bodies[carrier].parent
+        place = placements[i] if carrier < 0 else placements[carrier].inverse() @ placements[i]
+        part = body.mass_properties.moved(place.rotation, place.position)
+        carried.setdefault(carrier, []).append(part)
+    return {carrier: combine(parts) for carrier, parts in carried.items()}

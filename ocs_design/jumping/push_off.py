@@ -1,0 +1,179 @@
+"""The push-off of least effort for a jump, and which limit forbids it where none will do."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.jumping.floating_base import POSE, Load
+from ocs_design.jumping.guess import guess
+from ocs_design.jumping.jump import Jump
+from ocs_design.jumping.legged_body import LeggedBody
+from ocs_design.jumping.mesh import NODES, SHARES
+from ocs_design.jumping.node import END_ROWS, FRICTION, Layout, Limit, limit_or_inf, node
+from ocs_design.jumping.program import Bounds, Found, Program
+from ocs_design.robot.mass_properties import MassProperties
+
+_LEAST_LOAD = 0.2
+"""Of its share of the weight that every foot bears until lift-off: less could let it slip."""
+
+_TILT = 0.3
+"""Largest roll, pitch and yaw of the trunk while it pushes [rad]."""
+
+_WINDING = 6.0
+"""Joints without limits turn no further than this [rad]."""
+
+_OVERDRAWN = 1e-3
+"""A limit that is overdrawn by less than this share is kept."""
+
+
+@dataclass(frozen=True, eq=False)
+class PushOff:
+    """A push-off.
+
+    Attributes:
+        time: of the nodes [s], shape (k,).
+        y: trunk and joints [m, rad], shape (k, 6 + n); v and a: their derivatives.
+        torque: of the joints [N m or N], shape (k, n).
+        force: of the ground on each foot, in the world [N], shape (k, legs, 3).
+        forbidden: which limit forbids it, as a sentence; empty if none does.
+        iterations: that it took.
+        answer: of the program, to begin the search for a similar push-off at.
+    """
+
+    time: FloatArray
+    y: FloatArray
+    v: FloatArray
+    a: FloatArray
+    torque: FloatArray
+    force: FloatArray
+    forbidden: str
+    iterations: int
+    answer: Found
+
+    def joints_at(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Positions and velocities of the joints on the cubic splines, shape (len(times), n)."""
+        last = len(self.time) - 2
+        k = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, last)
+        t = (times - self.time[k])[:, None]
+        y, v, a = (each[:, POSE:] for each in (self.y, self.v, self.a))
+        jerk = np.diff(a, axis=0)[k] / np.diff(self.time)[k, None]
+        position = y[k] + t * (v[k] + t * (a[k] / 2.0 + t * jerk / 6.0))
+        return position, v[k] + t * (a[k] + t * jerk / 2.0)
+
+
+class PushOffs:
+    """Finds the push-offs of one robot; its program is made once."""
+
+    def __init__(self, body: LeggedBody) -> None:
+        self.body = body
+        self._node = node(body)
+        self._program = Program(self._node)
+
+    def find(
+        self,
+        jump: Jump,
+        trunk: MassProperties,
+        *,
+        spin: FloatArray | None = None,
+        similar: "PushOff | None" = None,
+    ) -> PushOff:
+        """The push-off of least effort.
+
+        Args:
+            jump: that is asked for.
+            trunk: with all that it carries, in B.
+            spin: angular momentum about the centre of mass at lift-off, in B [kg m^2/s], shape
+                (3,); None: none.
+            similar: another push-off of this jump, to begin the search at.
+        """
+        body, layout = self.body, self._node.layout
+        begin = guess(body, jump)
+        lower, upper = _box(body, layout, begin[layout.duration, 0])
+        mass = trunk.mass + body.leg_mass
+        unit = np.sqrt(jump.gravity * body.length)
+        velocity = np.array([jump.forward, 0.0, jump.upward]) / unit
+        turning = np.zeros(3) if spin is None else spin / (mass * unit * body.length)
+        end = np.concatenate([velocity, turning])
+        assert end.size == END_ROWS
+        load = Load.values(jump.gravity, trunk)
+        start = np.clip(begin, lower, upper) if similar is None else similar.answer
+        found = self._program.solve(Bounds(start, lower, upper, end, load))
+        return _push_off(body, layout, found, weight=mass * jump.gravity)
+
+
+def _box(body: LeggedBody, layout: Layout, duration: float) -> tuple[FloatArray, FloatArray]:
+    """Bounds of all nodes' unknowns, shape (size, nodes) each."""
+    lower = np.full((layout.size, NODES), -np.inf)
+    upper = np.full((layout.size, NODES), np.inf)
+    length, legs = body.length, len(body.legs)
+    box = np.array([0.5 * length, 0.2 * length, 2.0 * body.height, _TILT, _TILT, _TILT])
+    lower[: len(box)], upper[: len(box)] = -box[:, None], box[:, None]
+    joints = slice(len(box), layout.coordinates)
+    lower[joints] = np.array([max(j.lower, -_WINDING) for j in body.joints])[:, None]
+    upper[joints] = np.array([min(j.upper, _WINDING) for j in body.joints])[:, None]
+    lower[layout.f][2::3] = _LEAST_LOAD / legs
+    lower[layout.duration], upper[layout.duration] = 0.3 * duration, 2.0 * duration
+    stance = np.concatenate([[0.0, 0.0, body.height, 0.0, 0.0, 0.0], body.posture])
+    lower[layout.y, 0] = upper[layout.y, 0] = stance
+    lower[layout.v, 0] = upper[layout.v, 0] = 0.0
+    # Level where the feet let go, which by then carry nothing.
+    lower[3:6, -1] = upper[3:6, -1] = 0.0
+    lower[layout.f, -1] = upper[layout.f, -1] = 0.0
+    return lower, upper
+
+
+def _push_off(body: LeggedBody, layout: Layout, found: Found, *, weight: float) -> PushOff:
+    z = found.nodes
+    duration = z[layout.duration, -1]
+    return PushOff(
+        time=SHARES * duration,
+        y=z[layout.y].T,
+        v=z[layout.v].T / duration,
+        a=z[layout.a].T / duration**2,
+        torque=found.torque.T,
+        force=z[layout.f].T.reshape(NODES, -1, 3) * weight,
+        forbidden=_forbidden(body, layout, found),
+        iterations=found.iterations,
+        answer=found,
+    )
+
+
+def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
+    """What is overdrawn by how much, joined by "and"; empty if nothing is."""
+    duration = found.nodes[layout.duration, -1]
+    speed = found.nodes[layout.v][-layout.joints :] / duration
+    sentences = []
+    if found.excess[Limit.TORQUE] > _OVERDRAWN:
+        limits = [limit_or_inf(joint.effort) for joint in body.joints]
+        sentences.append(
+            _Asked("torque", "N m", found.torque, np.array(limits)).worst(body, duration)
+        )
+    if found.excess[Limit.SPEED] > _OVERDRAWN:
+        limits = [limit_or_inf(joint.velocity) for joint in body.joints]
+        sentences.append(_Asked("speed", "rad/s", speed, np.array(limits)).worst(body, duration))
+    if found.excess[Limit.FRICTION] > _OVERDRAWN:
+        sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")
+    if not sentences and not found.solved:
+        return "no push-off was found within the legs' reach"
+    return " and ".join(sentences)
+
+
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """What a push-off asks of the joints: values of shape (n, nodes), limits of shape (n,)."""
+
+    quantity: str
+    unit: str
+    values: FloatArray
+    limits: FloatArray
+
+    def worst(self, body: LeggedBody, duration: float) -> str:
+        """The joint that needs the largest share of its limit, and when."""
+        share = np.abs(self.values) / self.limits[:, None]
+        joint, instant = np.unravel_index(np.argmax(share), share.shape)
+        needed, time = abs(self.values[joint, instant]), duration * float(SHARES[instant])
+        return (
+            f"the {self.quantity} of joint '{body.joints[joint].name}' would be {needed:.3g} "
+            f"{self.unit} at {time:.3g} s, more than its {self.limits[joint]:.3g} {self.unit}"
+        )

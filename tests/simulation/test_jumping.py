@@ -1,0 +1,174 @@
+"""Jumps from the ground and shoves of a standing robot, in MuJoCo."""
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+from wheels import paper_device
+
+from ocs_design.jumping.jump import JumpPlan, JumpPlans
+from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.jumping.planning import plan_jumps
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.requirement.maneuver import Shove
+from ocs_design.simulation.drives import DRIVE
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.legs import LegReferences
+from ocs_design.simulation.lift_off import FlightClock
+from ocs_design.simulation.metrics import measure, series_of
+from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder
+
+
+@pytest.fixture(scope="module")
+def disturbance(solo12):
+    return default_maneuvers(solo12)[0]
+
+
+@pytest.fixture(scope="module")
+def jumps(solo12, disturbance):
+    return plan_jumps(solo12, paper_device(), [disturbance])
+
+
+@pytest.fixture(scope="module")
+def builder(solo12):
+    return WorldBuilder(solo12, paper_device())
+
+
+@pytest.fixture(scope="module")
+def world(builder, disturbance, jumps):
+    return builder.flight(disturbance, Wheels.ACTIVE, None, jumps["disturbance"].carrying)
+
+
+@pytest.fixture(scope="module")
+def runs(solo12, disturbance, jumps):
+    return run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
+
+
+def test_from_the_ground_the_device_lands_the_disturbed_jump_and_nothing_else_does(runs):
+    assert [run.passed for run in runs] == [True, False]
+    assert not any(run.note for run in runs)
+
+
+def test_the_jump_leaves_the_ground_when_and_as_fast_as_planned(runs, disturbance, jumps):
+    for run, plan in zip(runs, jumps["disturbance"], strict=True):
+        assert run.metrics.lift_off_time == pytest.approx(plan.legs.lift_off, abs=0.015)
+        start = np.searchsorted(run.series.time, run.metrics.lift_off_time)
+        velocity = np.gradient(run.series.com, run.series.time, axis=0)[start + 1]
+        forward, up = disturbance.takeoff_velocity
+        assert velocity[2] == pytest.approx(up, rel=0.08)
+        assert velocity[0] == pytest.approx(forward, rel=0.25)
+        assert run.metrics.rise == pytest.approx(up**2 / (2.0 * 9.81), rel=0.12)
+
+
+def test_momentum_is_kept_from_lift_off_to_touchdown(runs):
+    assert max(run.metrics.momentum_error for run in runs) < 1e-6
+
+
+def test_wheels_wait_for_the_lift_off(runs):
+    run = runs[0]
+    pushing = run.series.time < run.metrics.lift_off_time
+    assert np.abs(run.series.wheel_torque[pushing]).max() == 0.0
+    assert run.metrics.peak_wheel_torque > 0.1
+
+
+def test_the_push_comes_so_long_after_the_lift_off_as_was_asked(builder, disturbance, jumps):
+    bare = builder.flight(disturbance, Wheels.ABSENT, None, jumps["disturbance"].bare)
+    recording = simulate([bare])
+    found = measure(recording, 0, bare)
+    impulse = np.linalg.norm(recording.impulse[:, 0], axis=1)
+    first = recording.time[np.flatnonzero(impulse)[0] - 1] - found.lift_off_time
+    assert first == pytest.approx(disturbance.onset, abs=0.005)
+
+
+def test_a_trunk_swings_less_and_shorter_after_a_landing_with_the_device(runs):
+    carrying, bare = (run.metrics for run in runs)
+    assert carrying.pitch_swing < 0.3 * bare.pitch_swing
+    assert carrying.roll_swing < 0.3 * bare.roll_swing
+    assert carrying.settling_time < bare.settling_time
+
+
+def test_drives_give_the_law_of_the_paper(world):
+    """K_p (q_ref - q) + K_d (q_dot_ref - q_dot) + tau_ref, in the middle of the push-off."""
+    model, legs = world.model, world.legs
+    data, k = mujoco.MjData(model), 150
+    data.qpos[:], data.qvel[:] = world.qpos, world.qvel
+    data.qvel[6:18] = np.linspace(-1.0, 1.0, 12)
+    control = np.zeros((1, 1, model.nu))
+    LegReferences([world], 1).write(k, control)
+    data.ctrl[:] = control[0, 0]
+    mujoco.mj_forward(model, data)
+    for j, name in enumerate(legs.joints):
+        actuator = model.actuator(DRIVE + name).id
+        stiffness = model.actuator_gainprm[actuator, 0]
+        damping = -model.actuator_biasprm[actuator, 2]
+        position, velocity, torque = (
+            np.interp(k * model.opt.timestep, legs.time, values[:, j])
+            for values in (legs.position, legs.velocity, legs.torque)
+        )
+        state = data.joint(name)
+        expected = (
+            stiffness * (position - state.qpos[0]) + damping * (velocity - state.qvel[0]) + torque
+        )
+        assert data.actuator_force[actuator] == pytest.approx(expected, abs=1e-9)
+
+
+def test_after_the_jump_drives_hold_the_posture(world):
+    control = np.zeros((1, 5, world.model.nu))
+    LegReferences([world], 5).write(100_000, control)
+    np.testing.assert_allclose(control, np.broadcast_to(world.ctrl, control.shape), atol=1e-12)
+
+
+def test_worlds_of_one_jump_share_their_references(world):
+    assert len(LegReferences([world] * 7, 5)._commands) == 1
+
+
+def test_lift_off_takes_five_milliseconds_without_a_contact(world):
+    """With control steps of 1 ms a foot that bounces does not count."""
+    clock = FlightClock([world], 1e-3)
+    late = int(1e3 * world.legs.lift_off)
+    touch, free = np.array([[True]]), np.array([[False]])
+    for k, contact in enumerate([free] * 4 + [touch] + [free] * 6, start=late):
+        clock.look(k, contact)
+    assert clock.lift_off[0] == late + 5
+    assert clock.steps(late + 7, 1)[0] == 2
+
+
+def test_feet_that_lift_early_in_the_push_off_do_not_count(world):
+    clock = FlightClock([world], 5e-3)
+    clock.look(3, np.zeros((1, 5), dtype=bool))
+    assert clock.steps(4, 1)[0] < 0
+
+
+def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
+    plan = jumps["disturbance"].bare
+    still = replace(
+        plan.legs,
+        position=np.tile(plan.legs.position[:1], (len(plan.legs.time), 1)),
+        velocity=0.0 * plan.legs.velocity,
+        torque=0.0 * plan.legs.torque,
+    )
+    stays = JumpPlan(still, "")
+    runs = run_scenarios(
+        solo12, paper_device(), [disturbance], jumps={"disturbance": JumpPlans(stays, stays)}
+    )
+    assert [run.passed for run in runs] == [None, None]
+    assert "do not bring the robot off the ground" in runs[0].reason
+    assert isinstance(still, LegTrajectory)
+
+
+def test_a_robot_that_stands_is_shoved_and_calmed(solo12, builder):
+    shove = Shove(name="shove", torque=(2.0, 8.0, 0.0), duration=0.05, settling=0.5)
+    runs = run_scenarios(solo12, paper_device(), [shove])
+    carrying, bare = (run.metrics for run in runs)
+    assert [run.passed for run in runs] == [True, True]
+    assert carrying.pitch_swing < 0.8 * bare.pitch_swing
+    assert carrying.peak_wheel_torque > 0.0
+    world = builder.flight(shove, Wheels.ABSENT)
+    series = series_of(simulate([world]), 0, world)
+    before = series.time < world.stands - 0.1
+    settled = before & (series.time > 0.7 * world.stands)
+    assert np.ptp(series.pitch[settled]) < np.radians(0.1)
+    assert np.abs(series.pitch[series.time > world.stands]).max() > np.radians(3.0)
