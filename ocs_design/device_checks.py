@@ -28,6 +28,7 @@ _POSITIVE = {"density", "mass", "spin_inertia", "gear_efficiency", "no_load_spee
 _POSITIVE |= {"stall_torque", "torque_limit", "torque_constant", "resistance", "bus_voltage"}
 _POSITIVE |= {"rated_voltage"}
 _ANY_SIGN = {"rotor_inertia", "gear_ratio", "stress_margin", "armature"}
+_ANY_SIGN |= {"along", "up", "product_of_inertia"}
 _MAY_BE_ZERO = {"motor.mass", "carrier.mass"}
 
 _UNIT_TOLERANCE = 1e-6
