@@ -21,12 +21,16 @@ class Flight:
     Attributes:
         scenario: name of the maneuver. ocs: with the device.
         columns: time series as in the CSV files, headings with units; SI.
+        lift_off: when it leaves the ground, or is pushed as it stands [s]; None: it never does.
+        touchdown: when it comes down [s]; None: it never does.
         poses: to show it again; None: only its time series are known.
     """
 
     scenario: str
     ocs: bool
     columns: Mapping[str, FloatArray]
+    lift_off: float | None
+    touchdown: float | None
     poses: Poses | None
 
     @property
@@ -35,21 +39,30 @@ class Flight:
         return self.columns["time_s"]
 
     @property
-    def touchdown(self) -> float | None:
-        """First time that anything touches the floor [s]; None: never."""
-        touching = np.flatnonzero(self.columns["contact"])
-        return float(self.time[touching[0]]) if touching.size else None
+    def driven(self) -> slice:
+        """The instants from lift-off, or the push, to touchdown: when the wheels are at work.
 
-    @property
-    def airborne(self) -> slice:
-        """The instants up to touchdown."""
-        touching = np.flatnonzero(self.columns["contact"])
-        return slice(int(touching[0]) if touching.size else None)
+        A robot that never left the ground has its last instant for them.
+        """
+        if self.lift_off is None:
+            return slice(-1, None)
+        end = None if self.touchdown is None else int(np.searchsorted(self.time, self.touchdown)) + 1
+        return slice(int(np.searchsorted(self.time, self.lift_off)), end)
 
 
 def flights_of(runs: Sequence[Run]) -> tuple[Flight, ...]:
     """The runs of a simulation."""
-    return tuple(Flight(run.scenario, run.ocs, run.series.columns(), run.poses) for run in runs)
+    return tuple(
+        Flight(
+            run.scenario,
+            run.ocs,
+            run.series.columns(),
+            None if run.metrics is None else run.metrics.lift_off_time,
+            None if run.metrics is None else run.metrics.touchdown_time,
+            run.poses,
+        )
+        for run in runs
+    )
 
 
 def first_file(folders: Sequence[Path], name: str) -> Path | None:
@@ -66,4 +79,5 @@ def recorded_flight(folders: Sequence[Path], record: ValidationRecord) -> Flight
         heading, *rows = csv.reader(file)
     values = np.array(rows, dtype=np.float64)
     columns = dict(zip(heading, values.T, strict=True))
-    return Flight(record.scenario, record.ocs, columns, None)
+    lift_off, touchdown = (record.metrics.get(f"{name}_time") for name in ("lift_off", "touchdown"))
+    return Flight(record.scenario, record.ocs, columns, lift_off, touchdown, None)

@@ -45,7 +45,7 @@ def _flown(story: Story, flight: Flight) -> Taken:
     stated = own.get(flight.scenario)
     incidence = story.design.ocs.incidence if stated is None else stated
     speeds = [flight.columns[f"wheel_speed_{side}_rad_s"] for side in ("left", "right")]
-    along = story.design.ocs.spin_inertia * np.stack(speeds, axis=1)[flight.airborne]
+    along = story.design.ocs.spin_inertia * np.stack(speeds, axis=1)[flight.driven]
     return Taken(flight.scenario, incidence, along @ module_axes(incidence)[:2].T)
 
 

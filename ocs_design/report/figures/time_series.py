@@ -50,7 +50,7 @@ def _tilt(scenario: str, name: str, flights: Sequence[Flight]) -> Chart:
     marks: list[Mark] = [
         *(Rule(side * tolerance, upright=False, ink=Ink.FAINT) for side in (-1.0, 1.0)),
         *lines,
-        *_touchdowns(flights),
+        *_events(flights),
     ]
     return Chart(
         name=f"tilt_{name}",
@@ -83,7 +83,7 @@ def _rates(scenario: str, name: str, flights: Sequence[Flight]) -> Chart:
         description="Pitch and roll rate over time, solid with the device, dashed without it.",
         x=_time(flights),
         y=Axis.around("rate", "deg/s", _ends(lines)),
-        marks=(*lines, *_touchdowns(flights)),
+        marks=(*lines, *_events(flights)),
         height=_HEIGHT,
     )
 
@@ -105,7 +105,7 @@ def _speeds(scenario: str, name: str, flight: Flight) -> Chart:
         description="Speed of both wheels relative to the trunk over time.",
         x=_time([flight]),
         y=Axis.around("wheel speed", "rpm", _ends(lines)),
-        marks=(*lines, *_touchdowns([flight])),
+        marks=(*lines, *_events([flight])),
         height=_HEIGHT,
     )
 
@@ -126,7 +126,7 @@ def _torques(scenario: str, name: str, flight: Flight) -> Chart:
         "the left one can give at its speed.",
         x=_time([flight]),
         y=Axis.around("torque", "N m", _ends([*limits, *lines])),
-        marks=(*limits, *lines, *_touchdowns([flight])),
+        marks=(*limits, *lines, *_events([flight])),
         height=_HEIGHT,
     )
 
@@ -142,10 +142,20 @@ def _limits(flight: Flight) -> list[Area]:
     return [Area(there_and_back, outline, Ink.FAINT, "range of the motor")]
 
 
-def _touchdowns(flights: Sequence[Flight]) -> list[Rule]:
-    """Where the first of the flights comes down."""
-    times = [flight.touchdown for flight in flights if flight.touchdown is not None]
-    return [Rule(min(times), upright=True, label="touchdown", ink=Ink.FAINT)] if times else []
+def _events(flights: Sequence[Flight]) -> list[Rule]:
+    """Where the last of the flights leaves the ground, and the first comes down."""
+    left = [flight.lift_off for flight in flights if flight.lift_off is not None]
+    down = [flight.touchdown for flight in flights if flight.touchdown is not None]
+    rules = []
+    if max(left, default=0.0) > 0.0:
+        rules.append(Rule(max(left), upright=True, label=_departure(flights), ink=Ink.FAINT))
+    if down:
+        rules.append(Rule(min(down), upright=True, label="touchdown", ink=Ink.FAINT))
+    return rules
+
+
+def _departure(flights: Sequence[Flight]) -> str:
+    return "lift-off" if any(flight.touchdown is not None for flight in flights) else "push"
 
 
 def _time(flights: Sequence[Flight]) -> Axis:

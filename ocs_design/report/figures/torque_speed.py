@@ -99,7 +99,7 @@ def _top_speed(motor: Motor, widest: float) -> Iterator[Rule]:
 
 def _paths(flight: Flight, ink: Ink) -> Iterator[Line]:
     """Up to touchdown, when what follows is no part of the maneuver."""
-    flown = flight.airborne
+    flown = flight.driven
     for side, dashed in (("left", False), ("right", True)):
         speed = in_unit(flight.columns[f"wheel_speed_{side}_rad_s"][flown], "rpm")
         torque = flight.columns[f"wheel_torque_{side}_nm"][flown]
