@@ -117,11 +117,12 @@ def with_modules(document, device, incidence):
         parts.append((wheel.mass, module.position, wheel.transverse_inertia * across + rim * along))
         carrier = device.carrier
         outward, up = side * axis, np.array([0.0, 0.0, 1.0])
+        upright = carrier.vertical_inertia or carrier.transverse_inertia
         forward = np.cross(outward, up)
         own = (
             carrier.transverse_inertia * np.outer(forward, forward)
             + carrier.axial_inertia * along
-            + carrier.vertical_inertia * np.outer(up, up)
+            + upright * np.outer(up, up)
             + carrier.product_of_inertia * (np.outer(outward, up) + np.outer(up, outward))
         )
         place = module.position + carrier.along * outward + carrier.up * up
@@ -137,4 +138,4 @@ def composite(model, posture):
     for name, value in posture.items():
         q[model.joints[model.getJointId(name)].idx_q] = value
     pin.ccrba(model, data, q, np.zeros(model.nv))
-    return data.Ig.mass, data.com[0], data.Ig.inertia
+    return data.Ig.mass, data.com[0].copy(), data.Ig.inertia.copy()

@@ -123,6 +123,9 @@ def settle(problem: SelectionProblem, lot: Lot, outset: Outset) -> Settled:
     for around in _COARSE:
         search.close_in(around, scale=span, width=around.span * outset.width)
     point, iterations = search.to_all_digits()
+    # The lightest radius may be the last that can be: there the fixed point runs away again.
+    lost = np.flatnonzero(search.point.possible & ~point.possible)
+    point = _polished(point, problem, search.take(lost), lost)
     return Settled(lot, outset, search.design, point, iterations)
 
 
