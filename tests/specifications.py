@@ -62,6 +62,7 @@ FULL = Specification(
         projection="transpose",
         kp=60.0,
         kd=12.0,
+        ballistic=True,
         seed=7,
         control_period=0.004,
         desaturate=True,
