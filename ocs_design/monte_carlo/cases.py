@@ -70,11 +70,10 @@ def metrics_of(outcomes: Outcomes, row: int, scenario: int) -> Metrics | None:
     values = dict(zip(METRICS, outcomes.metrics[row, scenario].tolist(), strict=True))
     if np.isnan(values["final_roll"]):
         return None
-    time = values.pop("touchdown_time")
+    times = {name: values.pop(name) for name in ("lift_off_time", "touchdown_time")}
     upright = bool(values.pop("upright_at_end"))
-    return Metrics(
-        touchdown_time=None if np.isnan(time) else time, upright_at_end=upright, **values
-    )
+    known = {name: None if np.isnan(time) else time for name, time in times.items()}
+    return Metrics(upright_at_end=upright, **known, **values)
 
 
 def write_case(case: Case, folder: Path) -> Path:

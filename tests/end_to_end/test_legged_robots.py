@@ -59,7 +59,8 @@ def size(name, out, *options):
     """Exit code and document, of a process of its own with no complaint and bounded memory."""
     # Their jumps have their own tests; planning them for all would take minutes.
     start = "--ballistic"
-    command = [*PROGRAM, "size", str(ROBOTS / f"{name}.urdf"), start, *options, "-o", str(out), "--json"]
+    robot = str(ROBOTS / f"{name}.urdf")
+    command = [*PROGRAM, "size", robot, start, *options, "-o", str(out), "--json"]
     streams = [out.with_name(stream) for stream in ("stdout", "stderr")]
     with streams[0].open("wb") as stdout, streams[1].open("wb") as stderr:
         process = subprocess.Popen(command, stdout=stdout, stderr=stderr, env=environment())
