@@ -24,7 +24,9 @@ def run(scenario, *, speed=500.0, torque=0.2, ocs=True, knock=1.0):
         wheel_speed=speed * wild * [1.0, -0.5], wheel_torque=torque * wild * [-1.0, 0.5],
         torque_lowest=None, torque_highest=None, contact=AFTER,
     )  # fmt: skip
-    metrics = Metrics(LANDED, 0.0, 0.0, 0.0, 0.0, 0.0, speed, torque, 0.0, True, 0.0, 0.0)
+    metrics = Metrics(
+        LANDED, 0.0, 0.0, 0.0, 0.0, 0.0, speed, torque, 0.0, True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    )
     return Run(scenario, ocs, True, "", metrics, series, "")
 
 

@@ -70,10 +70,13 @@ def metrics_of(outcomes: Outcomes, row: int, scenario: int) -> Metrics | None:
     values = dict(zip(METRICS, outcomes.metrics[row, scenario].tolist(), strict=True))
     if np.isnan(values["final_roll"]):
         return None
-    times = {name: values.pop(name) for name in ("lift_off_time", "touchdown_time")}
     upright = bool(values.pop("upright_at_end"))
-    known = {name: None if np.isnan(time) else time for name, time in times.items()}
-    return Metrics(upright_at_end=upright, **known, **values)
+    landed, left = (_known(values.pop(name)) for name in ("touchdown_time", "lift_off_time"))
+    return Metrics(upright_at_end=upright, touchdown_time=landed, lift_off_time=left, **values)
+
+
+def _known(time: float) -> float | None:
+    return None if np.isnan(time) else time
 
 
 def write_case(case: Case, folder: Path) -> Path:

@@ -78,9 +78,6 @@ class Metrics:
     """Figures of one run; None where there is nothing to measure.
 
     Attributes:
-        lift_off_time: of the first instant in free flight [s], or of the torque that hits a robot
-            that stands; None: it never leaves the ground.
-        rise: of the centre of mass from lift-off to its highest [m].
         touchdown_time: of the last instant in free flight [s]; None: it never touches the floor.
         touchdown_roll, touchdown_pitch: of the trunk against level at that instant, within half a
             turn [rad].
@@ -94,10 +91,11 @@ class Metrics:
         final_roll, final_pitch: at the end, within half a turn [rad].
         roll_swing, pitch_swing: peak to peak after touchdown [rad].
         settling_time: from touchdown until roll and pitch stay within 1 deg of where they end [s].
+        lift_off_time: of the first instant in free flight [s], or of the torque that hits a robot
+            that stands; None: it never leaves the ground.
+        rise: of the centre of mass from lift-off to its highest [m].
     """
 
-    lift_off_time: float | None
-    rise: float
     touchdown_time: float | None
     touchdown_roll: float
     touchdown_pitch: float
@@ -113,6 +111,8 @@ class Metrics:
     roll_swing: float
     pitch_swing: float
     settling_time: float
+    lift_off_time: float | None
+    rise: float
 
 
 def series_of(recording: Recording, index: int, world: World) -> Series:
