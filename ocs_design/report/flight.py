@@ -46,8 +46,15 @@ class Flight:
         """
         if self.lift_off is None:
             return slice(-1, None)
-        end = None if self.touchdown is None else int(np.searchsorted(self.time, self.touchdown)) + 1
-        return slice(int(np.searchsorted(self.time, self.lift_off)), end)
+        first = int(np.searchsorted(self.time, self.lift_off))
+        if self.flies and self.touchdown is not None:
+            return slice(first, int(np.searchsorted(self.time, self.touchdown)) + 1)
+        return slice(first, None)
+
+    @property
+    def flies(self) -> bool:
+        """Whether it was in the air at all; who is pushed as they stand touch down at once."""
+        return self.touchdown is None or self.touchdown > (self.lift_off or 0.0)
 
 
 def flights_of(runs: Sequence[Run]) -> tuple[Flight, ...]:

@@ -143,19 +143,13 @@ def _limits(flight: Flight) -> list[Area]:
 
 
 def _events(flights: Sequence[Flight]) -> list[Rule]:
-    """Where the last of the flights leaves the ground, and the first comes down."""
-    left = [flight.lift_off for flight in flights if flight.lift_off is not None]
-    down = [flight.touchdown for flight in flights if flight.touchdown is not None]
-    rules = []
-    if max(left, default=0.0) > 0.0:
-        rules.append(Rule(max(left), upright=True, label=_departure(flights), ink=Ink.FAINT))
-    if down:
-        rules.append(Rule(min(down), upright=True, label="touchdown", ink=Ink.FAINT))
-    return rules
-
-
-def _departure(flights: Sequence[Flight]) -> str:
-    return "lift-off" if any(flight.touchdown is not None for flight in flights) else "push"
+    """Where the last of the flights leaves the ground, or is pushed, and the first comes down."""
+    left = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
+    down = [each.touchdown for each in flights if each.flies and each.touchdown is not None]
+    first = "lift-off" if any(flight.flies for flight in flights) else "push"
+    times = [(left, first)] if left > 0.0 else []
+    times += [(min(down), "touchdown")] if down else []
+    return [Rule(time, upright=True, label=label, ink=Ink.FAINT) for time, label in times]
 
 
 def _time(flights: Sequence[Flight]) -> Axis:
