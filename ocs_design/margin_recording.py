@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ocs_design.design import Device
 from ocs_design.design_file import MarginRecord
 from ocs_design.designing import Choice, Designed
@@ -33,13 +35,15 @@ def record_margins(
 
 
 def _flown(runs: Sequence[Run]) -> dict[str, Motion]:
-    """Up to touchdown; a landing's knocks are no part of a maneuver."""
+    """From lift-off to touchdown; push-off and landing are no part of a maneuver."""
     motions = {}
     for run in runs:
         if not run.ocs or run.metrics is None:
             continue
-        series, landed = run.series, run.metrics.touchdown_time
-        flight = slice(None) if landed is None else series.time <= landed
+        series, left, landed = run.series, run.metrics.lift_off_time, run.metrics.touchdown_time
+        begun = np.inf if left is None else left
+        ended = np.inf if landed is None else landed
+        flight = (series.time >= begun) & (series.time <= ended)
         if series.time[flight].size > 1:
             motions[run.scenario] = Motion.flown(
                 series.time[flight],
