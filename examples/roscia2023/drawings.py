@@ -152,10 +152,12 @@ def flight_figure(flights: Flights, name: str, axis: int) -> Figure:
         below.plot(run.series.time, np.degrees(run.series.pitch), **look)
         _mark_touchdown((above, below), run, color)
     maneuver = flights.maneuvers[name]
-    if isinstance(maneuver, Disturbance):
+    metrics = flights.runs[name, True].metrics
+    if isinstance(maneuver, Disturbance) and metrics is not None:
+        begin = (metrics.lift_off_time or 0.0) + maneuver.onset
         for axes in (above, below):
-            end = maneuver.onset + maneuver.duration
-            axes.axvspan(maneuver.onset, end, color="#56b4e9", alpha=0.35, linewidth=0.0)
+            end = begin + maneuver.duration
+            axes.axvspan(begin, end, color="#56b4e9", alpha=0.35, linewidth=0.0)
     above.set_ylabel("CoM forward [m]" if axis == 0 else "CoM height [m]")
     below.set_ylabel("pitch [deg]")
     below.set_xlabel("time [s]")
