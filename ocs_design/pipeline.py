@@ -16,7 +16,7 @@ from ocs_design.export.naming import safe_name
 from ocs_design.flight_control import control_of, flight_options, jump_plans, trajectories
 from ocs_design.inspection import posture_lines
 from ocs_design.jumping.jump import JumpPlans
-from ocs_design.mounting import mounting_of, placement_warnings
+from ocs_design.mounting import Mounting, mounting_of, placement_warnings
 from ocs_design.recording import record_design
 from ocs_design.report.console import Steps
 from ocs_design.report.figures.figures import FOLDER, all_charts, write_figures
@@ -26,7 +26,7 @@ from ocs_design.report.story import story_in
 from ocs_design.report.video.filming import film_or_tell
 from ocs_design.requirement.reality import reality_texts
 from ocs_design.requirement.resolving import Resolved, resolve
-from ocs_design.requirement.specification import NO_MOTOR, Specification
+from ocs_design.requirement.specification import NO_MOTOR, Specification, ValidationSection
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
 from ocs_design.robot.obstacles.obstacles import forget_obstacles
@@ -94,61 +94,26 @@ def design_ocs(
         check_target(folder, force=force)
         step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
     with steps.step("size the device") as step:
-        extent = size(robot.tree, robot.posture, robot.trunk)
-        resolved = resolve(specification, robot, extent)
-        designed = design_device(specification, robot, resolved)
-        device = designed.device
-        device_warnings(device, robot.mass, strict=strict)
-        mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
-        remarks_on_place = placement_warnings(
-            mounting,
-            robot,
-            device,
-            resolved.envelope,
-            stated=specification.ocs.position is not None,
-            strict=strict,
-        )
-        forget_obstacles()
-        step.note = _what_was_sized(designed)
+        sized = _size(specification, robot, strict=strict)
+        step.note = _what_was_sized(sized.designed)
+    device = sized.designed.device
     with steps.step("plan the maneuvers"):
-        plans = _plan(robot, designed, resolved)
+        plans = _plan(sized)
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
             remarks = _write_formats(robot, device, staging)
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
-        runs: tuple[Run, ...] = ()
-        control = control_of(specification.validation, robot)
-        if specification.validation.enabled is not False:
-            maneuvers = resolved.requirement.maneuvers
-            with steps.step("plan the jumps") as step:
-                jumps = jump_plans(control, robot, device, maneuvers)
-                step.note = _who_flies(jumps)
-            with steps.step("fly the maneuvers with and without the device") as step:
-                runs = run_scenarios(
-                    robot,
-                    device,
-                    maneuvers,
-                    options=replace(flight_options(control), pose_rate=POSE_RATE),
-                    references=trajectories(plans),
-                    jumps=jumps,
-                    progress=step.update,
-                )
-                write_runs(runs, staging)
-        if runs and specification.validation.video:
-            with steps.step("film the flights"):
-                maneuvers = resolved.requirement.maneuvers
-                place = staging / "validation"
-                remarks_on_place += film_or_tell(robot, device, maneuvers, runs, place)
+        runs, unfilmed = _prove(sized, specification.validation, plans, staging, steps)
         design = record_design(
             robot,
-            resolved,
-            designed,
+            sized.resolved,
+            sized.designed,
             runs,
             plans=plans,
-            control=control,
+            control=control_of(specification.validation, robot),
             reality=reality_texts(specification.reality),
-            mounting=mounting,
-            warnings=remarks_on_place,
+            mounting=sized.mounting,
+            warnings=(*sized.remarks, *unfilmed),
             seed=specification.validation.seed or 0,
             files={},
             package_paths=package_paths,
@@ -157,6 +122,69 @@ def design_ocs(
             design = _write_report(design, robot, runs, staging, command)
         (staging / DESIGN_FILE).write_bytes(design_to_json(design))
     return Outcome(design, folder, robot, device, runs)
+
+
+@dataclass(frozen=True, eq=False)
+class _Sized:
+    """A robot, its device, where that stands, and what is to be said of it."""
+
+    robot: Robot
+    resolved: Resolved
+    designed: Designed
+    mounting: Mounting
+    remarks: tuple[str, ...]
+
+
+def _size(specification: Specification, robot: Robot, *, strict: bool) -> _Sized:
+    """What was asked for, the device that does it, and its place on the robot."""
+    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    designed = design_device(specification, robot, resolved)
+    device = designed.device
+    device_warnings(device, robot.mass, strict=strict)
+    mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
+    remarks = placement_warnings(
+        mounting,
+        robot,
+        device,
+        resolved.envelope,
+        stated=specification.ocs.position is not None,
+        strict=strict,
+    )
+    forget_obstacles()
+    return _Sized(robot, resolved, designed, mounting, remarks)
+
+
+def _prove(
+    sized: _Sized,
+    stated: ValidationSection,
+    plans: Mapping[str, "Reference"],
+    folder: Path,
+    steps: Steps,
+) -> tuple[tuple[Run, ...], tuple[str, ...]]:
+    """The flights, written and filmed as asked for, and why a film is missing."""
+    if stated.enabled is False:
+        return (), ()
+    robot, device = sized.robot, sized.designed.device
+    maneuvers = sized.resolved.requirement.maneuvers
+    control = control_of(stated, robot)
+    with steps.step("plan the jumps") as step:
+        jumps = jump_plans(control, robot, device, maneuvers)
+        step.note = _who_flies(jumps)
+    with steps.step("fly the maneuvers with and without the device") as step:
+        runs = run_scenarios(
+            robot,
+            device,
+            maneuvers,
+            options=replace(flight_options(control), pose_rate=POSE_RATE),
+            references=trajectories(plans),
+            jumps=jumps,
+            progress=step.update,
+        )
+        write_runs(runs, folder)
+    if not stated.video:
+        return runs, ()
+    with steps.step("film the flights"):
+        return runs, film_or_tell(robot, device, maneuvers, runs, folder / "validation")
 
 
 def load_solvers(specification: Specification) -> None:
@@ -179,17 +207,17 @@ def _what_was_sized(designed: Designed) -> str:
     return f"{designed.choice.selection.candidates:,} combinations"
 
 
-def _plan(robot: Robot, designed: Designed, resolved: Resolved) -> Mapping[str, "Reference"]:
+def _plan(sized: _Sized) -> Mapping[str, "Reference"]:
     """The turns that the flights track; without a motor's figures there is nothing to plan for."""
-    if designed.choice is None:
+    if sized.designed.choice is None:
         return {}
     # CasADi takes a third of a second to import, and wheels without a motor do without.
     from ocs_design.planning import plan  # noqa: PLC0415
 
-    requirement = resolved.requirement
+    requirement = sized.resolved.requirement
     return plan(
-        robot.mass_properties,
-        designed.device,
+        sized.robot.mass_properties,
+        sized.designed.device,
         requirement.maneuvers,
         requirement.standing_height,
     )
