@@ -76,7 +76,9 @@ CASES = {
         ("flywheel_rim", "flywheel_hub"),
         ("housing", "foot"),
     ),
-    "no motor": Case(("--motor", "none"), 5, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)),
+    "no motor": Case(
+        ("--motor", "none", "--ballistic"), 5, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)
+    ),
 }
 
 

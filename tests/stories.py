@@ -43,7 +43,7 @@ def flight(scenario="drop", *, ocs=True, limits=True):
     if limits:
         columns["wheel_torque_lowest_left_nm"] = np.full_like(time, -1.0)
         columns["wheel_torque_highest_left_nm"] = np.full_like(time, 1.0)
-    return Flight(scenario, ocs, columns, 0.0, TOUCHDOWN, None)
+    return Flight(scenario, ocs, columns, 0.0, float(time[time < TOUCHDOWN][-1]), None)
 
 
 def story(scenario="drop", motor=MOTOR):

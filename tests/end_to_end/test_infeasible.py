@@ -23,7 +23,13 @@ RELAXATION = re.compile(
 )
 
 
-@pytest.mark.parametrize("robot_given", [(SOLO12,), BY_HAND], ids=["Solo12", "by hand"])
+@pytest.mark.parametrize(
+    "robot_given",
+    [
+        pytest.param((SOLO12,), marks=pytest.mark.exhaustive, id="Solo12"),
+        pytest.param(BY_HAND, id="by hand"),
+    ],
+)
 @pytest.mark.parametrize("limits", TOO_TIGHT.values(), ids=TOO_TIGHT)
 def test_what_the_hint_proposes_works_as_it_is_printed(folder, limits, robot_given):
     result = run("size", *robot_given, *limits, *WHEELS_ALONE, "--json")
@@ -98,11 +104,11 @@ ONE_DRIVE = (
     *("--material", "stainless-304", "--alpha", "35deg", "--no-validate"),
 )
 TOO_TIGHT_FOR_MOTORS = {
-    "room": ("--r-max", "40mm", "--h-max", "2.1mm"),
     "voltage": ("--bus-voltage", "5V"),
-    "mass": ("--wheel-mass-max", "1g"),
 }
 MORE = {
+    "room": ("--r-max", "40mm", "--h-max", "2.1mm"),
+    "mass": ("--wheel-mass-max", "1g"),
     "speed": ("--wheel-speed-max", "400rpm"),
     "bore": ("--r-max", "40mm", "--r-min", "39mm"),
 }
@@ -112,7 +118,10 @@ MORE = {
     "limits",
     [
         *(pytest.param(limits, id=name) for name, limits in TOO_TIGHT_FOR_MOTORS.items()),
-        *(pytest.param(limits, id=name, marks=pytest.mark.slow) for name, limits in MORE.items()),
+        *(
+            pytest.param(limits, id=name, marks=pytest.mark.exhaustive)
+            for name, limits in MORE.items()
+        ),
     ],
 )
 def test_what_the_hint_proposes_for_a_motor_works_as_it_is_printed(folder, limits):

@@ -98,6 +98,7 @@ def test_the_legs_come_back_to_the_stance_in_flight(planner, body):
     assert steps.max() < 1.5 * np.abs(legs.velocity).max()
 
 
+@pytest.mark.slow
 def test_the_limit_that_forbids_a_jump_is_named(planner, body):
     note = planner.plan(Jump(0.0, 6.0, 9.81), body.trunk).note
     assert "of joint '" in note

@@ -100,11 +100,12 @@ TOO_HEAVY_FOR_ITSELF = (0, 11, 17, 22)
 """The lightest module is too large to be carried; a smaller one, or none, may be."""
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("seed", TOO_HEAVY_FOR_ITSELF)
 def test_nothing_is_missed_where_the_lightest_module_cannot_be_carried(seed):
     check_nothing_lighter(random_problem(seed), exact=False)
 
 
+@pytest.mark.exhaustive
 def test_nothing_lighter_is_on_a_grid_for_robots_of_another_kind():
     check_nothing_lighter(random_problem(16))
