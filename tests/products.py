@@ -69,7 +69,7 @@ class Case:
 
 CASES = {
     "motor": Case(
-        (),
+        ("--ballistic",),
         5,
         ("24 V", "housing", "rated for"),
         1e-5,

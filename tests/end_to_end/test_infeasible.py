@@ -136,6 +136,7 @@ def test_what_the_hint_proposes_for_a_motor_works_as_it_is_printed(folder, limit
         assert mended.code == 0, (option, figure, unit, mended.said)
 
 
+@pytest.mark.exhaustive
 def test_a_voltage_without_a_unit_is_in_volt(folder):
     for voltage in ("24", "24V"):
         result = run(

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from anatomy import LEGGED
 from robots import ROBOTS
+from sampled import every
 
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.robot.obstacles.motion import drawn, landing_ranges
@@ -111,8 +112,7 @@ def test_twice_the_same():
     assert place_free(robot, envelope) == place_free(again, envelope)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", LEGGED)
+@pytest.mark.parametrize("name", every(4, LEGGED))
 def test_every_legged_robot_has_a_free_place(name):
     robot = robot_of(name)
     envelope = default_envelope(robot)

@@ -1,4 +1,5 @@
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -116,7 +117,8 @@ def test_meshes_that_are_too_large_or_in_archives_are_not_opened(tmp_path: Path,
     box = trimesh.creation.box()
     box.export(tmp_path / "binary.stl")
     box.export(tmp_path / "text.stl", file_type="stl_ascii")
-    box.export(tmp_path / "box.3mf")
+    with ZipFile(tmp_path / "box.3mf", "w") as archive:
+        archive.writestr("3D/3dmodel.model", "<model/>")
     np.testing.assert_allclose(mesh_bounds(tmp_path / "binary.stl", (1.0, 1.0, 1.0)), box.bounds)
     assert mesh_bounds(tmp_path / "text.stl", (1.0, 1.0, 1.0)) is None
     with pytest.raises(RobotError, match="larger than"):

@@ -34,7 +34,10 @@ def reach(model):
 
 @pytest.mark.parametrize(
     "name",
-    ["g1_description/urdf/g1_29dof_rev_1_0", "bolt_description/robots/bolt"],
+    [
+        pytest.param("g1_description/urdf/g1_29dof_rev_1_0", marks=pytest.mark.exhaustive),
+        "bolt_description/robots/bolt",
+    ],
 )
 def test_hulls_reach_as_far_as_the_meshes(name):
     robot = read_robot(ROBOTS / f"{name}.urdf")
