@@ -20,6 +20,7 @@ def test_what_was_not_changed_is_read(name, tmp_path):
     for content in READERS[name].seeds:
         (tmp_path / READERS[name].file).write_bytes(content)
         READERS[name].read(tmp_path / READERS[name].file)
+    assert READERS[name].seeds
 
 
 @pytest.mark.parametrize("name", READERS)
