@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from mounted import MEASURED, contacts, flown_postures, mounted
 from robots import SOLO12
+from sampled import every
 from wheels import paper_device
 
 from ocs_design.exceptions import SpecificationError
@@ -93,8 +94,7 @@ def test_mujoco_sees_contact_where_a_limb_is_said_to_hit():
         assert any(reach.part in bodies for bodies in touched)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", MEASURED)
+@pytest.mark.parametrize("name", every(3, MEASURED))
 def test_mujoco_sees_no_contact_in_the_flights(name):
     """Postures of the legs as simulated, from lift-off to the end of a flight that passes."""
     robot, device, _ = mounted(name)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from robots import ROBOTS
+from sampled import every
 from wheels import scaled_device
 
 from ocs_design.requirement.froude import default_maneuvers
@@ -26,8 +27,7 @@ def fly(path):
     return run_scenarios(robot, scaled_device(robot), default_maneuvers(robot))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("path", [*QUADRUPEDS, *BIPEDS])
+@pytest.mark.parametrize("path", every(3, [*QUADRUPEDS, *BIPEDS]))
 def test_flights_keep_their_momentum_and_land_level_with_the_device(path):
     runs = fly(path)
     if path in QUADRUPEDS:
