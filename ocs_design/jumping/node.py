@@ -156,6 +156,7 @@ class _Block:
     limit: Limit | int = -1
 
     def bound(self, value: FloatArray | float) -> FloatArray:
+        """One value for each row, shape (m,)."""
         return np.array(np.broadcast_to(value, self.rows.numel()), dtype=np.float64)
 
 
@@ -171,6 +172,7 @@ class _Units:
 
     @classmethod
     def of(cls, body: LeggedBody, base: FloatingBase) -> "_Units":
+        """Weight and leg length of the robot make all of them."""
         mass, gravity = base.load.trunk.mass + body.leg_mass, base.load.gravity
         force, length = mass * gravity, body.length
         return cls(

@@ -158,6 +158,7 @@ class _Pieces:
 
     @classmethod
     def of(cls, node: Node, kept: NDArray[np.intp]) -> "_Pieces":
+        """Differentiate one node; `kept` as `_kept` gives it."""
         z, load = node.unknowns, node.load
         both = ca.vertcat(node.rows, node.cost)
         count = both.numel()

@@ -3,8 +3,8 @@
 from io import BytesIO
 from typing import TYPE_CHECKING
 
-from ocs_design.exceptions import MissingToolError
 from ocs_design.pareto import Front
+from ocs_design.report.matplotlib_sheet import sheet
 from ocs_design.units import to_unit
 
 if TYPE_CHECKING:
@@ -25,8 +25,6 @@ _STYLE = {
     "font.size": 9.0,
     # Else every drawing names its parts anew.
     "svg.hashsalt": "ocs-design",
-    # A dollar in a robot's name is a dollar.
-    "text.parse_math": False,
 }
 
 
@@ -36,19 +34,9 @@ def front_svg(front: Front) -> bytes:
     Raises:
         MissingToolError: matplotlib is not installed.
     """
-    try:
-        # An extra, which takes a second to import.
-        from matplotlib import style  # noqa: PLC0415
-        from matplotlib.figure import Figure  # noqa: PLC0415
-    except ImportError as error:
-        raise MissingToolError(
-            "front.svg is not drawn, for matplotlib is not installed",
-            hint="pip install 'ocs-design[plot]'",
-        ) from error
-    # Not from a file that the user may have.
-    with style.context(["default", _STYLE]):
-        rows = len(dict.fromkeys(_drives(front))) + 2
-        figure = Figure(figsize=(WIDTH, max(HEIGHT, LEGEND_ROW * rows)), layout="constrained")
+    rows = len(dict.fromkeys(_drives(front))) + 2
+    size = WIDTH, max(HEIGHT, LEGEND_ROW * rows)
+    with sheet("front.svg is not drawn", size, _STYLE) as figure:
         axes = figure.subplots()
         _draw_masses(axes, front)
         _draw_marks(axes, front)

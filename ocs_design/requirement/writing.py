@@ -70,6 +70,7 @@ def _with_files(specification: Specification, renamed: Callable[[str], str]) -> 
     """`-` is standard input."""
 
     def path(file: str | None) -> str | None:
+        """Under its new name."""
         return file if file is None or file == "-" else renamed(file)
 
     robot, motor = specification.robot, specification.motor

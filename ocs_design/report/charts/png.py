@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ocs_design.exceptions import MissingToolError
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.marks import Area, Line, Mark, Points, Rule
 from ocs_design.report.charts.style import COLORS
 from ocs_design.report.charts.svg import WIDTH
+from ocs_design.report.matplotlib_sheet import sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,8 +24,6 @@ _STYLE = {
     "axes.spines.right": False,
     "axes.grid": True,
     "grid.color": "#e3e6ea",
-    # A dollar in a robot's name is a dollar.
-    "text.parse_math": False,
 }
 
 
@@ -35,19 +33,8 @@ def png_chart(chart: Chart) -> bytes:
     Raises:
         MissingToolError: matplotlib is not installed.
     """
-    try:
-        # An extra, which takes a second to import.
-        from matplotlib import style  # noqa: PLC0415
-        from matplotlib.figure import Figure  # noqa: PLC0415
-    except ImportError as error:
-        raise MissingToolError(
-            "figures are not drawn as PNG, for matplotlib is not installed",
-            hint="pip install 'ocs-design[plot]'",
-        ) from error
-    # Not from a file that the user may have.
-    with style.context(["default", _STYLE]):
-        size = WIDTH / _PIXELS_PER_INCH, chart.height / _PIXELS_PER_INCH
-        figure = Figure(figsize=size, dpi=_DPI, layout="constrained")
+    size = WIDTH / _PIXELS_PER_INCH, chart.height / _PIXELS_PER_INCH
+    with sheet("figures are not drawn as PNG", size, _STYLE, dpi=_DPI) as figure:
         axes = figure.subplots()
         _prepare(axes, chart)
         for mark in chart.marks:

@@ -16,7 +16,7 @@ from ocs_design.report.charts.style import SHEET
 WIDTH = 440.0
 """Of every chart [px]: legible without zooming on a telephone."""
 
-_LEFT, _RIGHT, _BOTTOM, _TITLE = 62.0, 12.0, 40.0, 22.0
+_LEFT, _RIGHT, _BOTTOM, _TITLE = 62.0, 22.0, 40.0, 22.0
 _LETTER = 6.2
 """Mean width of a letter [px], generously."""
 

@@ -61,6 +61,7 @@ def table(
     """With a caption; the columns `words` hold words, the others numbers."""
 
     def look(column: int) -> str:
+        """Class of a cell."""
         return "word" if column in words else "number"
 
     heads = (element("th", name, scope="col", class_=look(i)) for i, name in enumerate(columns))

@@ -63,6 +63,7 @@ class _CountingBuilder(ET.TreeBuilder):
     _count = 0
 
     def start(self, tag: str, attrs: dict[str, str], /) -> ET.Element:
+        """Of one more element, up to as many as any robot has."""
         self._count += 1
         if self._count > MOST_ELEMENTS:
             raise _too_many_elements()
