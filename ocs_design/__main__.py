@@ -4,6 +4,7 @@ import os
 import signal
 import sys
 import time
+from contextlib import suppress
 from types import FrameType
 
 from ocs_design.exceptions import INTERRUPTED
@@ -24,11 +25,29 @@ class _Interrupts:
             raise KeyboardInterrupt
 
 
+def _interrupt_by_signals() -> None:
+    interrupts = _Interrupts()
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        # Windows has no SIGHUP; `nohup` has it ignored, and shells SIGINT behind an `&`.
+        if number is not None and signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, interrupts)
+
+
+def _open_closed_streams() -> None:
+    """What is printed to a closed stream would end up in the next file that is opened."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            # The lowest number that is free is taken, which is this stream's own.
+            os.open(os.devnull, os.O_RDWR)
+            mode = "w" if number else "r"
+            setattr(sys, name, open(number, mode, encoding="utf-8"))  # noqa: SIM115, PTH123  kept
+
+
 def main() -> None:
     """Run the command line and end with its exit code."""
-    interrupts = _Interrupts()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, interrupts)
+    _open_closed_streams()
+    _interrupt_by_signals()
     try:
         # Importing it takes a tenth of a second, in which people change their mind.
         from ocs_design.cli import main as run  # noqa: PLC0415
@@ -37,7 +56,9 @@ def main() -> None:
     except KeyboardInterrupt:
         code = INTERRUPTED
     if code == INTERRUPTED:
-        print("interrupted; nothing half done is left", file=sys.stderr, flush=True)
+        # The terminal may be what has ended.
+        with suppress(OSError):
+            print("interrupted; nothing half done is left", file=sys.stderr, flush=True)
         # CPython ends by the signal if that came in an `eval`, whatever code it is to end with.
         os._exit(code)
     sys.exit(code)

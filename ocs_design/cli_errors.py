@@ -4,10 +4,12 @@ import json
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
+from typing import TextIO
 
 import typer
 
-from ocs_design.exceptions import INTERRUPTED, OcsError, SpecificationError
+from ocs_design.exceptions import INTERRUPTED, OcsError, OutputError, SpecificationError
 
 SCHEMA_VERSION = 1
 BROKEN_PIPE = 141
@@ -32,6 +34,8 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         if not isinstance(error.__context__ or error, BrokenPipeError):
             raise
         return _fall_silent()
+    except OSError as error:
+        return _report_system(error, as_json=as_json, color=color)
     return result if isinstance(result, int) else 0
 
 
@@ -42,11 +46,36 @@ def _never_fail_on_encoding() -> None:
 
 
 def _fall_silent() -> int:
-    """The reader left, as `head` does; Python would complain once more when it flushes at exit."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    for stream in (sys.stdout, sys.stderr):
-        os.dup2(nowhere, stream.fileno())
+    """The reader left, as `head` does."""
+    _write_nowhere(sys.stdout, sys.stderr)
     return BROKEN_PIPE
+
+
+def _report_system(error: OSError, *, as_json: bool, color: bool) -> int:
+    """What a disk or a terminal said while something was printed, or where nobody expected it."""
+    from ocs_design.export.folder import output_error  # noqa: PLC0415  only here
+
+    told = output_error(error, Path())
+    if error.filename is None:
+        told = OutputError(
+            f"what was printed: {error.strerror}",
+            hint="free some space there, or send the output elsewhere",
+        )
+        # What could not be printed is still there to be printed.
+        _write_nowhere(sys.stdout)
+        as_json = False
+    try:
+        return _report(told, as_json=as_json, color=color)
+    except OSError:
+        _write_nowhere(sys.stderr)
+        return told.exit_code
+
+
+def _write_nowhere(*streams: TextIO) -> None:
+    """Python would complain once more when it flushes them at exit."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in streams:
+        os.dup2(nowhere, stream.fileno())
 
 
 def _report(error: OcsError, *, as_json: bool, color: bool) -> int:

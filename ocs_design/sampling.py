@@ -8,8 +8,9 @@ from pathlib import Path
 import msgspec
 
 from ocs_design import __version__
-from ocs_design.exceptions import OcsError, OutputError, UsageError
-from ocs_design.export.folder import CURES
+from ocs_design.exceptions import OcsError, UsageError
+from ocs_design.export.folder import output_error
+from ocs_design.export.staging import clear_leftovers, staging_beside
 from ocs_design.flight_control import flight_options
 from ocs_design.monte_carlo.blocks import blocks_of
 from ocs_design.monte_carlo.campaign import Campaign, make_campaign
@@ -17,14 +18,13 @@ from ocs_design.monte_carlo.cases import Case, case_of, read_case, write_case
 from ocs_design.monte_carlo.outcomes import Outcomes
 from ocs_design.monte_carlo.reality import Reality
 from ocs_design.monte_carlo.running import Workers, run_campaign
-from ocs_design.monte_carlo.storage import Identity, Storage
+from ocs_design.monte_carlo.storage import RESULT_FILE, Identity, Storage
 from ocs_design.monte_carlo.summary import MonteCarloRecord, summarised
 from ocs_design.monte_carlo.tables import write_tables
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.scenario import Run, refusal
 from ocs_design.validating import SCHEMA_VERSION, Task
 
-RESULT_FILE = "monte_carlo.json"
 WORST_FOLDER = "worst"
 
 
@@ -146,26 +146,36 @@ def case_for(task: Task, path: Path) -> Case:
 def _write(
     task: Task, campaign: Campaign, outcomes: Outcomes, record: MonteCarloRecord, folder: Path
 ) -> tuple[Path, ...]:
-    """The record, the table of all samples and the worst cases, in place of earlier ones."""
+    """The table of all samples, the worst cases and the record, in place of earlier ones."""
     try:
-        names = [flight.maneuver.name for flight in campaign.flights]
-        written = [_write_record(record, folder), *write_tables(outcomes, names, folder)]
-        worst = folder / WORST_FOLDER
-        worst.mkdir(exist_ok=True)
-        for old in worst.glob("*.json"):
-            old.unlink()
-        rows = {sample: row for row, sample in enumerate(outcomes.index.tolist())}
-        for number, scenario in enumerate(record.scenarios):
-            for sample in scenario.worst:
-                case = case_of(campaign, outcomes, rows[sample], number, design_hash(task))
-                written.append(write_case(case, worst))
+        clear_leftovers(folder / RESULT_FILE)
+        with staging_beside(folder / RESULT_FILE) as staging:
+            names = [flight.maneuver.name for flight in campaign.flights]
+            write_tables(outcomes, names, staging)
+            _write_worst(task, campaign, outcomes, record, staging / WORST_FOLDER)
+            result = msgspec.json.format(msgspec.json.encode(record), indent=2)
+            (staging / RESULT_FILE).write_bytes(result + b"\n")
+            return _put_in_place(staging, folder)
     except OSError as error:
-        hint = CURES.get(error.errno or 0, "")
-        raise OutputError(f"{error.filename or folder}: {error.strerror}", hint=hint) from error
-    return tuple(written)
+        raise output_error(error, folder) from error
 
 
-def _write_record(record: MonteCarloRecord, folder: Path) -> Path:
-    path = folder / RESULT_FILE
-    path.write_bytes(msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n")
-    return path
+def _write_worst(
+    task: Task, campaign: Campaign, outcomes: Outcomes, record: MonteCarloRecord, folder: Path
+) -> None:
+    folder.mkdir()
+    rows = {sample: row for row, sample in enumerate(outcomes.index.tolist())}
+    for number, scenario in enumerate(record.scenarios):
+        for sample in scenario.worst:
+            write_case(case_of(campaign, outcomes, rows[sample], number, design_hash(task)), folder)
+
+
+def _put_in_place(staging: Path, folder: Path) -> tuple[Path, ...]:
+    """All files, the record last and gone as long as the others are not of one run."""
+    (folder / RESULT_FILE).unlink(missing_ok=True)
+    (folder / WORST_FOLDER).mkdir(exist_ok=True)
+    for old in (folder / WORST_FOLDER).glob("*.json"):
+        old.unlink()
+    files = [path.relative_to(staging) for path in staging.rglob("*") if path.is_file()]
+    files.sort(key=lambda file: (file.name == RESULT_FILE, file))
+    return tuple((staging / file).replace(folder / file) for file in files)

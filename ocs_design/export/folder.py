@@ -3,13 +3,13 @@
 import errno
 import hashlib
 import os
-import shutil
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
 from ocs_design.exceptions import OutputError
+from ocs_design.export.exchange import exchange
+from ocs_design.export.staging import NEW, OLD, clear_leftovers, staging_beside
 
 DESIGN_FILE = "design.json"
 FRONT_FILE = "front.json"
@@ -18,6 +18,8 @@ REPORT_FILE = "report.html"
 CURES = {
     errno.ENOSPC: "free some space, or choose another folder with -o",
     errno.EDQUOT: "free some space, or choose another folder with -o",
+    errno.ENOTEMPTY: "another run was quicker; choose another folder with -o",
+    errno.EFBIG: "allow larger files (`ulimit -f unlimited`), or choose another disk with -o",
     errno.EACCES: "choose a folder that you may write to with -o",
     errno.EPERM: "choose a folder that you may write to with -o",
     errno.EROFS: "choose a folder on a writable disk with -o",
@@ -31,6 +33,8 @@ CURES = {
 def check_target(target: Path, *, force: bool) -> None:
     """Fail before any work is done if `target` could not be written in the end.
 
+    What killed runs left beside it is cleared up.
+
     Raises:
         OutputError: it exists and `force` is not set, it is no output folder of ours, or its parent
             cannot be written to.
@@ -41,6 +45,7 @@ def check_target(target: Path, *, force: bool) -> None:
         raise OutputError(f"{parent}: no such folder", hint=CURES[fault])
     if not os.access(parent, os.W_OK | os.X_OK):
         raise OutputError(f"{parent}: cannot be written to", hint=CURES[errno.EACCES])
+    clear_leftovers(target)
     if not os.path.lexists(target):
         return
     if target.is_symlink() or not target.is_dir():
@@ -68,21 +73,20 @@ def staged_folder(target: Path, *, force: bool) -> Iterator[Path]:
             then as it was.
     """
     check_target(target, force=force)
-    parent = target.absolute().parent
-    staging: Path | None = None
     try:
-        staging = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=parent))
-        staging.chmod(0o755 & ~_umask())
-        yield staging
-        _take_place(staging, target)
+        with staging_beside(target) as staging:
+            new = staging / NEW
+            new.mkdir()
+            yield new
+            _take_place(staging, target, force=force)
     except OSError as error:
-        where = error.filename or target
-        raise OutputError(
-            f"{where}: {error.strerror or error}", hint=CURES.get(error.errno or 0, "")
-        ) from error
-    finally:
-        if staging is not None:
-            shutil.rmtree(staging, ignore_errors=True)
+        raise output_error(error, target) from error
+
+
+def output_error(error: OSError, place: Path) -> OutputError:
+    """What the operating system said of writing to `place`, with the cure."""
+    reason = error.strerror or str(error)
+    return OutputError(f"{error.filename or place}: {reason}", hint=CURES.get(error.errno or 0, ""))
 
 
 def file_hashes(folder: Path) -> Mapping[str, str]:
@@ -100,23 +104,22 @@ def recorded_hashes(folder: Path) -> Mapping[str, str]:
     return {name: found[name] for name in found if name not in (DESIGN_FILE, REPORT_FILE)}
 
 
-def _take_place(staging: Path, target: Path) -> None:
+def _take_place(staging: Path, target: Path, *, force: bool) -> None:
+    """At no moment is `target` half of one and half of the other."""
+    # Another run may have been quicker.
+    check_target(target, force=force)
     if not target.exists():
-        staging.rename(target)
-        return
-    # A folder cannot be renamed over a full one: the old one steps aside and comes back on failure.
-    aside = Path(tempfile.mkdtemp(prefix=f".{target.name}-old-", dir=target.absolute().parent))
-    target.rename(aside / target.name)
+        (staging / NEW).rename(target)
+    elif not exchange(staging / NEW, target):
+        _step_aside(staging, target)
+
+
+def _step_aside(staging: Path, target: Path) -> None:
+    """Where two cannot change places; `clear_leftovers` mends what is cut short."""
     try:
-        staging.rename(target)
+        target.rename(staging / OLD)
+        (staging / NEW).rename(target)
     except BaseException:
-        (aside / target.name).rename(target)
+        if not target.exists():
+            (staging / OLD).rename(target)
         raise
-    finally:
-        shutil.rmtree(aside, ignore_errors=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -2,11 +2,13 @@
 
 import errno
 import os
-import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from ocs_design.exceptions import OutputError
-from ocs_design.export.folder import CURES
+from ocs_design.export.folder import CURES, output_error
+from ocs_design.export.staging import clear_leftovers, staging_beside
 
 
 def check_file_target(target: Path, *, force: bool) -> None:
@@ -36,11 +38,20 @@ def write_whole(target: Path, text: str, *, force: bool) -> None:
     """
     check_file_target(target, force=force)
     try:
-        with tempfile.TemporaryDirectory(prefix=f".{target.name}-", dir=target.parent) as folder:
-            complete = Path(folder) / target.name
+        with whole_file(target) as complete:
             complete.write_text(text, encoding="utf-8", newline="\n")
-            complete.replace(target)
     except OSError as error:
-        raise OutputError(
-            f"{target}: {error.strerror or error}", hint=CURES.get(error.errno or 0, "")
-        ) from error
+        raise output_error(error, target) from error
+
+
+@contextmanager
+def whole_file(target: Path) -> Iterator[Path]:
+    """The file to write, which takes the place of `target` when the block ends well.
+
+    Raises:
+        OSError: it cannot be written; `target` is then as it was.
+    """
+    clear_leftovers(target)
+    with staging_beside(target) as folder:
+        yield folder / target.name
+        (folder / target.name).replace(target)

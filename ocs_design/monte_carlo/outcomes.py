@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
+from ocs_design.export.single_file import whole_file
 from ocs_design.monte_carlo.reality import NAMES
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
@@ -56,8 +57,7 @@ class Outcomes:
 
     def save(self, path: Path) -> None:
         """Write a file that appears complete or not at all."""
-        unfinished = path.with_suffix(".part")
-        with unfinished.open("wb") as stream:
+        with whole_file(path) as unfinished, unfinished.open("wb") as stream:
             np.savez_compressed(
                 stream,
                 index=self.index,
@@ -67,7 +67,6 @@ class Outcomes:
                 names=np.array(NAMES),
                 figures=np.array(METRICS),
             )
-        unfinished.replace(path)
 
     @classmethod
     def load(cls, path: Path) -> "Outcomes":

@@ -10,12 +10,15 @@ from pathlib import Path
 import msgspec
 
 from ocs_design.exceptions import OutputError
-from ocs_design.export.folder import CURES
+from ocs_design.export.folder import output_error
+from ocs_design.export.single_file import whole_file
 from ocs_design.monte_carlo.blocks import Block
 from ocs_design.monte_carlo.outcomes import Outcomes
 
 CAMPAIGN_FILE = "campaign.json"
 BLOCKS = "samples"
+RESULT_FILE = "monte_carlo.json"
+"""It is written last: a folder without it is not complete, and the same command completes it."""
 
 _HINT = "choose another folder with -o, or start anew with --force"
 
@@ -62,15 +65,15 @@ class Storage:
             OutputError: it holds something else, or cannot be written.
         """
         self.folder = folder
-        if folder.exists():
-            self._check(identity, force=force)
         try:
+            if folder.exists():
+                self._check(identity, force=force)
             (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
             record = msgspec.json.format(msgspec.json.encode(identity), indent=2)
-            (folder / CAMPAIGN_FILE).write_bytes(record + b"\n")
+            with whole_file(folder / CAMPAIGN_FILE) as file:
+                file.write_bytes(record + b"\n")
         except OSError as error:
-            hint = CURES.get(error.errno or 0, "")
-            raise OutputError(f"{error.filename}: {error.strerror}", hint=hint) from error
+            raise output_error(error, folder) from error
 
     def found(self, blocks: Sequence[Block]) -> Mapping[Block, Outcomes]:
         """Those that have been flown already."""
@@ -86,8 +89,7 @@ class Storage:
         try:
             outcomes.save(self._path(block))
         except OSError as error:
-            hint = CURES.get(error.errno or 0, "")
-            raise OutputError(f"{self._path(block)}: {error.strerror}", hint=hint) from error
+            raise output_error(error, self._path(block)) from error
 
     def _check(self, identity: Identity, *, force: bool) -> None:
         """Whether this folder may be added to; other samples are thrown away if that is wanted."""
@@ -109,6 +111,8 @@ class Storage:
                 f"{folder}: holds samples of another campaign; not the same: {', '.join(differs)}",
                 hint=_HINT,
             )
+        # What was made of the samples goes first: it is not to stand beside those of another.
+        (folder / RESULT_FILE).unlink(missing_ok=True)
         shutil.rmtree(folder / BLOCKS, ignore_errors=True)
 
     def _load(self, block: Block) -> Outcomes | None:

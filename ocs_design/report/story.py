@@ -10,10 +10,10 @@ from ocs_design.design_file import OcsDesign
 from ocs_design.exceptions import OcsError
 from ocs_design.export.naming import safe_name
 from ocs_design.inspection import PostureLine
+from ocs_design.monte_carlo.storage import RESULT_FILE
 from ocs_design.monte_carlo.summary import MonteCarloRecord
 from ocs_design.report.flight import Flight, first_file, recorded_flight
 from ocs_design.report.viewer.bodies import ShownBody, read_bodies
-from ocs_design.sampling import RESULT_FILE
 
 
 @dataclass(frozen=True, eq=False)

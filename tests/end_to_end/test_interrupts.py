@@ -44,7 +44,7 @@ def sized(process, folder, said):
 
 def written(process, folder, said):
     """Some files stand in a hidden folder."""
-    return any(folder.glob(".*/robot/*.urdf"))
+    return any(folder.glob(".*/new/robot/*.urdf"))
 
 
 @pytest.fixture

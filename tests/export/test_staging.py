@@ -1,0 +1,127 @@
+"""What is left of a run that was killed at whatever moment, and what becomes of it."""
+
+import subprocess
+import sys
+import textwrap
+
+import pytest
+from commands import everything_in
+
+from ocs_design.exceptions import OutputError
+from ocs_design.export import folder as folders
+from ocs_design.export.folder import DESIGN_FILE, staged_folder
+from ocs_design.export.staging import clear_leftovers
+
+REPLACE = """
+    import os, signal, sys
+    from pathlib import Path
+    from ocs_design.export import folder
+    seen = 0
+    def kill_at(event, arguments):
+        global seen
+        if event.startswith(("open", "os.", "shutil.", "ctypes.", "fcntl.")):
+            seen += 1
+            if seen == int(sys.argv[1]):
+                os.kill(os.getpid(), signal.SIGKILL)
+    if "aside" in sys.argv:
+        folder.exchange = lambda one, other: False
+    import ctypes, fcntl
+    sys.addaudithook(kill_at)
+    with folder.staged_folder(Path("out"), force=True) as staging:
+        for name in ("cad", "design.json"):
+            (staging / name).write_text("new")
+    print("done")
+"""
+"""Replaces a folder, and ends by force at the n-th thing that it asks of the system."""
+
+
+def make_output(folder, text="old"):
+    folder.mkdir()
+    for name in ("cad", DESIGN_FILE):
+        (folder / name).write_text(text)
+
+
+def texts(folder):
+    return {path.name: path.read_text() for path in folder.iterdir()}
+
+
+OLD, NEW = ({"cad": text, DESIGN_FILE: text} for text in ("old", "new"))
+
+
+def killed_at_each(folder, *how):
+    """What stands there after a kill at each moment, and after clearing up."""
+    program = textwrap.dedent(REPLACE)
+    for moment in range(1, 100):
+        if not (folder / "out").exists():
+            make_output(folder / "out")
+        done = subprocess.run(
+            [sys.executable, "-c", program, str(moment), *how],
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            check=False,
+        )
+        at_once = texts(folder / "out") if (folder / "out").exists() else None
+        clear_leftovers(folder / "out")
+        yield at_once, texts(folder / "out"), everything_in(folder)
+        if done.stdout == b"done\n":
+            return
+        for path in (folder / "out").iterdir():
+            path.write_text("old")
+
+
+WHOLE = ["out", "out/cad", f"out/{DESIGN_FILE}"]
+
+
+@pytest.mark.parametrize(("how", "moments_without"), [((), 0), (("aside",), 1)])
+def test_killed_at_any_moment_it_is_the_old_folder_or_the_new(tmp_path, how, moments_without):
+    """Where two folders cannot change places, the next run brings the old one back."""
+    found = list(killed_at_each(tmp_path, *how))
+    assert len(found) > 15
+    assert all(cleared in (OLD, NEW) and names == WHOLE for _, cleared, names in found)
+    assert (found[0][1], found[-1][1]) == (OLD, NEW)
+    assert sum(at_once is None for at_once, _, _ in found) == moments_without
+
+
+def test_what_another_run_is_writing_stays(tmp_path):
+    target = tmp_path / "out"
+    with staged_folder(target, force=False) as folder:
+        (folder / DESIGN_FILE).write_text("new")
+        clear_leftovers(target)
+    assert texts(target) == {DESIGN_FILE: "new"}
+
+
+@pytest.mark.parametrize("aside", [False, True])
+def test_of_two_runs_with_force_the_last_one_stays(tmp_path, monkeypatch, aside):
+    if aside:
+        monkeypatch.setattr(folders, "exchange", lambda one, other: False)
+    target = tmp_path / "out"
+    make_output(target)
+    with staged_folder(target, force=True) as slow:
+        with staged_folder(target, force=True) as quick:
+            (quick / DESIGN_FILE).write_text("quick")
+        assert texts(target) == {DESIGN_FILE: "quick"}
+        (slow / DESIGN_FILE).write_text("slow")
+    assert texts(target) == {DESIGN_FILE: "slow"}
+    assert everything_in(tmp_path) == ["out", f"out/{DESIGN_FILE}"]
+
+
+def test_of_two_runs_without_force_the_first_one_stays(tmp_path):
+    target = tmp_path / "out"
+    with (
+        pytest.raises(OutputError, match="exists already"),
+        staged_folder(target, force=False) as slow,
+    ):
+        with staged_folder(target, force=False) as quick:
+            (quick / DESIGN_FILE).write_text("quick")
+        (slow / DESIGN_FILE).write_text("slow")
+    assert texts(target) == {DESIGN_FILE: "quick"}
+    assert everything_in(tmp_path) == ["out", f"out/{DESIGN_FILE}"]
+
+
+def test_hidden_folders_of_others_stay(tmp_path):
+    names = [".out", ".out-old", ".out.ocs-design-backup", ".other.ocs-design-abcd1234"]
+    for name in names:
+        (tmp_path / name).mkdir()
+    (tmp_path / ".out.ocs-design-abcd1234").mkdir()
+    clear_leftovers(tmp_path / "out")
+    assert everything_in(tmp_path) == sorted(names)
