@@ -14,6 +14,7 @@ from ocs_design.sizing.cylinder import hoop_stress, stored_energy
 from ocs_design.sizing.device_sizing import DeviceSizing
 from ocs_design.sizing.incidence import module_axes
 from ocs_design.sizing.margins.driven_wheel import DrivenWheel
+from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.web import (
     WEB_DENSITY,
@@ -50,6 +51,7 @@ def assemble_selected(candidate: Candidate, bus_voltage: float) -> Device:
         candidate.gear,
         bus_voltage,
         hub=candidate.hub,
+        cuts=candidate.cuts,
     )
     return assemble_driven(
         wheel, candidate.carrier, candidate.incidence, candidate.centers, candidate.line
@@ -81,7 +83,7 @@ def assemble_driven(
     return Device(
         incidence,
         _modules(incidence, centers),
-        _flywheel(cylinder, wheel.material, speed, motor.rotor_inertia, wheel.hub),
+        _flywheel(cylinder, wheel.material, speed, motor.rotor_inertia, wheel.hub, cuts=wheel.cuts),
         motor,
         carrier,
     )
@@ -135,11 +137,13 @@ def _flywheel(
     wheel_speed: float,
     rotor_share: float,
     hub: Hub | None = None,
+    *,
+    cuts: RimCuts = NO_CUTS,
 ) -> Flywheel:
     """Of the rim's inner and outer radius and height [m], with what the rotor adds [kg m^2]."""
     inner, outer, height = cylinder
     stress = _hoop_stress(inner, outer, material, wheel_speed)
-    body = wheel_body(*cylinder, material.density, hub)
+    body = wheel_body(*cylinder, material.density, hub, cuts=cuts)
     spin_inertia = body.axial_inertia + rotor_share
     return Flywheel(
         inner_radius=inner,
@@ -154,6 +158,7 @@ def _flywheel(
         stress_margin=_ratio(material.yield_strength, stress),
         stored_energy=float(stored_energy(spin_inertia, wheel_speed)),
         web=None if hub is None else _web(inner, hub),
+        cuts=cuts,
     )
 
 

@@ -10,6 +10,7 @@ from ocs_design.drive.mounting import Mounting
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.incidence import module_axes
+from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
 from ocs_design.sizing.web import Hub
 
 NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
@@ -50,6 +51,7 @@ class Flywheel:
         stress_margin: yield strength over hoop stress; None if the strength is not known.
         stored_energy: at the highest wheel speed [J].
         web: None: massless spokes.
+        cuts: chamfers and balancing holes of the rim.
     """
 
     inner_radius: float
@@ -64,6 +66,7 @@ class Flywheel:
     stress_margin: float | None
     stored_energy: float
     web: Web | None = None
+    cuts: RimCuts = NO_CUTS
 
     @property
     def rim_mass(self) -> float:

@@ -76,6 +76,7 @@ def _of_drive(
         choice.problem.bus_voltage,
         float("inf") if stated is None else stated,
         chosen.hub,
+        chosen.cuts,
     )
     maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
     return worst(

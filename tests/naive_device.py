@@ -23,7 +23,8 @@ from naive_wheel import hub_body
 
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.foot import PLATE_THICKNESS
-from ocs_design.sizing.web import LIGAMENT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
+from ocs_design.sizing.rim_cuts import LIGAMENT
+from ocs_design.sizing.web import SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
 
 USABLE = 0.95
 """Of voltage and current."""

@@ -5,7 +5,7 @@ from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
 
 
 def made_wheel(flywheel: Flywheel) -> Wheel:
-    """Rim, and web with hub where there is one; edges sharp, so that it weighs what was sized.
+    """Rim, and web with hub where there is one, to the mass and inertia that were sized.
 
     Raises:
         PartError: it cannot be made.
@@ -16,9 +16,18 @@ def made_wheel(flywheel: Flywheel) -> Wheel:
         flywheel.height,
         flywheel.material,
         flywheel.density,
-        chamfer=0.0,
+        chamfer=flywheel.cuts.chamfer,
+        balancing=_balancing(flywheel),
     )
     return Wheel(rim, None if flywheel.web is None else _made_hub(flywheel.web))
+
+
+def _balancing(flywheel: Flywheel) -> HoleRing | None:
+    cuts = flywheel.cuts
+    if cuts.holes == 0:
+        return None
+    middle = (flywheel.inner_radius + flywheel.outer_radius) / 2.0
+    return HoleRing(middle, cuts.holes, cuts.hole_radius, cuts.hole_depth)
 
 
 def _made_hub(web: Web) -> Hub:
@@ -33,4 +42,5 @@ def _made_hub(web: Web) -> Hub:
         bolts=HoleRing(hub.bolt_circle_radius, hub.bolts, hub.bolt_hole_radius)
         if hub.bolts
         else None,
+        chamfer=hub.chamfer,
     )

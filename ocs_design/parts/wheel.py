@@ -7,14 +7,10 @@ from math import inf, pi, sin
 from ocs_design.exceptions import PartError
 from ocs_design.parts.outline import circle, ring_of_points
 from ocs_design.parts.solids import Prism
-from ocs_design.sizing.web import LIGAMENT
+from ocs_design.sizing.rim_cuts import CHAMFER_SHARE, LIGAMENT
 
 CHAMFER = 0.3e-3
 """Of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""
-
-CHAMFER_SHARE = 0.25
-"""Of a chamfer in the rim's wall and height, at most: so half of each face stays."""
-
 
 ROUNDING = 1e-9
 """Of lengths that are as they must be at the least [m]: a thousandth of a micrometre."""
@@ -86,6 +82,7 @@ class Hub:
         material: name. density: [kg/m^3].
         bolts: through holes in the cylinder; None where the motor's are not known.
         lightening: through holes in the web; None: none.
+        chamfer: of the cylinder's edges and of its bore's, at 45 degrees [m].
     """
 
     web_thickness: float
@@ -96,6 +93,7 @@ class Hub:
     density: float
     bolts: HoleRing | None = None
     lightening: HoleRing | None = None
+    chamfer: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -136,7 +134,7 @@ def wheel_faults(wheel: Wheel) -> Iterator[str]:
         yield from _ring_faults(
             rim.balancing, rim.inner_radius + edge, rim.outer_radius - edge, "balancing"
         )
-        if 2.0 * rim.balancing.depth + LIGAMENT > rim.height:
+        if 2.0 * rim.balancing.depth + LIGAMENT > rim.height + ROUNDING:
             yield "its balancing holes meet in the middle"
     if hub is not None:
         yield from _hub_faults(rim, hub)
@@ -152,8 +150,10 @@ def _hub_faults(rim: Rim, hub: Hub) -> Iterator[str]:
         )
     if not 0.0 < hub.web_thickness <= rim.height - 2.0 * rim.made_chamfer:
         yield f"its web of {1e3 * hub.web_thickness:.3g} mm is thicker than the rim is high"
-    if hub.height < hub.web_thickness:
+    if hub.height < hub.web_thickness + 2.0 * hub.chamfer:
         yield "its hub is lower than the web is thick"
+    if not 0.0 <= 2.0 * hub.chamfer < hub.radius - hub.bore_radius:
+        yield "its hub's chamfers leave no face between them"
     if hub.bolts is not None:
         yield from _ring_faults(hub.bolts, hub.bore_radius, hub.radius, "bolt")
     if hub.lightening is not None:
@@ -164,9 +164,9 @@ def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Itera
     """Of holes between two edges."""
     if ring.count < 1 or ring.hole_radius <= 0.0 or ring.depth <= 0.0:
         yield f"its {name} holes have no number, size or depth"
-    elif ring.radius - ring.hole_radius < inner + LIGAMENT:
+    elif ring.radius - ring.hole_radius < inner + LIGAMENT - ROUNDING:
         yield f"its {name} holes reach the edge inside them"
-    elif ring.radius + ring.hole_radius > outer - LIGAMENT:
+    elif ring.radius + ring.hole_radius > outer - LIGAMENT + ROUNDING:
         yield f"its {name} holes reach the edge around them"
-    elif ring.spacing < LIGAMENT:
+    elif ring.spacing < LIGAMENT - ROUNDING:
         yield f"its {name} holes reach each other"

@@ -56,9 +56,10 @@ def _lower_bore(rim: Rim) -> list[tuple[float, float]]:
 
 def _around_hub(hub: Hub) -> list[tuple[float, float]]:
     """From the web's upper face around the hub to its lower one."""
-    web, half = hub.web_thickness / 2.0, hub.height / 2.0
-    upper = [(hub.radius, web), (hub.radius, half), (hub.bore_radius, half)]
-    return [*upper, *_mirrored(upper)]
+    web, half, edge = hub.web_thickness / 2.0, hub.height / 2.0, hub.chamfer
+    outside = [(hub.radius, web), (hub.radius, half - edge), (hub.radius - edge, half)]
+    bore = [(hub.bore_radius + edge, half), (hub.bore_radius, half - edge)]
+    return [*outside, *bore, *_mirrored([*outside, *bore])]
 
 
 def _mirrored(corners: list[tuple[float, float]]) -> list[tuple[float, float]]:

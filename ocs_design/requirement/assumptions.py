@@ -14,7 +14,15 @@ from ocs_design.requirement.froude import (
 )
 from ocs_design.requirement.motor_choice import MotorChoice
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import AUTO, FlywheelSection, Specification
+from ocs_design.requirement.specification import (
+    AUTO,
+    BALANCING_DEPTH,
+    BALANCING_DIAMETER,
+    CHAMFER,
+    NO_WEB,
+    FlywheelSection,
+    Specification,
+)
 from ocs_design.robot.robot import Robot
 from ocs_design.units import format_quantity
 
@@ -94,12 +102,26 @@ def _choosing(
         yield f"Gear: none, or one of {len(choice.gears) - 1} stages in the catalogue."
     if specification.flywheel.web is None:
         yield "Web: a thin disc of aluminium with a hub joins each rim to its motor."
+    yield from _assumed_cuts(specification.flywheel)
     if specification.flywheel.material in {None, AUTO}:
         yield f"Material: one of {len(choice.materials)} whose strength is known."
     yield from _assumed_strength(specification.flywheel, envelope, choice.materials[0])
     yield (
         f"Reserve: a design uses {RESERVE:.0%} of voltage and current; the rest is the feedback's."
     )
+
+
+def _assumed_cuts(flywheel: FlywheelSection) -> Iterator[str]:
+    """Of wheels with a web."""
+    if flywheel.web == NO_WEB:
+        return
+    if flywheel.chamfer is None:
+        yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')} at 45 deg, and counted."
+    if flywheel.balancing_holes:
+        across = flywheel.balancing_hole_diameter or BALANCING_DIAMETER
+        deep = flywheel.balancing_hole_depth or BALANCING_DEPTH
+        size = f"{format_quantity(across, 'mm')} wide, {format_quantity(deep, 'mm')} deep"
+        yield f"Balancing holes: {flywheel.balancing_holes} in each face, {size}."
 
 
 def _assumed_strength(

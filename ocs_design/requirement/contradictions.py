@@ -6,10 +6,17 @@ from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
 from ocs_design.requirement.specification import (
     LIGHTEST,
     NO_MOTOR,
+    NO_WEB,
     FlywheelSection,
     RobotSection,
     Specification,
 )
+
+OF_WEBS = ("chamfer", "balancing_holes", "balancing_hole_diameter", "balancing_hole_depth")
+"""Keys of `[flywheel]` that plain rims on massless spokes have nothing of."""
+
+FEWEST_HOLES, MOST_HOLES = 3, 100
+"""In a face: fewer leave a rim with two inertias across its axis."""
 
 
 def contradictions(specification: Specification) -> tuple[str, ...]:
@@ -18,6 +25,7 @@ def contradictions(specification: Specification) -> tuple[str, ...]:
         *_room(specification.flywheel),
         *_robot(specification.robot),
         *without_motor(specification),
+        *_without_web(specification.flywheel),
         *_maneuvers(specification),
         *_flights(specification.maneuvers),
     )
@@ -46,10 +54,24 @@ def without_motor(specification: Specification) -> Iterator[str]:
     for key in ("bus_voltage", "gear", "motors", "gears"):
         if getattr(specification.motor, key) is not None:
             yield f"motor.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+    for key in OF_WEBS:
+        if getattr(specification.flywheel, key) is not None:
+            yield f"flywheel.{key}: says nothing where motor.name is {NO_MOTOR!r}"
     if specification.ocs.alpha_criterion == LIGHTEST:
         yield f"ocs.alpha_criterion: {LIGHTEST!r} needs a motor: motor.name is {NO_MOTOR!r}"
     if specification.ocs.co_design:
         yield f"ocs.co_design: needs a motor: motor.name is {NO_MOTOR!r}"
+
+
+def _without_web(flywheel: FlywheelSection) -> Iterator[str]:
+    holes = flywheel.balancing_holes
+    if holes is not None and holes != 0 and not FEWEST_HOLES <= holes <= MOST_HOLES:
+        yield f"flywheel.balancing_holes: {holes} is not {FEWEST_HOLES} to {MOST_HOLES}, or 0"
+    if flywheel.web != NO_WEB:
+        return
+    for key in OF_WEBS:
+        if getattr(flywheel, key) is not None:
+            yield f"flywheel.{key}: says nothing where flywheel.web is {NO_WEB!r}"
 
 
 def _maneuvers(specification: Specification) -> Iterator[str]:

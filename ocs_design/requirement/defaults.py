@@ -11,6 +11,9 @@ from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 from ocs_design.requirement.reality import default_reality
 from ocs_design.requirement.specification import (
     AUTO,
+    BALANCING_DEPTH,
+    BALANCING_DIAMETER,
+    CHAMFER,
     CONTROL_PERIOD,
     DISC,
     LIGHTEST,
@@ -46,6 +49,10 @@ def default_specification(
         flywheel=FlywheelSection(
             material=AUTO,
             web=DISC,
+            chamfer=CHAMFER,
+            balancing_holes=0,
+            balancing_hole_diameter=BALANCING_DIAMETER,
+            balancing_hole_depth=BALANCING_DEPTH,
             **{key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()},
         ),
         motor=MotorSection(name=AUTO, gear=AUTO, bus_voltage=default_bus_voltage(robot)),

@@ -97,6 +97,14 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         ),
         "flywheel.web": KeyNote("none is the paper's: spokes that weigh nothing."),
         "flywheel.stress_safety": KeyNote("More where a burst rim could hurt someone."),
+        "flywheel.chamfer": KeyNote("What your workshop breaks edges by; it is counted."),
+        "flywheel.balancing_holes": KeyNote(
+            "At least three, where weights are to balance the wheel; its wall grows to fit them."
+        ),
+        "flywheel.balancing_hole_diameter": KeyNote("1.6 mm is the core hole of M2."),
+        "flywheel.balancing_hole_depth": KeyNote(
+            "A thread of M2 wants 2 mm; both faces have them, so that the rim grows too."
+        ),
         "motor.name": KeyNote(
             "One that you have: see `ocs-design catalogue motors`; none: the bound alone."
         ),

@@ -51,6 +51,13 @@ NO_WEB = "none"
 
 WEBS = (DISC, NO_WEB)
 
+CHAMFER, LARGEST_CHAMFER = 0.2e-3, 0.5e-3
+"""Of a wheel's edges, where nothing is stated and at most [m]: broken edges as ISO 13715 has them,
+and what hubs stand."""
+
+BALANCING_DIAMETER, BALANCING_DEPTH = 1.6e-3, 1.0e-3
+"""Of balancing holes, where nothing is stated [m]: the core hole of M2, and shallow, for glue."""
+
 CONTROL_PERIOD = 0.005
 """From one torque of the wheels to the next, where nothing is stated [s]."""
 
@@ -153,6 +160,20 @@ class FlywheelSection:
     stress_safety: Annotated[
         float | None, Key(Number(), "yield strength over hoop stress at the highest speed")
     ] = None
+    chamfer: Annotated[
+        float | None,
+        Key(
+            Quantity(Dimension.LENGTH, Sign.NOT_NEGATIVE, LARGEST_CHAMFER),
+            "broken edges of a wheel with a web, at 45 deg",
+        ),
+    ] = None
+    balancing_holes: Annotated[
+        int | None, Key(Count(), "in each face of a rim with a web; 0: none")
+    ] = None
+    balancing_hole_diameter: Annotated[
+        float | None, Key(_LENGTH, "of each, on the rim's middle radius")
+    ] = None
+    balancing_hole_depth: Annotated[float | None, Key(_LENGTH, "of each, from its face")] = None
 
 
 @dataclass(frozen=True, kw_only=True)

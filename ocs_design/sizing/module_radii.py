@@ -10,9 +10,14 @@ height is h = (k - t b^2) / (a^2 - b^2), and the limits bound b at each R, from 
 Each pair of an upper and a lower bound leaves all radii on one side of where the two meet. So the
 radii that leave room are one interval, between the largest of those crossings that bound R from
 below and the smallest of those that bound it from above.
+
+A rim with broken edges and holes is a plain one of so much more k and mass as they take
+(`rim_cuts`). That changes little along with (R, r), and each round of settling it at a crossing
+gains two digits or so.
 """
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,98 +27,171 @@ from ocs_design.sizing.rim_problem import RimLimits
 
 # From above each step of Newton's method halves the error at least; then it doubles the digits.
 _NEWTON_STEPS = 12
+# Of what is cut off a rim, at least a digit each: it is at most an eighth of its cross-section.
+_SETTLING = 7
+
+
+class _Asked(NamedTuple):
+    """Of a plain rim, for chamfers and holes to be cut off it.
+
+    Attributes:
+        full: k [m^5]. mass: largest, over pi rho [m^3].
+    """
+
+    full: FloatArray
+    mass: FloatArray
+
+
+class _Crossing(NamedTuple):
+    """Where two limits meet: r and R [m]."""
+
+    inner: FloatArray
+    outer: FloatArray
 
 
 def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     """Below it a wheel of this spin inertia [kg m^2] is too tall, too thick or too heavy [m]."""
-    wall, bore, web = np.asarray(limits.wall_min), np.asarray(limits.inner_radius_min), limits.web
-    full, tall = 2.0 * inertia / (np.pi * limits.density), np.asarray(limits.height_max)
-    share = BORE_SHARE**4
-    # Positive also where the web alone has more than is asked for: nothing small is too tall then.
-    by_bore = np.maximum(full - web * bore**4, 0.0) / tall + bore**4
-    by_share = full / tall / (1.0 - (1.0 - web / tall) * share)
-    square = np.sqrt(np.maximum(by_bore, by_share))
+    wall, bore = np.asarray(limits.wall_min), np.asarray(limits.inner_radius_min)
     by_wall = np.maximum(bore + wall, wall / (1.0 - BORE_SHARE))
-    radius: FloatArray = np.maximum(
-        np.maximum(np.sqrt(square), by_wall), np.asarray(limits.outer_radius_min)
+    crossings = [_tall_and_narrow, _tall_and_closed]
+    if not np.all(np.isinf(limits.mass_max)):
+        crossings += [_tall_and_heavy, _thin_and_heavy]
+    found = [_settled(crossing, inertia, limits) for crossing in crossings]
+    radius: FloatArray = np.maximum.reduce(
+        np.broadcast_arrays(by_wall, np.asarray(limits.outer_radius_min), *found)
     )
-    if np.all(np.isinf(limits.mass_max)):
-        return radius
-    return np.maximum(radius, _smallest_by_mass(full, limits))
+    return radius
 
 
-def _smallest_by_mass(full: FloatArray, limits: RimLimits) -> FloatArray:
-    """R where the largest mass meets the largest height, or the least wall [m].
+def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
+    """Above it a wheel of this spin inertia [kg m^2] breaks, is too flat, or has no room [m]."""
+    nu, stretch = limits.poisson_ratio, np.asarray(limits.stretch_max)
+    outer, inner = 3.0 + nu, 1.0 - nu
+    by_bore = (stretch - inner * np.asarray(limits.inner_radius_min) ** 2) / outer
+    by_share = stretch / (outer + inner * BORE_SHARE**2)
+    square = np.minimum(by_bore, by_share)
+    crossings = (_stretched_and_heavy, _stretched_and_flat, _thin_and_flat)
+    found = [_settled(crossing, inertia, limits) for crossing in crossings]
+    radius: FloatArray = np.minimum.reduce(
+        np.broadcast_arrays(
+            np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0)), *found
+        )
+    )
+    return radius
 
-    At the largest height a rim of the largest mass has a - b = m / (pi rho h) = c, so that
-    h c (2 a - c) + t (a - c)^2 = k. Where that leaves no bore, every radius is light enough.
+
+def _settled(
+    crossing: Callable[[_Asked, RimLimits], _Crossing], inertia: FloatArray, limits: RimLimits
+) -> FloatArray:
+    """R where two limits meet on a rim with what is cut off it [m]."""
+    cuts, per_volume = limits.cuts, np.pi * limits.density
+    full, mass = 2.0 * inertia / per_volume, np.asarray(limits.mass_max) / per_volume
+    found = crossing(_Asked(full, mass), limits)
+    for _ in range(_SETTLING if cuts.any else 0):
+        # Where they do not meet nothing is cut.
+        spread, area = (np.nan_to_num(cut(*found), posinf=0.0) for cut in (cuts.spread, cuts.area))
+        found = crossing(_Asked(full + spread, mass + area), limits)
+    return found.outer
+
+
+def _tall_and_narrow(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The largest height and the least bore."""
+    bore, tall = np.asarray(limits.inner_radius_min), np.asarray(limits.height_max)
+    # Positive also where the web alone has more than is asked for: nothing small is too tall then.
+    fourth = np.maximum(asked.full - limits.web * bore**4, 0.0) / tall + bore**4
+    return _Crossing(bore, np.sqrt(np.sqrt(fourth)))
+
+
+def _tall_and_closed(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The largest height and the least share of a bore."""
+    tall = np.asarray(limits.height_max)
+    fourth = asked.full / tall / (1.0 - (1.0 - limits.web / tall) * BORE_SHARE**4)
+    outer = np.sqrt(np.sqrt(fourth))
+    return _Crossing(BORE_SHARE * outer, outer)
+
+
+def _tall_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The largest height and the largest mass.
+
+    A rim of both has a - b = m / (pi rho h) = c, so that h c (2 a - c) + t (a - c)^2 = k. Where
+    that leaves no bore, every radius is light enough.
     """
-    mass, web = limits.mass_max / (np.pi * limits.density), limits.web
-    tall, wall = np.asarray(limits.height_max), np.asarray(limits.wall_min)
-    apart = mass / tall
+    tall, web = np.asarray(limits.height_max), limits.web
+    apart = asked.mass / tall
     # In b = a - c: t b^2 + 2 h c b = k - h c^2.
-    left, linear = full - tall * apart**2, tall * apart
+    left, linear = asked.full - tall * apart**2, tall * apart
     bore = left / (linear + np.sqrt(np.maximum(linear**2 + web * left, 0.0)))
-    by_height = np.where(left > 0.0, np.sqrt(np.maximum(bore + apart, 0.0)), 0.0)
-    light = full / mass
+    outer = np.where(left > 0.0, np.sqrt(np.maximum(bore + apart, 0.0)), 0.0)
+    return _Crossing(np.sqrt(np.maximum(bore, 0.0)), outer)
+
+
+def _thin_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The least wall and the largest mass."""
+    wall, web = np.asarray(limits.wall_min), limits.web
+    light = asked.full / asked.mass
     start = (wall + np.sqrt(np.maximum(2.0 * light - wall**2, 0.0))) / 2.0
 
     def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Of what the largest mass has with the least wall, and its slope."""
         inner = radius - wall
-        value = mass * (radius**2 + inner**2) + web * inner**4 - full
-        return value, 2.0 * mass * (radius + inner) + 4.0 * web * inner**3
+        value = asked.mass * (radius**2 + inner**2) + web * inner**4 - asked.full
+        return value, 2.0 * asked.mass * (radius + inner) + 4.0 * web * inner**3
 
-    return np.maximum(by_height, _root_from_above(excess, start, web))
+    outer = _root_from_above(excess, start, web)
+    return _Crossing(outer - wall, outer)
 
 
-def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
-    """Above it a wheel of this spin inertia [kg m^2] breaks, is too flat, or has no room [m]."""
-    full, flat = 2.0 * inertia / (np.pi * limits.density), np.asarray(limits.height_min)
-    square = _largest_square_by_stress(inertia, full, limits)
-    radius = np.minimum(limits.outer_radius_max, np.sqrt(np.maximum(square, 0.0)))
+def _thin_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The least wall and the least height."""
     wall, web = np.asarray(limits.wall_min), np.asarray(limits.web)
+    flat = np.asarray(limits.height_min)
 
     def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Of what the flattest rim with the least wall has, and its slope."""
         inner = radius - wall
-        value = flat * radius**4 - (flat - web) * inner**4 - full
+        value = flat * radius**4 - (flat - web) * inner**4 - asked.full
         return value, 4.0 * (flat * radius**3 - (flat - web) * inner**3)
 
     with np.errstate(divide="ignore"):
         # Without any rim the web alone would have as much.
-        start = np.minimum(flat_wall_radius(full / flat, wall), (full / web) ** 0.25)
-    return np.minimum(radius, _root_from_above(excess, start, web))
+        start = np.minimum(flat_wall_radius(asked.full / flat, wall), (asked.full / web) ** 0.25)
+    outer = _root_from_above(excess, start, web)
+    return _Crossing(outer - wall, outer)
 
 
-def _largest_square_by_stress(
-    inertia: FloatArray, full: FloatArray, limits: RimLimits
-) -> FloatArray:
-    """R^2 where the hoop stress meets the bore, the least height or the largest mass [m^2].
+def _stretched_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The hoop stress and the largest mass: t b^2 + m (a + b) = k with b = (S - p a) / n.
 
-    With p = 3 + nu and n = 1 - nu the stress leaves b = (S - p a) / n. The least height meets it
-    where (h - t) (S - p a)^2 = n^2 (h a^2 - k), the largest mass where t b^2 + m (a + b) = k.
+    With p = 3 + nu, n = 1 - nu and S the largest stretch.
     """
-    nu, stretch = limits.poisson_ratio, np.asarray(limits.stretch_max)
-    bore, web = np.asarray(limits.inner_radius_min), limits.web
-    outer, inner = 3.0 + nu, 1.0 - nu
-    by_bore = (stretch - inner * bore**2) / outer
-    by_share = stretch / (outer + inner * BORE_SHARE**2)
-    light = 2.0 * inertia / limits.mass_max
+    outer, inner = 3.0 + limits.poisson_ratio, 1.0 - limits.poisson_ratio
+    stretch = np.asarray(limits.stretch_max)
     # An unlimited hoop stress leaves any radius light enough.
-    over = light - np.where(np.isinf(stretch), 0.0, stretch) / outer
+    over = asked.full / asked.mass - np.where(np.isinf(stretch), 0.0, stretch) / outer
     slope = 1.0 - inner / outer
-    curved = web * np.pi * limits.density / limits.mass_max
-    root = np.sqrt(np.maximum(slope**2 + 4.0 * curved * over, 0.0))
-    by_mass = (stretch - inner * 2.0 * over / (slope + root)) / outer
+    root = np.sqrt(np.maximum(slope**2 + 4.0 * limits.web / asked.mass * over, 0.0))
+    return _stretched((stretch - inner * 2.0 * over / (slope + root)) / outer, limits)
+
+
+def _stretched_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The hoop stress and the least height: (h - t) (S - p a)^2 = n^2 (h a^2 - k)."""
+    outer, inner = 3.0 + limits.poisson_ratio, 1.0 - limits.poisson_ratio
+    stretch, web = np.asarray(limits.stretch_max), limits.web
     tall = np.asarray(limits.height_min) - web
     more = np.where(web > np.zeros_like(tall), 1.0 + web / tall, 1.0)
-    flat = full / tall
+    flat = asked.full / tall
     root = np.sqrt(np.maximum(more - flat * (outer**2 - inner**2 * more) / stretch**2, 0.0))
-    by_height = (stretch + inner**2 * flat / stretch) / (outer + inner * root)
+    square = (stretch + inner**2 * flat / stretch) / (outer + inner * root)
     # Where R^4 is less than that already, the least height leaves any bore.
-    by_height = np.where(stretch > outer * np.sqrt(flat / more), by_height, np.inf)
-    return np.minimum(np.minimum(by_bore, by_share), np.minimum(by_mass, by_height))
+    return _stretched(np.where(stretch > outer * np.sqrt(flat / more), square, np.inf), limits)
+
+
+def _stretched(square: FloatArray, limits: RimLimits) -> _Crossing:
+    """Of a rim with that R^2 [m^2] the bore that the hoop stress leaves."""
+    nu = limits.poisson_ratio
+    square = np.maximum(square, 0.0)
+    bore = (limits.stretch_max - (3.0 + nu) * square) / (1.0 - nu)
+    return _Crossing(np.sqrt(np.maximum(bore, 0.0)), np.sqrt(square))
 
 
 def _root_from_above(

@@ -85,12 +85,13 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
 def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
     """Of the narrowest, thinnest and flattest rim that the lower limits leave [kg m^2].
 
-    With its web, if it has one.
+    With its web, if it has one, and without what is cut off it.
     """
     bore = np.maximum(limits.inner_radius_min, limits.wall_min * BORE_SHARE / (1.0 - BORE_SHARE))
     bore = np.maximum(bore, np.asarray(limits.outer_radius_min) - limits.wall_min)
-    spread = (bore + limits.wall_min) ** 4 - bore**4
-    full = limits.height_min * spread + limits.web * bore**4
+    outer = bore + limits.wall_min
+    full = limits.height_min * (outer**4 - bore**4) + limits.web * bore**4
+    full = full - limits.cuts.spread(bore, outer)
     return np.asarray(np.pi * limits.density * full / 2.0, dtype=np.float64)
 
 

@@ -6,6 +6,7 @@ from ocs_design.arrays import FloatArray
 from ocs_design.catalogue.materials import Material
 from ocs_design.exceptions import UsageError
 from ocs_design.requirement.envelope import Envelope
+from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,6 +23,7 @@ class RimLimits:
         web: thickness of a disc of the rim's material that weighs as much as the web, which fills
             the bore [m]; 0: massless spokes.
         outer_radius_min: that leaves room for a motor's mount [m]; 0: any.
+        cuts: chamfers and holes, the same of all; the other limits leave room for them.
     """
 
     density: float | FloatArray
@@ -35,6 +37,7 @@ class RimLimits:
     poisson_ratio: float | FloatArray
     web: float | FloatArray = 0.0
     outer_radius_min: float | FloatArray = 0.0
+    cuts: RimCuts = NO_CUTS
 
 
 @dataclass(frozen=True)

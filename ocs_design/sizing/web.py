@@ -20,6 +20,7 @@ from ocs_design.sizing.cylinder import (
     cylinder_spin_inertia,
     cylinder_transverse_inertia,
 )
+from ocs_design.sizing.rim_cuts import LIGAMENT, NO_CUTS, RimCuts
 from ocs_design.sizing.rim_problem import RimLimits
 
 WEB_THICKNESS = 1.5e-3
@@ -34,8 +35,8 @@ WEB_DENSITY = 2710.0
 SHOULDER = 0.5e-3
 """By how much a rim is taller than its web, at least [m]: it is seated on its edge."""
 
-LIGAMENT = 1.0e-3
-"""Of web between hub and rim, at least [m]."""
+SEAT = 0.1e-3
+"""By how much a rim's bore between its chamfers is longer than its web is thick, at least [m]."""
 
 HUB_HEIGHT = 5.0e-3
 """[m]: a grub screw of M2 with its thread on either side, or the heads of bolts below flush."""
@@ -58,6 +59,7 @@ class Hub:
         bore_radius: [m].
         bolts: how many; 0: the motor's are not in the catalogue.
         bolt_circle_radius, bolt_hole_radius: [m]; 0 without bolts.
+        chamfer: of the cylinder's edges and of its bore's, at 45 degrees [m].
     """
 
     radius: float
@@ -66,13 +68,15 @@ class Hub:
     bolts: int = 0
     bolt_circle_radius: float = 0.0
     bolt_hole_radius: float = 0.0
+    chamfer: float = 0.0
 
     @property
     def mass(self) -> float:
         """Beyond that of a web without holes [kg]."""
         holes = self.bore_radius**2 + self.bolts * self.bolt_hole_radius**2
         beyond = self.radius**2 * (self.height - WEB_THICKNESS)
-        return WEB_DENSITY * pi * (beyond - holes * self.height)
+        edges = self._edges.mass(self.bore_radius, self.radius, WEB_DENSITY)
+        return WEB_DENSITY * pi * (beyond - holes * self.height) - edges
 
     @property
     def axial_inertia(self) -> float:
@@ -80,7 +84,10 @@ class Hub:
         bolt = self.bolt_hole_radius**2
         bolts = self.bolts * bolt * (bolt / 2.0 + self.bolt_circle_radius**2)
         beyond = self.radius**4 / 2.0 * (self.height - WEB_THICKNESS)
-        return WEB_DENSITY * pi * (beyond - (self.bore_radius**4 / 2.0 + bolts) * self.height)
+        edges = self._edges.axial_inertia(self.bore_radius, self.radius, WEB_DENSITY)
+        return (
+            WEB_DENSITY * pi * (beyond - (self.bore_radius**4 / 2.0 + bolts) * self.height) - edges
+        )
 
     @property
     def transverse_inertia(self) -> float:
@@ -92,25 +99,31 @@ class Hub:
         bolt += pi * self.bolt_hole_radius**2 * self.height * self.bolt_circle_radius**2 / 2.0
         solid = _across(self.radius, self.height) - _across(self.radius, WEB_THICKNESS)
         holes = _across(self.bore_radius, self.height) + self.bolts * bolt
-        return WEB_DENSITY * (solid - holes)
+        size = (self.bore_radius, self.radius, self.height)
+        return WEB_DENSITY * (solid - holes) - self._edges.transverse_inertia(*size, WEB_DENSITY)
+
+    @property
+    def _edges(self) -> RimCuts:
+        """A hub with its bore is a hollow cylinder as a rim is."""
+        return RimCuts(self.chamfer)
 
 
 NO_HUB = Hub(radius=0.0, height=0.0, bore_radius=0.0)
 """Of massless spokes: it weighs nothing."""
 
 
-def hub_of(motor: Motor, *, direct: bool = True) -> Hub:
+def hub_of(motor: Motor, *, direct: bool = True, chamfer: float = 0.0) -> Hub:
     """Of a wheel on this motor, with the bore of its shaft and holes for its screws.
 
     Where the catalogue has no shaft it has a pilot bore; where it has no screws it is as wide as
     the bolt circles that motors of that diameter have. Behind a gear, not
-    `direct`, it has neither.
+    `direct`, it has neither. Its edges have that chamfer [m].
     """
     mounting = (motor.mounting if direct else None) or Mounting()
     rotor, bore = mounting.rotor, _bore_radius(mounting)
     if rotor is None:
         wide = 5.5e-3 + 0.15 * (motor.diameter or 0.03)
-        return Hub(max(wide, bore + HUB_WALL), HUB_HEIGHT, bore)
+        return Hub(max(wide, bore + HUB_WALL), HUB_HEIGHT, bore, chamfer=chamfer)
     return Hub(
         radius=rotor.reach + HUB_WALL,
         height=HUB_HEIGHT,
@@ -118,21 +131,30 @@ def hub_of(motor: Motor, *, direct: bool = True) -> Hub:
         bolts=rotor.bolts,
         bolt_circle_radius=rotor.radius,
         bolt_hole_radius=rotor.hole_radius,
+        chamfer=chamfer,
     )
 
 
 def wheel_body(
-    inner_radius: float, outer_radius: float, height: float, density: float, hub: Hub | None
+    inner_radius: float,
+    outer_radius: float,
+    height: float,
+    density: float,
+    hub: Hub | None,
+    *,
+    cuts: RimCuts = NO_CUTS,
 ) -> Carrier:
     """A rim with its web and hub; None: with massless spokes. Without what turns in the motor.
 
     Args:
         inner_radius, outer_radius, height, density: of the rim [m, kg/m^3].
         hub: in the middle of its web.
+        cuts: off the rim.
     """
     rim = (inner_radius, outer_radius, height, density)
-    mass, axial = cylinder_mass(*rim), cylinder_spin_inertia(*rim)
-    transverse = cylinder_transverse_inertia(*rim)
+    mass = cylinder_mass(*rim) - cuts.mass(inner_radius, outer_radius, density)
+    axial = cylinder_spin_inertia(*rim) - cuts.axial_inertia(inner_radius, outer_radius, density)
+    transverse = cylinder_transverse_inertia(*rim) - cuts.transverse_inertia(*rim)
     if hub is None:
         return Carrier(mass, axial, transverse)
     return Carrier(
@@ -144,17 +166,26 @@ def wheel_body(
     )
 
 
-def limits_with_web(limits: RimLimits, hub_radius: float | FloatArray) -> RimLimits:
+def limits_with_web(
+    limits: RimLimits, hub_radius: float | FloatArray, cuts: RimCuts = NO_CUTS
+) -> RimLimits:
     """Limits of rims that are seated on a web around a hub of that radius [m].
 
-    They are taller than the web, and than as much of it if it were of their own material.
+    They are taller than the web, and than as much of it if it were of their own material, and
+    leave room for what is cut off them.
     """
     web = WEB_THICKNESS * WEB_DENSITY / np.asarray(limits.density)
+    seated = np.maximum(np.maximum(WEB_THICKNESS, web) + SHOULDER, cuts.height_min)
+    seated = np.maximum(seated, WEB_THICKNESS + 2.0 * cuts.chamfer + SEAT)
     return replace(
         limits,
-        inner_radius_min=np.maximum(limits.inner_radius_min, hub_radius + LIGAMENT),
-        height_min=np.maximum(limits.height_min, np.maximum(WEB_THICKNESS, web) + SHOULDER),
+        inner_radius_min=np.maximum(
+            np.maximum(limits.inner_radius_min, cuts.inner_radius_min), hub_radius + LIGAMENT
+        ),
+        height_min=np.maximum(limits.height_min, seated),
+        wall_min=np.maximum(limits.wall_min, cuts.wall_min),
         web=web,
+        cuts=cuts,
     )
 
 

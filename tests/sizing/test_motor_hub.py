@@ -18,9 +18,9 @@ from ocs_design.fasteners import SCREWS
 from ocs_design.parts.mesh import part_mesh
 from ocs_design.parts.part import total
 from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.sizing.rim_cuts import LIGAMENT
 from ocs_design.sizing.web import (
     HUB_WALL,
-    LIGAMENT,
     PILOT_BORE,
     WEB_DENSITY,
     WEB_MATERIAL,

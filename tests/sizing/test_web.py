@@ -12,9 +12,9 @@ from ocs_design.parts.part import total
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel
 from ocs_design.parts.wheel import Hub as MadeHub
 from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.sizing.rim_cuts import LIGAMENT
 from ocs_design.sizing.rim_problem import RimProblem
 from ocs_design.sizing.web import (
-    LIGAMENT,
     SHOULDER,
     WEB_DENSITY,
     WEB_MATERIAL,

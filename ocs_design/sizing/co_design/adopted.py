@@ -14,10 +14,10 @@ from ocs_design.sizing.co_design.device import (
     wheel_of,
 )
 from ocs_design.sizing.co_design.problem import CoDesign, CoDesignProblem, DeviceShape
-from ocs_design.sizing.cylinder import cylinder_mass
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.binding import binding_limits
 from ocs_design.sizing.selection.result import Candidate, TaskDemand
+from ocs_design.sizing.web import wheel_body
 
 
 def adopted(problem: CoDesignProblem, found: CoDesign) -> Candidate:
@@ -99,5 +99,5 @@ def _binding(problem: CoDesignProblem, shape: DeviceShape) -> tuple[str, ...]:
 
 
 def _rim_mass(problem: CoDesignProblem, shape: DeviceShape) -> float:
-    density = problem.selected.material.density
-    return cylinder_mass(shape.inner_radius, shape.outer_radius, shape.height, density)
+    chosen, sizes = problem.selected, (shape.inner_radius, shape.outer_radius, shape.height)
+    return wheel_body(*sizes, chosen.material.density, None, cuts=chosen.cuts).mass

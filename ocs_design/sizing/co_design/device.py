@@ -49,7 +49,7 @@ def centers_of(problem: CoDesignProblem, shape: DeviceShape) -> FloatArray:
 def wheel_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:
     """One wheel as a body of revolution, like a carrier."""
     chosen, sizes = problem.selected, (shape.inner_radius, shape.outer_radius, shape.height)
-    return wheel_body(*sizes, chosen.material.density, chosen.hub)
+    return wheel_body(*sizes, chosen.material.density, chosen.hub, cuts=chosen.cuts)
 
 
 def carrier_of(problem: CoDesignProblem, shape: DeviceShape) -> Carrier:

@@ -40,7 +40,9 @@ class FreeDevice:
     @property
     def rim_mass(self) -> ca.SX:
         """Of one rim [kg]."""
-        return _of_symbols(cylinder_mass)(*self._rim)
+        cut = _of_symbols(self.problem.selected.cuts.mass)
+        inner, outer, _, density = self._rim
+        return _of_symbols(cylinder_mass)(*self._rim) - cut(inner, outer, density)
 
     @property
     def module_mass(self) -> ca.SX:
@@ -99,7 +101,8 @@ class FreeDevice:
     def _wheel(self) -> "_Wheel":
         """See `wheel_body`."""
         form = cast(Callable[..., _Wheel], wheel_body)
-        return form(*self._rim, self.problem.selected.hub)
+        chosen = self.problem.selected
+        return form(*self._rim, chosen.hub, cuts=chosen.cuts)
 
     @property
     def _rim(self) -> tuple[ca.SX, ca.SX, ca.SX, float]:

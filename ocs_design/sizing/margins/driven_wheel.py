@@ -10,6 +10,7 @@ from ocs_design.drive.line import DriveLine, armature, drive_line, rotor_share
 from ocs_design.drive.motor import Motor
 from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.cylinder import hoop_stress
+from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
 from ocs_design.sizing.selection.drive_table import OVERSPEED
 from ocs_design.sizing.web import Hub, wheel_body
 
@@ -25,6 +26,7 @@ class DrivenWheel:
         bus_voltage: [V].
         wheel_speed_max: stated highest speed of the wheel [rad/s]; inf: none.
         hub: in the middle of the wheel's web; None: massless spokes.
+        cuts: off the rim.
     """
 
     inner_radius: float
@@ -36,6 +38,7 @@ class DrivenWheel:
     bus_voltage: float
     wheel_speed_max: float = inf
     hub: Hub | None = None
+    cuts: RimCuts = NO_CUTS
 
     @cached_property
     def line(self) -> DriveLine:
@@ -51,7 +54,7 @@ class DrivenWheel:
     def body(self) -> Carrier:
         """Rim, web and hub; what is known of the rotor's transverse inertia is nothing."""
         size = (self.inner_radius, self.outer_radius, self.height)
-        return wheel_body(*size, self.material.density, self.hub)
+        return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts)
 
     @property
     def spin_inertia(self) -> float:

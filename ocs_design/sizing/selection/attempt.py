@@ -97,7 +97,7 @@ def attempt(problem: SelectionProblem, floor: RimFloor, drives: DriveTable) -> A
 def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
     """Spin inertia of the largest rim of any material, whatever its hoop stress [kg m^2].
 
-    With its web, without its hub.
+    With its web, without its hub and what is cut off it.
 
     As wide and tall as may be, and as thick as its mass allows; if it must be thicker, lower.
     """
@@ -107,8 +107,11 @@ def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
     square = np.maximum(outer**2 - room.mass_max / layer, bore**2)
     inner = np.minimum(np.sqrt(square), outer - room.wall_min)
     mass = np.minimum(layer * (outer**2 - inner**2), room.mass_max)
-    web = web_axial_inertia(inner) if problem.web else 0.0
-    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + web, 0.0)
+    beside = np.zeros_like(inner)
+    if problem.web:
+        cut = problem.cuts.axial_inertia(inner, np.full_like(inner, outer), 1.0)
+        beside = web_axial_inertia(inner) - density * cut
+    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + beside, 0.0)
     return float(inertia.max(initial=0.0))
 
 

@@ -5,7 +5,6 @@ from dataclasses import fields
 import numpy as np
 
 from ocs_design.requirement.envelope import Envelope
-from ocs_design.sizing.cylinder import cylinder_mass
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.rim_problem import RimLimits
 
@@ -16,6 +15,9 @@ foot are heavier."""
 # Relative; a hundredth of what can be turned.
 HUB, WEB = "hub", "web"
 """Stand for the bore and the height where the hub and the web ask for more than was specified."""
+
+CUTS = "edges and holes"
+"""Stand for the wall where chamfers or balancing holes ask for more than was specified."""
 
 MOUNT = "mount"
 """Stands for the radius where the motor's mount asks for a larger housing."""
@@ -37,25 +39,25 @@ def binding_limits(
     at = {
         field.name: float(np.broadcast_to(getattr(limits, field.name), shapes.mass.shape)[row])
         for field in fields(limits)
+        if field.name != "cuts"
     }
     nu = at["poisson_ratio"]
     stretched = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
     bore = HUB if at["inner_radius_min"] > room.inner_radius_min else "r_min"
     flat = WEB if at["height_min"] > room.height_min else "h_min"
+    wall = CUTS if at["wall_min"] > room.wall_min else "wall_min"
     touched = {
         "r_max": (outer, at["outer_radius_max"]),
         "h_max": (height, at["height_max"]),
         "hoop_stress": (stretched, at["stretch_max"]),
-        "wheel_mass_max": (cylinder_mass(inner, outer, height, at["density"]), at["mass_max"]),
+        "wheel_mass_max": (float(shapes.rim_mass[row]), at["mass_max"]),
         bore: (inner, at["inner_radius_min"]),
         flat: (height, at["height_min"]),
-        "wall_min": (outer - inner, at["wall_min"]),
+        wall: (outer - inner, at["wall_min"]),
         MOUNT: (outer, at["outer_radius_min"]),
     }
     names = tuple(
         name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
     )
-    radius_is_held = {"r_max", "hoop_stress", MOUNT} & set(names) or {flat, "wall_min"} <= set(
-        names
-    )
+    radius_is_held = {"r_max", "hoop_stress", MOUNT} & set(names) or {flat, wall} <= set(names)
     return names if radius_is_held else (*names, HOUSING)

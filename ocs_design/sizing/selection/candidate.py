@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.slew_profile import slew_profile
 from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
@@ -20,7 +19,7 @@ from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, TaskDemand
 from ocs_design.sizing.selection.settling import Settled
-from ocs_design.sizing.web import hub_of, wheel_body
+from ocs_design.sizing.web import wheel_body
 
 
 def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidate:
@@ -29,10 +28,11 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
     motor, gear = problem.motors[drives.motor[row]], problem.gears[drives.gear[row]]
     material = problem.materials[settled.lot.material[row]]
     inner, outer, height, rim_mass = (float(value[row]) for value in settled.point.shapes[:4])
-    hub = hub_of(motor, direct=gear == DIRECT) if problem.web else None
+    hub = problem.hub(motor, gear)
+    cuts = settled.lot.limits.cuts
     carrier = standing(motor, gear, outer, height)
     centers = problem.place.centers(motor_size(motor, outer, height))
-    wheel = wheel_body(inner, outer, height, material.density, hub)
+    wheel = wheel_body(inner, outer, height, material.density, hub, cuts=cuts)
     modules = (wheel, carrier)
     incidence, spin = float(settled.point.angle[row]), float(settled.point.spin_inertia[row])
     return Candidate(
@@ -47,6 +47,7 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
         outer_radius=outer,
         height=height,
         hub=hub,
+        cuts=cuts,
         rim_mass=rim_mass,
         web_mass=wheel.mass - rim_mass,
         carrier=carrier,

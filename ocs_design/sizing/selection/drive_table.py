@@ -20,7 +20,7 @@ from ocs_design.sizing.carrier import behind_floor, motor_middle
 from ocs_design.sizing.mass_moments import MassMoments, point, rows_of, stacked
 from ocs_design.sizing.mount import mount_holes
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.web import NO_HUB, hub_of
+from ocs_design.sizing.web import NO_HUB
 
 OVERSPEED = 1.2
 """Speed at which a rim is proved, over the highest that it can get to."""
@@ -151,7 +151,7 @@ def _seat(motor: Motor) -> tuple[float, float, float, float]:
 
 def _figures(problem: SelectionProblem, motor: Motor, gear: Gear) -> tuple[float, ...]:
     line = drive_line(motor, gear, problem.bus_voltage)
-    hub = hub_of(motor, direct=gear == DIRECT) if problem.web else NO_HUB
+    hub = problem.hub(motor, gear) or NO_HUB
     rotor = motor.rotor_inertia or 0.0
     return (
         hub.mass,

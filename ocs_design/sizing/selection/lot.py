@@ -65,7 +65,9 @@ class Lot:
         """One module of each, braked."""
         drives, wheel = self.drives, spin_inertia - self.drives.rotor_share
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
-        across = cylinder_transverse_inertia(inner, outer, height, 1.0) * self.limits.density
+        across = cylinder_transverse_inertia(inner, outer, height, 1.0)
+        across = across - self.limits.cuts.transverse_inertia(inner, outer, height, 1.0)
+        across = across * self.limits.density
         # Of the web, whose mass tells its thickness: m (3 r^2 + t^2) / 12.
         web = shapes.web_mass * (3.0 * inner**2 + WEB_THICKNESS**2) / 12.0
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
@@ -136,4 +138,4 @@ def rim_limits(
         web=np.zeros_like(density),
     )
     mounted = limits_with_mount(alone, mount_reach)
-    return limits_with_web(mounted, hub_radius) if problem.web else mounted
+    return limits_with_web(mounted, hub_radius, problem.cuts) if problem.web else mounted

@@ -86,7 +86,8 @@ class _Programme:
     def _on_trunk(self, lot: Lot, shapes: ModuleShape) -> tuple[FloatArray, TrunkInertia]:
         """Spin inertias of the wheels [kg m^2], and what they turn."""
         dimensions = (shapes.inner_radius, shapes.outer_radius, shapes.height)
-        rim = cylinder_spin_inertia(*dimensions, 1.0) * np.asarray(lot.limits.density)
+        cut = lot.limits.cuts.axial_inertia(shapes.inner_radius, shapes.outer_radius, 1.0)
+        rim = (cylinder_spin_inertia(*dimensions, 1.0) - cut) * np.asarray(lot.limits.density)
         web = shapes.web_mass * shapes.inner_radius**2 / 2.0
         spin = rim + web + lot.drives.beside_rim
         modules = lot.modules(spin, shapes)
@@ -97,7 +98,8 @@ class _Programme:
         # A wall is at most the radius; one that is thicker is refused as too small a bore.
         inner = np.maximum(outer - wall, BORE_SHARE * outer / 2.0)
         density = np.asarray(self.lot.limits.density)
-        mass = cylinder_mass(inner, outer, height, 1.0) * density
+        cut = self.lot.limits.cuts.mass(inner, outer, 1.0)
+        mass = (cylinder_mass(inner, outer, height, 1.0) - cut) * density
         web = np.pi * density * self.lot.limits.web * inner**2
         return ModuleShape(inner, outer, height, mass, web, self.lot.shell.mass(outer, height))
 

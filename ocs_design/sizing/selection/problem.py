@@ -4,12 +4,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ocs_design.catalogue.materials import Material
-from ocs_design.drive.gear import Gear
+from ocs_design.drive.gear import DIRECT, Gear
 from ocs_design.drive.motor import Motor
 from ocs_design.requirement.envelope import Envelope
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.placement import Place
+from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
+from ocs_design.sizing.web import Hub, hub_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +29,7 @@ class SelectionProblem:
         incidence: of the wheel axes [rad]; None: the best.
         wheel_speed_max: stated highest speed of a wheel [rad/s]; None: what the drive can do.
         web: whether wheels have a web and a hub; massless spokes otherwise.
+        cuts: chamfers and balancing holes of wheels with a web; those without are plain rims.
     """
 
     robot: MassProperties
@@ -40,3 +43,10 @@ class SelectionProblem:
     incidence: float | None = None
     wheel_speed_max: float | None = None
     web: bool = True
+    cuts: RimCuts = NO_CUTS
+
+    def hub(self, motor: Motor, gear: Gear) -> Hub | None:
+        """Of a wheel on this motor behind this gear; None: massless spokes."""
+        if not self.web:
+            return None
+        return hub_of(motor, direct=gear == DIRECT, chamfer=self.cuts.chamfer)

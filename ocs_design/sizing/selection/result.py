@@ -12,6 +12,7 @@ from ocs_design.requirement.envelope import Envelope
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.mount import limits_with_mount, mount_holes
+from ocs_design.sizing.rim_cuts import RimCuts
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.web import Hub, limits_with_web, wheel_body
 
@@ -51,6 +52,7 @@ class Candidate:
         rotor_share: s N J_r of it. armature: what the motor accelerates beyond it [kg m^2].
         inner_radius, outer_radius, height: of the rim [m].
         hub: in the middle of a wheel's web; None: massless spokes.
+        cuts: off its rim.
         rim_mass: of one module [kg]. web_mass: with the hub.
         carrier: what stands still of one module: motor, gear, housing and foot.
         line: of the drive at the wheel, nothing held back.
@@ -75,6 +77,7 @@ class Candidate:
     outer_radius: float
     height: float
     hub: Hub | None
+    cuts: RimCuts
     rim_mass: float
     web_mass: float
     carrier: Carrier
@@ -101,7 +104,9 @@ class Candidate:
         """Of its rim, scalars, in the room that is specified."""
         alone = RimProblem(self.spin_inertia, room, self.material, self.overspeed).limits
         mounted = limits_with_mount(alone, mount_holes(self.motor.mounting).reach)
-        return mounted if self.hub is None else limits_with_web(mounted, self.hub.radius)
+        if self.hub is None:
+            return mounted
+        return limits_with_web(mounted, self.hub.radius, self.cuts)
 
     @property
     def wheel_mass(self) -> float:
@@ -112,7 +117,7 @@ class Candidate:
     def wheel(self) -> Carrier:
         """One wheel, without what turns in the motor."""
         size = (self.inner_radius, self.outer_radius, self.height)
-        return wheel_body(*size, self.material.density, self.hub)
+        return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts)
 
     @property
     def binding_maneuver(self) -> str:

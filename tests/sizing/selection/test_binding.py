@@ -8,10 +8,11 @@ from rims import STEEL
 
 from ocs_design.requirement.envelope import Envelope
 from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
+from ocs_design.sizing.rim_cuts import LIGAMENT
 from ocs_design.sizing.rim_problem import RimProblem
 from ocs_design.sizing.selection.binding import HOUSING, binding_limits
 from ocs_design.sizing.shell import Printed
-from ocs_design.sizing.web import LIGAMENT, limits_with_web
+from ocs_design.sizing.web import limits_with_web
 
 ROOM = Envelope(
     outer_radius_max=0.03, inner_radius_min=0.005, height_max=0.01, height_min=0.002,
