@@ -42,9 +42,6 @@ JUMPING = (
 )
 
 
-STEP = 2.5e-4
-"""[s]: a drive's power changes within the usual millisecond by more than trapezoids follow."""
-
 LOADED = 0.01
 """Share of the weight that one contact bears where a foot counts as loaded."""
 
@@ -84,9 +81,8 @@ class Jumper:
 
     def __init__(self, world: World) -> None:
         self.world, self.model = world, world.model
-        self.model.opt.timestep = STEP
         self.model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
-        self.data = mujoco.MjData(self.model)
+        self.data, self._middle = mujoco.MjData(self.model), mujoco.MjData(self.model)
         self.data.qpos[:], self.data.qvel[:] = world.qpos, world.qvel
         self._legs = LegReferences([world], 1)
         self._control = np.zeros((1, 1, self.model.nu))
@@ -100,16 +96,26 @@ class Jumper:
             self.data.ctrl[:] = self._control[0, 0]
             mujoco.mj_forward(self.model, self.data)
             yield Work(work, exchanged)
-            # The command jumps from step to step: both ends of the step count with its own.
-            before = self._powers()
-            mujoco.mj_step(self.model, self.data)
-            mujoco.mj_forward(self.model, self.data)
-            gained = 0.5 * self.model.opt.timestep * (before + self._powers())
+            gained = self._step()
             work, exchanged = work + gained[0], exchanged + gained[1]
 
-    def _powers(self) -> FloatArray:
+    def _step(self) -> FloatArray:
+        """Advance; the work of both kinds in this step, by Simpson's rule [J], shape (2,).
+
+        The command jumps from step to step: both ends of the step count with its own.
+        """
+        model, step = self.model, self.model.opt.timestep
+        mujoco.mj_copyData(self._middle, model, self.data)
+        model.opt.timestep = 0.5 * step
+        mujoco.mj_step(model, self._middle)
+        model.opt.timestep = step
+        before = self._powers(self.data)
+        mujoco.mj_step(model, self.data)
+        return step / 6.0 * (before + 4.0 * self._powers(self._middle) + self._powers(self.data))
+
+    def _powers(self, data: mujoco.MjData) -> FloatArray:
         """Of everything but gravity; of all drives, whichever way it goes [W], shape (2,)."""
-        data = self.data
+        mujoco.mj_forward(self.model, data)
         given = (data.qfrc_actuator + data.qfrc_passive + data.qfrc_constraint) @ data.qvel
         return np.array([given, np.abs(data.qfrc_actuator * data.qvel).sum()])
 

@@ -9,13 +9,17 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from functools import partial
 from threading import Event
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.simulation.batch import Batch
 from ocs_design.simulation.recording import Recording, joined
+from ocs_design.simulation.scene import STEP
 from ocs_design.simulation.world import World
 
 Progress = Callable[[float], None]
@@ -31,23 +35,56 @@ def simulate(
 ) -> Recording:
     """Run all worlds to their ends.
 
+    Worlds of one time step run together, those of another after them.
+
     Args:
         worlds: with models of equal sizes.
-        hold: physics steps per control step, through which torques stay as they are.
+        hold: steps of `STEP` per control step, through which torques stay as they are.
         threads: of the physics; None: one per processor. The numbers do not depend on it.
         pose_rate: of the recorded poses [1/s]; None: none are, which thousands of worlds have no
             memory for.
         progress: told the part of the work that is done, 0..1.
     """
-    available = min(threads or len(os.sched_getaffinity(0)), len(worlds))
-    count = min(available, 2)
-    # Longest first, and of a pair of equals one to each batch.
-    order = np.argsort([-world.duration for world in worlds], kind="stable")
-    shares = [order[first::count] for first in range(count)]
-    batches = [Batch([worlds[index] for index in share], hold, pose_rate) for share in shares]
-    with _no_warnings():
-        recordings = _run_beside(batches, available // count, progress or _ignore)
+    told, groups = progress or _ignore, _of_one_step(worlds)
+    recordings: list[Recording] = []
+    shares: list[NDArray[np.intp]] = []
+    done = 0.0
+    for group, work in groups:
+        step = worlds[group[0]].model.opt.timestep
+        dealt = _dealt(worlds, group, threads or len(os.sched_getaffinity(0)))
+        batches = [
+            Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate)
+            for share in dealt.shares
+        ]
+        with _no_warnings():
+            recordings += _run_beside(batches, dealt.threads, partial(_tell, told, done, work))
+        shares += dealt.shares
+        done += work
+    told(1.0)
     return joined(recordings, shares)
+
+
+class _Dealt(NamedTuple):
+    """Worlds of each batch by their places, and the threads of its physics."""
+
+    shares: list[NDArray[np.intp]]
+    threads: int
+
+
+def _dealt(worlds: Sequence[World], group: NDArray[np.intp], threads: int) -> _Dealt:
+    """Longest first, and of a pair of equals one to each batch."""
+    available = min(threads, len(group))
+    count = min(available, 2)
+    order = group[np.argsort([-worlds[index].duration for index in group], kind="stable")]
+    return _Dealt([order[first::count] for first in range(count)], available // count)
+
+
+def _of_one_step(worlds: Sequence[World]) -> list[tuple[NDArray[np.intp], float]]:
+    """Places of the worlds of each time step, and their part of all the work."""
+    steps = np.array([world.model.opt.timestep for world in worlds])
+    work = np.array([world.duration for world in worlds]) / steps
+    groups = [np.flatnonzero(steps == step) for step in np.unique(steps)]
+    return [(group, float(work[group].sum() / work.sum())) for group in groups]
 
 
 def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> list[Recording]:
@@ -67,8 +104,11 @@ def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> l
         finally:
             # Whatever ends the first batch early, an interrupt above all, must end the others too.
             stop.set()
-    progress(1.0)
     return recordings
+
+
+def _tell(progress: Progress, done: float, work: float, part: float) -> None:
+    progress(done + work * part)
 
 
 def _ignore(_done: float) -> None:

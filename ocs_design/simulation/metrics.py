@@ -196,9 +196,8 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
     """`|H(t) - H(0) - impulse|` over the momentum that was moved about (docs/theory.md).
 
     H itself is near zero in most of these flights, as trunk and wheels turn against each other, so
-    the scale is the largest momentum of the wheels plus that of the trunk with its legs, plus what
-    the legs turn against each other as they go back after a push-off. Gravity has
-    no moment about the centre of mass.
+    the scale is the largest momentum of the wheels plus that of the trunk with its legs, as if they
+    were locked. Gravity has no moment about the centre of mass.
     """
     # A stage of the step before touchdown may have felt the floor: the last instant is left out.
     flight = slice(flown.start, max(flown.stop - 1, flown.start + 1))
@@ -206,7 +205,7 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
     unexplained = momentum - momentum[0] - (impulse - impulse[0])
     wheels = world.body.spin_inertia * np.abs(recording.wheel_speed[flight, index]).max()
     turning = recording.rate[flight, index] @ world.body.inertia
-    moved = wheels + np.linalg.norm(turning, axis=1).max() + world.leg_momentum
+    moved = wheels + np.linalg.norm(turning, axis=1).max()
     still = _SLOW * np.trace(world.body.inertia) / 3.0
     return float(np.linalg.norm(unexplained, axis=1).max() / max(moved, still))
 

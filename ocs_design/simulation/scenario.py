@@ -32,7 +32,7 @@ class Options:
         allocation: of the torque to the wheels.
         gains: of the wheel law; None: `wheel_gains` of the robot.
         drop_profile: how a dropped robot is turned to level; `Step()` is the paper's command.
-        hold: physics steps of 1 ms per control step.
+        hold: steps of 1 ms per control step.
         desaturate: whether the wheels are braked while the robot stands.
         threads: of the physics; None: one per processor.
         pose_rate: of the recorded poses [1/s]; None: none are.

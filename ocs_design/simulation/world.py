@@ -28,6 +28,7 @@ from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.placing import place, stand
 from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, Turn, fit_turn
 from ocs_design.simulation.scene import (
+    JUMP_STEP,
     WHEEL_JOINTS,
     Sensor,
     Wheels,
@@ -76,7 +77,6 @@ class World:
         limits: of the motors; None where the wheels are not driven, or by no limited torque.
         trajectory: what it should do in place of the turn, with its feed-forward torque.
         legs: how they push the robot off the ground; None: it starts in flight.
-        leg_momentum: that the legs, as planned, turn against each other in flight [N m s].
         standing_height: of the trunk frame's origin when level with the feet on the ground [m].
         stands: for how long, before the maneuver [s]; None: it flies or jumps.
         flight_time: expected [s]. duration: of the run, push-off included [s].
@@ -99,7 +99,6 @@ class World:
     trajectory: Trajectory | None
     legs: LegTrajectory | None
     push: Push
-    leg_momentum: float
     standing_height: float
     stands: float | None
     flight_time: float
@@ -169,6 +168,9 @@ class WorldBuilder:
         data = mujoco.MjData(model)
         standing = stand(self._robot, model, data)
         set_gains(model, data, self._robot)
+        if legs is not None:
+            # Only now: in every flight the drives are the same.
+            model.opt.timestep = JUMP_STEP
         body = Gyrostat(
             locked_inertia(model, data, np.eye(3)),
             device.axes,
@@ -201,7 +203,6 @@ class WorldBuilder:
             trajectory=trajectory,
             legs=legs,
             push=start.push,
-            leg_momentum=0.0 if legs is None else _leg_momentum(model, data, legs),
             standing_height=standing,
             stands=stands,
             flight_time=flight,
@@ -256,18 +257,6 @@ def addresses(model: mujoco.MjModel) -> Addresses:
         momentum=at[Sensor.MOMENTUM],
         height=at[Sensor.TRUNK] + 2,
     )
-
-
-def _leg_momentum(model: mujoco.MjModel, data: mujoco.MjData, legs: LegTrajectory) -> float:
-    """Largest sum, over the joints, of what each turns times its speed after lift-off [N m s].
-
-    The legs of a level jump turn against each other, and most of that is no momentum of the whole.
-    """
-    inertia = np.empty((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, inertia)
-    dofs = [int(model.joint(name).dofadr[0]) for name in legs.joints]
-    speeds = np.abs(legs.velocity[legs.time >= legs.lift_off])
-    return float((speeds @ np.diag(inertia)[dofs]).max())
 
 
 def _posture_control(robot: Robot, model: mujoco.MjModel) -> FloatArray:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
+from energy import balance
 from wheels import paper_device
 
 from ocs_design.jumping.jump import JumpPlan, JumpPlans
@@ -18,7 +19,7 @@ from ocs_design.simulation.legs import LegReferences
 from ocs_design.simulation.lift_off import FlightClock
 from ocs_design.simulation.metrics import measure, series_of
 from ocs_design.simulation.scenario import run_scenarios
-from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.scene import JUMP_STEP, STEP, Wheels
 from ocs_design.simulation.world import WorldBuilder
 
 
@@ -63,8 +64,34 @@ def test_the_jump_leaves_the_ground_when_and_as_fast_as_planned(runs, disturbanc
         assert run.metrics.rise == pytest.approx(up**2 / (2.0 * 9.81), rel=0.12)
 
 
-def test_momentum_is_kept_from_lift_off_to_touchdown(runs):
-    assert max(run.metrics.momentum_error for run in runs) < 1e-6
+def test_momentum_is_kept_though_only_wheels_and_trunk_set_the_scale(runs):
+    """Legs that brake turn at 20 rad/s: they are stepped finer than a flight with legs at rest."""
+    assert max(run.metrics.momentum_error for run in runs) < 3e-7
+
+
+def test_a_jump_leaves_no_energy_unexplained(world):
+    """By a loop that is written anew, which meets the batch's own centre of mass."""
+    recording = simulate([world])
+    metrics = measure(recording, 0, world)
+    found = balance(world, recording, 0, period=5e-3, until=metrics.touchdown_time)
+    instants = len(found.height)
+    assert found.height == pytest.approx(recording.com[:instants, 0, 2], abs=1e-9)
+    assert found.missing(slice(round(metrics.lift_off_time / 5e-3), instants)) < 1e-4
+    assert found.missing(slice(0, instants)) < 1e-3
+
+
+def test_worlds_of_two_steps_are_together_what_each_is_alone(solo12, builder, world):
+    _, drop, _ = default_maneuvers(solo12)
+    short = [replace(each, duration=0.4) for each in (world, builder.flight(drop, Wheels.ACTIVE))]
+    assert [each.model.opt.timestep for each in short] == [JUMP_STEP, STEP]
+    told: list[float] = []
+    together = simulate(short, progress=told.append)
+    for index, each in enumerate(short):
+        alone = simulate([each])
+        np.testing.assert_array_equal(together.momentum[:, index], alone.momentum[:, 0])
+        np.testing.assert_array_equal(together.contact[:, index], alone.contact[:, 0])
+    assert told == sorted(told)
+    assert told[-1] == 1.0
 
 
 def test_wheels_wait_for_the_lift_off(runs):

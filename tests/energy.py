@@ -1,0 +1,84 @@
+"""A run flown once more by a plain loop over MuJoCo's steps, which balances its energy."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.simulation.legs import LegReferences
+from ocs_design.simulation.recording import Recording
+from ocs_design.simulation.world import World
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """At each control instant.
+
+    Attributes:
+        unexplained: energy that no work explains [J]. turned_over: by drives, motors and push,
+            whichever way it went, since the start [J]. height: of the centre of mass [m].
+    """
+
+    unexplained: FloatArray
+    turned_over: FloatArray
+    height: FloatArray
+
+    def missing(self, flown: slice) -> float:
+        """What is unexplained in a part of the run, over what was turned over by its end."""
+        return float(np.ptp(self.unexplained[flown]) / self.turned_over[flown][-1])
+
+
+def balance(
+    world: World, recording: Recording, index: int, *, period: float, until: float
+) -> Balance:
+    """Of one world: its recorded wheel torques and push acting on it again.
+
+    Args:
+        world, index: of the recording. period: from one torque to the next [s].
+        until: where to stop [s].
+    """
+    model, data, middle = world.model, *(mujoco.MjData(world.model) for _ in range(2))
+    model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+    data.qpos[:], data.qvel[:] = world.qpos, world.qvel
+    steps, motors = round(period / model.opt.timestep), list(world.addresses.motors)
+    legs, control = LegReferences([world], steps), np.zeros((1, steps, model.nu))
+    push = np.diff(recording.impulse[:, index], axis=0) / period
+    rows, work = [], np.zeros(2)
+    for k in range(round(until / period)):
+        mujoco.mj_forward(model, data)
+        rows.append((data.energy.sum() - work[0], work[1], data.subtree_com[0, 2]))
+        legs.write(k, control)
+        data.xfrc_applied[world.addresses.trunk, 3:] = push[k]
+        for row in control[0]:
+            data.ctrl[:] = row
+            data.ctrl[motors] = recording.wheel_torque[k, index]
+            work += _step(model, data, middle)
+    unexplained, turned_over, height = np.array(rows).T
+    return Balance(unexplained, turned_over, height)
+
+
+def _step(model, data, middle) -> FloatArray:
+    """Advance; work done by all but gravity, and all of it as gain [J], by Simpson's rule."""
+    step = model.opt.timestep
+    mujoco.mj_copyData(middle, model, data)
+    try:
+        model.opt.timestep = 0.5 * step
+        mujoco.mj_step(model, middle)
+    finally:
+        model.opt.timestep = step
+    before = _powers(model, data)
+    mujoco.mj_step(model, data)
+    return step / 6.0 * (before + 4.0 * _powers(model, middle) + _powers(model, data))
+
+
+def _powers(model, data) -> FloatArray:
+    """Of everything but gravity; of drives, motors and push alone, all as gain [W]."""
+    mujoco.mj_forward(model, data)
+    pushed = np.zeros(model.nv)
+    for body in np.flatnonzero(data.xfrc_applied.any(axis=1)):
+        force, torque = np.split(data.xfrc_applied[body], 2)
+        mujoco.mj_applyFT(model, data, force, torque, data.xipos[body], int(body), pushed)
+    given = data.qfrc_actuator + data.qfrc_passive + data.qfrc_constraint + pushed
+    driven = np.abs(data.qfrc_actuator * data.qvel).sum() + abs(pushed @ data.qvel)
+    return np.array([given @ data.qvel, driven])
