@@ -46,6 +46,7 @@ def drops(until=None):
         default_maneuvers(robot)[1:2],
         options=Options(),
         references={},
+        jumps={},
         can_stand=[True],
         reality=Reality.of(RealitySection(), robot, device),
         seed=0,

@@ -74,6 +74,7 @@ def campaign_of(task: Task, runs: tuple[Run, ...], seed: int) -> Campaign:
         task.maneuvers,
         options=flight_options(task.control),
         references=task.references,
+        jumps=task.jumps,
         can_stand=[run.can_stand for run in runs if run.ocs],
         reality=Reality.of(task.reality, task.robot, task.device),
         seed=seed,

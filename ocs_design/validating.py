@@ -24,6 +24,7 @@ from ocs_design.flight_control import (
     overridden,
     trajectories,
 )
+from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.reality import NAMES
 from ocs_design.monte_carlo.sample import Sample
 from ocs_design.monte_carlo.summary import MonteCarloRecord
@@ -57,6 +58,7 @@ class Task:
         control: the wheel law.
         reality: how what is built and met differs from the design, as far as that is stated.
         references: what the device tracks, by the maneuver's name.
+        jumps: how the legs make a maneuver, by its name.
         warnings: about the robot, which were not there when the device was sized.
     """
 
@@ -68,6 +70,7 @@ class Task:
     control: ControlRecord
     reality: RealitySection
     references: Mapping[str, Trajectory]
+    jumps: Mapping[str, JumpPlans]
     warnings: tuple[str, ...]
 
 
@@ -115,7 +118,7 @@ def read_task(
     package_paths: Mapping[str, Path] | None = None,
     strict: bool = False,
 ) -> Task:
-    """Read a design and its robot, and plan what the device tracks, as when it was sized.
+    """Read a design and its robot, and plan what device and legs track, as when it was sized.
 
     Args:
         path: of a `design.json`, or of the folder that it lies in.
@@ -140,17 +143,19 @@ def read_task(
     where = Whereabouts(path, robot_file, package_paths or {}, "say where it is with --robot FILE")
     robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
     device = device_of(design.ocs)
+    control = overridden(
+        design.control or control_of(ValidationSection(), robot), stated.validation
+    )
     return Task(
         path=path,
         design=design,
         robot=robot,
         device=device,
         maneuvers=maneuvers,
-        control=overridden(
-            design.control or control_of(ValidationSection(), robot), stated.validation
-        ),
+        control=control,
         reality=merge_section(reality_of_texts(design.reality, str(path)), stated.reality),
         references=_references(design, robot, device, maneuvers),
+        jumps=jump_plans(control, robot, device, maneuvers),
         warnings=warnings,
     )
 
@@ -163,7 +168,7 @@ def fly_again(task: Task, progress: Progress | None = None) -> tuple[Run, ...]:
         task.maneuvers,
         options=flight_options(task.control),
         references=task.references,
-        jumps=jump_plans(task.control, task.robot, task.device, task.maneuvers),
+        jumps=task.jumps,
         progress=progress,
     )
 

@@ -106,7 +106,7 @@ def validate_design(request: Request, steps: Steps) -> Answer:
     request.check()
     if request.out is not None and request.samples is None:
         check_target(request.out, force=request.force)
-    with steps.step("read the design and its robot") as step:
+    with steps.step("read the design, plan its flights") as step:
         task = read_task(
             request.design,
             request.stated,

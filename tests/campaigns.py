@@ -27,6 +27,7 @@ def short_campaign(robot, stated=None, *, device=None, seed=7, until=0.6, drop_o
         maneuvers[1:] if drop_only else maneuvers,
         options=Options(),
         references={},
+        jumps={},
         can_stand=[True] if drop_only else [True, True],
         reality=Reality.of(stated or RealitySection(), robot, device),
         seed=seed,

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ocs_design.design import Device
+from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.monte_carlo.built import built
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of
 from ocs_design.monte_carlo.reality import Reality
@@ -19,6 +20,7 @@ from ocs_design.simulation.metrics import Metrics, measure
 from ocs_design.simulation.recording import Recording
 from ocs_design.simulation.scenario import Options, world_builder
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.soundness import objection
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory import Trajectory
@@ -30,12 +32,13 @@ class Flight:
 
     Attributes:
         maneuver: that is flown. world: with the wheels active.
-        can_stand: see `judge`.
+        can_stand, objection: see `judge`.
     """
 
     maneuver: Maneuver
     world: World
     can_stand: bool | None
+    objection: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +72,9 @@ class Campaign:
     def judged(self, metrics: Metrics | None, number: int) -> Verdict:
         """The verdict on a flight of scenario `number`."""
         flight = self.flights[number]
-        return judge(metrics, flight.maneuver, can_stand=flight.can_stand)
+        return judge(
+            metrics, flight.maneuver, can_stand=flight.can_stand, objection=flight.objection
+        )
 
 
 def make_campaign(
@@ -79,6 +84,7 @@ def make_campaign(
     *,
     options: Options,
     references: Mapping[str, Trajectory],
+    jumps: Mapping[str, JumpPlans],
     can_stand: Sequence[bool | None],
     reality: Reality,
     seed: int,
@@ -86,18 +92,23 @@ def make_campaign(
     """The campaign of a design.
 
     Args:
-        robot, device, maneuvers, options, references: see `run_scenarios`.
+        robot, device, maneuvers, options, references, jumps: see `run_scenarios`.
         can_stand: of each maneuver, as its flights as designed showed it.
         reality: see `Reality`. seed: of all samples.
     """
     builder = world_builder(robot, device, options)
-    flights = tuple(
-        Flight(
+    worlds = [
+        builder.flight(
             maneuver,
-            builder.flight(maneuver, Wheels.ACTIVE, references.get(maneuver.name)),
-            stands,
+            Wheels.ACTIVE,
+            references.get(maneuver.name),
+            jumps.get(maneuver.name, BALLISTIC).carrying,
         )
-        for maneuver, stands in zip(maneuvers, can_stand, strict=True)
+        for maneuver in maneuvers
+    ]
+    flights = tuple(
+        Flight(maneuver, world, stands, objection(world))
+        for maneuver, world, stands in zip(maneuvers, worlds, can_stand, strict=True)
     )
     return Campaign(flights, reality, air_drag(device.flywheel), seed, options.hold)
 

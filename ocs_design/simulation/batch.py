@@ -99,9 +99,22 @@ class Batch:
                 self._advance(pool, data, k, torque, self._push_in_world(k, running))
                 self._sense(k, running)
         missing = np.abs(self._state[:, 0] - self._lengths * self._period)
-        self._record.stable[:] = missing < 0.5 * self._period
+        finite = np.isfinite(self._state).all(axis=1)
+        self._record.stable[:] = finite & (missing < 0.5 * self._period)
+        for index in np.flatnonzero(~self._record.stable).tolist():
+            self._record.warning[index] = self._warning(index, data[0])
         self._record.lift_off[:] = self._clock.lift_off
         return self._record
+
+    def _warning(self, index: int, data: mujoco.MjData) -> int:
+        """What MuJoCo says to the last state of a world as it takes one more step; -1: nothing."""
+        model = self._models[index]
+        mujoco.mj_resetData(model, data)
+        mujoco.mj_setState(model, data, self._state[index], mujoco.mjtState.mjSTATE_FULLPHYSICS)
+        data.ctrl[:] = self._control[index, -1]
+        mujoco.mj_step(model, data)
+        said = np.flatnonzero(data.warning.number)
+        return int(said[0]) if said.size else -1
 
     def _control_steps(self) -> Iterator[tuple[int, int, WheelLaw | None]]:
         """Each control instant, how many worlds run, and their law; None where all are off."""

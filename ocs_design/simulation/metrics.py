@@ -94,6 +94,8 @@ class Metrics:
         lift_off_time: of the first instant in free flight [s], or of the torque that hits a robot
             that stands; None: it never leaves the ground.
         rise: of the centre of mass from lift-off to its highest [m].
+        nutation: largest angle per physics step by which the spinning wheels make the trunk
+            nutate in flight [rad].
     """
 
     touchdown_time: float | None
@@ -113,6 +115,7 @@ class Metrics:
     settling_time: float
     lift_off_time: float | None
     rise: float
+    nutation: float
 
 
 def series_of(recording: Recording, index: int, world: World) -> Series:
@@ -164,6 +167,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         roll_swing=float(np.ptp(series.roll[after])),
         pitch_swing=float(np.ptp(series.pitch[after])),
         settling_time=_settling_time(series, after),
+        nutation=_nutation(series.wheel_speed[driven], world),
     )
 
 
@@ -208,6 +212,14 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
     moved = wheels + np.linalg.norm(turning, axis=1).max()
     still = _SLOW * np.trace(world.body.inertia) / 3.0
     return float(np.linalg.norm(unexplained, axis=1).max() / max(moved, still))
+
+
+def _nutation(wheel_speed: FloatArray, world: World) -> float:
+    """`|h A W| dt / sqrt(J_1 J_2)`: of `J w_dot = -w x h A W` across the two smallest inertias."""
+    body = world.body
+    momentum = body.spin_inertia * np.linalg.norm(wheel_speed @ body.axes.T, axis=1).max()
+    smallest = np.linalg.eigvalsh(body.actuated_inertia)[:2]
+    return float(momentum / np.sqrt(smallest.prod()) * world.model.opt.timestep)
 
 
 def _is_upright(recording: Recording, index: int, world: World) -> bool:

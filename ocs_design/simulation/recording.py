@@ -29,6 +29,7 @@ class Recording:
         lengths: number of instants of each world, (n,).
         stable: whether MuJoCo got each world to its end, (n,); it stops one whose state is huge or
             not finite, and its last state then stands still.
+        warning: what stopped it, an `mjtWarning`, (n,); -1: nothing, or it is not known.
         lift_off: first control instant in flight, (n,); -1 for a world that never left the ground.
     """
 
@@ -46,6 +47,7 @@ class Recording:
     qpos: FloatArray
     lengths: NDArray[np.int64]
     stable: NDArray[np.bool_]
+    warning: NDArray[np.int8]
     lift_off: NDArray[np.int64]
 
 
@@ -77,6 +79,7 @@ def empty_recording(
         qpos=np.full((frames, n, nq), np.nan),
         lengths=lengths,
         stable=np.zeros(n, dtype=bool),
+        warning=np.full(n, -1, dtype=np.int8),
         lift_off=np.zeros(n, dtype=np.int64),
     )
 
@@ -114,7 +117,7 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
     return whole
 
 
-_ONCE = ("lengths", "stable", "lift_off")
+_ONCE = ("lengths", "stable", "warning", "lift_off")
 """What a world has one value of."""
 
 _SERIES = [

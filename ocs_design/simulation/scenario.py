@@ -19,6 +19,7 @@ from ocs_design.simulation.metrics import Metrics, Series, measure, series_of
 from ocs_design.simulation.poses import Poses, poses_of
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.soundness import breakdown, objection
 from ocs_design.simulation.verdict import Verdict, comes_down_well, judge, stands
 from ocs_design.simulation.world import World, WorldBuilder
 from ocs_design.sizing.trajectory import Trajectory
@@ -73,9 +74,10 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class _Flight:
-    """One world, flown; `metrics` as in `Run`."""
+    """One world, flown; `metrics` as in `Run`, `objection` as in `judge`."""
 
     world: World
+    objection: str
     metrics: Metrics | None
     series: Series
     poses: Poses | None
@@ -122,7 +124,7 @@ def run_scenarios(
         _run(
             maneuver,
             flight,
-            Verdict(None, unclear) if unclear else judge(flight.metrics, maneuver, can_stand=legs),
+            judge(flight.metrics, maneuver, can_stand=legs, objection=unclear or flight.objection),
             ocs=ocs,
             can_stand=legs,
         )
@@ -158,6 +160,7 @@ def _fly(
     return [
         _Flight(
             world,
+            objection(world) or breakdown(recording, index),
             measure(recording, index, world),
             series_of(recording, index, world),
             poses_of(recording, index, world),

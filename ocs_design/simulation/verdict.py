@@ -14,6 +14,10 @@ LANDING_TOLERANCE = np.radians(5.0)
 MOMENTUM_GATE = 1e-6
 """Largest relative momentum error of a flight that is judged at all."""
 
+NUTATION_LIMIT = 0.05
+"""Largest nutation per step [rad]: Runge-Kutta turns `x` by `x^5 / 120` too little (the first term
+that it leaves out of `exp(i x)`), here 1e-3 rad in four hundred steps."""
+
 
 class Fault(StrEnum):
     """What kept a run from passing."""
@@ -33,7 +37,9 @@ class Verdict:
     fault: Fault | None = None
 
 
-def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None) -> Verdict:
+def judge(
+    metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None, objection: str = ""
+) -> Verdict:
     """The pass rule: a sound flight, the turn done, a level touchdown, upright at the end.
 
     Args:
@@ -42,8 +48,9 @@ def judge(metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None
         can_stand: whether the robot stays up on its joint drives after a level landing from this
             flight; None for a robot without legs. Where it does not, "upright at the end" says
             nothing about the device and is not judged.
+        objection: to the run whatever its figures are, see `soundness`; empty if there is none.
     """
-    unsound = _unsound(metrics)
+    unsound = objection or _unsound(metrics)
     if metrics is None or unsound:
         return Verdict(None, unsound, Fault.UNSOUND)
     if isinstance(maneuver, Shove):
@@ -108,10 +115,17 @@ def _unsound(metrics: Metrics | None) -> str:
     """Why a run says nothing; empty if it is sound."""
     if metrics is None:
         return "not judged: the simulation became unstable"
+    if metrics.nutation > NUTATION_LIMIT:
+        return (
+            f"not judged: the wheels spin so fast that the trunk nutates by {metrics.nutation:.2g} "
+            f"rad in a step of the physics, more than {NUTATION_LIMIT}: choose heavier and slower "
+            f"wheels by a lower `wheel_speed_max`"
+        )
     if metrics.momentum_error > MOMENTUM_GATE:
         return (
             f"not judged: angular momentum in flight is off by {metrics.momentum_error:.1e}, "
-            f"more than {MOMENTUM_GATE:.0e}"
+            f"more than {MOMENTUM_GATE:.0e}: something moves too fast for the steps of the "
+            f"physics; look for links with next to no inertia by `ocs-design inspect`"
         )
     if metrics.lift_off_time is None:
         return "not judged: the legs do not bring the robot off the ground"

@@ -25,6 +25,7 @@ GOOD = Metrics(
     roll_swing=0.0,
     pitch_swing=np.radians(3.0),
     settling_time=0.2,
+    nutation=1e-3,
 )
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
 SHOVE = Shove(name="shove", torque=(0.0, 1.0, 0.0), duration=0.05, settling=0.5)

@@ -1,0 +1,99 @@
+"""Each thing that no simulation can be trusted with, planted."""
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+from wheels import paper_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.requirement.maneuver import Drop
+from ocs_design.simulation.controller import WheelLaw
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.metrics import measure
+from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.soundness import breakdown, drive_growth, objection
+from ocs_design.simulation.verdict import judge
+from ocs_design.simulation.world import WorldBuilder
+
+
+@pytest.fixture(scope="module")
+def drop(solo12):
+    return default_maneuvers(solo12)[1]
+
+
+@pytest.fixture
+def world(solo12, drop):
+    """A fresh one each time: its model is spoilt."""
+    return WorldBuilder(solo12, paper_device()).flight(drop, Wheels.ABSENT)
+
+
+def stiffened(world, factor: float):
+    world.model.actuator_gainprm[:, 0] *= factor
+    world.model.actuator_biasprm[:, 1:3] *= factor
+    return world
+
+
+def test_a_start_in_the_air_on_drives_from_physics_is_sound(world):
+    assert objection(world) == ""
+    assert breakdown(simulate([replace(world, duration=0.02)]), 0) == ""
+
+
+def test_a_drop_from_inside_the_floor_is_not_judged(solo12):
+    """Tilted by 60 degrees at 0.3 m, the hind feet are under the floor."""
+    low = Drop(name="low", height=0.3, pitch=np.radians(60.0))
+    runs = run_scenarios(solo12, paper_device(), [low])
+    assert [run.passed for run in runs] == [None, None]
+    for run in runs:
+        assert "mm into the floor; release it so much higher" in run.reason
+
+
+def test_drives_too_stiff_for_the_step_are_found_before_they_are_run(world):
+    assert "drives are unstable at steps of 1 ms" in objection(stiffened(world, 5.0))
+
+
+@pytest.mark.parametrize("factor", [4.0, 5.0, 6.0])
+def test_growth_is_that_of_small_motions_in_mujoco(world, factor):
+    """In free flight: power iteration by the physics itself, from next to nothing."""
+    model, data = stiffened(world, factor).model, mujoco.MjData(world.model)
+    data.qpos[:], data.ctrl[:] = world.qpos, world.ctrl
+    model.opt.gravity[:] = 0.0
+    mujoco.mj_forward(model, data)
+    predicted = 1.0 + max(drive_growth(model, data), 0.0)
+    data.qvel[6:] = 1e-9 * np.random.default_rng(0).standard_normal(model.nv - 6)
+    sizes = []
+    for _ in range(12):
+        mujoco.mj_step(model, data)
+        sizes.append(np.linalg.norm(data.qvel))
+    if predicted == 1.0:
+        assert sizes[-1] < 3.0 * sizes[0]
+        return
+    assert sizes[-1] / sizes[-2] == pytest.approx(predicted, rel=0.15)
+
+
+def test_wheels_too_fast_for_the_step_are_not_judged(solo12, drop):
+    """A hundred times as fast as they were made for, left to themselves."""
+    world = WorldBuilder(solo12, paper_device()).flight(drop, Wheels.ACTIVE)
+    world.qvel[list(world.addresses.wheels)] = 8e4
+    world = replace(world, law=WheelLaw.off())
+    found = measure(simulate([world]), 0, world)
+    verdict = judge(found, drop, can_stand=True)
+    assert verdict.passed is None
+    assert "choose heavier and slower wheels by a lower `wheel_speed_max`" in verdict.reason
+
+
+def test_a_state_without_end_is_named(world):
+    world.qvel[0] = 1e12
+    recording = simulate([replace(world, duration=0.02)])
+    assert not recording.stable[0]
+    assert "MuJoCo stopped at a speed that is huge or not a number" in breakdown(recording, 0)
+    world.qvel[0] = np.nan
+    assert "the start is not finite" in objection(world)
+
+
+def test_a_state_without_end_is_found_at_every_control_rate(world):
+    """With one step of the physics in each, MuJoCo starts anew each time and does not stop."""
+    world.qvel[0] = np.inf
+    assert not simulate([replace(world, duration=0.02)], hold=1).stable[0]
