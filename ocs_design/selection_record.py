@@ -68,6 +68,16 @@ class CoDesignRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PriceRecord:
+    """What one more of a limit buys: see `sizing.selection.prices.Price` (SI)."""
+
+    limit: str
+    value: float
+    changed: float
+    mass_change: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class SelectionRecord:
     """The choice of motor, gear, material and incidence.
 
@@ -77,6 +87,7 @@ class SelectionRecord:
         binding_maneuver: what asks for the most spin inertia. binding: limits that hold the mass.
         tasks: of the chosen drive. ranking: lightest first. rejections: by motor.
         co_design: None if it was not asked for.
+        prices: of the limits, before any co-design; empty where an older version wrote the file.
     """
 
     bus_voltage: float
@@ -88,3 +99,4 @@ class SelectionRecord:
     ranking: tuple[RankedRecord, ...]
     rejections: tuple[RejectionRecord, ...]
     co_design: CoDesignRecord | None
+    prices: tuple[PriceRecord, ...] = ()

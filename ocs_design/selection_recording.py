@@ -4,10 +4,12 @@ from ocs_design.designing import Choice
 from ocs_design.drive.line import RESERVE
 from ocs_design.selection_record import (
     CoDesignRecord,
+    PriceRecord,
     RankedRecord,
     RejectionRecord,
     SelectionRecord,
 )
+from ocs_design.sizing.selection.prices import Price, mass_prices
 from ocs_design.sizing.selection.result import Candidate, Rejection
 
 
@@ -23,6 +25,7 @@ def record_selection(choice: Choice) -> SelectionRecord:
         ranking=tuple(_ranked(entry) for entry in choice.selection.ranking),
         rejections=tuple(_rejection(entry) for entry in choice.selection.rejections),
         co_design=_co_design(choice),
+        prices=tuple(map(_price, mass_prices(choice.problem, choice.selection.best))),
     )
 
 
@@ -41,6 +44,15 @@ def _ranked(entry: Candidate) -> RankedRecord:
         spin_inertia=entry.spin_inertia,
         outer_radius=entry.outer_radius,
         height=entry.height,
+    )
+
+
+def _price(price: Price) -> PriceRecord:
+    return PriceRecord(
+        limit=price.limit.name,
+        value=price.value,
+        changed=price.changed,
+        mass_change=price.mass_change,
     )
 
 

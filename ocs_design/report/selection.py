@@ -74,15 +74,19 @@ def _print_ranking(console: Console, ranking: tuple[RankedRecord, ...]) -> None:
 
 def ranked_cells(entry: RankedRecord) -> tuple[str, ...]:
     """In the columns of `RANKED`."""
-    direct = entry.gear == DIRECT.name
     return (
-        entry.motor if direct else f"{entry.motor}, {entry.gear}",
+        drive_name(entry),
         f"{1e3 * entry.mass:.1f}",
         entry.material,
         f"{1e3 * entry.outer_radius:.1f}",
         f"{1e3 * entry.height:.1f}",
         f"{np.degrees(entry.incidence):.1f}",
     )
+
+
+def drive_name(entry: RankedRecord) -> str:
+    """Motor, and gear where there is one."""
+    return entry.motor if entry.gear == DIRECT.name else f"{entry.motor}, {entry.gear}"
 
 
 def best_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:

@@ -12,6 +12,7 @@ from ocs_design.report.device import device_facts, overrated
 from ocs_design.report.doubts import doubts
 from ocs_design.report.flights import WITH_DEVICE, WITHOUT_DEVICE, run_story, summary
 from ocs_design.report.layout import columns, facts, heading, items, note, show
+from ocs_design.report.prices import what_buys
 from ocs_design.report.quantities import degrees
 from ocs_design.report.terminal import recorded_margins, robot_facts
 from ocs_design.report.tilt_plot import off_level, tilt_plots
@@ -47,7 +48,7 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     heading(console, f"Robot: {design.robot.name}")
     facts(console, _chosen(robot_facts(design.robot), ROBOT_FACTS))
     heading(console, "Device: two flywheels" + ("" if _has_motor(design) else ", no motors yet"))
-    facts(console, [*_device(design), ("limits", _limits(design))])
+    facts(console, [*_device(design), ("limits", _limits(design)), *_prices(design)])
     _print_flights(console, design, runs)
     warnings = list(_warnings(design))
     if warnings:
@@ -85,6 +86,12 @@ def _limits(design: OcsDesign) -> str:
         if margin.factor is not None and margin.factor < TIGHT
     ]
     return "; ".join([*binding, *tight]) or "none is reached"
+
+
+def _prices(design: OcsDesign) -> Iterator[tuple[str, str]]:
+    found = "" if design.selection is None else what_buys(design.selection)
+    if found:
+        yield "lighter with", found
 
 
 def _by(margin: Margin) -> str:

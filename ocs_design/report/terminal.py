@@ -18,6 +18,7 @@ from ocs_design.report.layout import (
     show,
 )
 from ocs_design.report.margins import print_margins
+from ocs_design.report.prices import COLUMNS, price_cells, price_notes
 from ocs_design.report.quantities import (
     degrees,
     millimetres,
@@ -26,6 +27,7 @@ from ocs_design.report.quantities import (
 )
 from ocs_design.report.selection import print_selection
 from ocs_design.robot_record import RobotRecord
+from ocs_design.selection_record import SelectionRecord
 from ocs_design.sizing.margins.margin import Margin
 
 TURNS = (
@@ -135,16 +137,28 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
 
 
 def _print_limits(console: Console, design: OcsDesign) -> None:
-    sizing = design.sizing
+    sizing, selection = design.sizing, design.selection
+    if selection is not None and selection.prices:
+        _print_prices(console, selection)
+        return
     heading(console, "What binds")
     if not sizing.binding:
         note(console, "Nothing: the rim lies inside all limits.")
         return
-    part = "rim" if design.selection is None else "module"
-    table = columns("limit", f"worth for one {part}")
+    table = columns("limit", "worth for one rim")
     for name in sizing.binding:
         table.add_row(name, price_text(name, sizing.shadow_prices.get(name)))
     show(console, table)
+
+
+def _print_prices(console: Console, selection: SelectionRecord) -> None:
+    binding = ", ".join(selection.binding) or "nothing"
+    heading(console, f"What more would buy; the wheel's shape is held by {binding}")
+    table = columns(*COLUMNS)
+    for price in selection.prices:
+        table.add_row(*map(Text, price_cells(price)))
+    show(console, table)
+    note(console, " ".join(price_notes(selection)))
 
 
 def price_text(name: str, price: float | None) -> str:

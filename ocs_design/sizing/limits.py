@@ -61,6 +61,8 @@ class Limit:
         return f"{self.label} {figure:.6g} {self.unit}".rstrip()
 
 
+STRESS = Limit("hoop_stress", "stress_safety", "stress_safety", False, "", 1.0)
+
 RIM_LIMITS = (
     Limit("r_max", "r_max", "outer_radius_max", True, "mm", 1e3),
     Limit("r_min", "r_min", "inner_radius_min", False, "mm", 1e3),
@@ -68,11 +70,18 @@ RIM_LIMITS = (
     Limit("h_min", "h_min", "height_min", False, "mm", 1e3),
     Limit("wall_min", "wall_min", "wall_min", False, "mm", 1e3),
     Limit("wheel_mass_max", "wheel_mass_max", "mass_max", True, "g", 1e3),
-    Limit("hoop_stress", "stress_safety", "stress_safety", False, "", 1.0),
+    STRESS,
 )
 """Those of the envelope, in the order in which they are reported."""
 
 WHEEL_SPEED = Limit("wheel_speed_max", "wheel_speed_max", "wheel_speed_max", True, "rpm", 30.0 / pi)
+BUS_VOLTAGE = Limit("bus_voltage", "bus_voltage", "bus_voltage", True, "V", 1.0)
+TIME = Limit("time", "time for every maneuver", "", True, "times what is given", 1.0)
+
+LIMITS: Mapping[str, Limit] = {
+    limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, TIME)
+}
+"""By name."""
 
 
 def smallest_changes(

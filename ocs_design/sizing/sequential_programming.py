@@ -84,6 +84,8 @@ def minimise(
     low: FloatArray,
     high: FloatArray,
     trust: FloatArray,
+    *,
+    smallest: float = _SMALLEST,
 ) -> Optimum:
     """The best point near the start.
 
@@ -92,11 +94,12 @@ def minimise(
         start: shape (n,).
         low, high: of the variables, shape (n,).
         trust: how far a first step may lead, shape (n,); 0 where a variable is held.
+        smallest: part of that at which the search ends.
     """
     point = np.clip(start, low, high)
     model, reach = _model(evaluate, point, low, high), 1.0
     for _ in range(_ROUNDS):
-        if reach < _SMALLEST:
+        if reach < smallest:
             break
         room = _Room.around(point, low, high, reach * trust)
         step, promised = _step(evaluate, point, model, room, reach)

@@ -7,9 +7,11 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
+from ocs_design.report.prices import price_cells, price_notes, what_buys
 from ocs_design.report.selection import print_selection
 from ocs_design.selection_record import (
     CoDesignRecord,
+    PriceRecord,
     RankedRecord,
     RejectionRecord,
     SelectionRecord,
@@ -109,3 +111,31 @@ def test_a_co_design_says_what_it_gained():
     assert "330.0 g against 336.7 g (-1.99%)" in text
     assert "2.0e-07 on a ten times finer grid" in text
     assert "The co-designed device is taken." in text
+
+
+PRICES = (
+    PriceRecord(limit="r_max", value=0.05, changed=0.051, mass_change=-0.01486),
+    PriceRecord(limit="h_max", value=0.01, changed=0.011, mass_change=0.0),
+    PriceRecord(limit="time", value=1.0, changed=1.01, mass_change=-0.0312),
+)
+
+
+def test_a_price_says_what_changes_and_what_it_buys():
+    cells = [price_cells(price) for price in PRICES]
+    assert cells == [
+        ("r_max", "50 mm", "51 mm", "-14.86 g"),
+        ("h_max", "10 mm", "11 mm", "no change"),
+        ("time for every maneuver", "as given", "+1%", "-31.20 g"),
+    ]
+
+
+def test_on_one_line_what_buys_most_comes_first():
+    told = what_buys(replace(SELECTION, prices=PRICES))
+    assert told == "time for every maneuver +1%: -31.20 g; r_max 51 mm: -14.86 g"
+    assert what_buys(replace(SELECTION, prices=PRICES[1:2])) == "no single limit"
+    assert what_buys(SELECTION) == ""
+
+
+def test_it_is_told_how_near_the_next_drive_is():
+    told = " ".join(price_notes(SELECTION))
+    assert "AT2814 KV1050, is 4.5 g heavier" in told

@@ -2,8 +2,6 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ocs_design.design_file import OcsDesign
 from ocs_design.drawing.labels import bore_diameter, plain, rim_diameter, toleranced
 from ocs_design.drawing.tolerances import Grade
@@ -12,7 +10,10 @@ from ocs_design.export.made_wheel import made_wheel
 from ocs_design.parts.wheel import Wheel
 from ocs_design.report.html.elements import Markup, element, items, section, table
 from ocs_design.report.margins import COLUMNS, margin_cells
+from ocs_design.report.prices import COLUMNS as PRICES
+from ocs_design.report.prices import price_cells, price_notes
 from ocs_design.report.terminal import price_text, recorded_margins
+from ocs_design.selection_record import SelectionRecord
 
 _MARGIN_NOTE = (
     "The worst over all maneuvers, as flown where they were flown. A factor of 1 uses everything "
@@ -23,7 +24,7 @@ _PRICE_NOTE = (
     "not touch costs nothing: more of it buys nothing."
 )
 _NOT_REACHED = "0, not reached"
-_FRONT_NOTE = "How the whole device changes with room or voltage, motor and all, is drawn by "
+_FRONT_NOTE = "How the mass changes with room, voltage or time, motor and all, is drawn by "
 
 
 def sizes_section(design: OcsDesign) -> Markup:
@@ -43,20 +44,30 @@ def sizes_section(design: OcsDesign) -> Markup:
 
 def limits_section(design: OcsDesign) -> Markup:
     """What binds, and what more of it would buy."""
-    binding = design.sizing.binding
-    chosen = design.selection is not None
-    rows = list(_limits(design))
-    command = element("code", "ocs-design pareto --against radius|height|voltage|time|angle")
-    advice = element("p", _FRONT_NOTE, command, ".", class_="note") if chosen else Markup("")
-    held = ", ".join(binding) if binding else "nothing: it lies inside all limits"
+    held = ", ".join(design.sizing.binding) or "nothing: it lies inside all limits"
+    selection = design.selection
+    priced = selection is not None and selection.prices
     return section(
         "limits",
         "What binds, and what more would buy",
-        element("p", "The mass is held up by ", element("strong", held), "."),
-        table("Limits", ("limit", "used", "allowed", "one more unit buys"), rows),
-        element("p", _PRICE_NOTE, class_="note"),
-        advice,
+        element("p", "The shape of the wheel is held by ", element("strong", held), "."),
+        *(_bought(selection) if selection is not None and priced else _worths(design)),
     )
+
+
+def _bought(selection: SelectionRecord) -> Iterator[Markup]:
+    """Of a device with its drive."""
+    rows = map(price_cells, selection.prices)
+    yield table("What one more of each limit buys", PRICES, rows)
+    yield element("p", " ".join(price_notes(selection)), class_="note")
+    command = element("code", "ocs-design pareto --against radius|height|voltage|time|angle")
+    yield element("p", _FRONT_NOTE, command, ".", class_="note")
+
+
+def _worths(design: OcsDesign) -> Iterator[Markup]:
+    """Of wheels alone."""
+    yield table("Limits", ("limit", "used", "allowed", "one more unit buys"), _limits(design))
+    yield element("p", _PRICE_NOTE, class_="note")
 
 
 def _sizes(wheel: Wheel) -> Iterator[tuple[str, str]]:
@@ -88,16 +99,6 @@ def _limits(design: OcsDesign) -> Iterator[tuple[str, str, str, str]]:
         told.add(name)
         _, used, allowed, _, _ = margin_cells(margin)
         yield f"{margin.name} ({name})", used, allowed, _worth(design, name)
-    volts = next((each for each in recorded_margins(design) if each.name == "voltage line"), None)
-    if volts is not None and design.ocs.motor.bus_voltage is not None:
-        used = f"{volts.demand * design.ocs.motor.bus_voltage:.1f} V"
-        slack = np.isfinite(volts.factor or np.nan) and (volts.factor or 0.0) > 1.0 + 1e-6
-        yield (
-            "bus voltage",
-            used,
-            f"{design.ocs.motor.bus_voltage:g} V",
-            _NOT_REACHED if slack else "-",
-        )
     for name in design.sizing.binding:
         if name not in told:
             yield name, "binds", "", _worth(design, name)

@@ -7,7 +7,14 @@ from math import inf
 from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.maneuver import Maneuver, Slew
-from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED, Limit, smallest_changes
+from ocs_design.sizing.limits import (
+    BUS_VOLTAGE,
+    RIM_LIMITS,
+    TIME,
+    WHEEL_SPEED,
+    Limit,
+    smallest_changes,
+)
 from ocs_design.sizing.selection.attempt import largest_wheel
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.rejections import promising_gears, rejections
@@ -16,9 +23,6 @@ from ocs_design.sizing.selection.search import Found, is_possible
 
 PRECISION = 0.03
 """Of the changes: within a third of that, relative. Each step searches anew."""
-
-BUS_VOLTAGE = Limit("bus_voltage", "bus_voltage", "bus_voltage", True, "V", 1.0)
-TIME = Limit("time", "time for every maneuver", "", True, "times what is given", 1.0)
 
 # Changes are looked for with the motors that come closest; only what they can do is promised.
 _CLOSEST = 8
@@ -71,11 +75,11 @@ def single_changes(problem: SelectionProblem) -> dict[Limit, float]:
         most = _MOST_MASS_CHANGE if limit.name == "wheel_mass_max" else _MOST_CHANGE
         return 0.0 < value < inf and mends(limit, limit.loosened(value, most))
 
-    hopes = {limit: value for limit, value in _limits(problem).items() if hopeful(limit, value)}
+    hopes = {limit: value for limit, value in limits_of(problem).items() if hopeful(limit, value)}
     return smallest_changes(hopes, mends, PRECISION)
 
 
-def _limits(problem: SelectionProblem) -> dict[Limit, float]:
+def limits_of(problem: SelectionProblem) -> dict[Limit, float]:
     """Every limit that may be in the way, as it is [SI]."""
     speed = {} if problem.wheel_speed_max is None else {WHEEL_SPEED: problem.wheel_speed_max}
     return {

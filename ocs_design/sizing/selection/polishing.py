@@ -19,12 +19,13 @@ from ocs_design.sizing.selection.fixed_point import FixedPoint
 from ocs_design.sizing.selection.lot import Lot
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.trunk import TrunkInertia, trunk_inertia
-from ocs_design.sizing.sequential_programming import minimise
+from ocs_design.sizing.sequential_programming import Optimum, minimise
 
 # First steps: of the logarithms, and of the incidence [rad].
 _TRUST = 0.05
-# What a limit may be missed by, relative: rounding.
-_HELD = 1e-9
+HELD = 1e-9
+"""What a limit may be missed by, relative: rounding."""
+
 # Margins beyond these tell nothing.
 _LEAST, _MOST = 1e-6, 1e6
 
@@ -37,23 +38,34 @@ def polish(problem: SelectionProblem, lot: Lot, point: FixedPoint) -> FixedPoint
         lot: the candidate alone.
         point: where to start, feasible or not.
     """
-    programme, angle = _Programme(problem, lot), float(point.angle[0])
-    start = np.array([*_logarithms(point.shapes), angle])
-    held = problem.incidence is not None
+    programme = Programme(problem, lot)
+    optimum = lightest(programme, coordinates(point.shapes, float(point.angle[0])))
+    return programme.fixed_point(optimum.point[None], possible=optimum.violation <= HELD)
+
+
+def lightest(programme: "Programme", start: FloatArray, **how: float) -> Optimum:
+    """Near a start, see `coordinates`; the logarithm of the mass of a module is its value.
+
+    Args:
+        programme: of one candidate.
+        start: feasible or not.
+        how: see `minimise`.
+    """
+    held, angle = programme.problem.incidence is not None, float(start[-1])
     turn = (angle, angle, 0.0) if held else (0.0, np.pi / 2.0, _TRUST)
-    optimum = minimise(
+    return minimise(
         programme,
         start,
         low=np.array([*np.full(3, -np.inf), turn[0]]),
         high=np.array([*np.full(3, np.inf), turn[1]]),
         trust=np.array([*np.full(3, _TRUST), turn[2]]),
+        **how,
     )
-    return programme.fixed_point(optimum.point[None], possible=optimum.violation <= _HELD)
 
 
 @dataclass(frozen=True, eq=False)
-class _Programme:
-    """One candidate on its robot."""
+class Programme:
+    """One candidate on its robot, a point is what `coordinates` gives."""
 
     problem: SelectionProblem
     lot: Lot
@@ -130,7 +142,7 @@ class _Programme:
         return np.column_stack([beyond, -beyond])
 
 
-def _logarithms(shapes: ModuleShape) -> tuple[float, float, float]:
-    """Of outer radius, height and wall of a single shape."""
+def coordinates(shapes: ModuleShape, angle: float) -> FloatArray:
+    """Of a single shape: logarithms of outer radius, height and wall, and the incidence [rad]."""
     inner, outer, height = (float(value[0]) for value in shapes[:3])
-    return float(np.log(outer)), float(np.log(height)), float(np.log(outer - inner))
+    return np.array([np.log(outer), np.log(height), np.log(outer - inner), angle])

@@ -1,0 +1,47 @@
+"""What one more of a limit buys, against a whole selection under the looser limit."""
+
+from dataclasses import replace
+
+import pytest
+from drawn_selections import draw
+
+from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
+from ocs_design.sizing.selection.infeasible import with_limit
+from ocs_design.sizing.selection.prices import mass_prices
+from ocs_design.sizing.selection.select import select
+
+SEED = 5
+"""Of a device that room, voltage and time hold, and the height does not."""
+
+LOOKED_AT = {"r_max", "h_max", "bus_voltage", "time"}
+
+
+@pytest.fixture(scope="module")
+def priced():
+    """The problem of the lightest drive alone, its device, and what each limit is worth."""
+    problem = draw(SEED).problem
+    best = select(problem, advise=False).best
+    alone = replace(problem, motors=(best.motor,), gears=(best.gear,), materials=(best.material,))
+    return alone, best, tuple(mass_prices(problem, best))
+
+
+def test_a_price_is_what_selecting_anew_saves(priced):
+    alone, best, prices = priced
+    for price in (price for price in prices if price.limit.name in LOOKED_AT):
+        looser = select(with_limit(alone, price.limit, price.changed), advise=False).best
+        saved = looser.mass - best.mass
+        assert price.mass_change == pytest.approx(saved, rel=1e-4, abs=1e-6 * best.mass), price
+
+
+def test_every_limit_is_loosened_and_none_costs(priced):
+    _, _, prices = priced
+    assert {BUS_VOLTAGE, TIME} <= {price.limit for price in prices}
+    for price in prices:
+        assert (price.changed > price.value) == price.limit.loosens_upwards
+        assert price.mass_change <= 0.0
+
+
+def test_only_what_holds_the_mass_is_worth_something(priced):
+    _, _, prices = priced
+    worth = {price.limit.name for price in prices if price.mass_change < 0.0}
+    assert worth == LOOKED_AT - {"h_max"}
