@@ -36,7 +36,7 @@ def test_an_incidence_by_hand_is_kept(motor):
     assert (found.criterion, found.device.incidence) == ("by hand", 0.4)
 
 
-@pytest.mark.parametrize("motor", ["none", MOTOR])
+@pytest.mark.parametrize("motor", ["none", pytest.param(MOTOR, marks=pytest.mark.exhaustive)])
 def test_equal_rate_is_that_of_robot_and_device(motor):
     """tan(alpha) = I_roll / I_pitch."""
     task, found = designed(motor, criterion="equal-rate")

@@ -120,7 +120,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.exhaustive)])
 def test_every_format_gives_the_same_design(folder, mjcf, motor):
     driven = ("--motor", motor)
     text = Path(SOLO12).read_bytes()
@@ -145,7 +145,9 @@ def test_every_format_gives_the_same_design(folder, mjcf, motor):
     assert found["standard input"]["robot"]["source"] == "-"
 
 
-@pytest.mark.parametrize("motor", ["none", "EC 90 flat 90 W 323772"])
+@pytest.mark.parametrize(
+    "motor", ["none", pytest.param("EC 90 flat 90 W 323772", marks=pytest.mark.exhaustive)]
+)
 def test_the_exported_robot_can_be_read_again(folder, motor):
     """It is a robot like any other, only its device's names are taken."""
     design(SOLO12, "--motor", motor, "-o", "first")

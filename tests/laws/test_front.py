@@ -35,13 +35,13 @@ def masses(task, against, ratios):
     ],
 )
 def test_more_is_never_heavier(solo12, against, least):
-    found = masses(solo12, against, (least, 0.9, 1.0, 1.3))
+    found = masses(solo12, against, (least, 1.0, 1.3))
     assert all(less >= more * (1.0 - SETTLED) for less, more in pairwise(found))
     assert found[0] > found[-1]
 
 
 def test_a_larger_angle_is_never_lighter(solo12):
-    found = masses(solo12, "angle", (0.5, 1.0, 1.1, 1.6))
+    found = masses(solo12, "angle", (0.5, 1.0, 1.6))
     assert all(small <= large * (1.0 + SETTLED) for small, large in pairwise(found))
     assert found[-1] > 1.01 * found[0]
 

@@ -16,7 +16,7 @@ from ocs_design.sizing.rim_problem import build_rim_problem
 from ocs_design.sizing.rim_program import optimise_rim
 
 STEP = 1e-6
-few = settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+few = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 def mass_of(problem):
@@ -39,7 +39,7 @@ def test_theory_case():
 def test_random_problems_agree_with_the_closed_form():
     rng = np.random.default_rng(3)
     solved = 0
-    while solved < 60:
+    while solved < 30:
         problem = random_problem(rng)
         if np.isnan(mass_of(problem)):
             continue

@@ -29,7 +29,14 @@ def question(seed, **changes):
     return CoDesignProblem(problem, select(problem, advise=False).best)
 
 
-@pytest.fixture(scope="module", params=[ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE])
+@pytest.fixture(
+    scope="module",
+    params=[
+        ROLL_AND_PITCH,
+        GEARED,
+        *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (FLIPPING, CHANGING_RATE)),
+    ],
+)
 def answered(request):
     asked = question(request.param)
     return asked, co_design(asked)

@@ -31,7 +31,9 @@ def beside(chosen, factors, turn):
     return FixedPoint(nothing, angle, shapes, np.zeros(1, dtype=bool), nothing, nothing)
 
 
-@pytest.mark.parametrize("seed", [2, 15, 21, 53])
+@pytest.mark.parametrize(
+    "seed", [2, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (15, 21, 53))]
+)
 @pytest.mark.parametrize(
     ("factors", "turn"),
     [((1.0, 1.0, 1.0), 0.0), ((0.97, 0.98, 0.95), 0.01), ((1.0, 1.02, 1.1), -0.02)],
