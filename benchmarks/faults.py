@@ -2,8 +2,8 @@
 
     python benchmarks/faults.py [killed|full|together|same] ... [--moments 50]
 
-Goal: after each fault the old folder or the complete new one, byte for byte, nothing beside it after
-the next run, no traceback; and the same bytes from the same input on one thread and on two.
+Goal: after each fault the old folder or the complete new one, byte for byte; nothing beside it
+after the next run; no traceback; the same bytes from the same input on one thread and on two.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from commands import PROGRAM, SOLO12, everything_in, run
+from commands import PROGRAM, SOLO12, run
 
 from ocs_design.design_file import read_design
 from ocs_design.export.folder import file_hashes, recorded_hashes
@@ -63,13 +63,11 @@ def killed(moments: int) -> None:
             renew("old", "out")
             after = seconds * (moment + 0.5) / moments
             found[state_after(command, number, after, old, new)] += 1
-        leftovers = len(everything_in(".")) - len(known_names())
+        last = left_over()
         run_to_end(command)
-        beside = len(everything_in(".")) - len(known_names())
         counts = ", ".join(f"{count} {state}" for state, count in sorted(found.items()))
-        print(
-            f"{name:9} {seconds:5.1f} s: {counts}; left over {leftovers}, then {beside}", flush=True
-        )
+        print(f"{name:9} {seconds:5.1f} s: {counts}")
+        print(f"    left by the last one {last}, after the next run {left_over()}", flush=True)
 
 
 def state_after(
@@ -114,8 +112,7 @@ def full() -> None:
             code, traceback = in_a_child(command, number)
             ended = code == 0
             found[f"code {code}: {state(old, new)}{' TRACEBACK' if traceback else ''}"] += 1
-        beside = len(everything_in(".")) - len(known_names())
-        print(f"{name:9} {dict(found)}; left over {beside}", flush=True)
+        print(f"{name:9} {dict(found)}; left over {left_over()}", flush=True)
 
 
 def in_a_child(command: tuple[str, ...], number: int) -> tuple[int, bool]:
@@ -153,7 +150,7 @@ def together() -> None:
         both = [subprocess.Popen([*PROGRAM, *options], stderr=subprocess.DEVNULL) for _ in range(2)]
         codes = sorted(process.wait() for process in both)
         whole = read_design(Path("out/design.json")).files == recorded_hashes(Path("out"))
-        print(f"{name}: codes {codes}, whole {whole}, beside it {everything_in('.')[1:2]}"[:110])
+        print(f"{name}: codes {codes}, whole {whole}, left over {left_over()}", flush=True)
 
 
 def same() -> None:
@@ -213,9 +210,9 @@ def renew(source: str, target: str) -> None:
     shutil.copytree(source, target)
 
 
-def known_names() -> list[str]:
-    """Everything in the folders that are meant to be here."""
-    return [name for name in everything_in(".") if name.split("/")[0] in {"old", "out", "design"}]
+def left_over() -> list[str]:
+    """What stands beside the folders that are meant to be here."""
+    return sorted({path.name for path in Path().iterdir()} - {"old", "out", "design"})
 
 
 if __name__ == "__main__":

@@ -21,12 +21,9 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
     as_json, color = "--json" in arguments, "--no-color" not in arguments
     command = typer.main.get_command(app)
     try:
+        _check_names([*arguments, str(Path.cwd())])
         result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
         sys.stdout.flush()
-    except OcsError as error:
-        return _report(error, as_json=as_json, color=color)
-    except typer.TyperException as error:
-        return _report_usage(error, as_json=as_json, color=color)
     except (typer.Abort, KeyboardInterrupt):
         return INTERRUPTED
     except (BrokenPipeError, SystemExit) as error:
@@ -34,15 +31,56 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         if not isinstance(error.__context__ or error, BrokenPipeError):
             raise
         return _fall_silent()
-    except OSError as error:
-        return _report_system(error, as_json=as_json, color=color)
+    except (OcsError, typer.TyperException, OSError, UnicodeEncodeError) as error:
+        if _was_interrupted(error):
+            return INTERRUPTED
+        return _tell(error, as_json=as_json, color=color)
     return result if isinstance(result, int) else 0
+
+
+def _was_interrupted(error: BaseException | None) -> bool:
+    """A terminal that closes interrupts, and then nothing more can be printed on it."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__context__
+    return error is not None
+
+
+def _tell(
+    error: OcsError | typer.TyperException | OSError | UnicodeEncodeError,
+    *,
+    as_json: bool,
+    color: bool,
+) -> int:
+    if isinstance(error, OSError):
+        return _report_system(error, as_json=as_json, color=color)
+    if isinstance(error, UnicodeEncodeError):
+        return _report(_no_text(error), as_json=as_json, color=color)
+    if isinstance(error, OcsError):
+        return _report(error, as_json=as_json, color=color)
+    return _report_usage(error, as_json=as_json, color=color)
 
 
 def _never_fail_on_encoding() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+
+
+def _check_names(names: Sequence[str]) -> None:
+    """File names are bytes to the system, but text in what is written; better now than in an hour.
+
+    Raises:
+        UnicodeEncodeError: one is none.
+    """
+    for name in names:
+        name.encode()
+
+
+def _no_text(error: UnicodeEncodeError) -> OcsError:
+    return OcsError(
+        f"{error.object[:200]!a}: that name is no text in the encoding {error.encoding}",
+        hint="rename the file or folder, or set PYTHONUTF8=1 if the name is UTF-8",
+    )
 
 
 def _fall_silent() -> int:

@@ -78,7 +78,7 @@ TWICE = (signal.SIGINT, signal.SIGINT)
         (loaded, (signal.SIGINT,)),
         (sized, TWICE),
         (written, (signal.SIGINT,)),
-        (written, (signal.SIGTERM,)),
+        (written, (signal.SIGHUP,)),
         (written, TWICE),
     ],
     ids=lambda each: getattr(each, "__name__", None) or "-".join(number.name for number in each),
@@ -97,3 +97,20 @@ def test_an_interrupt_keeps_what_was_to_be_replaced(folder, interrupted):
     code, _ = interrupted(written, signal.SIGINT, options=(*BOUND, "--force"))
     assert code == 130
     assert everything_in(folder) == ["solo12-ocs", "solo12-ocs/design.json"]
+
+
+@pytest.mark.slow
+def test_a_terminal_that_closes_interrupts(folder):
+    """What is to be printed then cannot be."""
+    terminal, writing = os.openpty()
+    command = [*PROGRAM, "size", SOLO12, *BOUND]
+    process = subprocess.Popen(
+        command, stdin=writing, stdout=writing, stderr=writing, start_new_session=True
+    )
+    os.close(writing)
+    while b"read the robot" not in os.read(terminal, 4096):
+        pass
+    os.close(terminal)
+    process.send_signal(signal.SIGHUP)
+    assert process.wait() == 130
+    assert everything_in(folder) == []

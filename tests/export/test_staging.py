@@ -72,7 +72,9 @@ def killed_at_each(folder, *how):
 WHOLE = ["out", "out/cad", f"out/{DESIGN_FILE}"]
 
 
-@pytest.mark.parametrize(("how", "moments_without"), [((), 0), (("aside",), 1)])
+@pytest.mark.parametrize(
+    ("how", "moments_without"), [((), 0), pytest.param(("aside",), 1, marks=pytest.mark.slow)]
+)
 def test_killed_at_any_moment_it_is_the_old_folder_or_the_new(tmp_path, how, moments_without):
     """Where two folders cannot change places, the next run brings the old one back."""
     found = list(killed_at_each(tmp_path, *how))

@@ -94,9 +94,9 @@ def _read_bounds(path: Path, readers: Iterable[BoundsReader]) -> FloatArray | No
         bounds = next((each for each in told if each is not None), None)
     except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
         return None
-    if bounds is None or not (np.abs(bounds) < LARGEST_MESH_LENGTH).all():
+    if bounds is None or bounds.shape != (2, 3):
         return None
-    return frozen(bounds)
+    return frozen(bounds) if (np.abs(bounds) < LARGEST_MESH_LENGTH).all() else None
 
 
 def _binary_stl_bounds(path: Path) -> FloatArray | None:

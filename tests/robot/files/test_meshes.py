@@ -112,6 +112,13 @@ def test_unreadable_meshes_have_no_bounds(tmp_path: Path, name):
     assert mesh_bounds(path, (1, 1, 1)) is None
 
 
+@pytest.mark.parametrize("vertex", ["v 0.0 0.0", "v"])
+def test_vertices_without_three_numbers_have_no_bounds(tmp_path: Path, vertex):
+    path = tmp_path / "m.obj"
+    path.write_text(f"{vertex}\nf 1 1 1\n")
+    assert mesh_bounds(path, (1, 1, 1)) is None
+
+
 def test_meshes_that_are_too_large_or_in_archives_are_not_opened(tmp_path: Path, monkeypatch):
     monkeypatch.setattr("ocs_design.robot.files.mesh_bounds.LARGEST_MESH", 1000)
     box = trimesh.creation.box()
