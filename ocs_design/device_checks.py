@@ -19,8 +19,12 @@ LARGEST_LENGTH, SMALLEST_LENGTH = 100.0, 1e-7
 """Of a wheel's dimensions [m]."""
 
 MOST_BOLTS = 100
+"""And holes of any other ring."""
 
-_OR_NONE = ("inner_radius", "bore_radius", "bolt_circle_radius", "bolt_hole_radius", "length")
+_OR_NONE = (
+    *("inner_radius", "bore_radius", "bolt_circle_radius", "bolt_hole_radius", "length"),
+    *("chamfer", "hole_radius", "hole_depth"),
+)
 """Lengths [m] that are zero where there is no such thing."""
 
 _LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter"}
@@ -67,7 +71,7 @@ def _figures(value: object, path: str) -> Iterator[str]:
     if is_dataclass(value):
         for each in fields(value):
             yield from _figures(getattr(value, each.name), f"{path}.{each.name}")
-    elif path.endswith(".bolts") and not 0 <= _number(value) <= MOST_BOLTS:
+    elif path.endswith((".bolts", ".holes")) and not 0 <= _number(value) <= MOST_BOLTS:
         yield f"{path} is {value}"
     elif isinstance(value, float):
         low, high = _range(path)

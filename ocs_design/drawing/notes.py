@@ -73,8 +73,13 @@ def _edges(wheel: Wheel) -> str:
         wheel.rim.made_chamfer,
         f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
     )
+    if chamfer > 0.0 and wheel.hub is not None and wheel.hub.chamfer > 0.0:
+        return (
+            f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
+            "others deburred."
+        )
     if chamfer > 0.0:
-        return f"Edges of the rim {plain(chamfer)} × 45°; {broken}."
+        return f"Edges of the rim {plain(chamfer)}~×~45°; {broken}."
     mass, share = lost_by_breaking(wheel)
     lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
     return f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."

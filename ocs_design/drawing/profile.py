@@ -67,10 +67,12 @@ def _hub_profiles(hub: Hub, seat_radius: float, *, above: bool) -> list[Profile]
 
 def _between(hub: Hub, inner: float, outer: float) -> Profile:
     """What of web and hub lies between two radii, from the left of the inner one."""
-    low, high = half_width(hub, inner), half_width(hub, outer)
-    step = [(low, hub.radius), (high, hub.radius)] if inner < hub.radius < outer else []
-    right = [(low, inner), *step, (high, outer)]
-    return [(-low, inner), *right, *[(-z, radius) for z, radius in reversed(right[1:])]]
+    low, high, edge = half_width(hub, inner), half_width(hub, outer), hub.chamfer
+    at_bore = [(low - edge, inner), (low, inner + edge)]
+    start = at_bore if inner == hub.bore_radius else [(low, inner)]
+    step = [(low, hub.radius - edge), (low - edge, hub.radius), (high, hub.radius)]
+    right = [*start, *(step if inner < hub.radius < outer else []), (high, outer)]
+    return _distinct([*right, *[(-z, radius) for z, radius in reversed(right)]])
 
 
 def _joined(web: Profile, rim: Profile) -> Profile:

@@ -3,8 +3,10 @@
 from collections.abc import Iterator
 
 from ocs_design.drawing.dimensioning import (
+    Callout,
     extension,
     fits_inside,
+    leader,
     level_dimension,
     upright_dimension,
 )
@@ -32,6 +34,9 @@ FIRST_COLUMN, COLUMN = 9.0, 8.0
 ABOVE = 9.0
 """Of the rim's width over the outline [mm]."""
 
+CHAMFER_ASIDE, BELOW = 5.0, 7.0
+"""Of the chamfer's leader from its edge and under the outline [mm]."""
+
 NEAREST = 4.0
 """Of a width's dimension line to the axis [mm]."""
 
@@ -52,6 +57,7 @@ def section_view(wheel: Wheel, layout: Layout) -> list[Item]:
         *_hole_axes(wheel, layout),
         *_diameters(wheel, layout),
         *_widths(wheel, layout),
+        *_chamfer(wheel, layout),
         Text((x, y - edge - ABOVE - 7.0), "A–A", 5.0, Anchor.MIDDLE),
     ]
 
@@ -87,7 +93,8 @@ def _spans_behind(wheel: Wheel) -> Iterator[tuple[float, float, float]]:
         yield half, -r, -hub.radius
         yield half, hub.radius, r
     if hub is not None:
-        yield hub.height / 2.0, -hub.bore_radius, hub.bore_radius
+        mouth = hub.bore_radius + hub.chamfer
+        yield hub.height / 2.0, -mouth, mouth
     for ring, width, side in _cut_rings(wheel):
         center = side * ring.radius
         yield width, center - ring.hole_radius, center + ring.hole_radius
@@ -140,6 +147,18 @@ def _widths(wheel: Wheel, layout: Layout) -> Iterator[Item]:
     yield from _width(plain(hub.web_thickness), hub.web_thickness, wheel, layout, y=y - away)
     start = y + layout.scale(hub.radius)
     yield from _width(plain(hub.height), hub.height, wheel, layout, y=y + away, start=start)
+
+
+def _chamfer(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+    """Of the rim's edges, below the view; where it is too small to be written, nothing."""
+    rim, edge = wheel.rim, wheel.rim.made_chamfer
+    label = plain(edge)
+    if float(label) == 0.0:
+        return
+    middle = (rim.height / 2.0 - edge / 2.0, rim.outer_radius - edge / 2.0)
+    (corner,) = _placed([middle], layout, _BELOW)
+    shelf = (corner[0] + CHAMFER_ASIDE, layout.section[1] + layout.scale(rim.outer_radius) + BELOW)
+    yield from leader(Callout((f"{label} × 45°",), corner, 0.0), shelf)
 
 
 def _width(

@@ -111,7 +111,7 @@ def _motor(device: Device) -> BillRow:
 def _wheel(wheel: Flywheel) -> Iterator[BillRow]:
     """In one piece where rim and web are of one material, else a rim on its web."""
     web = wheel.web
-    rim = f"turned to {_mm(2.0 * wheel.outer_radius)} x {_mm(wheel.height)}"
+    rim = f"turned to {_mm(2.0 * wheel.outer_radius)} x {_mm(wheel.height)}{_cuts(wheel)}"
     bore = f", bore {_mm(2.0 * wheel.inner_radius)}" if wheel.inner_radius > 0.0 else ""
     if web is None:
         stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
@@ -126,6 +126,16 @@ def _wheel(wheel: Flywheel) -> Iterator[BillRow]:
         yield BillRow("flywheel rim", 2, wheel.material, stock, wheel.rim_mass, seat)
         stock = _stock(wheel.inner_radius, 0.0, max(web.thickness, web.hub.height))
         yield BillRow("flywheel web and hub", 2, web.material, stock, web.mass, _web(web))
+
+
+def _cuts(wheel: Flywheel) -> str:
+    """Chamfers and balancing holes, before a comma; empty without any."""
+    cuts = wheel.cuts
+    edges = f", edges {_mm(cuts.chamfer)} x 45 deg" if cuts.chamfer else ""
+    if cuts.holes == 0:
+        return edges
+    holes = f"{cuts.holes} balancing holes {_mm(2.0 * cuts.hole_radius)} x {_mm(cuts.hole_depth)}"
+    return f"{edges}, {holes} in each face"
 
 
 def _web(web: Web) -> str:

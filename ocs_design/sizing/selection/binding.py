@@ -16,8 +16,8 @@ foot are heavier."""
 HUB, WEB = "hub", "web"
 """Stand for the bore and the height where the hub and the web ask for more than was specified."""
 
-CUTS = "edges and holes"
-"""Stand for the wall where chamfers or balancing holes ask for more than was specified."""
+CUT_WALL, CUT_HEIGHT = "wall for edges and holes", "height for edges and holes"
+"""Stand for wall and height where chamfers or balancing holes ask for more than was specified."""
 
 MOUNT = "mount"
 """Stands for the radius where the motor's mount asks for a larger housing."""
@@ -44,8 +44,9 @@ def binding_limits(
     nu = at["poisson_ratio"]
     stretched = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
     bore = HUB if at["inner_radius_min"] > room.inner_radius_min else "r_min"
-    flat = WEB if at["height_min"] > room.height_min else "h_min"
-    wall = CUTS if at["wall_min"] > room.wall_min else "wall_min"
+    seat = CUT_HEIGHT if limits.cuts.height_min >= at["height_min"] else WEB
+    flat = seat if at["height_min"] > room.height_min else "h_min"
+    wall = CUT_WALL if at["wall_min"] > room.wall_min else "wall_min"
     touched = {
         "r_max": (outer, at["outer_radius_max"]),
         "h_max": (height, at["height_max"]),
