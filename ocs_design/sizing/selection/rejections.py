@@ -5,17 +5,20 @@ from dataclasses import replace
 
 import numpy as np
 
+from ocs_design.arrays import FloatArray
 from ocs_design.drive.line import missing_figures
 from ocs_design.drive.wheel_pair import SlewReason
 from ocs_design.sizing.housing import PlainDrum
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.rim_closed_form import smallest_spin_inertia
+from ocs_design.sizing.rim_problem import RimLimits
 from ocs_design.sizing.selection.attempt import Attempt, Part, attempt
 from ocs_design.sizing.selection.drive_table import drive_table
 from ocs_design.sizing.selection.lot import rim_limits
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Reason, Rejection
 from ocs_design.sizing.selection.search import Found
+from ocs_design.units import format_quantity
 
 # Beyond any time that is finite.
 _NEVER = 1e9
@@ -149,7 +152,28 @@ def _too_fast_or_heavy(
     limits = rim_limits(problem, kinds, overspeed, hub, mount)
     least = smallest_spin_inertia(limits) * (1.0 + 1e-9)
     rims = np.maximum(needed - tried.drives.beside_rim[row], least)
-    if not (lightest_module(rims, limits, PlainDrum()).mass > 0.0).any():
+    if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
+        return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{_too_narrow(limits)}"
+    if not _any_rim(rims, limits):
         rpm = overspeed[0] * 30.0 / np.pi
         return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"
     return Reason.OWN_WEIGHT, f"{wheel} on the robot alone, and none that fits with its device"
+
+
+def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
+    """Of any material."""
+    return bool((lightest_module(spin_inertia, limits, PlainDrum()).mass > 0.0).any())
+
+
+def _too_narrow(limits: RimLimits) -> str:
+    """What leaves no radius below the largest, as a clause; empty where something does."""
+    least, most = np.asarray(limits.outer_radius_min), float(np.asarray(limits.outer_radius_max))
+    around = np.asarray(limits.inner_radius_min) + limits.wall_min
+    narrowest = {"around its motor's mount": least.min(), "around its hub and bore": around.min()}
+    where, radius = max(narrowest.items(), key=lambda item: float(item[1]))
+    if radius <= most:
+        return ""
+    return (
+        f": {where} it has a radius of {format_quantity(float(radius), 'mm')} at the least, r_max "
+        f"is {format_quantity(most, 'mm')}"
+    )
