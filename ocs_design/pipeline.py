@@ -18,8 +18,9 @@ from ocs_design.inspection import posture_lines
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.mounting import Mounting, mounting_of, placement_warnings
 from ocs_design.recording import record_design
+from ocs_design.report.charts.files import write_svgs
 from ocs_design.report.console import Steps
-from ocs_design.report.figures.figures import FOLDER, all_charts, write_figures
+from ocs_design.report.figures.figures import FOLDER, all_charts
 from ocs_design.report.flight import flights_of
 from ocs_design.report.html.page import write_report
 from ocs_design.report.story import story_in
@@ -236,7 +237,7 @@ def _write_report(
     story = story_in(
         [folder], design, flights=flights_of(runs), postures=posture_lines(robot), command=command
     )
-    write_figures(all_charts(story), folder / FOLDER)
+    write_svgs(tuple(all_charts(story)), folder / FOLDER)
     whole = replace(design, files=recorded_hashes(folder))
     write_report(replace(story, design=whole), folder)
     return whole

@@ -34,7 +34,7 @@ USES: Mapping[str, Use] = MappingProxyType(
         "mujoco": Use("robots, flights and pictures"),
         "pycollada": Use("robots with .dae meshes", "collada"),
         "xacro": Use("robots that come as .xacro"),
-        "matplotlib": Use("figures as files"),
+        "matplotlib": Use("figures as PNG"),
         "dask": Use("Monte Carlo on many machines"),
         "distributed": Use("the same"),
         "pyarrow": Use("its samples as Parquet"),

@@ -6,10 +6,10 @@ from dataclasses import asdict
 from io import StringIO
 from pathlib import Path
 
-from ocs_design.exceptions import MissingToolError
 from ocs_design.export.folder import FRONT_FILE, staged_folder
 from ocs_design.pareto import Front, front_to_json
-from ocs_design.report.front_figure import front_svg
+from ocs_design.report.charts.files import write_charts
+from ocs_design.report.figures.front import front_chart
 
 COLUMNS: Mapping[str, str] = {
     "mass": "mass_kg",
@@ -36,16 +36,12 @@ def write_front(front: Front, folder: Path, *, force: bool = False) -> tuple[str
     Raises:
         OutputError: see `staged_folder`.
     """
-    remarks: tuple[str, ...] = ()
     with staged_folder(folder, force=force) as staging:
         (staging / "points").mkdir()
         for point in front.points:
             (staging / point.file).write_text(point.specification, encoding="utf-8")
         (staging / "front.csv").write_text(front_csv(front), encoding="utf-8", newline="")
-        try:
-            (staging / "front.svg").write_bytes(front_svg(front))
-        except MissingToolError as error:
-            remarks = (f"{error.message}: {error.hint}",)
+        remarks = write_charts([front_chart(front)], staging)
         (staging / FRONT_FILE).write_bytes(front_to_json(front))
     return remarks
 

@@ -4,14 +4,13 @@ from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 
-from ocs_design.exceptions import MissingToolError
 from ocs_design.export.folder import recorded_hashes
 from ocs_design.exporting import Order
-from ocs_design.report.charts.png import png_chart
-from ocs_design.report.figures.figures import FOLDER, all_charts, write_figures
+from ocs_design.report.charts.files import write_charts
+from ocs_design.report.figures.figures import FOLDER, all_charts
 from ocs_design.report.html.page import write_report
 from ocs_design.report.on_request import FIGURES, REPORT
-from ocs_design.report.story import Story, story_in
+from ocs_design.report.story import story_in
 
 
 def write_wanted(
@@ -26,20 +25,10 @@ def write_wanted(
         command: that was typed.
     """
     story = story_in([folder, order.path.parent], order.design, command=command)
-    remarks = _write_figures(story, folder) if FIGURES in wanted else ()
+    remarks: tuple[str, ...] = ()
+    if FIGURES in wanted:
+        remarks = write_charts(tuple(all_charts(story)), folder / FOLDER)
     if REPORT in wanted:
         whole = replace(order.design, files=recorded_hashes(folder))
         write_report(replace(story, design=whole), folder)
     return remarks
-
-
-def _write_figures(story: Story, folder: Path) -> tuple[str, ...]:
-    """As SVG, and as PNG where matplotlib is installed."""
-    charts = tuple(all_charts(story))
-    write_figures(charts, folder / FOLDER)
-    try:
-        for chart in charts:
-            (folder / FOLDER / f"{chart.name}.png").write_bytes(png_chart(chart))
-    except MissingToolError as error:
-        return (f"{error.message}: {error.hint}",)
-    return ()

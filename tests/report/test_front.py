@@ -11,9 +11,12 @@ import pytest
 from fronts import by_hand, infeasible, make_front
 from rich.console import Console
 
-from ocs_design.exceptions import MissingToolError, OutputError
+from ocs_design.exceptions import OutputError
 from ocs_design.pareto import front_to_json
-from ocs_design.report.front_figure import front_svg
+from ocs_design.report.charts.marks import Points
+from ocs_design.report.charts.png import png_chart
+from ocs_design.report.charts.svg import svg_file
+from ocs_design.report.figures.front import front_chart
 from ocs_design.report.front_files import COLUMNS, front_csv, write_front
 from ocs_design.report.pareto import NONE, OWN, print_front
 
@@ -79,25 +82,18 @@ def test_a_front_without_any_device_says_why():
     assert text.count("not even [red] wheels") == 2
 
 
-def test_the_drawing_is_an_svg_and_the_same_every_time(front):
-    drawing = front_svg(front)
-    root = ET.fromstring(drawing)
-    assert root.tag.endswith("svg")
-    assert drawing == front_svg(front)
-    assert b"<dc:date>" not in drawing
-
-
-def test_the_drawing_does_not_depend_on_the_user_s_own_style(front):
-    import matplotlib as mpl
-
-    before = front_svg(front)
-    with mpl.rc_context({"lines.linewidth": 9.0, "font.size": 30.0}):
-        assert front_svg(front) == before
-        assert mpl.rcParams["font.size"] == 30.0
+def test_the_figure_has_a_point_for_each_device_in_the_colour_of_its_drive(front):
+    points = {mark.name: mark for mark in front_chart(front).marks if isinstance(mark, Points)}
+    of_fast = [1e3 * p.device.mass for p in front.feasible if p.device.motor == "Fast [28]"]
+    assert points["Fast [28], direct"].y.tolist() == of_fast
+    assert len(points["no device"].x) == len(front.points) - len(front.feasible)
+    assert len({mark.ink for mark in points.values()}) == len(points)
 
 
 def test_any_name_can_be_drawn(front):
-    assert front_svg(replace(front, robot=r"$\nonsense$ & <b>"))
+    chart = front_chart(replace(front, robot=r"$\nonsense$ & <b>"))
+    assert ET.fromstring(svg_file(chart)).tag.endswith("svg")
+    assert png_chart(chart).startswith(b"\x89PNG")
 
 
 def test_the_table_of_numbers_has_all_digits(front):
@@ -123,7 +119,7 @@ def test_the_folder_is_complete(front, tmp_path):
     assert write_front(front, folder) == ()
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.*"))
     points = [f"points/{index:02d}.toml" for index in range(1, 10)]
-    assert names == ["front.csv", "front.json", "front.svg", *points]
+    assert names == ["front.csv", "front.json", "front.png", "front.svg", *points]
     assert (folder / "front.json").read_bytes() == front_to_json(front)
     assert (folder / "points" / "03.toml").read_text() == front.points[2].specification
     assert [path.name for path in tmp_path.iterdir()] == ["front"]
@@ -149,19 +145,17 @@ def test_a_foreign_folder_is_never_replaced(front, tmp_path):
 
 def test_without_matplotlib_all_else_is_written(front, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(MissingToolError, match="matplotlib"):
-        front_svg(front)
     (remark,) = write_front(front, tmp_path / "front")
     assert "pip install 'ocs-design[plot]'" in remark
-    assert not (tmp_path / "front" / "front.svg").exists()
-    assert (tmp_path / "front" / "front.csv").exists()
+    assert not (tmp_path / "front" / "front.png").exists()
+    assert (tmp_path / "front" / "front.svg").exists()
 
 
 def test_nothing_is_left_of_a_front_that_could_not_be_written(front, tmp_path, monkeypatch):
-    def interrupted(front):
+    def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("ocs_design.report.front_files.front_svg", interrupted)
+    monkeypatch.setattr("ocs_design.report.front_files.front_chart", interrupted)
     with pytest.raises(KeyboardInterrupt):
         write_front(front, tmp_path / "front")
     assert list(tmp_path.iterdir()) == []

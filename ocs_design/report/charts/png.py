@@ -1,18 +1,21 @@
 """Charts as PNG, for slides and documents that take no SVG: drawn by matplotlib, an extra."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ocs_design.exceptions import MissingToolError
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.marks import Area, Line, Mark, Points, Rule
 from ocs_design.report.charts.style import COLORS
 from ocs_design.report.charts.svg import WIDTH
-from ocs_design.report.matplotlib_sheet import sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _PIXELS_PER_INCH = 72.0
 _DPI = 144.0
@@ -24,6 +27,8 @@ _STYLE = {
     "axes.spines.right": False,
     "axes.grid": True,
     "grid.color": "#e3e6ea",
+    # A dollar in a robot's name is a dollar.
+    "text.parse_math": False,
 }
 
 
@@ -33,8 +38,7 @@ def png_chart(chart: Chart) -> bytes:
     Raises:
         MissingToolError: matplotlib is not installed.
     """
-    size = WIDTH / _PIXELS_PER_INCH, chart.height / _PIXELS_PER_INCH
-    with sheet("figures are not drawn as PNG", size, _STYLE, dpi=_DPI) as figure:
+    with _sheet(chart.height) as figure:
         axes = figure.subplots()
         _prepare(axes, chart)
         for mark in chart.marks:
@@ -44,6 +48,24 @@ def png_chart(chart: Chart) -> bytes:
         buffer = BytesIO()
         figure.savefig(buffer, format="png")
     return buffer.getvalue()
+
+
+@contextmanager
+def _sheet(height: float) -> Iterator["Figure"]:
+    """That high [px], in a style of our own while it is drawn and saved."""
+    try:
+        # It takes a second to import.
+        from matplotlib import style as styles  # noqa: PLC0415
+        from matplotlib.figure import Figure  # noqa: PLC0415
+    except ImportError as error:
+        raise MissingToolError(
+            "figures are not drawn as PNG, for matplotlib is not installed",
+            hint="pip install 'ocs-design[plot]'",
+        ) from error
+    size = WIDTH / _PIXELS_PER_INCH, height / _PIXELS_PER_INCH
+    # Not from a file that the user may have.
+    with styles.context(["default", _STYLE]):
+        yield Figure(figsize=size, dpi=_DPI, layout="constrained")
 
 
 def _prepare(axes: "Axes", chart: Chart) -> None:

@@ -1,11 +1,9 @@
 """All figures of a report: of the design, of its drive, of each maneuver."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
+from collections.abc import Iterator, Mapping
 
 from ocs_design.export.naming import safe_name
 from ocs_design.report.charts.chart import Chart
-from ocs_design.report.charts.svg import svg_file
 from ocs_design.report.figures.bound import bound_charts
 from ocs_design.report.figures.distributions import distribution_charts
 from ocs_design.report.figures.incidence import criterion_chart, posture_chart
@@ -61,10 +59,3 @@ def all_charts(story: Story) -> Iterator[Chart]:
         yield from charts
     if story.monte_carlo is not None:
         yield from distribution_charts(story.monte_carlo)
-
-
-def write_figures(charts: Iterable[Chart], folder: Path) -> None:
-    """Each as `<name>.svg`."""
-    folder.mkdir(exist_ok=True)
-    for chart in charts:
-        (folder / f"{chart.name}.svg").write_bytes(svg_file(chart))

@@ -8,9 +8,10 @@ import pytest
 from stories import TOUCHDOWN, design, flight, story
 
 from ocs_design.inspection import PostureLine
+from ocs_design.report.charts.files import write_svgs
 from ocs_design.report.charts.marks import Ink, Line, Points
 from ocs_design.report.figures.bound import bound_charts
-from ocs_design.report.figures.figures import all_charts, write_figures
+from ocs_design.report.figures.figures import all_charts
 from ocs_design.report.figures.incidence import posture_chart
 from ocs_design.report.figures.taken import taken
 from ocs_design.report.figures.torque_speed import torque_speed_chart
@@ -81,7 +82,7 @@ def test_postures_are_rows_from_the_top():
 
 @pytest.mark.parametrize("motor", ["none", "EC 45 flat 70 W 411812"])
 def test_every_figure_is_a_file_that_reads_as_svg_with_units_on_its_axes(tmp_path, motor):
-    write_figures(all_charts(story(motor=motor)), tmp_path)
+    write_svgs(tuple(all_charts(story(motor=motor))), tmp_path)
     files = sorted(tmp_path.iterdir())
     names = {path.stem for path in files}
     assert {"bound_pitch", "inertia_ellipsoid", "momentum", "torque_speed", "tilt_drop"} <= names
