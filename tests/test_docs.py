@@ -144,7 +144,7 @@ def untimed(text):
     return [line for line in text.splitlines() if not re.match(r" *\d+\.\d+ s ", line)]
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive  # The gate builds them as a step of its own.
 def test_the_docs_build_without_a_warning(tmp_path):
     pytest.importorskip("sphinx", reason="the docs extra is not installed")
     command = [
