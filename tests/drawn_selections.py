@@ -21,6 +21,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.placement import place_on_top
+from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 ALUMINIUM = Material("aluminium", 2700.0, 250e6, 300e6, 0.33, "for tests")
@@ -76,6 +77,7 @@ def draw(seed):
         incidence=rng.choice([None, None, rng.uniform(0.2, 0.9)]),
         wheel_speed_max=rng.choice([None, None, 1.5 * scale.speed]),
         web=seed % 2 == 0,
+        cuts=RimCuts(0.3e-3) if seed % 4 == 0 else NO_CUTS,
     )
     return Drawn(robot, problem)
 

@@ -26,6 +26,7 @@ HUB = Hub(
     density=ALUMINIUM,
     bolts=HoleRing(0.006, 4, 0.00145),
     lightening=HoleRing(0.016, 6, 0.003),
+    chamfer=2e-4,
 )
 
 TWO_PIECES = Wheel(RIM, HUB)

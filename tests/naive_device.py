@@ -24,7 +24,7 @@ from naive_wheel import hub_body
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.foot import PLATE_THICKNESS
 from ocs_design.sizing.rim_cuts import LIGAMENT
-from ocs_design.sizing.web import SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
+from ocs_design.sizing.web import SEAT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
 
 USABLE = 0.95
 """Of voltage and current."""
@@ -41,8 +41,9 @@ class Drive:
         self.motor, self.mount = motor, mount_of(motor)
         self.motor_mass, self.gear_mass = motor.mass, gear.mass
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
+        self.chamfer = chamfer_of(problem)
         if problem.web:
-            hub = hub_of(motor, direct=gear.name == "direct")
+            hub = hub_of(motor, direct=gear.name == "direct", chamfer=problem.cuts.chamfer)
             self.hub, self.hub_radius = hub_body(hub), hub.radius + LIGAMENT
         # The rotor turns at N W, the other way round if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
@@ -107,7 +108,10 @@ class Drive:
 
     def seat(self, density):
         """Of a rim of that density the least height, for its web [m]."""
-        return WEB_THICKNESS * max(1.0, WEB_DENSITY / density) + SHOULDER if self.webbed else 0.0
+        if not self.webbed:
+            return 0.0
+        seated = WEB_THICKNESS * max(1.0, WEB_DENSITY / density) + SHOULDER
+        return max(seated, WEB_THICKNESS + 2.0 * self.chamfer + SEAT, 4.0 * self.chamfer)
 
     def turn(self, time, inertia, final):
         """Largest angle of wheels within a time, ending at a speed, less that speed times time."""
@@ -161,6 +165,16 @@ def inertia_on(problem, drive, rims, angle):
     return np.stack([roll - whole * (cy**2 + cz**2), pitch - whole * (cx**2 + cz**2)])
 
 
+def chamfer_of(problem):
+    """Wheels without a web have none [m]."""
+    return problem.cuts.chamfer if problem.web else 0.0
+
+
+def least_wall(problem):
+    """As specified, and so that half of each face stays between its chamfers [m]."""
+    return max(problem.envelope.wall_min, 4.0 * chamfer_of(problem))
+
+
 def fits(problem, rims, slack=0.0):
     """Whether rims are within the envelope and hold at the proof speed."""
     room, more = problem.envelope, 1.0 + slack
@@ -168,7 +182,7 @@ def fits(problem, rims, slack=0.0):
         rims.inner * more >= np.maximum(room.inner_radius_min, LEAST_BORE * rims.outer)
     )
     inside &= (rims.height <= room.height_max * more) & (rims.height * more >= room.height_min)
-    inside &= (rims.outer - rims.inner) * more >= room.wall_min
+    inside &= (rims.outer - rims.inner) * more >= least_wall(problem)
     return inside & (rims.body[0] <= room.mass_max * more)
 
 

@@ -5,7 +5,16 @@ from itertools import product
 from math import inf, log, pi
 
 import numpy as np
-from naive_device import Drive, device_mass, fits, holds, margin, usable
+from naive_device import (
+    Drive,
+    chamfer_of,
+    device_mass,
+    fits,
+    holds,
+    least_wall,
+    margin,
+    usable,
+)
 from naive_wheel import Rims
 
 COARSE = (31, 12, 8, 26)
@@ -64,7 +73,7 @@ def _axes(problem, seat):
         np.linspace(0.0, pi / 2.0, angles) if stated is None else np.array([stated]),
         np.linspace(low, room.outer_radius_max, radii),
         np.linspace(max(room.height_min, seat), room.height_max, heights),
-        np.exp(np.linspace(log(room.wall_min), log(thick), walls)),
+        np.exp(np.linspace(log(least_wall(problem)), log(thick), walls)),
     )
 
 
@@ -90,7 +99,7 @@ def _axes_around(problem, point, widths, seat):
     stated = problem.incidence
     angles = np.clip(point[0] + np.linspace(-widths[0], widths[0], FINE[0]), 0.0, pi / 2.0)
     limits = ((0.0, room.outer_radius_max), (max(room.height_min, seat), room.height_max))
-    limits += ((room.wall_min, inf),)
+    limits += ((least_wall(problem), inf),)
     rest = (
         np.unique(np.clip(at * np.exp(np.linspace(-width, width, count)), *limit))
         for at, width, count, limit in zip(point[1:], widths[1:], FINE[1:], limits, strict=True)
@@ -102,7 +111,7 @@ def _lightest(problem, drive, material, names, axes, below):
     """Of all points, the lightest below a mass that can do everything; None if there is none."""
     angles, *shape = axes
     outer, height, wall = (values.ravel() for values in np.meshgrid(*shape, indexing="ij"))
-    rims = Rims(outer, outer - wall, height, material.density)
+    rims = Rims(outer, outer - wall, height, material.density, chamfer_of(problem))
     mass = device_mass(drive, rims)
     good = fits(problem, rims) & holds(problem, drive, rims, material) & (mass < below)
     rows = np.flatnonzero(good)

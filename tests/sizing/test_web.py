@@ -12,7 +12,7 @@ from ocs_design.parts.part import total
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel
 from ocs_design.parts.wheel import Hub as MadeHub
 from ocs_design.parts.wheel_parts import wheel_parts
-from ocs_design.sizing.rim_cuts import LIGAMENT
+from ocs_design.sizing.rim_cuts import LIGAMENT, NO_CUTS, RimCuts
 from ocs_design.sizing.rim_problem import RimProblem
 from ocs_design.sizing.web import (
     SHOULDER,
@@ -28,12 +28,16 @@ BARE = Hub(radius=0.009, height=0.005, bore_radius=0.0015)
 BOLTED = replace(BARE, bolts=4, bolt_circle_radius=0.006, bolt_hole_radius=0.0012)
 
 
-def made(inner, outer, height, hub):
+def made(inner, outer, height, hub, cuts=NO_CUTS):
     """The same wheel as solids, rim of steel."""
     bolts = HoleRing(hub.bolt_circle_radius, hub.bolts, hub.bolt_hole_radius) if hub.bolts else None
-    rim = Rim(inner, outer, height, "steel", STEEL.density, chamfer=0.0)
+    ring = None
+    if cuts.holes:
+        ring = HoleRing((inner + outer) / 2.0, cuts.holes, cuts.hole_radius, cuts.hole_depth)
+    rim = Rim(inner, outer, height, "steel", STEEL.density, cuts.chamfer, ring)
     sizes = (WEB_THICKNESS, hub.radius, hub.height, hub.bore_radius)
-    return total(wheel_parts(Wheel(rim, MadeHub(*sizes, WEB_MATERIAL, WEB_DENSITY, bolts))))
+    made_hub = MadeHub(*sizes, WEB_MATERIAL, WEB_DENSITY, bolts, chamfer=hub.chamfer)
+    return total(wheel_parts(Wheel(rim, made_hub)))
 
 
 @pytest.mark.parametrize("hub", [BARE, BOLTED], ids=["pilot bore", "bolted"])
@@ -49,6 +53,25 @@ def test_a_wheel_weighs_and_turns_like_its_solids(hub, bore, wall, height):
     expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
     np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
     np.testing.assert_allclose(solids.com, 0.0, atol=1e-12)
+
+
+@given(
+    bore=st.floats(0.0101, 0.1),
+    wall=st.floats(4.01e-3, 0.05),
+    height=st.floats(3.01e-3, 0.05),
+    chamfer=st.floats(0.0, 0.5e-3),
+    holes=st.sampled_from([0, 3, 8]),
+)
+def test_what_is_cut_off_a_wheel_is_what_is_cut_off_its_solids(bore, wall, height, chamfer, holes):
+    cuts = RimCuts(chamfer, holes, hole_radius=0.5e-3, hole_depth=1e-3)
+    hub = replace(BOLTED, chamfer=chamfer)
+    assert wall >= cuts.wall_min
+    assert height >= cuts.height_min
+    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, cuts=cuts)
+    solids = made(bore, bore + wall, height, hub, cuts)
+    assert body.mass == pytest.approx(solids.mass, rel=1e-12)
+    expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
+    np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
 
 
 def test_without_a_hub_there_is_the_rim_alone():

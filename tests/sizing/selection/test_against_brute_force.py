@@ -35,7 +35,8 @@ def selected(problem):
 
 def rims_of(chosen):
     shape = (chosen.outer_radius, chosen.inner_radius, chosen.height)
-    return Rims(*(np.array([value]) for value in shape), chosen.material.density)
+    sizes = (np.array([value]) for value in shape)
+    return Rims(*sizes, chosen.material.density, chosen.cuts.chamfer if chosen.hub else 0.0)
 
 
 def drive_of(problem, chosen, points=100_000):

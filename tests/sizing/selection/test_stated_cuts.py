@@ -1,0 +1,62 @@
+"""Chamfers and balancing holes as a specification states them."""
+
+import numpy as np
+import pytest
+
+from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.envelope import Envelope
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
+from ocs_design.sizing.selection.stated import stated_cuts
+
+ROOM = Envelope(
+    outer_radius_max=0.05, inner_radius_min=0.01, height_max=0.01, height_min=0.002,
+    wall_min=0.002, mass_max=np.inf, stress_safety=2.0,
+)  # fmt: skip
+
+
+def cuts_of(text):
+    return stated_cuts(parse_specification(f"[flywheel]\n{text}", "x").flywheel, ROOM)
+
+
+def test_edges_are_broken_where_nothing_is_stated():
+    assert cuts_of("").chamfer == 0.2e-3
+    assert cuts_of("").holes == 0
+
+
+def test_massless_spokes_carry_the_papers_sharp_rim():
+    assert cuts_of('web = "none"') == NO_CUTS
+
+
+def test_holes_are_those_stated():
+    text = 'chamfer = "0.3 mm"\nbalancing_holes = 12\nbalancing_hole_diameter = "2 mm"'
+    assert cuts_of(text) == RimCuts(0.3e-3, 12, 1.0e-3, 1.0e-3)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('balancing_holes = 6\nbalancing_hole_diameter = "39 mm"', "a wall of 41.4 mm"),
+        ('balancing_holes = 6\nbalancing_hole_depth = "5 mm"', "a height of 11 mm"),
+        ('balancing_holes = 90\nbalancing_hole_diameter = "3 mm"', "0 mm is between"),
+    ],
+)
+def test_holes_without_room_are_refused(text, words):
+    with pytest.raises(SpecificationError) as caught:
+        cuts_of(text)
+    assert words in " ".join(caught.value.problems)
+    assert "flywheel.balancing_holes" in " ".join(caught.value.problems)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("balancing_holes = 2", "2 is not 3 to 100, or 0"),
+        ('web = "none"\nchamfer = "0.1 mm"', "says nothing where flywheel.web is 'none'"),
+        ('chamfer = "2 mm"', "above 0.0005 m"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(text, words):
+    with pytest.raises(SpecificationError) as caught:
+        cuts_of(text)
+    assert words in " ".join([caught.value.message, *caught.value.problems])
