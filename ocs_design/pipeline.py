@@ -141,7 +141,7 @@ def _size(specification: Specification, robot: Robot, *, strict: bool) -> _Sized
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
     designed = design_device(specification, robot, resolved)
     device = designed.device
-    device_warnings(device, robot.mass, strict=strict)
+    device_warnings(device, robot.mass_properties, strict=strict)
     mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
     remarks = placement_warnings(
         mounting,

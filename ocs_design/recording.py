@@ -149,7 +149,7 @@ def _ocs(
         flywheel=device.flywheel,
         motor=device.motor,
         carrier=device.carrier,
-        warnings=(*device_warnings(device, robot.mass), *warnings),
+        warnings=(*device_warnings(device, robot.mass_properties), *warnings),
         fitting=fitting_remarks(device),
         mounting=None if mounting is None else _mounting(mounting),
     )
