@@ -58,6 +58,6 @@ def _coupled(inertia: FloatArray, incidence: float) -> Iterator[str]:
     yield (
         f"the robot's I_xy is {share:.0%} of its roll and pitch inertia: whoever pitches rolls, "
         "which the closed forms take apart; to pitch alone asks the busier wheel for up to "
-        f"{asks} they count. The flights are simulated with it: see whether they pass, ask for more "
+        f"{asks} they count. The flights are simulated with it: see that they pass, ask for more "
         "time or a larger --alpha, or move what is on one side"
     )

@@ -68,8 +68,9 @@ def test_hub_is_the_sum_of_its_cylinders_and_holes():
         holes = ring.count * np.pi * ring.hole_radius**2 * thickness * HUB.density
         masses -= holes
         inertias -= holes * (ring.hole_radius**2 / 2.0 + ring.radius**2)
-    assert hub.mass == pytest.approx(masses, rel=1e-13)
-    assert hub.inertia[2, 2] == pytest.approx(inertias, rel=1e-13)
+    volume, moment = chamfers(HUB.bore_radius, HUB.radius, HUB.chamfer)
+    assert hub.mass == pytest.approx(masses - HUB.density * volume, rel=1e-13)
+    assert hub.inertia[2, 2] == pytest.approx(inertias - HUB.density * moment, rel=1e-13)
 
 
 @pytest.mark.parametrize("wheel", [TWO_PIECES, ONE_PIECE, RIM_ALONE, DISC])

@@ -1,6 +1,7 @@
 """The selection that a specification asks for."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ocs_design.exceptions import SpecificationError
 from ocs_design.requirement.envelope import Envelope
@@ -54,12 +55,14 @@ def stated_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
     """
     if stated.web == NO_WEB:
         return NO_CUTS
-    cuts = RimCuts(
-        chamfer=CHAMFER if stated.chamfer is None else stated.chamfer,
-        holes=stated.balancing_holes or 0,
-        hole_radius=(stated.balancing_hole_diameter or BALANCING_DIAMETER) / 2.0,
-        hole_depth=stated.balancing_hole_depth or BALANCING_DEPTH,
-    )
+    cuts = RimCuts(CHAMFER if stated.chamfer is None else stated.chamfer)
+    if stated.balancing_holes:
+        cuts = replace(
+            cuts,
+            holes=stated.balancing_holes,
+            hole_radius=(stated.balancing_hole_diameter or BALANCING_DIAMETER) / 2.0,
+            hole_depth=stated.balancing_hole_depth or BALANCING_DEPTH,
+        )
     faults = tuple(_without_room(cuts, room))
     if faults:
         raise SpecificationError("the rim has no room for what is cut off it:", problems=faults)
