@@ -118,6 +118,7 @@ def _driven_motor(wheel: DrivenWheel, line: DriveLine) -> Motor:
         else gain * motor.continuous_torque,
         mounting=motor.mounting if gear == DIRECT else None,
         no_load_current=motor.no_load_current,
+        gear_room=gear.room,
     )
 
 

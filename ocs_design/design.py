@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.gear import DIRECT, GearRoom
 from ocs_design.drive.mounting import Mounting
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.sizing.carrier import Carrier
@@ -120,6 +120,7 @@ class Motor:
         continuous_torque: that the winding stands for good [N m].
         mounting: its shaft and threads, where the wheel sits on it without a gear and any is known.
         no_load_current: that the motor itself draws turning freely at its rated voltage [A].
+        gear_room: that its gear takes; None: there is no gear.
     """
 
     name: str
@@ -144,6 +145,7 @@ class Motor:
     length: float | None = None
     mounting: Mounting | None = None
     no_load_current: float | None = None
+    gear_room: GearRoom | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,6 +25,7 @@ _OR_NONE = (
     *("inner_radius", "bore_radius", "bolt_circle_radius", "bolt_hole_radius", "length"),
     *("chamfer", "hole_radius", "hole_depth"),
 )
+_OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "center")
 """Lengths [m] that are zero where there is no such thing."""
 
 _LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter"}
@@ -75,7 +76,7 @@ def _figures(value: object, path: str) -> Iterator[str]:
         yield f"{path} is {value}"
     elif isinstance(value, float):
         low, high = _range(path)
-        absent = value == 0.0 and path.endswith(_OR_NONE)
+        absent = value == 0.0 and path.endswith(_OR_NONE + _OF_GEARS)
         if not absent and not low <= value <= high:
             yield f"{path} is {value:g}, not between {low:g} and {high:g}"
 
@@ -83,7 +84,7 @@ def _figures(value: object, path: str) -> Iterator[str]:
 def _range(path: str) -> tuple[float, float]:
     """Smallest and largest value of a figure."""
     name = path.rpartition(".")[2]
-    if name in _LENGTHS or path.endswith(_OR_NONE):
+    if name in _LENGTHS or path.endswith(_OR_NONE + _OF_GEARS):
         return SMALLEST_LENGTH, LARGEST_LENGTH
     if name in _ANY_SIGN:
         return -LARGEST, LARGEST

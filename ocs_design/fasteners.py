@@ -52,10 +52,53 @@ class Screw:
         Head and thread as cylinders, that of the thread with its stress area (ISO 898-1, 9.1.6.1:
         about the mean of its profile), less the socket. Within a tenth or so of makers' tables.
         """
+        return self._head_mass + self._thread_mass(length)
+
+    def centre(self, length: float) -> float:
+        """Of its mass, from under its head towards its tip [m]; the socket in the head's middle."""
+        beside = self._thread_mass(length) * length - self._head_mass * self.head_height
+        return beside / (2.0 * self.mass(length))
+
+    @property
+    def _head_mass(self) -> float:
         head = pi / 4.0 * self.head_diameter**2 * self.head_height
-        socket = sqrt(0.75) * self.key**2 * self.key_depth
-        thread = pi / 4.0 * (self.diameter - 0.9382 * self.pitch) ** 2 * length
-        return STEEL * (head - socket + thread)
+        return STEEL * (head - sqrt(0.75) * self.key**2 * self.key_depth)
+
+    def _thread_mass(self, length: float) -> float:
+        return STEEL * pi / 4.0 * (self.diameter - 0.9382 * self.pitch) ** 2 * length
+
+
+@dataclass(frozen=True)
+class Fastening:
+    """Equal screws of one module.
+
+    Attributes:
+        screw: what they are. count: how many.
+        thickness: of what they go through [m].
+        purpose: what they hold, and what to mind.
+        depth: of their threads over their diameter, at least.
+    """
+
+    screw: Screw
+    count: int
+    thickness: float
+    purpose: str
+    depth: float = 1.0
+
+    @property
+    def length(self) -> float:
+        """Of each, under its head [m]."""
+        return self.screw.length_through(self.thickness, self.depth)
+
+    @property
+    def mass(self) -> float:
+        """Of all [kg]."""
+        return self.count * self.screw.mass(self.length)
+
+    @property
+    def centre(self) -> float:
+        """Of the mass of each, from under its head towards its tip [m]."""
+        return self.screw.centre(self.length)
 
 
 IN_PLASTIC = 2.0

@@ -10,6 +10,7 @@ from itertools import product
 from math import inf, pi, radians, sqrt
 
 import numpy as np
+from drawn_mounts import with_mounts
 from rims import PAPER_STEEL, STEEL
 
 from ocs_design.catalogue.materials import Material
@@ -79,7 +80,7 @@ def draw(seed):
         web=seed % 2 == 0,
         cuts=RimCuts(0.3e-3) if seed % 4 == 0 else NO_CUTS,
     )
-    return Drawn(robot, problem)
+    return Drawn(robot, with_mounts(problem, seed))
 
 
 def standing_height(robot):

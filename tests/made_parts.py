@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from ocs_design.drive.mounting import BoltCircle
 from ocs_design.fasteners import screw
+from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.mount import Mount
@@ -12,6 +14,8 @@ from ocs_design.parts.solids import Prism, hollow_cylinder
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
 from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.robot.tree import Placement
+from ocs_design.sizing.cage import Cage
+from ocs_design.sizing.mount import MountHoles
 
 STEEL, ALUMINIUM = 7860.0, 2700.0
 
@@ -63,6 +67,8 @@ HOUSING = Housing(
 )
 FOOT = Foot(HOUSING)
 
+CAGE = Cage(0.018, 0.036, MountHoles(0.0075, BoltCircle(0.025, 4, "M3")))
+
 PARTS = {
     part.name: part
     for part in (
@@ -71,6 +77,7 @@ PARTS = {
         *(Part("disc", part.density, part.joined) for part in wheel_parts(DISC)),
         *housing_parts(HOUSING),
         foot_part(FOOT),
+        cage_part(CAGE),
         SLOTTED,
         TUBE,
     )

@@ -13,16 +13,19 @@ import numpy as np
 from naive_module import (
     GAP,
     behind,
+    body_of,
+    least_bore,
     least_outer,
     mount_of,
     printed,
     room_taken,
     round_thing,
+    screws_around,
 )
 from naive_wheel import hub_body
+from standing_parts import driving_parts
 
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.sizing.foot import PLATE_THICKNESS
 from ocs_design.sizing.rim_cuts import LIGAMENT
 from ocs_design.sizing.web import SEAT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
 
@@ -38,13 +41,14 @@ class Drive:
 
     def __init__(self, problem, motor, gear, points=3000):
         rotor = motor.rotor_inertia or 0.0
-        self.motor, self.mount = motor, mount_of(motor)
-        self.motor_mass, self.gear_mass = motor.mass, gear.mass
+        self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear)
+        self.behind = body_of(driving_parts(motor, gear))
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
         self.chamfer = chamfer_of(problem)
         if problem.web:
             hub = hub_of(motor, direct=gear.name == "direct", chamfer=problem.cuts.chamfer)
-            self.hub, self.hub_radius = hub_body(hub), hub.radius + LIGAMENT
+            self.hub, widest = hub_body(hub), max(hub.radius, least_bore(motor, gear))
+            self.hub_radius = widest + LIGAMENT
         # The rotor turns at N W, the other way round if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
         self.rotor_load = gear.ratio**2 * rotor + gear.inertia
@@ -93,14 +97,9 @@ class Drive:
 
     def standing(self, rims):
         """Motor, gear, housing and foot, see `naive_module`, shape (6, n)."""
-        radius, length = (self.motor.diameter or 0.0) / 2.0, self.motor.length or 0.0
-        axial = self.motor_mass * radius**2 / 2.0
-        across = self.motor_mass * (3.0 * radius**2 + length**2) / 12.0
-        there = -(rims.height / 2.0 + GAP + PLATE_THICKNESS + length / 2.0)
-        one = np.ones_like(rims.outer)
-        motor = round_thing(self.motor_mass * one, axial * one, across * one)
-        gear = round_thing(self.gear_mass * one, 0.0 * one, 0.0 * one)
-        return behind(motor + gear, there) + printed(rims.outer, rims.height, self.mount)
+        drive = behind(self.behind[:, None] + 0.0 * rims.height, -(rims.height / 2.0 + GAP))
+        shell = printed(rims.outer, rims.height, self.mount)
+        return drive + shell + screws_around(rims.outer, rims.height)
 
     def wheel(self, rims):
         """Rim, web and hub: mass, inertia about the axis and across it, shape (3, n)."""
@@ -147,7 +146,7 @@ def inertia_on(problem, drive, rims, angle):
     module = round_thing(*drive.wheel(rims)) + drive.standing(rims)
     mass, along, up, across, axis, upright = module
     robot, place = problem.robot, problem.place
-    reach, standing = room_taken(rims.outer, rims.height, drive.motor)
+    reach, standing = room_taken(rims.outer, rims.height, drive.motor, drive.gear)
     x, y, z = (o + d * reach for o, d in zip(place.origin, place.outward, strict=True))
     z = z + standing if place.upright else z
     sine, cosine = np.sin(angle), np.cos(angle)

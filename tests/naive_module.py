@@ -10,11 +10,13 @@ from math import pi
 
 import numpy as np
 
+from ocs_design.fasteners import screw
 from ocs_design.parts import foot as made_foot
 from ocs_design.parts import housing as made_housing
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
-from ocs_design.parts.mount import Mount, motor_mount
+from ocs_design.parts.mount import Mount, made_mount
+from ocs_design.sizing import motor_mount
 from ocs_design.sizing.foot import BASE_THICKNESS, PLATE_THICKNESS
 from ocs_design.sizing.housing import CLEARANCE, DENSITY, LID_SCREW, WALL
 
@@ -89,14 +91,16 @@ def foot_of(outer, height, mount, half):
         flat = count * length * 0.8e-3 + 0.0 * edge
         body = body - layer(flat, (ring, ring), BASE_THICKNESS - 0.4e-3, BASE_THICKNESS, "z")
     body = lifted(body, -tall)
-    area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), outer)
+    least = np.maximum(outer, least_outer(mount) + 1e-9)
+    area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), least)
     plate = layer(area, (in_x, in_z), -back, -half, "y")
     plate[2] += DENSITY * PLATE_THICKNESS * first_z
     return body + plate - layer(*_mount_outline(mount), -back, -half, "y")
 
 
 def bases(outer, height, mount):
-    """Radius of each foot's base, and how high it holds the wheel."""
+    """Radius of each foot's base, and how high it holds the wheel; see `holds` for small ones."""
+    outer = np.maximum(outer, least_outer(mount) + 1e-9)
     sizes, where = np.unique(np.stack([outer, height], axis=1), axis=0, return_inverse=True)
     feet = [Foot(Housing(r, h, mount, LID_SCREW)) for r, h in sizes.tolist()]
     return np.array([(foot.base_radius, foot.wheel_height) for foot in feet])[where.ravel()].T
@@ -141,18 +145,48 @@ def _mount_outline(mount):
     return sum(each.area for each in found), (second[0, 0], second[1, 1])
 
 
-def mount_of(motor):
-    return motor_mount(motor.mounting)
+def mount_of(motor, gear):
+    """The holes of floor and plate."""
+    return made_mount(motor_mount.mount_of(motor, gear.room).holes)
 
 
-def room_taken(outer, height, motor):
-    """Radius that housing, motor and base stay within, and the wheel's height on its foot."""
-    half, length, radius = height / 2.0 + GAP, motor.length or 0.0, (motor.diameter or 0.0) / 2.0
+def screws_around(outer, height):
+    """Four M2 x 6 on the lid, two M3 x 6 on the base, as points; one by one in `standing_parts`."""
+    m2, m3, half = screw("M2"), screw("M3"), height / 2.0 + GAP
+    lid, trunk = 4.0 * m2.mass(6e-3), 2.0 * m3.mass(6e-3)
+    along, up = half - m2.centre(6e-3), -(outer + GAP + CLEARANCE) - m3.centre(6e-3)
+    ears = lid * (outer + GAP + m2.clearance_hole / 2.0) ** 2 / 2.0
+    slots = trunk * (half + PLATE_THICKNESS + m3.head_diameter / 2.0 + WALL) ** 2
+    one, zero = np.ones_like(outer), np.zeros_like(outer)
+    on_lid = np.stack([lid * one, lid * along, zero, ears, lid * along**2, ears])
+    return on_lid + np.stack([trunk * one, zero, trunk * up, slots, slots, trunk * up**2])
+
+
+def body_of(pieces):
+    """The sum of some, about their origin."""
+    total = np.zeros(6)
+    for piece in pieces:
+        second = np.trace(piece.inertia) / 2.0 - np.diag(piece.inertia)
+        total += [piece.mass, *(piece.mass * piece.com[1:]), *(second + piece.mass * piece.com**2)]
+    return total
+
+
+def room_taken(outer, height, motor, gear):
+    """Radius that housing, drive and base stay within, and the wheel's height on its foot."""
+    mount = motor_mount.mount_of(motor, gear.room)
+    half, (depth, radius) = height / 2.0 + GAP, mount.behind(motor)
     swept = np.maximum(
-        np.hypot(outer + GAP, half), np.hypot(half + PLATE_THICKNESS + length, radius)
+        np.hypot(outer + GAP, half), np.hypot(half + PLATE_THICKNESS + depth, radius)
     )
-    edge, _ = bases(outer, height, mount_of(motor))
+    edge, _ = bases(outer, height, mount_of(motor, gear))
     return np.maximum(swept, edge), outer + GAP + CLEARANCE + BASE_THICKNESS
+
+
+def least_bore(motor, gear):
+    """Beside the heads of the screws in the housing."""
+    mount = motor_mount.mount_of(motor, gear.room)
+    circle = mount.holes.screws
+    return 0.0 if circle is None else circle.radius + screw(circle.thread).head_diameter / 2.0
 
 
 def least_outer(mount):

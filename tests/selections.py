@@ -1,6 +1,7 @@
 """Random robots, specifications and small catalogues for tests of the selection."""
 
 import numpy as np
+from drawn_mounts import with_mounts
 from rims import STEEL
 
 from ocs_design.catalogue.materials import Material
@@ -42,7 +43,7 @@ def gear(rng, name, ratio, torque):
     )  # fmt: skip
 
 
-def random_problem(seed, motors=3):
+def random_problem(seed, motors=3, *, mounted=True):
     """A robot of 1 to 30 kg, two or three maneuvers, and a catalogue that may be too weak."""
     rng = np.random.default_rng(seed)
     size = rng.uniform(0.8, 2.2)
@@ -63,7 +64,7 @@ def random_problem(seed, motors=3):
     speed = momentum / (0.05 * mass * radius**2) * rng.uniform(0.5, 1.5)
     voltage = float(rng.choice([12.0, 24.0, 48.0]))
     ratios = (1.0 / rng.uniform(1.2, 2.0), rng.uniform(1.2, 4.0))
-    return SelectionProblem(
+    problem = SelectionProblem(
         robot=robot,
         requirement=Requirement(
             tuple(_maneuvers(rng, standing, fall, torque, time)),
@@ -78,6 +79,7 @@ def random_problem(seed, motors=3):
         incidence=rng.choice([None, None, 0.6]),
         wheel_speed_max=rng.choice([None, speed * 1.5]),
     )  # fmt: skip
+    return with_mounts(problem, seed) if mounted else problem
 
 
 def _maneuvers(rng, standing, fall, torque, time):

@@ -8,6 +8,8 @@ lighter.
 import math
 from dataclasses import dataclass
 
+from ocs_design.drive.gear import GearRoom
+
 FLANGE = 1e-3
 """Thickness of one of a pulley's two flanges [m]."""
 
@@ -96,6 +98,22 @@ class BeltStage:
     def wheel_speed_max(self, belt_speed_max: float) -> float:
         """At which the belt runs at `belt_speed_max` [m/s]; [rad/s]."""
         return belt_speed_max / self.wheel_radius
+
+    @property
+    def room(self) -> GearRoom:
+        """That it takes, the motor's axis beside the wheel's, its mass without axle and bearings.
+
+        The pulleys are where they are as wide as their flanges, with no gap on either side.
+        """
+        motor = self._pulley_mass(self.motor_radius)
+        moment = motor * self._least_distance() + self.belt_mass * self._least_distance() / 2.0
+        return GearRoom(
+            depth=self.width + 2.0 * FLANGE,
+            offset=self._least_distance(),
+            wheel_radius=self.wheel_radius,
+            motor_radius=self.motor_radius,
+            center=moment / self.mass,
+        )
 
     def _pulley_mass(self, radius: float) -> float:
         return self.pulley_density * math.pi * radius**2 * (self.width + 2.0 * FLANGE)

@@ -3,7 +3,7 @@
 import itertools
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from ocs_design.catalogue.belt import BeltStage
@@ -116,17 +116,19 @@ class GearSheet:
         """Every two different pulleys; two of a size would only add mass."""
         for motor_teeth, wheel_teeth in itertools.permutations(self.teeth, 2):
             belt = self._belt(motor_teeth, wheel_teeth)
+            mass = _stated(self.mass_kg) + belt.mass
             yield Gear(
                 name=f"{self.name} {motor_teeth}:{wheel_teeth}",
                 ratio=belt.ratio,
                 efficiency=_stated(self.efficiency),
-                mass=_stated(self.mass_kg) + belt.mass,
+                mass=mass,
                 inertia=belt.inertia,
                 motor_speed_max=_speed(self.motor_speed_max_rpm),
                 wheel_speed_max=belt.wheel_speed_max(_stated(self.belt_speed_max_m_s)),
                 torque_max=belt.torque_max,
                 reverses=self.reverses,
                 source=self.source,
+                room=replace(belt.room, center=belt.room.center * belt.mass / mass),
             )
 
     def _belt(self, motor_teeth: int, wheel_teeth: int) -> BeltStage:

@@ -4,6 +4,25 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
+class GearRoom:
+    """What a stage takes between the plate behind a wheel and the motor; 0: not known.
+
+    Attributes:
+        depth: along the wheel's axis [m].
+        offset: of the motor's axis from the wheel's [m].
+        wheel_radius, motor_radius: of what turns with the wheel and with the motor [m]; of a stage
+            on one axis the same.
+        center: of its mass, from the wheel's axis towards the motor's [m].
+    """
+
+    depth: float = 0.0
+    offset: float = 0.0
+    wheel_radius: float = 0.0
+    motor_radius: float = 0.0
+    center: float = 0.0
+
+
+@dataclass(frozen=True)
 class Gear:
     """One stage with a fixed ratio; a stage that may have any ratio is one `Gear` per ratio.
 
@@ -17,6 +36,7 @@ class Gear:
         torque_max: at its output, short-term [N m]; inf: not limited.
         reverses: whether the wheel turns against the motor, as behind a pair of spur gears.
         source: where the figures come from.
+        room: that it takes; None: there is no gear.
     """
 
     name: str
@@ -29,6 +49,7 @@ class Gear:
     torque_max: float
     reverses: bool
     source: str
+    room: GearRoom | None = GearRoom()
 
 
 DIRECT = Gear(
@@ -42,5 +63,6 @@ DIRECT = Gear(
     torque_max=float("inf"),
     reverses=False,
     source="the wheel sits on the motor's shaft",
+    room=None,
 )
 """No gear."""

@@ -8,9 +8,11 @@ from pathlib import Path
 
 from ocs_design.design import Device, Flywheel, Motor, Web
 from ocs_design.drive.gear import DIRECT
+from ocs_design.drive_solids import motor_mount
 from ocs_design.export.fastenings import fastenings
 from ocs_design.export.fitting import standing_remarks
 from ocs_design.export.workshop import printed_foot, printed_parts
+from ocs_design.fasteners import STEEL
 from ocs_design.sizing.housing import CLEARANCE, WALL
 
 COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
@@ -34,7 +36,6 @@ class BillRow:
         quantity: in the whole device.
         mass: of one [kg].
         source: where it is from, or what to mind.
-        counted: whether it is in the device's mass.
     """
 
     part: str
@@ -43,11 +44,10 @@ class BillRow:
     stock: str
     mass: float
     source: str
-    counted: bool = True
 
 
 def bill_rows(device: Device) -> Sequence[BillRow]:
-    """All parts that the device holds; those that are counted weigh what it weighs."""
+    """All parts that the device holds; together they weigh what it weighs."""
     wheel, motor = device.flywheel, device.motor
     rows = list(_wheel(wheel))
     if motor.mass > 0.0:
@@ -55,10 +55,9 @@ def bill_rows(device: Device) -> Sequence[BillRow]:
     if motor.gear != DIRECT.name:
         rows.append(_gear(motor))
     standing = device.carrier.mass - motor.mass - motor.gear_mass
-    printed = standing > _MASSLESS
-    if printed:
-        rows += _printed(device)
-    return [*rows, *_screws(device, printed=printed)]
+    if standing > _MASSLESS:
+        rows += [*_printed(device), *_screws(device)]
+    return rows
 
 
 def export_bill_of_materials(device: Device, path: Path) -> Path:
@@ -74,7 +73,8 @@ def export_bill_of_materials(device: Device, path: Path) -> Path:
         writer.writerow(COLUMNS)
         for row in rows:
             writer.writerow([plain(cell) for cell in _cells(row)])
-        writer.writerow(["total", "", "", "", "", _grams(device.mass), _not_counted(rows)])
+        total = sum(row.quantity * row.mass for row in rows)
+        writer.writerow(["total", "", "", "", "", _grams(total), _as_designed(device, total)])
     return path
 
 
@@ -96,9 +96,11 @@ def _cells(row: BillRow) -> tuple[str, ...]:
     )
 
 
-def _not_counted(rows: Sequence[BillRow]) -> str:
-    beside = sum(row.quantity * row.mass for row in rows if not row.counted)
-    return f"as designed, without the screws' {_grams(beside)} g" if beside else "as designed"
+def _as_designed(device: Device, total: float) -> str:
+    """Designs of versions before 0.2 count no screws, and not all that holds the motor."""
+    if abs(total - device.mass) <= _MASSLESS:
+        return "as designed"
+    return f"the design counts {_grams(device.mass)} g: size it again"
 
 
 def _motor(device: Device) -> BillRow:
@@ -166,24 +168,27 @@ def _gear(motor: Motor) -> BillRow:
 
 def _printed(device: Device) -> Iterator[BillRow]:
     foot = printed_foot(device)
-    drum, lid, base = (part.mass_properties().mass for part in printed_parts(device))
+    drum, lid, base, *caged = (part.mass_properties().mass for part in printed_parts(device))
     across, tall = 2.0 * foot.housing.radius, 2.0 * foot.housing.half_height
     made = f"3-D print, wall {_mm(WALL)}, {_mm(CLEARANCE)} clear of the rim"
     yield BillRow("housing", 2, "PETG", f"{_mm(across)} x {_mm(tall)}", drum + lid, made)
     size = f"{_mm(2.0 * foot.base_radius)} x {_mm(foot.wheel_height)} to the axis"
     yield BillRow("foot", 2, "PETG", size, base, "3-D print, turned to the incidence by hand")
+    cage = motor_mount(device).cage
+    if cage is not None:
+        size = f"{_mm(2.0 * cage.reach)} x {_mm(cage.length)}"
+        yield BillRow("cage", 2, "PETG", size, caged[0], "3-D print, holds the motor by its back")
 
 
-def _screws(device: Device, *, printed: bool) -> Iterator[BillRow]:
-    for each in fastenings(device, printed=printed):
+def _screws(device: Device) -> Iterator[BillRow]:
+    for each in fastenings(device):
         yield BillRow(
             part=f"screw {each.screw.designation(each.length)}",
             quantity=2 * each.count,
             material="steel",
             stock="",
             mass=each.screw.mass(each.length),
-            source=f"{each.purpose}; not in the device's mass",
-            counted=False,
+            source=f"{each.purpose}; mass: steel of {STEEL:g} kg/m^3 of its ISO 4762 dimensions",
         )
 
 

@@ -3,15 +3,14 @@
 from collections.abc import Iterator
 from math import sqrt
 
-from ocs_design.design import Device
+from ocs_design.design import Device, Motor
 from ocs_design.drawing.wheel import BROKEN_EDGE, lost_by_breaking
-from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.gear import DIRECT, GearRoom
 from ocs_design.drive.mounting import Face, Mounting
+from ocs_design.drive_solids import drive_solids, motor_mount
 from ocs_design.export.made_wheel import made_wheel
-from ocs_design.export.standing import motor_in_place
 from ocs_design.export.workshop import printed_foot
 from ocs_design.parts.foot import Foot
-from ocs_design.parts.mount import motor_mount
 from ocs_design.units import format_quantity
 
 _UNDRILLED = "floor and plate are to be drilled for it"
@@ -40,26 +39,48 @@ def standing_remarks(device: Device) -> tuple[str, ...]:
 def _standing(device: Device) -> Iterator[str]:
     motor, foot = device.motor, printed_foot(device)
     if motor.gear != DIRECT.name:
-        yield f"how motor and gear are held is not designed: {_UNDRILLED}"
+        yield from _geared(motor)
     else:
         mounting = motor.mounting or Mounting()
-        yield from _held(mounting, foot)
+        yield from _held(mounting, device)
         yield from _driven(mounting, device, foot)
     yield from _apart(device, foot)
 
 
-def _held(mounting: Mounting, foot: Foot) -> Iterator[str]:
+def _geared(motor: Motor) -> Iterator[str]:
+    """What would have to be known to hold it."""
+    room = motor.gear_room or GearRoom()
+    beside = (
+        f", its axis {format_quantity(room.offset, 'mm')} above the wheel's" if room.offset else ""
+    )
+    unknown = "shaft and the motor's threads" if room.depth else "room and the threads of both"
+    stands = (
+        f"the motor stands {format_quantity(room.depth, 'mm')} behind the plate{beside}, where it "
+        "is counted and shown"
+        if room.depth
+        else "the motor is counted right behind the plate"
+    )
+    yield (
+        f"how motor and gear are held is not designed, for the gear's {unknown} are not in the "
+        f"catalogue: {stands}; {_UNDRILLED}"
+    )
+
+
+def _held(mounting: Mounting, device: Device) -> Iterator[str]:
     """How the motor is, on plate and floor."""
-    stator = mounting.stator
+    stator, mount = mounting.stator, motor_mount(device)
     if stator is None:
-        yield f"the motor's threads are not in the catalogue: {_UNDRILLED}"
-    elif mounting.stator_face is Face.BACK:
+        bare = mount.holes.pilot_radius == 0.0
+        hole = format_quantity(2.0 * mount.holes.pilot_radius, "mm")
+        there = "" if bare else f"beside the hole of {hole} for what turns "
+        yield f"the motor's threads are not in the catalogue: {there}{_UNDRILLED}"
+    elif mount.holes.screws is None and mounting.stator_face is Face.BACK:
         yield (
-            f"the motor's threads, {stator}, are at its back: it needs a bracket of your "
-            "own, for floor and plate have no holes for it"
+            f"the motor's threads, {stator}, are at its back, and its size is not known or its "
+            "cage does not fit the housing's floor: it needs a bracket of your own"
         )
-    elif foot.housing.mount != motor_mount(mounting):
-        room = format_quantity(2.0 * foot.housing.inner_radius, "mm")
+    elif mount.holes.screws is None:
+        room = format_quantity(2.0 * printed_foot(device).housing.inner_radius, "mm")
         yield (
             f"the motor's screws, {stator}, do not fit the housing's floor of {room}: {_UNDRILLED}"
         )
@@ -67,7 +88,7 @@ def _held(mounting: Mounting, foot: Foot) -> Iterator[str]:
 
 def _driven(mounting: Mounting, device: Device, foot: Foot) -> Iterator[str]:
     """How the wheel is: by the shaft through plate and floor, or by threads behind them."""
-    web, middle = device.flywheel.web, foot.back
+    web, middle = device.flywheel.web, foot.back + motor_mount(device).gap
     if web is None:
         return
     near, far = (format_quantity(middle + side * web.hub.height / 2.0, "mm") for side in (-1, 1))
@@ -93,12 +114,11 @@ def _apart(device: Device, foot: Foot) -> Iterator[str]:
     room, inwards = float(left.position[1]), float(left.axis[1])
     if foot.base_radius > room:
         yield _overlap("feet", foot.base_radius - room)
-    found = motor_in_place(device, foot)
-    if found is not None:
-        radius, low, _ = found
-        reach = radius * sqrt(max(0.0, 1.0 - inwards**2)) - low * inwards
-        if reach > room:
-            yield _overlap("motors", reach - room)
+    across = sqrt(max(0.0, 1.0 - inwards**2))
+    behind = (solid.radius * across - solid.low * inwards for solid in drive_solids(device))
+    reach = max(behind, default=0.0)
+    if reach > room:
+        yield _overlap("motors", reach - room)
 
 
 def _overlap(parts: str, beyond: float) -> str:

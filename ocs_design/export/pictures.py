@@ -1,17 +1,19 @@
 """What a design looks like: the wheel, a module, and the robot with both."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 
 from ocs_design.design import Device
+from ocs_design.drive_solids import drive_solids, motor_mount
 from ocs_design.export.backdrop import add_white_sky
 from ocs_design.export.rendering import Scene, render_views
 from ocs_design.export.robot_model import RobotModel
-from ocs_design.export.standing import MOTOR, PRINT, SHELL, Color, motor_in_place
+from ocs_design.export.standing import GEAR, MOTOR, PRINT, SHELL, Color, cage_placement
 from ocs_design.export.workshop import printed_foot, printed_parts
+from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.mesh import Mesh, part_mesh, solid_mesh
 from ocs_design.parts.solids import hollow_cylinder
@@ -89,23 +91,31 @@ def _wheel(wheel: Wheel) -> list[Shown]:
 
 
 def _carrier(device: Device) -> list[Shown]:
-    """Motor, where its size is known, and what is printed: drum, lid and foot."""
+    """Motor and gear, where their sizes are known, and what is printed around them."""
     if device.carrier.mass == 0.0:
         return []
-    foot, (*housing, base) = printed_foot(device), printed_parts(device)
+    foot, (drum, lid, base, *_) = printed_foot(device), printed_parts(device)
     return [
-        *_motor(device, foot),
+        *_drive(device),
         Shown(_placed(part_mesh(base), foot.placement), PRINT),
-        *(Shown(part_mesh(part), SHELL) for part in housing),
+        *_cage(device, foot),
+        *(Shown(part_mesh(part), SHELL) for part in (drum, lid)),
     ]
 
 
-def _motor(device: Device, foot: Foot) -> list[Shown]:
-    found = motor_in_place(device, foot)
-    if found is None:
-        return []
-    radius, low, high = found
-    return [Shown(solid_mesh(hollow_cylinder(0.0, radius, low, high)), MOTOR)]
+def _drive(device: Device) -> Iterator[Shown]:
+    colors = {"motor": MOTOR, "gear": GEAR}
+    for solid in drive_solids(device):
+        if solid.name in colors:
+            mesh = solid_mesh(hollow_cylinder(0.0, solid.radius, solid.low, solid.high))
+            above = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
+            yield Shown(_placed(mesh, above), colors[solid.name])
+
+
+def _cage(device: Device, foot: Foot) -> Iterator[Shown]:
+    cage = motor_mount(device).cage
+    if cage is not None:
+        yield Shown(_placed(part_mesh(cage_part(cage)), cage_placement(foot, cage)), PRINT)
 
 
 def _placed(mesh: Mesh, place: Placement) -> Mesh:

@@ -1,4 +1,4 @@
-"""What of a module stands still, to look at: housing, foot and motor.
+"""What of a module stands still, to look at: housing, foot, motor, its cage and its gear.
 
 Shapes without mass and contact, in the frame of the module's wheel. Masses are the carrier's.
 """
@@ -12,25 +12,29 @@ from typing import TypeAlias
 import numpy as np
 
 from ocs_design.design import Device, Module
-from ocs_design.drive.gear import DIRECT
+from ocs_design.drive_solids import DriveSolid, drive_solids, motor_mount
 from ocs_design.export.workshop import printed_foot
+from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.mesh import Mesh, part_mesh
 from ocs_design.parts.part import Part
 from ocs_design.robot.tree import Placement, ShapeKind
+from ocs_design.sizing.cage import Cage
 from ocs_design.sizing.foot import BASE_THICKNESS, PLATE_THICKNESS
 
 HOUSING_MESH, FOOT_MESH = Path("meshes/ocs_housing.stl"), Path("meshes/ocs_foot.stl")
-"""In metres, beside every exported robot file: drum with lid in the frame of the left wheel, and
-the foot in its own."""
+CAGE_MESH = Path("meshes/ocs_cage.stl")
+"""In metres, beside every exported robot file: drum with lid in the frame of the left wheel, foot
+and cage in their own."""
 
 Color: TypeAlias = tuple[float, float, float, float]
 
 SHELL: Color = (0.25, 0.45, 0.75, 0.3)
 PRINT: Color = (0.25, 0.45, 0.75, 1.0)
 MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
-_COLORS = {"housing": SHELL, "foot": PRINT, "motor": MOTOR}
+GEAR: Color = (0.75, 0.6, 0.3, 1.0)
+_COLORS = {"housing": SHELL, "foot": PRINT, "cage": SHELL, "motor": MOTOR, "gear": GEAR}
 
 SECTIONS = 64
 """Of a full circle: a quarter of those that are printed."""
@@ -41,7 +45,7 @@ class Visual:
     """A shape to look at.
 
     Attributes:
-        name: what it is: housing, foot or motor.
+        name: what it is: housing, foot, cage, motor or gear.
         kind, size: see `ShapeKind`: box, cylinder or mesh.
         place: of the shape's frame in that of the module's wheel.
         mesh: of `standing_meshes`; None for the other kinds.
@@ -61,18 +65,21 @@ class Visual:
 
 def standing_meshes(device: Device) -> Mapping[Path, Mesh]:
     """The meshes that `standing_visuals` name; none where nothing stands still."""
-    return _meshes(printed_foot(device)) if device.carrier.mass > 0.0 else {}
+    if device.carrier.mass == 0.0:
+        return {}
+    return _meshes(printed_foot(device), motor_mount(device).cage)
 
 
 def standing_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
-    """Housing and foot as meshes, and the motor where its size is known."""
+    """Housing, foot and cage as meshes, and motor and gear where their sizes are known."""
     if device.carrier.mass == 0.0:
         return ()
     foot, turn = printed_foot(device), standing_turn(module)
     return (
         _mesh("housing", HOUSING_MESH, turn),
         _mesh("foot", FOOT_MESH, turn @ foot.placement),
-        *_motor(device, foot, turn),
+        *_cage(device, foot, turn),
+        *_drive(device, turn),
     )
 
 
@@ -84,7 +91,8 @@ def plain_standing_visuals(device: Device, module: Module) -> tuple[Visual, ...]
     return (
         _cylinder("housing", foot.housing.radius, foot.housing.half_height, turn),
         *_plain_foot(foot, turn),
-        *_motor(device, foot, turn),
+        *_plain_cage(device, turn),
+        *_drive(device, turn),
     )
 
 
@@ -99,34 +107,45 @@ def standing_turn(module: Module) -> Placement:
     return Placement(np.diag([-1.0, 1.0, -1.0]), np.zeros(3))
 
 
-def motor_in_place(device: Device, foot: Foot) -> tuple[float, float, float] | None:
-    """Radius of the motor, and where it begins and ends along the left wheel's axis [m].
-
-    It stands outside, on the foot's plate. None where its size is not known, and behind a gear,
-    whose size and place are not.
-    """
-    motor = device.motor
-    if motor.gear != DIRECT.name or motor.diameter is None or motor.length is None:
-        return None
-    return motor.diameter / 2.0, -foot.back - motor.length, -foot.back
-
-
 @lru_cache(maxsize=1)
-def _meshes(foot: Foot) -> Mapping[Path, Mesh]:
+def _meshes(foot: Foot, cage: Cage | None) -> Mapping[Path, Mesh]:
     """Every robot file asks for them."""
     drum, lid = housing_parts(foot.housing)
     # As one, for faces that they share would be seen through the shell.
     housing = Part("housing", drum.density, drum.joined + lid.joined, drum.cut + lid.cut)
     parts = {HOUSING_MESH: housing, FOOT_MESH: foot_part(foot)}
+    if cage is not None:
+        parts[CAGE_MESH] = cage_part(cage)
     return {path: part_mesh(part, SECTIONS) for path, part in parts.items()}
 
 
-def _motor(device: Device, foot: Foot, turn: Placement) -> Iterator[Visual]:
-    found = motor_in_place(device, foot)
-    if found is not None:
-        radius, low, high = found
-        middle = turn @ _shifted(0.0, 0.0, (low + high) / 2.0)
-        yield _cylinder("motor", radius, (high - low) / 2.0, middle)
+def _drive(device: Device, turn: Placement) -> Iterator[Visual]:
+    """Motor and gear as cylinders."""
+    for solid in drive_solids(device):
+        if solid.name != "cage":
+            yield _solid(solid, turn)
+
+
+def _cage(device: Device, foot: Foot, turn: Placement) -> Iterator[Visual]:
+    cage = motor_mount(device).cage
+    if cage is not None:
+        yield _mesh("cage", CAGE_MESH, turn @ cage_placement(foot, cage))
+
+
+def cage_placement(foot: Foot, cage: Cage) -> Placement:
+    """Of its frame in the wheel's: the floor away from the plate."""
+    return _shifted(0.0, 0.0, -foot.back - cage.length)
+
+
+def _plain_cage(device: Device, turn: Placement) -> Iterator[Visual]:
+    for solid in drive_solids(device):
+        if solid.name == "cage":
+            yield _solid(solid, turn)
+
+
+def _solid(solid: DriveSolid, turn: Placement) -> Visual:
+    middle = turn @ _shifted(0.0, -solid.up, (solid.low + solid.high) / 2.0)
+    return _cylinder(solid.name, solid.radius, (solid.high - solid.low) / 2.0, middle)
 
 
 def _plain_foot(foot: Foot, turn: Placement) -> Iterator[Visual]:

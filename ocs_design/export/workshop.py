@@ -5,17 +5,19 @@ from pathlib import Path
 from typing import TypeVar
 
 from ocs_design.design import Device
+from ocs_design.drive_solids import motor_mount
 from ocs_design.export.made_wheel import made_wheel
 from ocs_design.export.stl import MILLIMETRES, wheel_meshes
+from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.mesh import part_mesh
-from ocs_design.parts.mount import Mount, motor_mount
+from ocs_design.parts.mount import made_mount
 from ocs_design.parts.part import Part
 from ocs_design.parts.stl import mesh_stl
 from ocs_design.parts.threemf import threemf_bytes
 from ocs_design.parts.wheel_parts import wheel_parts
-from ocs_design.sizing.housing import LID_SCREW, WALL, housing_outer_radius
+from ocs_design.sizing.housing import LID_SCREW
 
 Piece = TypeVar("Piece")
 
@@ -46,7 +48,7 @@ def export_pieces_step(device: Device, folder: Path) -> None:
 
 
 def export_printed(device: Device, folder: Path) -> str:
-    """Drum, lid and foot of one module as STL, and all of them in `housing.3mf`.
+    """What is printed of one module as STL, and all of them in `housing.3mf`.
 
     Returns:
         What they weigh, and whether the design counts it.
@@ -60,31 +62,33 @@ def export_printed(device: Device, folder: Path) -> str:
     return _weighed(parts, device)
 
 
-def printed_parts(device: Device) -> tuple[Part, Part, Part]:
+def printed_parts(device: Device) -> tuple[Part, ...]:
     """Drum, lid and foot around one wheel, with the motor's holes where they are known and fit.
+
+    And the cage of a motor that is held by its back.
 
     Raises:
         PartError: they cannot be made.
     """
-    foot = printed_foot(device)
-    return (*housing_parts(foot.housing), foot_part(foot))
+    foot, cage = printed_foot(device), motor_mount(device).cage
+    caged = () if cage is None else (cage_part(cage),)
+    return (*housing_parts(foot.housing), foot_part(foot), *caged)
 
 
 def printed_foot(device: Device) -> Foot:
     """Of one module, with the housing that it carries."""
-    wheel, mount = device.flywheel, motor_mount(device.motor.mounting)
-    if mount.reach > housing_outer_radius(wheel.outer_radius) - 2.0 * WALL:
-        mount = Mount()
+    wheel, mount = device.flywheel, made_mount(motor_mount(device).holes)
     return Foot(Housing(wheel.outer_radius, wheel.height, mount, LID_SCREW))
 
 
 def _weighed(parts: tuple[Part, ...], device: Device) -> str:
     masses = {part.name: 1e3 * part.mass_properties().mass for part in parts}
-    shell = sum(mass for name, mass in masses.items() if name != "foot")
+    shell, cage = masses["drum"] + masses["lid"], masses.get("cage")
+    caged = "" if cage is None else f", the motor's cage {cage:.1f} g"
     counted = "" if device.carrier.mass > 0.0 else "; a device without motors counts none of it"
     return (
         f"printed parts of one module: drum and lid {shell:.1f} g, foot {masses['foot']:.1f} g"
-        f"{counted}"
+        f"{caged}{counted}"
     )
 
 

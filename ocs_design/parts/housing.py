@@ -5,20 +5,17 @@ floor or lid on the bed, nothing overhangs.
 """
 
 from dataclasses import dataclass, field
-from math import asin, pi, sqrt, tan
-
-import numpy as np
+from math import pi
 
 from ocs_design.exceptions import PartError
 from ocs_design.fasteners import Screw
+from ocs_design.parts.ears import ear_axis, ear_holes, ear_radius, eared
 from ocs_design.parts.mount import Mount
-from ocs_design.parts.outline import Outline, circle, ring_of_points
+from ocs_design.parts.outline import Outline, circle
 from ocs_design.parts.part import Part
 from ocs_design.parts.solids import Prism
-from ocs_design.robot.rotations import rotation_about
 from ocs_design.sizing.housing import (
     DENSITY,
-    EAR_COUNT,
     WALL,
     half_height,
     housing_outer_radius,
@@ -26,8 +23,6 @@ from ocs_design.sizing.housing import (
 
 FIRST_EAR = pi / 4.0
 """Angle from the x axis [rad]: nothing stands out below, above, before and behind."""
-
-AXIS = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -76,7 +71,7 @@ class Housing:
         """Radius that the ears stay within [m]."""
         if self.lid_screw is None:
             return self.radius
-        return _ear_axis(self.radius, self.lid_screw) + _ear_radius(self.lid_screw)
+        return ear_axis(self.radius, self.lid_screw) + ear_radius(self.lid_screw)
 
 
 def housing_parts(housing: Housing) -> tuple[Part, Part]:
@@ -105,33 +100,10 @@ def _lid(housing: Housing) -> Part:
 
 
 def _ear_holes(housing: Housing, screw: Screw, diameter: float) -> list[Outline]:
-    axis = _ear_axis(housing.radius, screw)
-    centres = ring_of_points(axis, EAR_COUNT, FIRST_EAR)
-    return [circle(diameter / 2.0, centre) for centre in centres.tolist()]
-
-
-def _ear_radius(screw: Screw) -> float:
-    """A wall around the widest hole [m]."""
-    return screw.clearance_hole / 2.0 + WALL
-
-
-def _ear_axis(radius: float, screw: Screw) -> float:
-    """The hole stays outside the band [m]."""
-    return radius + screw.clearance_hole / 2.0
+    return ear_holes(housing.radius, screw, diameter, FIRST_EAR)
 
 
 def _outline(housing: Housing) -> Outline:
-    """The band's circle, with ears that have straight sides and a round end."""
-    screw, radius = housing.lid_screw, housing.radius
-    if screw is None:
-        return circle(radius)
-    end, side = _ear_axis(radius, screw), _ear_radius(screw)
-    root = sqrt(radius**2 - side**2)
-    ear = np.array([[root, -side], [end, -side], [end, side], [root, side]])
-    between = 2.0 * pi / EAR_COUNT - 2.0 * asin(side / radius)
-    bulges = [0.0, 1.0, 0.0, tan(between / 4.0)]
-    angles = FIRST_EAR + 2.0 * pi * np.arange(EAR_COUNT) / EAR_COUNT
-    return Outline(
-        np.concatenate([ear @ rotation_about(AXIS, angle)[:2, :2].T for angle in angles]),
-        np.tile(bulges, EAR_COUNT),
-    )
+    """The band's circle, with ears where they are wanted."""
+    screw = housing.lid_screw
+    return circle(housing.radius) if screw is None else eared(housing.radius, screw, FIRST_EAR)

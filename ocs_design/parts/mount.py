@@ -3,20 +3,19 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ocs_design.drive.mounting import Mounting
 from ocs_design.parts.outline import circle
 from ocs_design.parts.solids import Prism
 from ocs_design.parts.wheel import HoleRing
 from ocs_design.robot.tree import Placement
-from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.mount import MountHoles
 
 
 @dataclass(frozen=True)
 class Mount:
     """Through holes around the wheel's axis.
 
-    The motor stands outside, on the foot's plate; its screws go through the housing's floor and
-    the plate, with their heads inside.
+    The motor stands outside, on the foot's plate, or in a cage there; the screws of either go
+    through the housing's floor and the plate, with their heads inside.
 
     Attributes:
         pilot_radius: of the hole in the middle, for shaft and centring collar [m]; 0: none.
@@ -43,9 +42,8 @@ class Mount:
                 yield Prism(hole.outline, low, high, frame)
 
 
-def motor_mount(mounting: Mounting | None) -> Mount:
-    """Of a motor that is screwed on by the face that its shaft comes out of; else no holes."""
-    holes = mount_holes(mounting)
+def made_mount(holes: MountHoles) -> Mount:
+    """As they are drilled."""
     screws = holes.screws
     rings = () if screws is None else (HoleRing(screws.radius, screws.bolts, screws.hole_radius),)
     return Mount(holes.pilot_radius, rings)

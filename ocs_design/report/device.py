@@ -76,7 +76,7 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
         "web": 0.0 if ocs.flywheel.web is None else ocs.flywheel.web.mass,
         "motor": ocs.motor.mass,
         "gear": ocs.motor.gear_mass,
-        "printed": ocs.carrier.mass - ocs.motor.mass - ocs.motor.gear_mass,
+        "print and screws": ocs.carrier.mass - ocs.motor.mass - ocs.motor.gear_mass,
     }
     named = " + ".join(f"{name} {grams(mass)}" for name, mass in parts.items() if mass > 1e-9)
     yield "mass of a module", named

@@ -1,18 +1,12 @@
-"""What of a module stands still with the trunk: motor, gear, housing and foot, as one body."""
+"""What of a module stands still with the trunk, as one body."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.drive.gear import Gear
-from ocs_design.drive.motor import Motor
 from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.foot import plate_back
-from ocs_design.sizing.housing import half_height
-from ocs_design.sizing.mass_moments import MassMoments, point, round_body
-from ocs_design.sizing.mount import MountHoles, mount_holes
-from ocs_design.sizing.shell import printed_moments
+from ocs_design.sizing.mass_moments import MassMoments
 
 
 @dataclass(frozen=True)
@@ -68,36 +62,3 @@ class Carrier:
     def mass_properties(self) -> MassProperties:
         """In the module's frame (`mass_moments`)."""
         return MassProperties(self.mass, np.array([0.0, self.along, self.up]), self.inertia)
-
-
-def drive_moments(motor: Motor, gear: Gear) -> MassMoments[float]:
-    """Of motor and gear about the middle of the motor.
-
-    The motor is a solid cylinder; a thin disc if its length is not known, a point without its
-    diameter. The gear is a point in its middle. Either errs on the side of less inertia, by
-    little: a motor of 0.1 kg and 40 mm has 2e-5 kg m^2 about its axis, Solo12 5e-2 kg m^2.
-    """
-    mass, radius = motor.mass or 0.0, (motor.diameter or 0.0) / 2.0
-    across = mass * (3.0 * radius**2 + (motor.length or 0.0) ** 2) / 12.0
-    return round_body(mass, mass * radius**2 / 2.0, across) + point(gear.mass)
-
-
-def behind_floor(motor: Motor, gear: Gear, holes: MountHoles) -> MassMoments[float]:
-    """What does not depend on the wheel, about the middle of the outside of the housing's floor.
-
-    The motor stands on the back of the foot's plate; its mount's holes go through floor and plate.
-    """
-    return drive_moments(motor, gear).shifted(motor_middle(motor), 0.0) + holes.cut_out()
-
-
-def motor_middle(motor: Motor) -> float:
-    """Along the axis from the outside of the housing's floor [m]; see `behind_floor`."""
-    return -(plate_back(0.0) + (motor.length or 0.0) / 2.0)
-
-
-def standing(motor: Motor, gear: Gear, outer_radius: float, height: float) -> Carrier:
-    """Motor, gear, housing and foot of a wheel of that outer radius and height [m]."""
-    holes = mount_holes(motor.mounting)
-    behind = behind_floor(motor, gear, holes).shifted(-half_height(height), 0.0)
-    printed = printed_moments(outer_radius, height, holes.reach)
-    return Carrier.of(behind + printed)

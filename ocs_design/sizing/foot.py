@@ -9,7 +9,7 @@ are built of operators alone, for CasADi's symbols too. The mount's holes are no
 
 from math import pi, sqrt
 
-from ocs_design.fasteners import screw
+from ocs_design.fasteners import Fastening, screw
 from ocs_design.sizing.housing import (
     CLEARANCE,
     DENSITY,
@@ -17,7 +17,7 @@ from ocs_design.sizing.housing import (
     half_height,
     housing_outer_radius,
 )
-from ocs_design.sizing.mass_moments import MassMoments, Real, disc
+from ocs_design.sizing.mass_moments import MassMoments, Real, disc, flat_ring
 
 BASE_THICKNESS = 3.0e-3
 """[m]: the trunk's screws press on it."""
@@ -35,6 +35,13 @@ TRUNK_SCREW = screw("M3")
 
 TRUNK_SCREW_COUNT = 2
 """Through a slot each."""
+
+TRUNK_SCREWS = Fastening(
+    TRUNK_SCREW,
+    TRUNK_SCREW_COUNT,
+    BASE_THICKNESS,
+    "foot on trunk; longer if its thread begins deeper",
+)
 
 MARK_EVERY, LONG_MARK_EVERY = 10, 30
 """Degrees, all around: left and right feet are the same part, turned by 180 degrees."""
@@ -134,6 +141,17 @@ def _plate(width: Real, bottom: Real) -> MassMoments[Real]:
         zz=DENSITY * thick * (lower * tall**2 / 3.0 + upper * width**2 / 4.0),
         yz=zero,
     )
+
+
+def trunk_screw_moments(outer_radius: Real, height: Real) -> MassMoments[Real]:
+    """Of the trunk's screws about the wheel's centre, their heads on the base, as points.
+
+    They stay at 45 degrees to the lateral direction while the foot turns under them, opposite each
+    other: as much forward as sideways. Their product of both is the left one's against the right
+    one's, and is left out.
+    """
+    up = BASE_THICKNESS - TRUNK_SCREWS.centre - wheel_height(outer_radius)
+    return flat_ring(TRUNK_SCREWS.mass + 0.0 * up, slot_radius(height)).shifted(0.0 * up, up)
 
 
 def _slots_area(radius: Real) -> Real:

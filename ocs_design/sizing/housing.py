@@ -12,9 +12,9 @@ from typing import cast
 
 import numpy as np
 
-from ocs_design.fasteners import screw
+from ocs_design.fasteners import IN_PLASTIC, Fastening, screw
 from ocs_design.sizing.cylinder import cylinder_mass
-from ocs_design.sizing.mass_moments import MassMoments, Real, cylinder
+from ocs_design.sizing.mass_moments import MassMoments, Real, cylinder, ring
 
 WALL = 1.6e-3
 """[m], four lines of a 0.4 mm nozzle: walls and floors that hold screws without infill."""
@@ -34,6 +34,9 @@ EAR_COUNT = 4
 
 EAR_RADIUS = LID_SCREW.clearance_hole / 2.0 + WALL
 """Of an ear's round end: a wall around the widest hole [m]."""
+
+
+LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, WALL, "lid on drum, which is tapped", IN_PLASTIC)
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,7 @@ def ear_axis(across: Real) -> Real:
 def housing_mass(outer_radius: Real, height: Real) -> Real:
     """Of drum and lid [kg]."""
     across, inside = housing_outer_radius(outer_radius), height + 2.0 * CLEARANCE
-    walls = _outline_area(across) * housing_height(height)
+    walls = eared_area(across) * housing_height(height)
     room = pi * (across - WALL) ** 2 * inside
     return DENSITY * (walls - room - EAR_COUNT * (_THREAD * inside + _CLEAR * WALL))
 
@@ -83,16 +86,16 @@ def housing_mass(outer_radius: Real, height: Real) -> Real:
 def housing_mass_per_height(outer_radius: Real) -> Real:
     """dm/dh at constant R, of band and ears [kg/m]."""
     across = housing_outer_radius(outer_radius)
-    return DENSITY * (_outline_area(across) - pi * (across - WALL) ** 2 - EAR_COUNT * _THREAD)
+    return DENSITY * (eared_area(across) - pi * (across - WALL) ** 2 - EAR_COUNT * _THREAD)
 
 
 def housing_moments(outer_radius: Real, height: Real) -> MassMoments[Real]:
     """Of drum and lid about the wheel's centre, the floor towards the other module."""
     across, inside = housing_outer_radius(outer_radius), height + 2.0 * CLEARANCE
     room = cylinder(across - WALL, inside, DENSITY)
-    walls = _outline(across, housing_height(height))
-    threads = _ear_holes(across, LID_SCREW.tapping_drill / 2.0, inside)
-    holes = _ear_holes(across, LID_SCREW.clearance_hole / 2.0, WALL + 0.0 * inside)
+    walls = eared(across, housing_height(height))
+    threads = ear_holes(across, LID_SCREW.tapping_drill / 2.0, inside)
+    holes = ear_holes(across, LID_SCREW.clearance_hole / 2.0, WALL + 0.0 * inside)
     lid = holes.shifted(half_height(height) - WALL / 2.0, 0.0 * inside)
     return walls + (room + threads + lid).times(-1.0)
 
@@ -102,19 +105,30 @@ _THREAD, _CLEAR = (
 )
 
 
-def _outline_area(across: Real) -> Real:
-    """Of the band with its ears: sectors, triangles under the ears, rectangles, half circles."""
+def lid_screw_moments(outer_radius: Real, height: Real) -> MassMoments[Real]:
+    """Of the lid's screws about the wheel's centre, their heads on the lid, as points."""
+    radius = ear_axis(housing_outer_radius(outer_radius))
+    along = half_height(height) - LID_SCREWS.centre
+    return ring(LID_SCREWS.mass + 0.0 * along, radius).shifted(along, 0.0 * along)
+
+
+def eared_area(across: Real) -> Real:
+    """Of a band with its ears: sectors, triangles under the ears, rectangles, half circles [m^2].
+
+    Args:
+        across: radius of the band, outside [m].
+    """
     side, end = EAR_RADIUS, ear_axis(across)
     root: Real = (across**2 - side**2) ** 0.5
     sectors = across**2 * (pi - EAR_COUNT * _arcsine(side / across))
     return sectors + EAR_COUNT * (side * (2.0 * end - root) + pi / 2.0 * side**2)
 
 
-def _outline(across: Real, length: Real) -> MassMoments[Real]:
-    """The band with its ears, solid, its middle at the origin."""
+def eared(across: Real, length: Real) -> MassMoments[Real]:
+    """A band with its ears, solid, its middle at the origin [m]."""
     side, end = EAR_RADIUS, ear_axis(across)
     root: Real = (across**2 - side**2) ** 0.5
-    mass = DENSITY * length * _outline_area(across)
+    mass = DENSITY * length * eared_area(across)
     sectors = across**4 * (pi - EAR_COUNT * _arcsine(side / across)) / 2.0
     triangle = side * root * (root**2 / 2.0 + side**2 / 6.0)
     rectangle = 2.0 / 3.0 * side * (end**3 - root**3 + side**2 * (end - root))
@@ -125,8 +139,8 @@ def _outline(across: Real, length: Real) -> MassMoments[Real]:
     return MassMoments(mass, zero, zero, across_axis, mass * length**2 / 12.0, across_axis, zero)
 
 
-def _ear_holes(across: Real, radius: float, length: Real) -> MassMoments[Real]:
-    """All of them, their middle at the origin."""
+def ear_holes(across: Real, radius: float, length: Real) -> MassMoments[Real]:
+    """All of them, their middle at the origin [m]."""
     mass = EAR_COUNT * DENSITY * pi * radius**2 * length
     zero, polar = 0.0 * mass * across, mass * (ear_axis(across) ** 2 + radius**2 / 2.0)
     along = mass * length**2 / 12.0

@@ -123,3 +123,15 @@ def disc(radius: Real, thickness: float, density: float) -> MassMoments[Real]:
     zero = 0.0 * mass
     across = mass * radius**2 / 4.0
     return MassMoments(mass, zero, zero, across, across, mass * thickness**2 / 12.0, zero)
+
+
+def ring(mass: Real, radius: Real) -> MassMoments[Real]:
+    """Evenly on a circle around y, three points or more, in its plane [kg, m]."""
+    zero, across = 0.0 * mass * radius, mass * radius**2 / 2.0
+    return MassMoments(mass + zero, zero, zero, across, zero, across, zero)
+
+
+def flat_ring(mass: Real, radius: Real) -> MassMoments[Real]:
+    """Likewise around the vertical."""
+    zero, across = 0.0 * mass * radius, mass * radius**2 / 2.0
+    return MassMoments(mass + zero, zero, zero, across, across, zero, zero)

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 from typing import Generic, NamedTuple, TypeVar
 
 from ocs_design.arrays import FloatArray, frozen
-from ocs_design.drive.motor import Motor
+from ocs_design.drive.gear import GearRoom
 from ocs_design.robot.bounds import trunk_top
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.foot import base_radius, larger, plate_back, wheel_height
 from ocs_design.sizing.housing import half_height, housing_outer_radius
-from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.motor_mount import HeldMotor, mount_of
 
 CLEARANCE = 1.1
 """Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
@@ -38,28 +38,29 @@ def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
 def module_size(
     outer_radius: Real,
     height: Real,
-    motor_length: Real,
-    motor_radius: Real,
+    behind_depth: Real,
+    behind_radius: Real,
     mount_reach: Real,
 ) -> Size[Real]:
     """Of a housing on its foot, around a wheel of that outer radius and height, with its motor.
 
-    All in metres. The motor stands on the back of the foot's plate.
+    All in metres. What stands behind the foot's plate, motor, gear and cage, goes so far back and
+    so far to both sides: how high it stands is no matter to a turn about the vertical.
     """
     half = half_height(height)
     housing = (housing_outer_radius(outer_radius) ** 2 + half**2) ** 0.5
-    motor = ((plate_back(half) + motor_length) ** 2 + motor_radius**2) ** 0.5
+    motor = ((plate_back(half) + behind_depth) ** 2 + behind_radius**2) ** 0.5
     base = base_radius(outer_radius, height, mount_reach)
     return Size(larger(larger(housing, motor), base), wheel_height(outer_radius))
 
 
-def motor_size(motor: Motor, outer_radius: Real, height: Real) -> Size[Real]:
-    """Of a module with this motor, as far as its size is known."""
-    zero = 0.0 * outer_radius
-    length, radius = zero + (motor.length or 0.0), zero + (motor.diameter or 0.0) / 2.0
-    return module_size(
-        outer_radius, height, length, radius, zero + mount_holes(motor.mounting).reach
-    )
+def motor_size(
+    motor: HeldMotor, room: GearRoom | None, outer_radius: Real, height: Real
+) -> Size[Real]:
+    """Of a module with this motor behind a gear of that room, as far as its size is known."""
+    zero, mount = 0.0 * outer_radius, mount_of(motor, room)
+    depth, radius = mount.behind(motor)
+    return module_size(outer_radius, height, zero + depth, zero + radius, zero + mount.holes.reach)
 
 
 @dataclass(frozen=True)

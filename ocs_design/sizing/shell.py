@@ -7,9 +7,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
-from ocs_design.sizing.foot import foot_mass, foot_mass_per_height, foot_moments
-from ocs_design.sizing.housing import housing_mass, housing_mass_per_height, housing_moments
+from ocs_design.sizing.foot import (
+    TRUNK_SCREWS,
+    foot_mass,
+    foot_mass_per_height,
+    foot_moments,
+    trunk_screw_moments,
+)
+from ocs_design.sizing.housing import (
+    LID_SCREWS,
+    housing_mass,
+    housing_mass_per_height,
+    housing_moments,
+    lid_screw_moments,
+)
 from ocs_design.sizing.mass_moments import MassMoments, Real
+
+SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
+"""Of lid and foot [kg]."""
 
 
 class Shell(Protocol):
@@ -24,7 +39,7 @@ class Shell(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Printed:
-    """Drum, lid and foot.
+    """Drum, lid and foot, with their screws.
 
     Attributes:
         mount_reach: of the holes in floor and plate, which the foot's plate is as wide as [m]; a
@@ -36,7 +51,8 @@ class Printed:
     def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
         """[kg]."""
         reach = np.asarray(self.mount_reach)
-        return housing_mass(outer_radius, height) + foot_mass(outer_radius, height, reach)
+        parts = housing_mass(outer_radius, height) + foot_mass(outer_radius, height, reach)
+        return parts + SHELL_SCREWS
 
     def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
         """dm/dh at constant R [kg/m]."""
@@ -49,7 +65,8 @@ class Printed:
         return Printed(np.asarray(self.mount_reach)[rows])
 
 
-def printed_moments(outer_radius: Real, height: Real, mount_reach: Real) -> MassMoments[Real]:
-    """Of drum, lid and foot about the wheel's centre, without the mount's holes."""
-    housing = housing_moments(outer_radius, height)
-    return housing + foot_moments(outer_radius, height, mount_reach)
+def shell_moments(outer_radius: Real, height: Real, mount_reach: Real) -> MassMoments[Real]:
+    """Of drum, lid and foot about the wheel's centre, with their screws, no mount's holes."""
+    housing = housing_moments(outer_radius, height) + lid_screw_moments(outer_radius, height)
+    foot = foot_moments(outer_radius, height, mount_reach)
+    return housing + foot + trunk_screw_moments(outer_radius, height)

@@ -58,7 +58,10 @@ def test_a_shaft_that_is_too_short_or_not_known():
     [
         (None, "the motor's threads are not in the catalogue: floor and plate are to be drilled"),
         (Mounting(0.004), "the motor's threads are not in the catalogue"),
-        (replace(FLAT, stator_face=Face.BACK), "4 x M3 on 20 mm, are at its back: it needs a brac"),
+        (
+            replace(FLAT, stator_face=Face.BACK),
+            "4 x M3 on 20 mm, are at its back, and its size is not known or its cage does not fit",
+        ),
         (
             replace(FLAT, stator=BoltCircle(0.062, 4, "M3")),
             "4 x M3 on 62 mm, do not fit the housing's floor of 64 mm",

@@ -10,13 +10,16 @@ from wheels import EC45, PAPER_WHEEL, driven_device
 from ocs_design.catalogue.motors import motor
 from ocs_design.design import Web
 from ocs_design.design_file import design_to_json, read_design
+from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.mounting import BoltCircle, Face, Mounting
+from ocs_design.drive_solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_rows, export_bill_of_materials
 from ocs_design.export.made_wheel import made_wheel
 from ocs_design.export.workshop import printed_parts
-from ocs_design.parts.mount import motor_mount
 from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.housing import DENSITY, WALL
+from ocs_design.sizing.mount import screwed_by_face
+from ocs_design.sizing.standing import standing
 from ocs_design.sizing.web import WEB_DENSITY, WEB_MATERIAL, WEB_THICKNESS, hub_of, web_mass
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
@@ -25,20 +28,26 @@ FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT
 
 
 def device_on(mounting):
-    """The paper's rim on a web with the hub that such a motor needs."""
-    hub = hub_of(replace(MN5212, mounting=mounting))
+    """The paper's rim on a web with the hub that such a motor needs, with nothing printed."""
+    motor = replace(MN5212, mounting=mounting)
+    hub = hub_of(motor)
     mass = web_mass(PAPER_WHEEL.inner_radius) + hub.mass
     web = Web(WEB_MATERIAL, WEB_DENSITY, WEB_THICKNESS, mass, hub)
     wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web)
-    drive = replace(EC45, mounting=mounting)
-    return replace(
-        driven_device(drive=drive, carrier=Carrier(EC45.mass, 1e-4, 1e-4)), flywheel=wheel
+    held = replace(
+        EC45, mounting=mounting, mass=motor.mass, diameter=motor.diameter, length=motor.length
     )
+    alone = Carrier(motor.mass, 1e-4, 1e-4)
+    return replace(driven_device(drive=held, carrier=alone), flywheel=wheel)
 
 
-def housed(mounting):
-    """With something that is printed."""
-    return replace(device_on(mounting), carrier=Carrier(EC45.mass + 0.02, 1e-4, 1e-4))
+def housed(mounting, outer_radius=0.04):
+    """In its housing, and so large that its mount fits."""
+    device = device_on(mounting)
+    wheel = replace(device.flywheel, outer_radius=outer_radius)
+    motor = replace(MN5212, mounting=mounting)
+    carrier = standing(motor, DIRECT, wheel.outer_radius, wheel.height)
+    return replace(device, flywheel=wheel, carrier=carrier)
 
 
 def screws(device):
@@ -47,17 +56,21 @@ def screws(device):
     return {row.source.split(";")[0]: (row.part, row.quantity) for row in rows}
 
 
-def test_screws_are_beside_the_mass_of_the_device(tmp_path):
-    device = device_on(MN5212.mounting)
-    *parts, screw = bill_rows(device)
-    assert (screw.part, screw.quantity) == ("screw ISO 4762 M3 x 8", 6)
-    assert not screw.counted
-    assert sum(2 * part.mass for part in parts) == pytest.approx(device.mass, rel=1e-12)
+@pytest.mark.parametrize("mounting", [None, FLAT, MN5212.mounting, Mounting(0.004)])
+def test_parts_and_screws_together_weigh_what_the_device_weighs(tmp_path, mounting):
+    device = housed(mounting)
+    rows = bill_rows(device)
+    assert sum(row.quantity * row.mass for row in rows) == pytest.approx(device.mass, rel=1e-12)
     lines = export_bill_of_materials(device, tmp_path / "bill.csv").read_text().splitlines()
-    assert lines[-2].startswith("screw ISO 4762 M3 x 8,6,steel,,0.8")
-    beside = f"{6e3 * screw.mass:.3f}"
-    said = f'total,,,,,{1e3 * device.mass:.3f},"as designed, without the screws\' {beside} g"'
-    assert lines[-1] == said
+    assert lines[-1] == f"total,,,,,{1e3 * device.mass:.3f},as designed"
+
+
+def test_a_design_that_counts_no_screws_is_told_from_one_that_does(tmp_path):
+    device = housed(None)
+    old = replace(device, carrier=replace(device.carrier, mass=device.carrier.mass - 0.0025))
+    total = export_bill_of_materials(old, tmp_path / "bill.csv").read_text().splitlines()[-1]
+    assert total.startswith(f"total,,,,,{1e3 * device.mass:.3f},")
+    assert f"the design counts {1e3 * old.mass:.3f} g" in total
 
 
 def test_a_motor_that_is_not_known_has_no_screws():
@@ -77,6 +90,15 @@ def test_screws_of_a_motor_with_threads_beside_its_shaft_go_through_floor_and_fo
     assert screws(housed(FLAT))["motor on housing and foot"] == ("screw ISO 4762 M3 x 10", 8)
 
 
+def test_a_motor_with_threads_at_its_back_has_a_cage_on_the_plate():
+    """M2 through 1.6 and 5 mm with 4 mm of thread in the print, M3 through 3 mm of floor."""
+    found = screws(housed(MN5212.mounting))
+    assert found["cage on housing and foot, it is tapped"] == ("screw ISO 4762 M2 x 12", 8)
+    assert found["motor in its cage"] == ("screw ISO 4762 M3 x 6", 8)
+    assert found["wheel on rotor"] == ("screw ISO 4762 M3 x 8", 6)
+    assert "cage" in {part.name for part in printed_parts(housed(MN5212.mounting))}
+
+
 def test_the_wheel_is_drilled_for_the_motor():
     hub = made_wheel(device_on(MN5212.mounting).flywheel).hub
     assert (hub.bolts.count, 2.0 * hub.bolts.radius) == (3, pytest.approx(0.017))
@@ -94,7 +116,7 @@ def test_mounting_comes_back_from_the_design_file(tmp_path):
 
 def test_floor_and_foot_get_the_motor_s_holes():
     plain, drilled = (printed_parts(device_on(found)) for found in (None, FLAT))
-    mount = motor_mount(FLAT)
+    mount = screwed_by_face(FLAT, FLAT.stator)
     area = pi * (mount.pilot_radius**2 + 4 * 0.0017**2)
     lost = [
         before.mass_properties().mass - after.mass_properties().mass
@@ -106,15 +128,18 @@ def test_floor_and_foot_get_the_motor_s_holes():
 
 
 def test_the_hole_in_the_middle_leaves_a_wall_to_the_screws():
-    assert motor_mount(FLAT).pilot_radius == pytest.approx(0.01 - 0.0017 - WALL)
+    pilot = screwed_by_face(FLAT, FLAT.stator).pilot_radius
+    assert pilot == pytest.approx(0.01 - 0.0017 - WALL)
     tight = replace(FLAT, shaft_diameter=0.0141)
     room = (0.01 - 0.0017 - 0.0141 / 2.0) / 2.0
-    assert motor_mount(tight).pilot_radius == pytest.approx(0.0141 / 2.0 + room)
+    assert screwed_by_face(tight, tight.stator).pilot_radius == pytest.approx(0.0141 / 2.0 + room)
 
 
-@pytest.mark.parametrize("mounting", [None, MN5212.mounting, Mounting(0.004)])
-def test_without_threads_beside_the_shaft_nothing_is_drilled(mounting):
-    assert motor_mount(mounting).reach == 0.0
+def test_without_known_threads_there_is_a_hole_for_what_turns():
+    """A shaft of 4 mm turns in 6 mm; what is screwed to M2 on 12 mm has 2 mm of wall, 1 mm free."""
+    rotor = Mounting(0.004, rotor=BoltCircle(0.012, 4, "M2"))
+    found = [motor_mount(device_on(each)).holes for each in (None, Mounting(0.004), rotor)]
+    assert [hole.reach for hole in found] == pytest.approx([0.0, 0.003, 0.006 + 0.0012 + 0.003])
 
 
 def test_screws_that_are_too_far_out_for_the_housing_are_left_to_the_user():

@@ -10,7 +10,7 @@ from made_parts import HOUSING, TWO_PIECES
 
 from ocs_design.exceptions import PartError
 from ocs_design.fasteners import screw
-from ocs_design.parts.housing import EAR_COUNT, Housing, housing_parts
+from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.interference import overlap_volume, turning_clearance
 from ocs_design.parts.mount import Mount
 from ocs_design.parts.part import total
@@ -19,6 +19,7 @@ from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.sizing.housing import (
     CLEARANCE,
     DENSITY,
+    EAR_COUNT,
     WALL,
     PlainDrum,
 )

@@ -9,7 +9,7 @@ from made_parts import ALUMINIUM, STEEL
 from ocs_design.exceptions import PartError
 from ocs_design.fasteners import SCREWS
 from ocs_design.parts.foot import Foot, foot_part
-from ocs_design.parts.housing import EAR_COUNT, Housing, housing_parts
+from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.interference import overlap_volume, turning_clearance
 from ocs_design.parts.mesh import part_manifold
 from ocs_design.parts.mount import Mount
@@ -17,7 +17,7 @@ from ocs_design.parts.part import Part
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
 from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.robot.mass_properties import physical_defect
-from ocs_design.sizing.housing import CLEARANCE
+from ocs_design.sizing.housing import CLEARANCE, EAR_COUNT
 
 SECTIONS = 48
 few = settings(max_examples=25, deadline=None)

@@ -6,18 +6,19 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from standing_parts import UPRIGHT, made_foot, standing_parts
 
-from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.gear import DIRECT, GearRoom
 from ocs_design.drive.motor import Motor
 from ocs_design.drive.mounting import BoltCircle, Face, Mounting
-from ocs_design.parts.foot import Foot, foot_part
-from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.cage import cage_part
+from ocs_design.parts.foot import foot_part
+from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.mesh import part_mesh
-from ocs_design.parts.mount import motor_mount
-from ocs_design.parts.part import total
 from ocs_design.robot.mass_properties import MassProperties, combine
-from ocs_design.sizing.carrier import Carrier, drive_moments, standing
-from ocs_design.sizing.housing import LID_SCREW
+from ocs_design.sizing.carrier import Carrier
+from ocs_design.sizing.motor_mount import mount_of
+from ocs_design.sizing.standing import drive_moments, standing
 
 MOTOR = Motor(
     name="m", maker="test", mass=0.12, diameter=0.04, length=0.03, torque_constant=None,
@@ -26,49 +27,51 @@ MOTOR = Motor(
     confidence="good",
 )  # fmt: skip
 
-UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-"""From the frame of the left wheel, its y axis down, to that of its module."""
+AT_THE_BACK = Mounting(
+    0.004, BoltCircle(0.012, 4, "M2"), BoltCircle(0.025, 4, "M3"), stator_face=Face.BACK
+)
 
 MOUNTINGS = (
     None,
     Mounting(0.005, stator=BoltCircle(0.025, 4, "M3"), stator_face=Face.OUTPUT),
     Mounting(stator=BoltCircle(0.016, 2, "M2"), stator_face=Face.OUTPUT),
     Mounting(stator=BoltCircle(0.03, 3, "M2.5"), stator_face=Face.OUTPUT),
+    Mounting(0.004),
+    Mounting(0.004, stator=BoltCircle(0.016, 3, "M3"), stator_face=Face.BACK),
+    AT_THE_BACK,
 )
 
-
-def made(outer_radius, height, mounting):
-    housing = Housing(outer_radius, height, motor_mount(mounting), LID_SCREW)
-    return housing_parts(housing), Foot(housing)
+BELT = replace(
+    DIRECT, name="belt", mass=0.04, room=GearRoom(0.011, 0.03, 0.015, 0.01, center=0.008)
+)
+GEARBOX = replace(DIRECT, name="gearbox", mass=0.1, room=GearRoom())
 
 
 def test_a_motor_is_a_solid_cylinder():
-    body = Carrier.of(drive_moments(MOTOR, replace(DIRECT, mass=0.03)))
-    assert body.mass == pytest.approx(0.15)
+    body = Carrier.of(drive_moments(MOTOR))
+    assert body.mass == pytest.approx(0.12)
     assert body.axial_inertia == pytest.approx(0.12 * 0.02**2 / 2.0)
     across = 0.12 * (0.02**2 / 4.0 + 0.03**2 / 12.0)
     assert (body.transverse_inertia, body.vertical_inertia) == pytest.approx((across, across))
 
 
 def test_a_disc_without_its_length_and_a_point_without_its_diameter():
-    disc = Carrier.of(drive_moments(replace(MOTOR, length=None), DIRECT))
+    disc = Carrier.of(drive_moments(replace(MOTOR, length=None)))
     assert disc.axial_inertia == pytest.approx(2.0 * disc.transverse_inertia)
-    dot = Carrier.of(drive_moments(replace(MOTOR, length=None, diameter=None), DIRECT))
+    dot = Carrier.of(drive_moments(replace(MOTOR, length=None, diameter=None)))
     assert (dot.axial_inertia, dot.transverse_inertia) == (0.0, 0.0)
 
 
-@settings(max_examples=30)
-@given(st.floats(0.02, 0.15), st.floats(0.002, 0.06), st.sampled_from(MOUNTINGS))
-def test_it_is_what_is_printed_with_its_motor_behind_the_plate(outer_radius, height, mounting):
-    shell, foot = made(outer_radius, height, mounting)
-    gear = replace(DIRECT, mass=0.02)
-    across = MOTOR.mass * (3.0 * 0.02**2 + 0.03**2) / 12.0
-    own = np.diag([across, MOTOR.mass * 0.02**2 / 2.0, across])
-    behind = MassProperties(MOTOR.mass + 0.02, [0.0, -(foot.back + 0.015), 0.0], own)
-    below = foot_part(foot).mass_properties().moved(np.eye(3), [0.0, 0.0, -foot.wheel_height])
-    expected = combine([total(shell).moved(UPRIGHT, np.zeros(3)), below, behind])
-
+@settings(max_examples=30, deadline=None)
+@given(
+    st.floats(0.05, 0.15),
+    st.floats(0.002, 0.06),
+    st.sampled_from(MOUNTINGS),
+    st.sampled_from((DIRECT, BELT, GEARBOX)),
+)
+def test_it_is_all_that_is_made_and_bought(outer_radius, height, mounting, gear):
     motor = replace(MOTOR, mounting=mounting)
+    expected = combine(standing_parts(motor, gear, outer_radius, height))
     found = standing(motor, gear, outer_radius, height).mass_properties()
     assert found.mass == pytest.approx(expected.mass, rel=1e-12)
     np.testing.assert_allclose(found.com, expected.com, rtol=1e-12, atol=1e-15)
@@ -76,19 +79,28 @@ def test_it_is_what_is_printed_with_its_motor_behind_the_plate(outer_radius, hei
     np.testing.assert_allclose(found.inertia, expected.inertia, rtol=1e-9, atol=1e-12 * scale)
 
 
-@pytest.mark.parametrize("mounting", MOUNTINGS[:2])
+@pytest.mark.parametrize("mounting", [MOUNTINGS[0], MOUNTINGS[1], AT_THE_BACK])
 def test_it_is_what_the_meshes_weigh(mounting):
     """Meshes have exact masses, and inertias that are out by what polygons are off circles."""
-    (drum, lid), foot = made(0.034, 0.004, mounting)
     weightless = replace(MOTOR, mass=0.0, mounting=mounting)
-    found = standing(weightless, DIRECT, 0.034, 0.004).mass_properties()
-    down = np.array([0.0, 0.0, -foot.wheel_height])
-    still = np.zeros(3)
+    foot = made_foot(weightless, DIRECT, 0.034, 0.004)
+    drum, lid = housing_parts(foot.housing)
+    down, still = np.array([0.0, 0.0, -foot.wheel_height]), np.zeros(3)
     pieces = [(drum, UPRIGHT, still), (lid, UPRIGHT, still), (foot_part(foot), np.eye(3), down)]
+    cage = mount_of(weightless, None).cage
+    if cage is not None:
+        pieces.append((cage_part(cage), UPRIGHT, np.array([0.0, -foot.back - cage.length, 0.0])))
     expected = combine([weighed(*piece) for piece in pieces])
-    assert found.mass == pytest.approx(expected.mass, rel=1e-6)
-    np.testing.assert_allclose(found.com, expected.com, atol=1e-7)
-    np.testing.assert_allclose(found.inertia, expected.inertia, rtol=1e-4, atol=1e-10)
+    screws = [each for each in standing_parts(weightless, DIRECT, 0.034, 0.004) if is_point(each)]
+    found = standing(weightless, DIRECT, 0.034, 0.004).mass_properties()
+    whole = combine([expected, *screws])
+    assert found.mass == pytest.approx(whole.mass, rel=1e-6)
+    np.testing.assert_allclose(found.com, whole.com, atol=1e-7)
+    np.testing.assert_allclose(found.inertia, whole.inertia, rtol=1e-4, atol=1e-10)
+
+
+def is_point(body):
+    return not body.inertia.any()
 
 
 def weighed(part, rotation, position):

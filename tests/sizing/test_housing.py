@@ -15,7 +15,7 @@ from ocs_design.sizing.housing import (
     housing_moments,
     housing_outer_radius,
 )
-from ocs_design.sizing.shell import Printed, printed_moments
+from ocs_design.sizing.shell import Printed, shell_moments
 
 SIZES = [(0.03, 0.01), (0.05, 0.003), (0.012, 0.03)]
 
@@ -52,7 +52,7 @@ def test_masses_are_those_of_the_moments(outer_radius, height):
     assert housing_moments(outer_radius, height).mass == pytest.approx(
         housing_mass(outer_radius, height), rel=1e-12
     )
-    whole = printed_moments(outer_radius, height, 0.01).mass
+    whole = shell_moments(outer_radius, height, 0.01).mass
     assert Printed(0.01).mass(outer_radius, height) == pytest.approx(whole, rel=1e-12)
 
 
@@ -62,5 +62,5 @@ def test_arrays_as_numbers():
     np.testing.assert_allclose(housing_mass(outer, height), masses, rtol=1e-15)
     slopes = [housing_mass_per_height(size[0]) for size in SIZES]
     np.testing.assert_allclose(housing_mass_per_height(outer), slopes, rtol=1e-15)
-    alone = [printed_moments(*size, 0.01).yz for size in SIZES]
-    np.testing.assert_allclose(printed_moments(outer, height, 0.01).yz, alone, rtol=1e-12)
+    alone = [shell_moments(*size, 0.01).yz for size in SIZES]
+    np.testing.assert_allclose(shell_moments(outer, height, 0.01).yz, alone, rtol=1e-12)

@@ -5,20 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pinocchio
 import pytest
-from naive_module import mount_of
 from naive_wheel import wheel_of
 from selections import random_problem
+from standing_parts import standing_parts
 
 from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.line import armature, drive_line, rotor_share
 from ocs_design.drive.wheel_pair import WheelPairTask, pair_slew_time, smallest_spin_inertia
 from ocs_design.exceptions import Infeasible, UsageError
-from ocs_design.parts.foot import Foot, foot_part
-from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.housing import LID_SCREW
 from ocs_design.sizing.selection.infeasible import BUS_VOLTAGE, PRECISION, TIME, with_limit
 from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.search import is_possible
@@ -45,7 +41,7 @@ def solved(request):
 def by_pinocchio(problem, found, incidence):
     """Robot, wheels and all that is made and bought around them, joined by Pinocchio."""
     total = pinocchio.Inertia(problem.robot.mass, problem.robot.com, problem.robot.inertia)
-    parts = list(standing_parts(found))
+    parts = list(pieces(found))
     for center, side in zip(found.centers, (1.0, -1.0), strict=True):
         # The right module is the left one turned about the vertical.
         turn = -incidence if side > 0.0 else np.pi + incidence
@@ -57,19 +53,9 @@ def by_pinocchio(problem, found, incidence):
     return total
 
 
-def standing_parts(found):
-    """Printed parts and motor with its gear, x forward, y outwards along the axis, z up."""
-    foot = Foot(Housing(found.outer_radius, found.height, mount_of(found.motor), LID_SCREW))
-    upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-    for part in housing_parts(foot.housing):
-        yield part.mass_properties().moved(upright, np.zeros(3))
-    yield foot_part(foot).mass_properties().moved(np.eye(3), [0.0, 0.0, -foot.wheel_height])
-    motor, length = found.motor, found.motor.length or 0.0
-    tall, radius = motor.mass, (motor.diameter or 0.0) / 2.0
-    across = tall * (3.0 * radius**2 + length**2) / 12.0
-    behind = [0.0, -(foot.back + length / 2.0), 0.0]
-    own = np.diag([across, tall * radius**2 / 2.0, across])
-    yield MassProperties(motor.mass + found.gear.mass, behind, own)
+def pieces(found):
+    """All that is made and bought around its wheel."""
+    return standing_parts(found.motor, found.gear, found.outer_radius, found.height)
 
 
 def test_the_winner_from_scratch(solved):
@@ -80,7 +66,7 @@ def test_the_winner_from_scratch(solved):
     total = by_pinocchio(problem, found, found.incidence)
     assert found.total.mass == pytest.approx(total.mass, rel=1e-12)
     np.testing.assert_allclose(found.total.inertia, total.inertia, rtol=1e-9, atol=1e-12)
-    mass = sum(part.mass for part in standing_parts(found))
+    mass = sum(part.mass for part in pieces(found))
     assert found.carrier.mass == pytest.approx(mass, rel=1e-12)
     assert found.mass == pytest.approx(2.0 * (wheel_of(found)[0] + mass), rel=1e-12)
 

@@ -68,7 +68,7 @@ def test_no_larger_or_heavier_module_has_less_inertia():
     wheel, motor, depth, foot, size = random_modules(rng, 500)
     largest = Size(*(2.0 * values for values in size))
     own = np.minimum(wheel.xx + wheel.zz, wheel.yy + wheel.zz)
-    least = Least(wheel.mass, own, motor.mass, depth, size, largest)
+    least = Least(wheel.mass, own, motor.mass, depth, np.zeros_like(depth), size, largest)
     grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
     more, ahead = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
     _, modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)

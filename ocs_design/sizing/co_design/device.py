@@ -5,12 +5,13 @@ The same device as symbols is in `free_device`.
 
 from ocs_design.arrays import FloatArray
 from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.carrier import Carrier, standing
+from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.co_design.problem import CoDesignProblem, DeviceShape
 from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.incidence import module_axes
 from ocs_design.sizing.placement import motor_size
 from ocs_design.sizing.selection.candidate import braked
+from ocs_design.sizing.standing import standing
 from ocs_design.sizing.web import wheel_body
 
 
@@ -42,7 +43,8 @@ def braked_total(problem: CoDesignProblem, shape: DeviceShape) -> MassProperties
 
 def centers_of(problem: CoDesignProblem, shape: DeviceShape) -> FloatArray:
     """Of the left and the right wheel in B [m], shape (2, 3)."""
-    size = motor_size(problem.selected.motor, shape.outer_radius, shape.height)
+    chosen = problem.selected
+    size = motor_size(chosen.motor, chosen.gear.room, shape.outer_radius, shape.height)
     return problem.selection.place.centers(size)
 
 

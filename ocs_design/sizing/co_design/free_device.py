@@ -7,16 +7,16 @@ from typing import Any, Protocol, cast
 import casadi as ca
 import numpy as np
 
-from ocs_design.sizing.carrier import behind_floor
 from ocs_design.sizing.co_design.problem import CoDesignProblem
 from ocs_design.sizing.cylinder import cylinder_mass
 from ocs_design.sizing.housing import half_height
 from ocs_design.sizing.mass_moments import MassMoments, round_body
-from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.motor_mount import mount_of
 from ocs_design.sizing.optimal_control.plant import Plant, moments
 from ocs_design.sizing.placement import Size, motor_size
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
-from ocs_design.sizing.shell import printed_moments
+from ocs_design.sizing.shell import shell_moments
+from ocs_design.sizing.standing import behind_floor
 from ocs_design.sizing.web import wheel_body
 
 
@@ -113,18 +113,19 @@ class FreeDevice:
     def _module(self) -> MassMoments[Any]:
         """All of one module about its wheel's centre, braked."""
         chosen, wheel = self.problem.selected, self._wheel
-        holes = mount_holes(chosen.motor.mounting)
-        behind = behind_floor(chosen.motor, chosen.gear, holes)
-        printed = cast(Callable[..., MassMoments[Any]], printed_moments)
+        mount = mount_of(chosen.motor, chosen.gear.room)
+        behind = behind_floor(chosen.motor, chosen.gear, mount)
+        shell = cast(Callable[..., MassMoments[Any]], shell_moments)
         half = _of_symbols(half_height)(self.height)
         turning = cast(Callable[..., MassMoments[Any]], round_body)
         spun = turning(wheel.mass, wheel.axial_inertia, wheel.transverse_inertia)
-        standing = printed(self.outer_radius, self.height, holes.reach)
+        standing = shell(self.outer_radius, self.height, mount.holes.reach)
         return spun + standing + cast(MassMoments[Any], behind).shifted(-half, ca.SX(0))
 
     def _center(self) -> tuple[ca.SX, ca.SX, ca.SX]:
         size = cast(Callable[..., Size[Any]], motor_size)
-        room = size(self.problem.selected.motor, self.outer_radius, self.height)
+        chosen = self.problem.selected
+        room = size(chosen.motor, chosen.gear.room, self.outer_radius, self.height)
         x, y, z = self.problem.selection.place.left(room)
         return ca.SX(x), ca.SX(y), ca.SX(z)
 

@@ -28,7 +28,7 @@ from ocs_design.arrays import FloatArray
 from ocs_design.sizing.foot import PLATE_THICKNESS
 from ocs_design.sizing.housing import PlainDrum, half_height
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.motor_mount import mount_of
 from ocs_design.sizing.placement import module_size
 from ocs_design.sizing.rim_closed_form import BORE_SHARE, smallest_spin_inertia
 from ocs_design.sizing.selection.demand import bound_by_all
@@ -107,14 +107,17 @@ def _narrowest_hub(problem: SelectionProblem) -> float:
     """Radius that no wheel's hub is below, on whichever motor and gear [m]."""
     if not problem.web:
         return 0.0
-    return min(
-        hub_of(motor, direct=direct).radius for motor in problem.motors for direct in (True, False)
+    direct = (
+        max(hub_of(motor).radius, mount_of(motor, None).head_reach) for motor in problem.motors
     )
+    return min(*direct, *(hub_of(motor, direct=False).radius for motor in problem.motors))
 
 
 def _narrowest_mount(problem: SelectionProblem) -> float:
     """Reach that the holes of no motor's mount are below [m]."""
-    return min(mount_holes(motor.mounting).reach for motor in problem.motors)
+    if any(gear.room is not None for gear in problem.gears):
+        return 0.0
+    return min(mount_of(motor, None).holes.reach for motor in problem.motors)
 
 
 @dataclass(frozen=True)
@@ -173,13 +176,17 @@ def least_inertia(
     about_center = np.where(np.isfinite(about_center), about_center, 0.0)
     radius = max(room.inner_radius_min + room.wall_min, room.wall_min / (1.0 - BORE_SHARE))
     zero = np.zeros_like(rim)
-    motor = drives.motor_length, drives.motor_radius, drives.mount_reach
+    motor = drives.behind_depth, drives.behind_radius, drives.mount_reach
+    behind = drives.behind.mass + drives.mount_mass
+    # The holes stand by less than that behind the floor.
+    holes = drives.mount_mass * PLATE_THICKNESS
     least = Least(
         mass=np.maximum(about_center + drives.hub_mass - drives.mount_mass, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
         inertia=np.minimum(drives.hub_share, drives.hub_across) + np.where(known, rim, 0.0) / 2.0,
-        behind=drives.behind.mass + drives.mount_mass,
-        depth=half_height(room.height_max) + PLATE_THICKNESS + drives.motor_length / 2.0,
+        behind=behind,
+        depth=half_height(room.height_max) + (holes - drives.behind.y) / behind,
+        above=(drives.behind.z + zero) / behind,
         smallest=module_size(zero + radius, zero + room.height_min, *motor),
         largest=module_size(zero + room.outer_radius_max, zero + room.height_max, *motor),
     )

@@ -10,7 +10,7 @@ from ocs_design.drive.slew_profile import slew_profile
 from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
 from ocs_design.requirement.bound import AXES
 from ocs_design.robot.mass_properties import MassProperties, combine
-from ocs_design.sizing.carrier import Carrier, standing
+from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.incidence import module_frames
 from ocs_design.sizing.placement import motor_size
 from ocs_design.sizing.selection.binding import binding_limits
@@ -19,6 +19,7 @@ from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, TaskDemand
 from ocs_design.sizing.selection.settling import Settled
+from ocs_design.sizing.standing import standing
 from ocs_design.sizing.web import wheel_body
 
 
@@ -31,7 +32,7 @@ def candidate(problem: SelectionProblem, settled: Settled, row: int) -> Candidat
     hub = problem.hub(motor, gear)
     cuts = settled.lot.limits.cuts
     carrier = standing(motor, gear, outer, height)
-    centers = problem.place.centers(motor_size(motor, outer, height))
+    centers = problem.place.centers(motor_size(motor, gear.room, outer, height))
     wheel = wheel_body(inner, outer, height, material.density, hub, cuts=cuts)
     modules = (wheel, carrier)
     incidence, spin = float(settled.point.angle[row]), float(settled.point.spin_inertia[row])

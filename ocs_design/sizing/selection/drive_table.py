@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
-from ocs_design.drive.gear import DIRECT, Gear
+from ocs_design.drive.gear import Gear, GearRoom
 from ocs_design.drive.line import (
     DriveLine,
     armature,
@@ -16,10 +17,12 @@ from ocs_design.drive.line import (
     rotor_share,
 )
 from ocs_design.drive.motor import Motor
-from ocs_design.sizing.carrier import behind_floor, motor_middle
-from ocs_design.sizing.mass_moments import MassMoments, point, rows_of, stacked
-from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.foot import PLATE_THICKNESS
+from ocs_design.sizing.housing import WALL
+from ocs_design.sizing.mass_moments import MassMoments, rows_of, stacked
+from ocs_design.sizing.motor_mount import MotorMount, mount_of
 from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.standing import drive_moments, gear_moments, motor_middle
 from ocs_design.sizing.web import NO_HUB
 
 OVERSPEED = 1.2
@@ -32,10 +35,11 @@ class DriveTable:
 
     Attributes:
         motor, gear: their indices in the problem's sequences.
-        behind: of motor and gear, less the mount's holes; see `carrier.behind_floor`.
-        motor_length, motor_radius: [m]; 0 where not known.
+        behind: of motor, gear and mount, less its holes; see `standing.behind_floor`.
+        behind_depth, behind_radius: see `MotorMount.behind` [m].
         mount_reach, mount_mass: of the mount's holes [m, kg].
-        hub_mass: of the wheel's hub [kg]. hub_radius: [m]; 0 without a web.
+        hub_mass: of the wheel's hub [kg].
+        hub_radius: of that, or of the screws' heads beside it [m]; 0 without a web.
         hub_share: of the spin inertia. hub_across: about any axis across [kg m^2].
         rotor_share: of the spin inertia [kg m^2].
         armature: what the motor accelerates beyond the spin inertia [kg m^2].
@@ -45,8 +49,8 @@ class DriveTable:
     motor: NDArray[np.intp]
     gear: NDArray[np.intp]
     behind: MassMoments[FloatArray]
-    motor_length: FloatArray
-    motor_radius: FloatArray
+    behind_depth: FloatArray
+    behind_radius: FloatArray
     mount_reach: FloatArray
     mount_mass: FloatArray
     hub_mass: FloatArray
@@ -122,31 +126,59 @@ def drive_table(problem: SelectionProblem, pairs: NDArray[np.intp]) -> DriveTabl
     columns = np.array(rows, dtype=np.float64).reshape(len(rows), -1).T.copy()
     if problem.wheel_speed_max is not None:
         columns[-1] = np.minimum(columns[-1], problem.wheel_speed_max)
-    known = sorted(set(motors.tolist()))
-    of_motor = np.searchsorted(known, motors)
-    seats = np.array([_seat(problem.motors[m]) for m in known]).reshape(-1, 4)[of_motor].T
-    return DriveTable(motors, gears, _behind(problem, pairs, known), *seats, *columns)
+    seats = _Seats.of(problem, pairs)
+    if problem.web:
+        columns[1] = np.maximum(columns[1], seats.head_reach)
+    return DriveTable(motors, gears, seats.behind, *seats.columns, *columns)
 
 
-def _behind(
-    problem: SelectionProblem, pairs: NDArray[np.intp], known: Sequence[int]
-) -> MassMoments[FloatArray]:
-    """What stands behind the floor, worked out once for each of the motors that are `known`."""
-    alone = [
-        behind_floor(motor, DIRECT, mount_holes(motor.mounting))
-        for motor in (problem.motors[m] for m in known)
-    ]
-    middles = np.array([motor_middle(problem.motors[m]) for m in known])
-    gears = np.array([problem.gears[g].mass for g in pairs[:, 1].tolist()])
-    of_motor = np.searchsorted(known, pairs[:, 0])
-    return rows_of(stacked(alone), of_motor) + point(gears).shifted(middles[of_motor], 0.0 * gears)
+class _Seats(NamedTuple):
+    """Where the motors of some pairs stand, see `DriveTable`.
+
+    Attributes:
+        behind: see there. columns: depth, radius, reach and mass of holes, shape (4, n).
+        head_reach: of the screws in the housing [m], shape (n,).
+    """
+
+    behind: MassMoments[FloatArray]
+    columns: FloatArray
+    head_reach: FloatArray
+
+    @classmethod
+    def of(cls, problem: SelectionProblem, pairs: NDArray[np.intp]) -> "_Seats":
+        """Each motor is looked at once on its wheel and once behind any gear, each gear once."""
+        known, of_motor = np.unique(pairs[:, 0], return_inverse=True)
+        motors = [problem.motors[m] for m in known.tolist()]
+        mounts = [(mount_of(motor, GearRoom()), mount_of(motor, None)) for motor in motors]
+        held = stacked([mount.moments() for both in mounts for mount in both])
+        rows = [
+            [_seat(motor, mount) for mount in both]
+            for motor, both in zip(motors, mounts, strict=True)
+        ]
+        rooms = np.array([_room(gear) for gear in problem.gears])[pairs[:, 1]]
+        direct, depth, up = rooms[:, 0].astype(np.intp), rooms[:, 1], rooms[:, 2]
+        seats = np.array(rows)[of_motor, direct].T
+        seats[0] += depth
+        alone = rows_of(stacked([drive_moments(motor) for motor in motors]), of_motor)
+        gears = stacked([gear_moments(gear) for gear in problem.gears])
+        behind = (
+            alone.shifted(seats[5] - depth, up)
+            + rows_of(gears, pairs[:, 1])
+            + rows_of(held, 2 * of_motor + direct)
+        )
+        return cls(behind, seats[:4], seats[4])
 
 
-def _seat(motor: Motor) -> tuple[float, float, float, float]:
-    """Length, radius, and of the mount's holes the reach and what they take."""
-    holes = mount_holes(motor.mounting)
-    length, radius = motor.length or 0.0, (motor.diameter or 0.0) / 2.0
-    return length, radius, holes.reach, -holes.cut_out().mass
+def _seat(motor: Motor, mount: MotorMount) -> tuple[float, ...]:
+    """How far back and to the sides, of the holes reach and what they take, heads, middle."""
+    lost = -mount.holes.cut_out(WALL + PLATE_THICKNESS).mass
+    middle = motor_middle(motor, mount)
+    return (*mount.behind(motor), mount.holes.reach, lost, mount.head_reach, middle)
+
+
+def _room(gear: Gear) -> tuple[float, float, float]:
+    """1 if there is no gear, and how deep and how far up it is [m]."""
+    return (1.0, 0.0, 0.0) if gear.room is None else (0.0, gear.room.depth, gear.room.offset)
 
 
 def _figures(problem: SelectionProblem, motor: Motor, gear: Gear) -> tuple[float, ...]:

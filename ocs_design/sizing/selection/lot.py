@@ -17,7 +17,7 @@ from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.trunk import Modules
-from ocs_design.sizing.shell import Printed, printed_moments
+from ocs_design.sizing.shell import Printed, shell_moments
 from ocs_design.sizing.web import WEB_THICKNESS, limits_with_web
 
 # The smallest rim of all must not get lost to rounding.
@@ -73,11 +73,11 @@ class Lot:
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
         whole = (
             round_body(mass, wheel, across + web + drives.hub_across)
-            + printed_moments(outer, height, drives.mount_reach)
+            + shell_moments(outer, height, drives.mount_reach)
             + drives.behind.shifted(-half_height(height), np.zeros_like(height))
         )
         size = module_size(
-            outer, height, drives.motor_length, drives.motor_radius, drives.mount_reach
+            outer, height, drives.behind_depth, drives.behind_radius, drives.mount_reach
         )
         return Modules.of(whole, size)
 

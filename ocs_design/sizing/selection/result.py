@@ -11,7 +11,8 @@ from ocs_design.drive.motor import Motor
 from ocs_design.requirement.envelope import Envelope
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.mount import limits_with_mount, mount_holes
+from ocs_design.sizing.motor_mount import mount_of
+from ocs_design.sizing.mount import limits_with_mount
 from ocs_design.sizing.rim_cuts import RimCuts
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.web import Hub, limits_with_web, wheel_body
@@ -97,16 +98,17 @@ class Candidate:
 
     @property
     def printed_mass(self) -> float:
-        """Of one housing with its foot [kg]."""
+        """Of one housing with its foot, what holds the motor, and all screws [kg]."""
         return self.carrier.mass - (self.motor.mass or 0.0) - self.gear.mass
 
     def limits(self, room: Envelope) -> RimLimits:
         """Of its rim, scalars, in the room that is specified."""
         alone = RimProblem(self.spin_inertia, room, self.material, self.overspeed).limits
-        mounted = limits_with_mount(alone, mount_holes(self.motor.mounting).reach)
+        mount = mount_of(self.motor, self.gear.room)
+        mounted = limits_with_mount(alone, mount.holes.reach)
         if self.hub is None:
             return mounted
-        return limits_with_web(mounted, self.hub.radius, self.cuts)
+        return limits_with_web(mounted, max(self.hub.radius, mount.head_reach), self.cuts)
 
     @property
     def wheel_mass(self) -> float:

@@ -14,9 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
-from ocs_design.drive.motor import Motor
-from ocs_design.sizing.mass_moments import MassMoments
-from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.motor_mount import mount_of
 from ocs_design.sizing.selection.bounds import (
     CELLS,
     RimFloor,
@@ -72,9 +70,12 @@ class Found:
     def nothing(cls, problem: SelectionProblem) -> "Found":
         """Before the search."""
         floor = RimFloor.of(problem)
-        motors = np.array([(motor.mass or 0.0) + _mount(motor).mass for motor in problem.motors])
+        motors = np.array([motor.mass or 0.0 for motor in problem.motors])
+        mounts = np.array([mount_of(motor, None).moments().mass for motor in problem.motors])
         gears = np.array([gear.mass for gear in problem.gears])
-        least = 2.0 * (motors[:, None] + gears + floor.mass.min(initial=np.inf))
+        direct = np.array([gear.room is None for gear in problem.gears])
+        drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
+        least = 2.0 * (drives + floor.mass.min(initial=np.inf))
         known = known_pairs(problem.motors, problem.gears)
         least = np.where(known, least, np.inf)
         return cls(problem, floor, known, least, np.zeros(known.shape))
@@ -111,11 +112,6 @@ class Found:
             if mass < np.inf
         ]
         self.places = sorted(ranks)[:RANKED]
-
-
-def _mount(motor: Motor) -> MassMoments[float]:
-    """What its holes take, negative."""
-    return mount_holes(motor.mounting).cut_out()
 
 
 def search(problem: SelectionProblem) -> Found:

@@ -9,7 +9,7 @@ from ocs_design.arrays import FloatArray
 from ocs_design.requirement.bound import SpinDemand, per_wheel
 from ocs_design.sizing.incidence import incidence_by_criterion
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.mount import mount_holes
+from ocs_design.sizing.motor_mount import mount_of
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.selection.candidate import braked
 from ocs_design.sizing.selection.momenta import design_momenta
@@ -93,7 +93,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     rim_inertia = chosen.spin_inertia - chosen.rotor_share - hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
     limits = chosen.limits(problem.envelope)
-    shell = Printed(mount_holes(chosen.motor.mounting).reach)
+    shell = Printed(mount_of(chosen.motor, chosen.gear.room).holes.reach)
     prices = {}
     for name in chosen.binding:
         field = _LIMIT_OF_NAME.get(name)

@@ -1,7 +1,7 @@
 """The inertia that the wheels turn: robot and both modules, braked, for many devices at once."""
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -45,14 +45,18 @@ class Modules(NamedTuple):
         )
 
 
+_Range: TypeAlias = tuple[FloatArray, FloatArray]
+"""From and to."""
+
+
 class Least(NamedTuple):
     """What no module of a kind is below, all of shape (n,).
 
     Attributes:
         mass: of what stands about the wheel's centre, wheel and drum [kg].
         inertia: of that about any axis [kg m^2].
-        behind: of what stands behind it on the axis [kg].
-        depth: of its middle from the wheel's, at most [m].
+        behind: of what stands behind it [kg].
+        depth, above: of its middle from the wheel's, at most [m].
         smallest, largest: rooms that modules take.
     """
 
@@ -60,6 +64,7 @@ class Least(NamedTuple):
     inertia: FloatArray
     behind: FloatArray
     depth: FloatArray
+    above: FloatArray
     smallest: Size[FloatArray]
     largest: Size[FloatArray]
 
@@ -122,11 +127,10 @@ def least_trunk_inertia(robot: MassProperties, place: Place, least: Least) -> Fl
     x, y, z = (_range(values) for values in zip(*_corners(place, least), strict=True))
     mass = least.mass + least.behind
     off = least.behind * least.depth / mass
-    zero = np.zeros_like(off)
-    forward = _least_square(x, robot.com[0], off)
-    up = _least_square(z, robot.com[2], zero)
-    sideways = least.mass * _least_square(y, 0.0, zero)
-    sideways = sideways + least.behind * _least_square(y, 0.0, least.depth)
+    forward = _least_square(_from(x, off), robot.com[0])
+    up = _least_square(_to(z, least.behind * least.above / mass), robot.com[2])
+    sideways = least.mass * _least_square(y, 0.0)
+    sideways = sideways + least.behind * _least_square(_from(y, least.depth), 0.0)
     reduced = robot.mass * 2.0 * mass / (robot.mass + 2.0 * mass)
     own = 2.0 * least.inertia
     roll = robot.inertia[0, 0] + reduced * (robot.com[1] ** 2 + up) + 2.0 * sideways + own
@@ -144,14 +148,22 @@ def _corners(place: Place, least: Least) -> Iterator[tuple[FloatArray, FloatArra
             yield place.left(Size(reach, standing))
 
 
-def _range(values: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+def _range(values: Sequence[FloatArray]) -> _Range:
     return np.minimum.reduce(values), np.maximum.reduce(values)
 
 
-def _least_square(
-    between: tuple[FloatArray, FloatArray], about: float, back: FloatArray
-) -> FloatArray:
-    """Of the distance from `about` of anything in a range, or by `back` before it."""
-    low, high = between[0] - back - about, between[1] - about
+def _from(between: _Range, back: FloatArray) -> _Range:
+    """A range that begins so much earlier."""
+    return between[0] - back, between[1]
+
+
+def _to(between: _Range, more: FloatArray) -> _Range:
+    """A range that ends so much later."""
+    return between[0], between[1] + more
+
+
+def _least_square(between: _Range, about: float) -> FloatArray:
+    """Of the distance from `about` of anything in a range."""
+    low, high = between[0] - about, between[1] - about
     least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
     return least

@@ -24,7 +24,8 @@ ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE = 0, 21, 8, 16
 
 
 def question(seed, **changes):
-    problem = random_problem(seed)
+    # Where a mount's holes bound the foot's plate its mass has kinks: see docs/parts.md.
+    problem = random_problem(seed, mounted=False)
     problem = replace(problem, requirement=replace(problem.requirement, **changes))
     return CoDesignProblem(problem, select(problem, advise=False).best)
 
@@ -184,7 +185,7 @@ def test_where_only_the_finer_mesh_fails_the_coarse_one_counts(monkeypatch):
 
 
 def test_the_incidence_stays_where_it_is_stated():
-    problem = replace(random_problem(ROLL_AND_PITCH), incidence=0.5)
+    problem = replace(random_problem(ROLL_AND_PITCH, mounted=False), incidence=0.5)
     asked = CoDesignProblem(problem, select(problem, advise=False).best)
     found = co_design(asked)
     assert found.shape.incidence == 0.5

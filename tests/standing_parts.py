@@ -1,0 +1,102 @@
+"""Everything that stands still of a module, piece by piece, as it is made and bought.
+
+Bodies in the module's frame: x forward, y along the wheel's axis away from the other module, z up.
+"""
+
+from math import cos, pi, sin
+
+import numpy as np
+
+from ocs_design.drive.mounting import Face
+from ocs_design.fasteners import screw
+from ocs_design.parts.cage import cage_part
+from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.mount import made_mount
+from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.sizing.cage import FLOOR, FRONT_GAP
+from ocs_design.sizing.foot import BASE_THICKNESS, PLATE_THICKNESS
+from ocs_design.sizing.housing import LID_SCREW, WALL
+from ocs_design.sizing.motor_mount import mount_of
+
+UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""From the frame of the left wheel, its y axis down, to that of its module."""
+
+
+def made_foot(motor, gear, outer, height):
+    """With the housing that it carries."""
+    mount = made_mount(mount_of(motor, gear.room).holes)
+    return Foot(Housing(outer, height, mount, LID_SCREW))
+
+
+def standing_parts(motor, gear, outer, height):
+    """About the wheel's centre."""
+    foot = made_foot(motor, gear, outer, height)
+    for part in housing_parts(foot.housing):
+        yield part.mass_properties().moved(UPRIGHT, np.zeros(3))
+    yield foot_part(foot).mass_properties().moved(np.eye(3), [0.0, 0.0, -foot.wheel_height])
+    yield from shell_screws(foot)
+    for body in driving_parts(motor, gear):
+        yield body.moved(np.eye(3), [0.0, -foot.housing.half_height, 0.0])
+
+
+def shell_screws(foot):
+    """M2 x 6 through the lid, M3 x 6 through the foot's base."""
+    housing, each = foot.housing, screw("M2")
+    radius = housing.radius + each.clearance_hole / 2.0
+    along = housing.half_height - each.centre(6e-3)
+    for k in range(4):
+        angle = pi / 4.0 + k * pi / 2.0
+        yield point(each.mass(6e-3), radius * cos(angle), along, radius * sin(angle))
+    each = screw("M3")
+    up = BASE_THICKNESS - each.centre(6e-3) - foot.wheel_height
+    # Two on the left foot, two on the right one that mirror them: on average half of one each.
+    for k in range(4):
+        angle = pi / 4.0 + k * pi / 2.0
+        x, y = foot.slot_radius * cos(angle), foot.slot_radius * sin(angle)
+        yield point(each.mass(6e-3) / 2.0, x, y, up)
+
+
+def driving_parts(motor, gear):
+    """Motor, gear, cage and their screws, about the middle of the outside of the floor."""
+    room, mounting = gear.room, motor.mounting
+    caged = mount_of(motor, room).cage
+    gap = FRONT_GAP if caged is not None else 0.0 if room is None else room.depth
+    up, gear_up = (0.0, 0.0) if room is None else (room.offset, room.center)
+    length, radius = motor.length or 0.0, (motor.diameter or 0.0) / 2.0
+    across = motor.mass * (3.0 * radius**2 + length**2) / 12.0
+    own = np.diag([across, motor.mass * radius**2 / 2.0, across])
+    yield MassProperties(motor.mass, [0.0, -PLATE_THICKNESS - gap - length / 2.0, up], own)
+    deep = 0.0 if room is None else room.depth
+    yield point(gear.mass, 0.0, -PLATE_THICKNESS - deep / 2.0, gear_up)
+    if room is not None or mounting is None:
+        return
+    if mounting.rotor is not None:
+        yield from screws_on(mounting.rotor, 5e-3 + metric(mounting.rotor), -PLATE_THICKNESS, -1.0)
+    if mounting.stator_face is Face.OUTPUT and mounting.stator is not None:
+        through = WALL + PLATE_THICKNESS + metric(mounting.stator)
+        yield from screws_on(mounting.stator, through, WALL, -1.0)
+    if caged is not None:
+        back = PLATE_THICKNESS + FRONT_GAP + length + FLOOR
+        yield cage_part(caged).mass_properties().moved(UPRIGHT, [0.0, -back, 0.0])
+        yield from screws_on(caged.screws, 10.6e-3, WALL, -1.0)
+        yield from screws_on(mounting.stator, FLOOR + metric(mounting.stator), -back, 1.0)
+
+
+def metric(circle):
+    """Diameter of its threads."""
+    return screw(circle.thread).diameter
+
+
+def screws_on(circle, at_least, along, towards):
+    """The first straight up, the next length that there is, their tips `towards`."""
+    each = screw(circle.thread)
+    length = next(n * 1e-3 for n in (4, 5, 6, 8, 10, 12, 16) if n * 1e-3 >= at_least - 1e-12)
+    for k in range(circle.bolts):
+        angle = 2.0 * pi * k / circle.bolts
+        up, forward = circle.diameter / 2.0 * cos(angle), circle.diameter / 2.0 * sin(angle)
+        yield point(each.mass(length), forward, along + towards * each.centre(length), up)
+
+
+def point(mass, x, y, z):
+    return MassProperties(mass, [x, y, z], np.zeros((3, 3)))
