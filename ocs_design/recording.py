@@ -28,6 +28,7 @@ from ocs_design.design_file import (
 from ocs_design.designing import Designed
 from ocs_design.device_warnings import device_warnings
 from ocs_design.export.fitting import fitting_remarks
+from ocs_design.export.footing import footing_remarks
 from ocs_design.margin_recording import record_margins
 from ocs_design.mounting import Clearance, Mounting
 from ocs_design.requirement.bound import SpinDemand
@@ -150,7 +151,7 @@ def _ocs(
         motor=device.motor,
         carrier=device.carrier,
         warnings=(*device_warnings(device, robot.mass_properties), *warnings),
-        fitting=fitting_remarks(device),
+        fitting=(*fitting_remarks(device), *footing_remarks(robot, device)),
         mounting=None if mounting is None else _mounting(mounting),
     )
 
