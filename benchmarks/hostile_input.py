@@ -1,10 +1,12 @@
 """Mutated files for every reader: what escapes, how long it takes, how much memory, what it writes.
 
     python benchmarks/hostile_input.py [INPUTS] [READER ...]
+    python benchmarks/hostile_input.py 300 size
     python benchmarks/hostile_input.py --guided SECONDS READER
 
 Goal: 20,000 inputs, and no exception but those that name their cure, none above 10 s, none above
-1 GiB, nothing written outside. Guided search needs `atheris` and keeps what it finds in `hostile/`.
+1 GiB, nothing written outside. `size` is the whole chain, and has 120 s. Guided search needs
+`atheris`; what is found is kept in the folder that HOSTILE names.
 """
 
 import faulthandler
@@ -25,16 +27,17 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from mutated import NUMBERS, mutated
 
-HANG, MEMORY, AT_ONCE = 10.0, 2**30, 250
+HANG, LONG_HANG, MEMORY, AT_ONCE = 10.0, 120.0, 2**30, 250
 
 
 def run_reader(name, seed, count):
     """Read `count` mutated files in this process; prints a line for each that does it harm."""
-    from hostile_readers import READERS
+    from hostile_readers import READERS, SLOW_READERS
 
     from ocs_design.exceptions import OcsError
 
-    reader, draw = READERS[name], random.Random(seed)
+    reader, draw = (READERS | SLOW_READERS)[name], random.Random(seed)
+    hang = LONG_HANG if name in SLOW_READERS else HANG
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         _watch_writing(folder)
@@ -44,7 +47,7 @@ def run_reader(name, seed, count):
             content = mutated(reader.seeds, reader.words, draw)
             path.write_bytes(content)
             Path(folder, "last").write_text(f"{name} {seed} {index}")
-            faulthandler.dump_traceback_later(HANG, exit=True)
+            faulthandler.dump_traceback_later(hang, exit=True)
             start = time.perf_counter()
             try:
                 with warnings.catch_warnings():
