@@ -13,6 +13,7 @@ LOWEST = re.compile(r"([\w.-]+)>=([\w.]+)")
 
 
 def main() -> None:
+    """Print one line for each."""
     project = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
     wanted = {*project["dependencies"], *(line for name in extras for line in extras[name])}

@@ -135,7 +135,7 @@ def _vertex(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
     for _ in range(_NEWTON_STEPS):
         values = np.array([limit.value(*point) for limit in limits])
         # Not `solve`: equal h_min and h_max are one equation twice.
-        point = point - np.linalg.lstsq(_gradients(limits, point), values)[0]
+        point = point - np.linalg.lstsq(_gradients(limits, point), values, rcond=None)[0]
     return point
 
 
