@@ -43,6 +43,9 @@ CaseFile: TypeAlias = Annotated[
     Path | None,
     typer.Option("--replay", metavar="FILE", help="Fly a case from the folder worst/ again."),
 ]
+View: TypeAlias = Annotated[
+    bool, typer.Option("--view", help="Show the runs in MuJoCo's viewer, each until it is closed.")
+]
 Desaturate: TypeAlias = Annotated[
     bool, typer.Option("--desaturate", help="Brake the wheels while the robot stands.")
 ]
@@ -60,6 +63,7 @@ def validate(
     spec: opt.Spec = None,
     ballistic: opt.Ballistic = False,
     desaturate: Desaturate = False,
+    view: View = False,
     out: FlightsFolder = None,
     robot_file: OtherRobot = None,
     package_path: opt.PackagePaths = None,
@@ -83,7 +87,7 @@ def validate(
     with steps.step("load the simulator"):
         from ocs_design.report.validation import print_validated
         from ocs_design.validating import validated_to_json
-        from ocs_design.validation import Request, validate_design
+        from ocs_design.validation import Request, validate_design, watch
     request = Request(
         design=design,
         stated=stated_specification(context),
@@ -97,12 +101,15 @@ def validate(
         out=out,
         force=force,
         strict=strict,
+        view=view,
     )
     answer = validate_design(request, steps)
     if as_json:
         sys.stdout.buffer.write(validated_to_json(answer.found))
     elif not quiet:
         print_validated(console, answer.found, answer.folder, answer.files)
+    if view:
+        watch(answer)
     raise typer.Exit(answer.exit_code)
 
 

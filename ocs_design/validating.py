@@ -160,13 +160,15 @@ def read_task(
     )
 
 
-def fly_again(task: Task, progress: Progress | None = None) -> tuple[Run, ...]:
-    """Every maneuver with the device and then without; see `run_scenarios`."""
+def fly_again(
+    task: Task, progress: Progress | None = None, *, pose_rate: float | None = None
+) -> tuple[Run, ...]:
+    """Every maneuver with the device and then without; see `run_scenarios` and its `Options`."""
     return run_scenarios(
         task.robot,
         task.device,
         task.maneuvers,
-        options=flight_options(task.control),
+        options=replace(flight_options(task.control), pose_rate=pose_rate),
         references=task.references,
         jumps=task.jumps,
         progress=progress,

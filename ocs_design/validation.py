@@ -6,13 +6,16 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ocs_design.exceptions import UsageError
+from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import check_target
+from ocs_design.export.watching import check_display, watch_takes
 from ocs_design.monte_carlo.cluster import Cluster
 from ocs_design.monte_carlo.replay import replayed
 from ocs_design.monte_carlo.running import ThisMachine, Workers
 from ocs_design.report.console import Steps
 from ocs_design.requirement.specification import Specification
 from ocs_design.sampling import Order, campaign_of, case_for, fly_order
+from ocs_design.simulation.poses import POSE_RATE
 from ocs_design.simulation.scenario import Run
 from ocs_design.validating import (
     Drawn,
@@ -36,6 +39,7 @@ class Request:
         scheduler: address of a Dask cluster; None: this machine.
         sample: to fly alone. replay: file of a case to fly alone.
         out, force: where to write, and whether over what is there.
+        view: whether the runs are to be looked at.
     """
 
     design: Path
@@ -50,12 +54,14 @@ class Request:
     replay: Path | None = None
     out: Path | None = None
     force: bool = False
+    view: bool = False
 
     def check(self) -> None:
         """Refuse what contradicts itself.
 
         Raises:
             UsageError: options that exclude or need each other.
+            MissingToolError: there is no display to look at them.
         """
         wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
         given = [name for name, value in wanted.items() if value is not None]
@@ -67,6 +73,13 @@ class Request:
             )
         if self.samples is not None:
             self.order.check()
+        if self.view:
+            check_display()
+
+    @property
+    def pose_rate(self) -> float | None:
+        """Of the poses that are kept to be looked at [1/s]."""
+        return POSE_RATE if self.view else None
 
     @property
     def order(self) -> Order:
@@ -85,11 +98,14 @@ class Answer:
 
     Attributes:
         found: the record. folder: that was written to, if any. files: in it.
+        task: that was flown. runs: that came of it.
     """
 
     found: Validated
     folder: Path | None
     files: tuple[str, ...]
+    task: Task
+    runs: tuple[Run, ...]
 
     @property
     def exit_code(self) -> int:
@@ -116,12 +132,28 @@ def validate_design(request: Request, steps: Steps) -> Answer:
         )
         step.note = task.robot.name
     with steps.step("fly the maneuvers with and without the device") as step:
-        runs = fly_again(task, step.update)
+        runs = fly_again(task, step.update, pose_rate=request.pose_rate)
     if request.samples is not None:
         return _many(request, task, runs, steps)
     if request.sample is not None or request.replay is not None:
         return _one(request, task, runs, steps)
     return _written(request, task, runs, validated(task, runs))
+
+
+def watch(answer: Answer) -> None:
+    """Show every run with the device, in a window each, one after the other.
+
+    Raises:
+        MissingToolError: no window can be opened.
+    """
+    task, shown = answer.task, [run for run in answer.runs if run.ocs]
+    device_of = {each.name: task.device.as_flown(each) for each in task.maneuvers}
+    takes = [
+        Take(film_model(task.robot, device_of[run.scenario], ocs=True), run.poses.qpos)
+        for run in shown
+        if run.poses is not None
+    ]
+    watch_takes(takes, 1.0 / POSE_RATE)
 
 
 def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Answer:
@@ -134,7 +166,7 @@ def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> 
         step.note = f"{record.samples:,} flown"
     found = replace(validated(task, runs), monte_carlo=record)
     names = () if order.out is None else tuple(str(f.relative_to(order.out)) for f in files)
-    return Answer(found, order.out, names)
+    return Answer(found, order.out, names, task, runs)
 
 
 def _one(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Answer:
@@ -145,16 +177,16 @@ def _one(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> A
     else:
         sample = campaign.sample(request.sample or 0)
     with steps.step(f"fly sample {sample.index} of seed {sample.seed}"):
-        flown = replayed(campaign, sample)
+        flown = replayed(campaign, sample, pose_rate=request.pose_rate)
     found = replace(validated(task, flown), sample=Drawn.of(sample))
     return _written(request, task, flown, found)
 
 
 def _written(request: Request, task: Task, runs: tuple[Run, ...], found: Validated) -> Answer:
     if request.out is None:
-        return Answer(found, None, ())
+        return Answer(found, None, (), task, runs)
     design = write_flights(task, runs, found, request.out, force=request.force)
-    return Answer(found, request.out, tuple(design.files))
+    return Answer(found, request.out, tuple(design.files), task, runs)
 
 
 def _seed(request: Request, task: Task) -> int:

@@ -61,15 +61,18 @@ def render_takes(takes: Sequence[Take]) -> list[Frames]:
         MissingToolError: OpenGL does not work here; the message says why.
     """
     with tempfile.TemporaryDirectory() as folder:
-        paths = [_written(take, Path(folder) / f"{i}") for i, take in enumerate(takes)]
+        paths = [
+            (*written_take(take, Path(folder) / f"{i}"), Path(folder) / f"{i}.frames.npy")
+            for i, take in enumerate(takes)
+        ]
         program = "ocs_design.export.film_frames"
         draw(program, [str(path) for three in paths for path in three], "video")
         return [np.load(frames) for _, _, frames in paths]
 
 
-def _written(take: Take, stem: Path) -> tuple[Path, Path, Path]:
-    """Model and joint positions for the other process, and where the frames will be."""
+def written_take(take: Take, stem: Path) -> tuple[Path, Path]:
+    """Model and joint positions for the other process."""
     model, qpos = stem.with_suffix(".mjb"), stem.with_suffix(".npy")
     mujoco.mj_saveModel(take.model, str(model))
     np.save(qpos, take.qpos)
-    return model, qpos, stem.with_suffix(".frames.npy")
+    return model, qpos

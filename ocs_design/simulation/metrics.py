@@ -203,8 +203,10 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
     the scale is the largest momentum of the wheels plus that of the trunk with its legs, as if they
     were locked. Gravity has no moment about the centre of mass.
     """
-    # A stage of the step before touchdown may have felt the floor: the last instant is left out.
-    flight = slice(flown.start, max(flown.stop - 1, flown.start + 1))
+    # Between two looks at the contacts a stage of a step may feel the floor, as a foot scrapes off
+    # it or is about to touch it: the first and the last control step are left out.
+    first = min(flown.start + 1, flown.stop - 1)
+    flight = slice(first, max(flown.stop - 1, first + 1))
     momentum, impulse = recording.momentum[flight, index], recording.impulse[flight, index]
     unexplained = momentum - momentum[0] - (impulse - impulse[0])
     wheels = world.body.spin_inertia * np.abs(recording.wheel_speed[flight, index]).max()
