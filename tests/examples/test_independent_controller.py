@@ -17,14 +17,28 @@ def example():
     return module
 
 
-@pytest.mark.parametrize("motor", ["none", "EC 45 flat 70 W 411812"])
-def test_it_touches_down_alike(motor, tmp_path):
+@pytest.mark.parametrize(
+    ("motor", "kinds"),
+    [
+        ("none", {"disturbance", "drop", "flip"}),
+        # With limits the others follow what ocs-design has planned.
+        ("EC 45 flat 70 W 411812", {"disturbance"}),
+    ],
+)
+def test_it_touches_down_alike(motor, kinds, tmp_path):
     folder = tmp_path / "ocs"
     assert run("size", SOLO12, "--ballistic", "--motor", motor, "-q", "-o", folder).code in {0, 1}
     design = json.loads((folder / "design.json").read_text())
-    runs = [r for r in design["validation"] if r["scenario"] == "disturbance"]
-    flown = {r["ocs"]: r["metrics"] for r in runs}
-    roll, pitch = example().touchdown(folder, design)
-    assert roll == pytest.approx(flown[True]["touchdown_roll"], abs=1e-9)
-    assert pitch == pytest.approx(flown[True]["touchdown_pitch"], abs=1e-9)
-    assert abs(pitch - flown[False]["touchdown_pitch"]) > 0.1
+    for maneuver in design["requirement"]["maneuvers"]:
+        if maneuver["kind"] not in kinds:
+            continue
+        flown = {
+            run["ocs"]: run["metrics"]
+            for run in design["validation"]
+            if run["scenario"] == maneuver["name"]
+        }
+        roll, pitch = example().touchdown(folder, design, maneuver)
+        assert roll == pytest.approx(flown[True]["touchdown_roll"], abs=1e-9)
+        assert pitch == pytest.approx(flown[True]["touchdown_pitch"], abs=1e-9)
+        if maneuver["kind"] != "flip":  # which ends as level as one that does not turn
+            assert abs(pitch - flown[False]["touchdown_pitch"]) > 0.1
