@@ -29,7 +29,11 @@ def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float) -> None:
         seconds: from one pose to the next [s].
     """
     data = mujoco.MjData(model)
-    with mujoco.viewer.launch_passive(model, data) as viewer:
+    mujoco.mj_forward(model, data)
+    quiet = {"show_left_ui": False, "show_right_ui": False}
+    with mujoco.viewer.launch_passive(model, data, **quiet) as viewer:
+        viewer.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING
+        viewer.cam.trackbodyid = 1
         start, whole = time.monotonic(), len(qpos) * seconds + PAUSE
         while viewer.is_running():
             pose = int((time.monotonic() - start) % whole / seconds)

@@ -69,8 +69,8 @@ import sys, threading
 import mujoco, mujoco.viewer
 from ocs_design.export import watch_frames
 seen, launch = [], mujoco.viewer.launch_passive
-def launched(model, data):
-    handle = launch(model, data)
+def launched(model, data, **options):
+    handle = launch(model, data, **options)
     def end():
         seen.append(float(data.qpos[2]))
         handle.close()

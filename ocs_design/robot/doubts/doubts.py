@@ -8,7 +8,7 @@ from ocs_design.robot.doubts.box import box_of
 from ocs_design.robot.doubts.density import link_density_doubts, robot_density_doubts
 from ocs_design.robot.doubts.ground import foot_doubts
 from ocs_design.robot.doubts.inertia import inertia_doubts
-from ocs_design.robot.doubts.limits import is_in_degrees
+from ocs_design.robot.doubts.limits import effort_doubts, is_in_degrees
 from ocs_design.robot.doubts.sides import side_doubts
 from ocs_design.robot.doubts.wheels import wheel_doubts
 from ocs_design.robot.mass_properties import MassProperties, physical_defect
@@ -43,6 +43,8 @@ def doubts_of(
             _add_body(body, remarks)
         for doubt, links in side_doubts(tree, trunk, legs):
             remarks.add(doubt, links)
+        for doubt, joint in effort_doubts(tree, legs, weighed.mass):
+            remarks.add(doubt, joint)
         for doubt in foot_doubts(tree, trunk, legs, posture):
             remarks.add(doubt)
     return remarks.sentences()

@@ -184,6 +184,8 @@ FAULTS = {
         lambda r: set_in(r, "HR_knee", "limit", upper="1.2"), "range, effort or speed", "HR_shank"),
     "a motor of one side": (
         lambda r: set_in(r, "FL_roll", "limit", effort="30"), "range, effort or speed", "FL_hip"),
+    "a placeholder for an effort": (
+        lambda r: set_in(r, "HR_knee", "limit", effort="1000"), "efforts over 10", "HR_knee"),
     "limits in degrees": (
         lambda r: [set_in(r, f"{leg}_knee", "limit", lower="-90", upper="90")
                    for leg in ("FL", "FR", "HL", "HR")], "limits in degrees", "FL_knee"),
@@ -237,11 +239,12 @@ def test_strict_makes_a_doubt_fatal(tmp_path):
     assert "round about their joint" in refused.said
 
 
-def test_solo12_is_sound_and_judged_in_no_time():
+def test_solo12_is_sound_but_for_its_efforts_and_judged_in_no_time():
     robot = read_robot(SOLO12)
     judge = (robot.tree, robot.trunk, robot.legs, robot.posture, robot.mass_properties)
     start = time.process_time()
-    assert doubts_of(*judge) == ()
+    (doubt,) = doubts_of(*judge)
+    assert "efforts over 10 times weight" in doubt, "the public file states 1000 N m"
     assert time.process_time() - start < 0.1
 
 
