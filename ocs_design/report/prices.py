@@ -6,28 +6,21 @@ from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.selection_record import PriceRecord, SelectionRecord
 from ocs_design.sizing.limits import LIMITS, TIME
 
-COLUMNS = ("limit", "as it is", "looser", "both modules")
+COLUMNS = ("limit", "change", "both modules")
 
 _NOTHING = 5e-6
 """[kg], less than is shown."""
 
 
-def price_cells(price: PriceRecord) -> tuple[str, str, str, str]:
+def price_cells(price: PriceRecord) -> tuple[str, str, str]:
     """In the columns of `COLUMNS`."""
-    limit = LIMITS[price.limit]
-    if limit is TIME:
-        return limit.label, "as given", f"{price.changed - price.value:+.0%}", _bought(price)
-    as_it_is, looser = (
-        f"{value * limit.per_si:.5g} {limit.unit}".rstrip()
-        for value in (price.value, price.changed)
-    )
-    return limit.label, as_it_is, looser, _bought(price)
+    return LIMITS[price.limit].label, _change(price), _bought(price)
 
 
 def what_buys(selection: SelectionRecord) -> str:
     """Every change that makes the device lighter, on one line; empty where no price is known."""
     worth = sorted(filter(_is_worth, selection.prices), key=lambda price: price.mass_change)
-    told = (f"{LIMITS[each.limit].label} {price_cells(each)[2]}: {_bought(each)}" for each in worth)
+    told = (": ".join((" ".join(price_cells(each)[:2]), _bought(each))) for each in worth)
     return "; ".join(told) or ("no single limit" if selection.prices else "")
 
 
@@ -45,6 +38,14 @@ def price_notes(selection: SelectionRecord) -> Iterator[str]:
 
 def _is_worth(price: PriceRecord) -> bool:
     return price.mass_change < -_NOTHING
+
+
+def _change(price: PriceRecord) -> str:
+    limit = LIMITS[price.limit]
+    if limit is TIME:
+        return f"{price.changed - price.value:+.0%}"
+    before, after = (f"{value * limit.per_si:.5g}" for value in (price.value, price.changed))
+    return f"{before} to {after} {limit.unit}".rstrip()
 
 
 def _bought(price: PriceRecord) -> str:

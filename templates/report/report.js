@@ -2,6 +2,7 @@
 
 const find = (name) => document.getElementById(name);
 const TELLING = 100;                  // [ms] between changes of what is written; each costs as much as a picture
+const UNSEEN = 2000;                  // [ms] after which the page counts as painted
 const WIDER = 1.3;                    // where two robots are shown beside each other
 const READOUT = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
@@ -161,9 +162,15 @@ async function start() {
   document.documentElement.classList.add("orbits");
 }
 
-// First the page, then its viewer. Where WebGL 2 is missing the picture stays.
-requestAnimationFrame(() => setTimeout(() => start().catch((error) => {
+// First the page, then its viewer: both at once would keep the page waiting. A tab in the background is
+// not painted, and browsers need not tell.
+const painted = new Promise((done) => {
+  new PerformanceObserver(done).observe({ type: "paint", buffered: true });
+  setTimeout(done, UNSEEN);
+});
+// Where WebGL 2 is missing the picture stays.
+painted.then(start).catch((error) => {
   const note = find("viewer-note");
   if (note) note.textContent = `No view to turn here (${error.message}); the picture shows the same.`;
-}), 0));
+});
 addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((each) => { each.open = true; }));

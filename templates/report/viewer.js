@@ -4,29 +4,25 @@ const FIELD_OF_VIEW = 0.6;            // from top to bottom [rad]
 const CREASE = Math.cos(0.6);         // faces that meet at more than this have an edge [rad]
 const ALIKE = 0.999;                  // cosine between normals that are one
 const SLOW = 40, COARSEST = 0.4;      // [ms] from picture to picture at which it is drawn coarser; by how much at most
+const TILES = 9;                      // of the floor to either side
 const REST = 200;                     // [ms] without any motion after which it is drawn finely
 
+// Lit at the corners and not at every pixel: where a processor draws, that takes a fifth off a picture.
 const SURFACE_VERTEX = `#version 300 es
-in vec3 place, normal; uniform mat4 view, world; out vec3 n, p;
-void main() { vec4 at = world * vec4(place, 1.0); p = at.xyz; n = mat3(world) * normal;
-  gl_Position = view * at; }`;
-const SURFACE_FRAGMENT = `#version 300 es
-precision highp float; in vec3 n, p; uniform vec4 color; uniform vec3 eye, light; out vec4 shown;
-void main() { vec3 to = normalize(eye - p), m = normalize(n); if (dot(m, to) < 0.0) m = -m;
+in vec3 place, normal; uniform mat4 view, world; uniform vec4 color; uniform vec3 eye, light; out vec4 lit;
+void main() { vec4 at = world * vec4(place, 1.0); gl_Position = view * at;
+  vec3 to = normalize(eye - at.xyz), m = mat3(world) * normal; if (dot(m, to) < 0.0) m = -m;
   float sky = 0.5 + 0.5 * m.z, key = max(dot(m, light), 0.0);
   float gloss = pow(max(dot(m, normalize(light + to)), 0.0), 32.0);
-  vec3 lit = color.rgb * (0.34 + 0.22 * sky + 0.52 * key) + 0.10 * gloss;
-  shown = vec4(min(lit, 1.0) * color.a, color.a); }`;
+  lit = vec4(min(color.rgb * (0.34 + 0.22 * sky + 0.52 * key) + 0.10 * gloss, 1.0) * color.a, color.a); }`;
+const SURFACE_FRAGMENT = `#version 300 es
+precision mediump float; in vec4 lit; out vec4 shown; void main() { shown = lit; }`;
 const FLOOR_VERTEX = `#version 300 es
-in vec3 place; uniform mat4 view; uniform vec3 middle; uniform float reach; out vec2 p;
-void main() { vec3 at = vec3(middle.xy + place.xy * reach, middle.z); p = at.xy;
-  gl_Position = view * vec4(at, 1.0); }`;
+in vec3 place; uniform mat4 view; uniform vec3 middle; uniform float tile, reach; out float alpha;
+void main() { vec2 p = (place.xy + floor(middle.xy / tile + 0.5)) * tile;
+  alpha = 0.4 * (1.0 - smoothstep(0.2, 1.0, length(p - middle.xy) / reach)); gl_Position = view * vec4(p, middle.z, 1.0); }`;
 const FLOOR_FRAGMENT = `#version 300 es
-precision highp float; in vec2 p; uniform vec3 middle, ink; uniform float reach, tile; out vec4 shown;
-float line(vec2 at) { vec2 width = fwidth(at), away = abs(fract(at - 0.5) - 0.5) / width;
-  return (1.0 - min(min(away.x, away.y), 1.0)) * (1.0 - smoothstep(0.2, 0.5, max(width.x, width.y))); }
-void main() { float far = 1.0 - smoothstep(0.3, 1.0, length(p - middle.xy) / reach);
-  float alpha = far * (0.06 + 0.34 * line(p / tile)); shown = vec4(ink * alpha, alpha); }`;
+precision mediump float; in float alpha; uniform vec3 ink; out vec4 shown; void main() { shown = vec4(ink * alpha, alpha); }`;
 
 // Matrices are sixteen numbers, column by column; quaternions are w, x, y, z.
 const times = (a, b) => {
@@ -99,6 +95,14 @@ function shaded(surface, array) {
   return { content: new Float32Array(content), indices };
 }
 
+// Lines between tiles from -n to n both ways, in pieces that fade one by one.
+function grid(n) {
+  const ends = [];
+  for (let at = -n; at <= n; at++) for (let from = -n; from < n; from++)
+    ends.push(at, from, 0, at, from + 1, 0, from, at, 0, from + 1, at, 0);
+  return new Float32Array(ends);
+}
+
 // Whether a processor draws what a graphics card should: then smooth edges cost too much.
 function isSoft() {
   const gl = document.createElement("canvas").getContext("webgl2");
@@ -110,11 +114,11 @@ function isSoft() {
 class Viewer {
   constructor(canvas, scene, array) {
     this.canvas = canvas;
-    const soft = isSoft(), gl = this.gl = canvas.getContext("webgl2", { antialias: !soft, alpha: true });
+    const soft = isSoft(), gl = this.gl = canvas.getContext("webgl2", { antialias: !soft, alpha: false });
     if (!gl) throw new Error("no WebGL 2");
     this.surface = this.program(SURFACE_VERTEX, SURFACE_FRAGMENT);
     this.floor = this.program(FLOOR_VERTEX, FLOOR_FRAGMENT);
-    this.square = this.vertices(new Float32Array([-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0]), ["place"]);
+    this.lines = this.vertices(grid(TILES), ["place"]);
     this.bodies = scene.bodies.map((body) => ({ ...body, shapes: body.surfaces.map((each) => this.shape(each, array)) }));
     this.reach = scene.reach; this.tile = scene.tile;
     this.fine = soft ? 1.5 : Math.min(devicePixelRatio, 2); this.quick = soft ? 0.75 : this.fine;
@@ -188,7 +192,8 @@ class Viewer {
     if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
     const eye = this.eye(), view = seenFrom(eye, this.camera.target, width / height, 0.02 * this.reach, 60 * this.reach);
     gl.viewport(0, 0, width, height);
-    gl.clearColor(0, 0, 0, 0); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    // Opaque, for what shines through is drawn twice; in software that takes longer than the robot.
+    gl.clearColor(...this.color("backgroundColor"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST); gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     this.drawSurfaces(view, eye);
     this.drawFloor(view);
@@ -215,17 +220,19 @@ class Viewer {
     gl.depthMask(true);
   }
 
+  // Of the style sheet, which has them for light and for dark.
+  color(name) { return getComputedStyle(this.canvas)[name].match(/[\d.]+/g).slice(0, 3).map((part) => part / 255); }
+
   alpha(body, shape) { return this.fade && !body.device ? Math.min(0.18, shape.color[3]) : shape.color[3]; }
 
   drawFloor(view) {
     const gl = this.gl, { made, at } = this.floor, { target } = this.camera;
-    const ink = getComputedStyle(this.canvas).color.match(/[\d.]+/g).slice(0, 3).map((part) => part / 255);
     gl.useProgram(made);
     gl.uniformMatrix4fv(at.view, false, view);
-    gl.uniform3f(at.middle, target[0], target[1], this.ground); gl.uniform3fv(at.ink, ink);
-    gl.uniform1f(at.reach, 7 * this.reach); gl.uniform1f(at.tile, this.tile);
+    gl.uniform3f(at.middle, target[0], target[1], this.ground); gl.uniform3fv(at.ink, this.color("color"));
+    gl.uniform1f(at.reach, TILES * this.tile); gl.uniform1f(at.tile, this.tile);
     gl.enable(gl.BLEND); gl.depthMask(false);
-    gl.bindVertexArray(this.square); gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    gl.bindVertexArray(this.lines); gl.drawArrays(gl.LINES, 0, 8 * TILES * (2 * TILES + 1));
     gl.depthMask(true);
   }
 

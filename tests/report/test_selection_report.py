@@ -123,15 +123,15 @@ PRICES = (
 def test_a_price_says_what_changes_and_what_it_buys():
     cells = [price_cells(price) for price in PRICES]
     assert cells == [
-        ("r_max", "50 mm", "51 mm", "-14.86 g"),
-        ("h_max", "10 mm", "11 mm", "no change"),
-        ("time for every maneuver", "as given", "+1%", "-31.20 g"),
+        ("r_max", "50 to 51 mm", "-14.86 g"),
+        ("h_max", "10 to 11 mm", "no change"),
+        ("time for every maneuver", "+1%", "-31.20 g"),
     ]
 
 
 def test_on_one_line_what_buys_most_comes_first():
     told = what_buys(replace(SELECTION, prices=PRICES))
-    assert told == "time for every maneuver +1%: -31.20 g; r_max 51 mm: -14.86 g"
+    assert told == "time for every maneuver +1%: -31.20 g; r_max 50 to 51 mm: -14.86 g"
     assert what_buys(replace(SELECTION, prices=PRICES[1:2])) == "no single limit"
     assert what_buys(SELECTION) == ""
 

@@ -100,7 +100,10 @@ def _draw(axes: "Axes", mark: Mark) -> None:
             )
         case Points():
             face = "white" if mark.hollow else color
-            axes.scatter(mark.x, mark.y, 16.0, face, edgecolors=color, label=mark.name or None)
+            # Over the lines, which matplotlib else draws last.
+            axes.scatter(
+                mark.x, mark.y, 16.0, face, edgecolors=color, label=mark.name or None, zorder=3.0
+            )
             for x, y, text in zip(mark.x, mark.y, mark.labels, strict=False):
                 axes.annotate(text, (x, y), (5.0, -2.0), textcoords="offset points", fontsize=7.0)
         case Rule():
