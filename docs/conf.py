@@ -13,10 +13,19 @@ release = version = __version__
 author = "The ocs-design developers"
 copyright = author
 
-extensions = ["myst_parser", "mathml"]
+extensions = ["myst_parser", "mathml", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 nitpicky = True
+# Types that a public name is made of live in modules without a page of their own.
+nitpick_ignore_regex = [("py:.*", r"(?!ocs_design\.\w+$).*")]
+
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+autodoc_member_order = "bysource"
+python_use_unqualified_type_names = True
+napoleon_use_ivar = True
+napoleon_use_rtype = False
 
 html_theme = "furo"
 html_title = f"{project} {release}"

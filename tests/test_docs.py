@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import ocs_design
 from ocs_design.catalogue.motors import known_motors, motors
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.specification import Specification
@@ -128,6 +129,12 @@ def test_every_reference_of_the_theory_is_listed():
     cited = set(re.findall(r"references\.md#([a-z0-9]+)", (DOCS / "theory.md").read_text()))
     assert cited <= headings
     assert len(cited) > 10
+
+
+def test_every_public_name_has_its_entry():
+    page = (DOCS / "api.md").read_text()
+    entries = re.findall(r"^\.\. auto(?:function|class):: ocs_design\.(\w+)", page, re.MULTILINE)
+    assert sorted(entries) == sorted(ocs_design.__all__)
 
 
 @pytest.mark.slow
