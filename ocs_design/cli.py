@@ -18,6 +18,7 @@ from ocs_design.cli_doctor import doctor
 from ocs_design.cli_export import export
 from ocs_design.cli_init import init
 from ocs_design.cli_pareto import pareto
+from ocs_design.cli_signatures import with_options
 from ocs_design.cli_stated import stated_package_paths, stated_specification, typed_command
 from ocs_design.cli_validate import validate
 
@@ -65,7 +66,7 @@ def _no_command(
 
 
 @app.command()
-@opt.with_options(opt.TASK_OPTIONS)
+@with_options(opt.TASK_OPTIONS)
 def size(
     context: typer.Context,
     co_design: opt.CoDesign = False,
@@ -121,7 +122,7 @@ def size(
 
 
 @app.command()
-@opt.with_options(opt.ROBOT_OPTIONS)
+@with_options(opt.ROBOT_OPTIONS)
 def inspect(
     context: typer.Context,
     as_json: opt.AsJson = False,

@@ -35,6 +35,7 @@ OtherRobot: TypeAlias = Annotated[
 ]
 
 
+@opt.with_output
 def export(
     context: typer.Context,
     design: DesignFile,
@@ -42,11 +43,8 @@ def export(
     formats: Formats = None,
     robot: OtherRobot = None,
     package_path: opt.PackagePaths = None,
-    force: opt.Force = False,
-    as_json: opt.AsJson = False,
-    strict: opt.Strict = False,
-    quiet: opt.Quiet = False,
-    no_color: opt.NoColor = False,
+    *,
+    output: opt.Output,
 ) -> None:
     """Write parts, robot files and snippets again from a design.json.
 
@@ -62,20 +60,22 @@ def export(
 
     names = [name for text in formats or () for name in text.split(",")]
     chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
-    console = make_console(color=not no_color)
-    steps = Steps(console, quiet=quiet or as_json)
+    console = make_console(color=not output.no_color)
+    steps = Steps(console, quiet=output.quiet or output.as_json)
     with steps.step("read the design and its robot") as step:
         order = read_order(
             design,
             chosen,
             robot_file=robot,
             package_paths=stated_package_paths(context),
-            strict=strict,
+            strict=output.strict,
         )
         step.note = order.subject.name
     with steps.step("write " + ", ".join(names or (each.name for each in chosen))):
-        exported = export_order(order, out or order.default_folder, force=force, finish=finish)
-    if as_json:
+        exported = export_order(
+            order, out or order.default_folder, force=output.force, finish=finish
+        )
+    if output.as_json:
         sys.stdout.buffer.write(exported_to_json(exported))
-    elif not quiet:
+    elif not output.quiet:
         print_export(console, exported)

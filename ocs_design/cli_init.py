@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias, TypeVar
 import typer
 
 from ocs_design import cli_options as opt
+from ocs_design.cli_signatures import with_options
 from ocs_design.cli_stated import stated_package_paths, stated_specification
 from ocs_design.exceptions import OcsError, UsageError
 
@@ -37,7 +38,7 @@ QUESTIONS: Mapping[str, str] = {
 """What is asked besides robot and maneuvers, by the path of its key."""
 
 
-@opt.with_options(opt.START_OPTIONS)
+@with_options(opt.START_OPTIONS)
 def init(
     context: typer.Context,
     yes: Yes = False,

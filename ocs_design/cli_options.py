@@ -2,14 +2,16 @@
 
 import functools
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
 import typer
 
+from ocs_design.cli_signatures import Command, parameters, redeclare
+
 Text: TypeAlias = str | None
-Command: TypeAlias = Callable[..., None]
 
 RobotFile: TypeAlias = Annotated[
     str | None,
@@ -241,27 +243,36 @@ START_OPTIONS: Mapping[str, object] = {
 """What names a robot, and what a specification to start from most often states."""
 
 
-def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
-    """Declare these options on a command too, before its own and each left out by default.
+@dataclass(frozen=True)
+class Output:
+    """How a command that writes a folder is to do it and to answer."""
 
-    They are not handed on: `cli_stated` reads them from the command's context, its first parameter.
-    """
+    force: bool
+    as_json: bool
+    strict: bool
+    quiet: bool
+    no_color: bool
 
-    def declared(command: Command) -> Command:
-        """The command with the signature that Typer makes options from."""
 
-        @functools.wraps(command)
-        def run(**given: object) -> None:
-            """What is handed on is the context and the command's own options."""
-            command(**{name: value for name, value in given.items() if name not in shared})
+OUTPUT_OPTIONS: Mapping[str, object] = {
+    "force": Force,
+    "as_json": AsJson,
+    "strict": Strict,
+    "quiet": Quiet,
+    "no_color": NoColor,
+}
+"""Of each field of `Output`."""
 
-        context, *own = inspect.signature(command).parameters.values()
-        kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
-        added = [
-            inspect.Parameter(name, kind, default=None, annotation=shared[name]) for name in shared
-        ]
-        run.__dict__["__signature__"] = inspect.Signature([context, *added, *own])
-        run.__annotations__ = {**command.__annotations__, **shared}
-        return run
 
-    return declared
+def with_output(command: Command) -> Command:
+    """Declare the options of `Output` behind a command's own; its parameter `output` has them."""
+
+    @functools.wraps(command)
+    def run(**given: object) -> None:
+        """Gathers them."""
+        output = Output(**{name: bool(given.pop(name)) for name in OUTPUT_OPTIONS})
+        command(**given, output=output)
+
+    own = [each for each in inspect.signature(command).parameters.values() if each.name != "output"]
+    redeclare(run, [*own, *parameters(OUTPUT_OPTIONS, default=False)])
+    return run

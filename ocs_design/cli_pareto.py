@@ -7,6 +7,7 @@ from typing import Annotated, TypeAlias
 import typer
 
 from ocs_design import cli_options as opt
+from ocs_design.cli_signatures import with_options
 from ocs_design.cli_stated import stated_package_paths, stated_specification
 
 Against: TypeAlias = Annotated[
@@ -46,7 +47,8 @@ FrontFolder: TypeAlias = Annotated[
 ]
 
 
-@opt.with_options(opt.TASK_OPTIONS)
+@with_options(opt.TASK_OPTIONS)
+@opt.with_output
 def pareto(
     context: typer.Context,
     against: Against = "time",
@@ -55,11 +57,8 @@ def pareto(
     points: Points = 9,
     maneuver: ManeuverName = "",
     out: FrontFolder = None,
-    force: opt.Force = False,
-    as_json: opt.AsJson = False,
-    strict: opt.Strict = False,
-    quiet: opt.Quiet = False,
-    no_color: opt.NoColor = False,
+    *,
+    output: opt.Output,
 ) -> None:
     """Show what the lightest device weighs against time, angle or room.
 
@@ -81,20 +80,20 @@ def pareto(
 
     sweep = sweep_of(against, maneuver)
     if out is not None:
-        check_target(out, force=force)
-    console = make_console(color=not no_color)
-    steps = Steps(console, quiet=quiet or as_json)
+        check_target(out, force=output.force)
+    console = make_console(color=not output.no_color)
+    steps = Steps(console, quiet=output.quiet or output.as_json)
     specification, paths = stated_specification(context), stated_package_paths(context)
     with steps.step("read the robot") as step:
-        task = read_task(specification, package_paths=paths, strict=strict)
+        task = read_task(specification, package_paths=paths, strict=output.strict)
         step.note = task.robot.name
     values = front_values(sweep, task, low=low, high=high, points=points)
     with steps.step(f"choose a device for each of {points} values") as step:
         front = draw_front(task, sweep, values, lightest_device, step.update)
-    remarks = () if out is None else write_front(front, out, force=force)
-    if as_json:
+    remarks = () if out is None else write_front(front, out, force=output.force)
+    if output.as_json:
         sys.stdout.buffer.write(front_to_json(front))
-    elif not quiet:
+    elif not output.quiet:
         print_front(console, front)
         print_written(console, front, out, remarks)
     raise typer.Exit(front.exit_code)

@@ -51,6 +51,7 @@ Desaturate: TypeAlias = Annotated[
 ]
 
 
+@opt.with_output
 def validate(
     context: typer.Context,
     design: DesignFile,
@@ -67,11 +68,8 @@ def validate(
     out: FlightsFolder = None,
     robot_file: OtherRobot = None,
     package_path: opt.PackagePaths = None,
-    force: opt.Force = False,
-    as_json: opt.AsJson = False,
-    strict: opt.Strict = False,
-    quiet: opt.Quiet = False,
-    no_color: opt.NoColor = False,
+    *,
+    output: opt.Output,
 ) -> None:
     """Fly the maneuvers of a design.json again, with the device and without.
 
@@ -82,8 +80,8 @@ def validate(
     """
     from ocs_design.report.console import Steps, make_console
 
-    console = make_console(color=not no_color)
-    steps = Steps(console, quiet=quiet or as_json)
+    console = make_console(color=not output.no_color)
+    steps = Steps(console, quiet=output.quiet or output.as_json)
     with steps.step("load the simulator"):
         from ocs_design.report.validation import print_validated
         from ocs_design.validating import validated_to_json
@@ -99,14 +97,14 @@ def validate(
         sample=sample,
         replay=replay,
         out=out,
-        force=force,
-        strict=strict,
+        force=output.force,
+        strict=output.strict,
         view=view,
     )
     answer = validate_design(request, steps)
-    if as_json:
+    if output.as_json:
         sys.stdout.buffer.write(validated_to_json(answer.found))
-    elif not quiet:
+    elif not output.quiet:
         print_validated(console, answer.found, answer.folder, answer.files)
     if view:
         watch(answer)

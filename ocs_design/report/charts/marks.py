@@ -29,35 +29,32 @@ SERIES = (Ink.BLUE, Ink.VERMILION, Ink.GREEN, Ink.PURPLE, Ink.ORANGE, Ink.SKY)
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
-    """A curve, or several broken by NaN; `name` goes into the legend."""
+class _Drawn:
+    """Places in the units of the axes; `name` goes into the legend."""
 
     x: FloatArray
     y: FloatArray
     ink: Ink
     name: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Line(_Drawn):
+    """A curve, or several broken by NaN."""
+
     dashed: bool = False
     thin: bool = False
 
 
 @dataclass(frozen=True, eq=False)
-class Area:
-    """A closed outline, filled faintly; `name` goes into the legend."""
-
-    x: FloatArray
-    y: FloatArray
-    ink: Ink
-    name: str = ""
+class Area(_Drawn):
+    """A closed outline, filled faintly."""
 
 
 @dataclass(frozen=True, eq=False)
-class Points:
+class Points(_Drawn):
     """Discs; `hollow` ones are rings. `labels` stand beside them; empty: none."""
 
-    x: FloatArray
-    y: FloatArray
-    ink: Ink
-    name: str = ""
     hollow: bool = False
     labels: tuple[str, ...] = ()
 

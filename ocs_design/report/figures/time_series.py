@@ -36,17 +36,7 @@ def time_charts(scenario: str, name: str, flights: Sequence[Flight]) -> tuple[Ch
 
 def _tilt(scenario: str, name: str, flights: Sequence[Flight]) -> Chart:
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
-    lines = [
-        Line(
-            flight.time,
-            in_unit(flight.columns[f"{axis}_rad"], "deg"),
-            ink,
-            f"{axis} {_carrying(flight)}",
-            dashed=not flight.ocs,
-        )
-        for flight in flights
-        for axis, _, ink in _AXES
-    ]
+    lines = _about_axes(flights, "{axis}_rad", "deg", thin=False)
     marks: list[Mark] = [
         *(Rule(side * tolerance, upright=False, ink=Ink.FAINT) for side in (-1.0, 1.0)),
         *lines,
@@ -65,18 +55,7 @@ def _tilt(scenario: str, name: str, flights: Sequence[Flight]) -> Chart:
 
 
 def _rates(scenario: str, name: str, flights: Sequence[Flight]) -> Chart:
-    lines = [
-        Line(
-            flight.time,
-            in_unit(flight.columns[f"rate_{letter}_rad_s"], "deg/s"),
-            ink,
-            f"{axis} {_carrying(flight)}",
-            dashed=not flight.ocs,
-            thin=True,
-        )
-        for flight in flights
-        for axis, letter, ink in _AXES
-    ]
+    lines = _about_axes(flights, "rate_{letter}_rad_s", "deg/s", thin=True)
     return Chart(
         name=f"rates_{name}",
         title=f"{scenario}: rates of the trunk",
@@ -89,16 +68,7 @@ def _rates(scenario: str, name: str, flights: Sequence[Flight]) -> Chart:
 
 
 def _speeds(scenario: str, name: str, flight: Flight) -> Chart:
-    lines = [
-        Line(
-            flight.time,
-            in_unit(flight.columns[f"wheel_speed_{side}_rad_s"], "rpm"),
-            ink,
-            f"{side} wheel",
-            dashed=dashed,
-        )
-        for side, ink, dashed in _SIDES
-    ]
+    lines = _of_sides(flight, "wheel_speed_{side}_rad_s", "rpm", "wheel", thin=False)
     return Chart(
         name=f"wheel_speed_{name}",
         title=f"{scenario}: speed of the wheels",
@@ -112,13 +82,7 @@ def _speeds(scenario: str, name: str, flight: Flight) -> Chart:
 
 def _torques(scenario: str, name: str, flight: Flight) -> Chart:
     limits = _limits(flight)
-    lines = [
-        Line(
-            flight.time, flight.columns[f"wheel_torque_{side}_nm"], ink, f"{side} motor",
-            dashed=dashed, thin=True,
-        )
-        for side, ink, dashed in _SIDES
-    ]  # fmt: skip
+    lines = _of_sides(flight, "wheel_torque_{side}_nm", "N m", "motor", thin=True)
     return Chart(
         name=f"wheel_torque_{name}",
         title=f"{scenario}: torque of the motors",
@@ -129,6 +93,37 @@ def _torques(scenario: str, name: str, flight: Flight) -> Chart:
         marks=(*limits, *lines, *_events([flight])),
         height=_HEIGHT,
     )
+
+
+def _about_axes(flights: Sequence[Flight], column: str, unit: str, *, thin: bool) -> list[Line]:
+    """About pitch and roll, of each flight; dashed without the device."""
+    return [
+        Line(
+            flight.time,
+            in_unit(flight.columns[column.format(axis=axis, letter=letter)], unit),
+            ink,
+            f"{axis} {_carrying(flight)}",
+            dashed=not flight.ocs,
+            thin=thin,
+        )
+        for flight in flights
+        for axis, letter, ink in _AXES
+    ]
+
+
+def _of_sides(flight: Flight, column: str, unit: str, part: str, *, thin: bool) -> list[Line]:
+    """Of the left and the right wheel or motor."""
+    return [
+        Line(
+            flight.time,
+            in_unit(flight.columns[column.format(side=side)], unit),
+            ink,
+            f"{side} {part}",
+            dashed=dashed,
+            thin=thin,
+        )
+        for side, ink, dashed in _SIDES
+    ]
 
 
 def _limits(flight: Flight) -> list[Area]:
