@@ -108,7 +108,8 @@ class Infeasible(OcsError):
         relaxations: Mapping[str, float],
         hint: str = "",
     ) -> None:
-        super().__init__(message, hint=hint)
+        more = "What can be done about it: see docs/howto-infeasible.md"
+        super().__init__(message, hint=f"{hint} {more}".strip())
         self.binding = tuple(binding)
         self.required_spin_inertia = required_spin_inertia
         self.largest_spin_inertia = largest_spin_inertia

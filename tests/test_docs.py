@@ -3,11 +3,13 @@
 import importlib.util
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import typer
 
 import ocs_design
 from ocs_design.catalogue.motors import known_motors, motors
@@ -96,6 +98,25 @@ def test_files_that_the_docs_show_are_read(tmp_path):
             assert len(known_motors(tmp_path / "motors.toml")) > len(motors())
         else:
             assert parse_specification(text, "shown") != Specification()
+
+
+SHELL = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def test_commands_that_the_docs_show_have_such_options(generate):
+    """Without running them: what each of them prints is tested where it is quoted."""
+    group = typer.main.get_command(generate.app)
+    known, tried = generate.commands(), 0
+    for page in PAGES:
+        for line in "\n".join(SHELL.findall(page.read_text())).replace("\\\n", " ").splitlines():
+            words = shlex.split(re.split(r" [>|&]", line)[0], comments=True)
+            if words[:1] != ["ocs-design"] or not {*words[1:2], " ".join(words[1:3])} & set(known):
+                continue
+            name = words[1] if words[1] in known else " ".join(words[1:3])
+            context = group.context_class(group, info_name="ocs-design")
+            known[name].make_context(name, words[1 + len(name.split()) :], parent=context)
+            tried += 1
+    assert tried > 20
 
 
 SEEN = re.compile(r"see docs/(?P<page>[\w-]+\.md)(?:#(?P<anchor>[\w-]+))?")
