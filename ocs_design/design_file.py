@@ -173,7 +173,8 @@ class MarginRecord:
 class ValidationRecord:
     """One simulated run. `passed` is None where it could not be judged; `reason` says why.
 
-    `note` says how the turn was changed to suit the wheels; empty if it was not.
+    `note` says how the turn was changed to suit the wheels; empty if it was not. `can_stand` says
+    whether the legs bear this landing when level; None: no legs, or a file that does not say.
     """
 
     scenario: str
@@ -182,6 +183,7 @@ class ValidationRecord:
     reason: str
     note: str
     metrics: Mapping[str, float | bool | None]
+    can_stand: bool | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

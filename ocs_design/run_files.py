@@ -19,6 +19,7 @@ def record_run(run: Run) -> ValidationRecord:
         passed=run.passed,
         reason=run.reason,
         note=run.note,
+        can_stand=run.can_stand,
         metrics={} if run.metrics is None else asdict(run.metrics),
     )
 

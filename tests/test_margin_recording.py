@@ -27,7 +27,7 @@ def run(scenario, *, speed=500.0, torque=0.2, ocs=True, knock=1.0):
     metrics = Metrics(
         LANDED, 0.0, 0.0, 0.0, 0.0, 0.0, speed, torque, 0.0, True, 0.0, 0.0,
         roll_swing=0.0, pitch_swing=0.0, settling_time=0.0, lift_off_time=0.0, rise=0.0,
-        nutation=0.0,
+        nutation=0.0, final_wheel_speed=0.0,
     )  # fmt: skip
     return Run(scenario, ocs, True, "", metrics, series, "", True)
 

@@ -144,9 +144,10 @@ class Batch:
         else:
             steps = self._clock.steps(k, running)
             vertical = quaternions.vertical(attitude)
-            target = self._references.at(steps)
+            contact = record.contact[k - 1, :running]
+            target = self._references.at(steps).landed(contact)
             if self._brake is not None:
-                target = self._brake.added(target, speed, record.contact[k - 1, :running])
+                target = self._brake.added(target, speed, contact)
             if self._sensing is not None:
                 vertical, rate = self._sensing.measured(k, vertical, rate)
             torque = law.torque(vertical, rate, speed, target, self._period)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields
 from enum import StrEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
 from ocs_design.simulation.motor_limits import MotorLimits, clipped
@@ -132,7 +133,8 @@ class WheelLaw:
         """Roll and pitch acceleration that the law asks for [rad/s^2], shape (n, 2)."""
         error = tilt_error(vertical, target.vertical)
         slip = target.rate - rate[:, :2]
-        return self.stiffness[:, None] * error + self.damping[:, None] * slip + target.acceleration
+        stiffness = np.where(target.stands, 0.0, self.stiffness)
+        return stiffness[:, None] * error + self.damping[:, None] * slip + target.acceleration
 
     def _limited(self, torque: FloatArray, wheel_speed: FloatArray, period: float) -> FloatArray:
         """What the motors that the law believes in can give."""
@@ -157,12 +159,27 @@ class Target:
         rate, acceleration: about roll and pitch in B [rad/s, rad/s^2], shape (n, 2).
         torque: of the motors, on top of what the acceleration and the gyroscopic torque of the
             moment ask for [N m], shape (n, 2).
+        stands: whether the feet are on the ground, shape (n,). The legs then hold the attitude and
+            the wheels only damp: whatever the stance leans by, wheels that push against it run up
+            to their top speed and are of no use any more.
     """
 
     vertical: FloatArray
     rate: FloatArray
     acceleration: FloatArray
     torque: FloatArray
+    stands: NDArray[np.bool_]
+
+    def landed(self, contact: NDArray[np.bool_]) -> "Target":
+        """The same in the air; at rest where the feet are on the ground, as plans end there."""
+        left = ~contact[:, None]
+        return Target(
+            self.vertical,
+            self.rate * left,
+            self.acceleration * left,
+            self.torque * left,
+            self.stands | contact,
+        )
 
 
 def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:

@@ -27,7 +27,7 @@ SUPPORT = 0.05
 class Desaturation:
     """How the wheels of one world are braked while it stands.
 
-    The law keeps the trunk level meanwhile: the feet take up what the wheels let go.
+    The law damps the trunk meanwhile: the feet take up what the wheels let go.
 
     Attributes:
         settling: on the ground before it starts [s].

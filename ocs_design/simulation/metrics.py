@@ -94,6 +94,7 @@ class Metrics:
         lift_off_time: of the first instant in free flight [s], or of the torque that hits a robot
             that stands; None: it never leaves the ground.
         rise: of the centre of mass from lift-off to its highest [m].
+        final_wheel_speed: of the faster wheel at the end [rad/s].
         nutation: largest angle per physics step by which the spinning wheels make the trunk
             nutate in flight [rad].
     """
@@ -115,6 +116,7 @@ class Metrics:
     settling_time: float
     lift_off_time: float | None
     rise: float
+    final_wheel_speed: float
     nutation: float
 
 
@@ -159,6 +161,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         turned_angle=float(series.pitch[last] - series.pitch[first]),
         heading_drift=_within_half_turn(series.yaw[last] - series.yaw[first]),
         peak_wheel_speed=float(np.abs(series.wheel_speed[driven]).max()),
+        final_wheel_speed=float(np.abs(series.wheel_speed[-1]).max()),
         peak_wheel_torque=float(np.abs(series.wheel_torque[driven]).max()),
         momentum_error=_momentum_error(recording, index, flight, world),
         upright_at_end=_is_upright(recording, index, world),

@@ -41,10 +41,14 @@ class References:
         self._torque[:, index] = planned.torque
 
     def at(self, steps: Steps) -> Target:
-        """Of the first worlds, each so many control steps after its lift-off."""
+        """Of the first worlds in the air, each so many control steps after its lift-off."""
         rows = np.maximum(steps, 0), np.arange(len(steps))
         return Target(
-            self._vertical[rows], self._rate[rows], self._acceleration[rows], self._torque[rows]
+            self._vertical[rows],
+            self._rate[rows],
+            self._acceleration[rows],
+            self._torque[rows],
+            np.zeros(len(steps), dtype=np.bool_),
         )
 
 

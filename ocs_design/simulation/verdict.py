@@ -11,6 +11,9 @@ from ocs_design.simulation.metrics import UPRIGHT_TILT, Metrics
 LANDING_TOLERANCE = np.radians(5.0)
 """Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
 
+REST_RATE = np.radians(5.0)
+"""Largest rate of a robot that stands at rest before it is shoved [rad/s]."""
+
 MOMENTUM_GATE = 1e-6
 """Largest relative momentum error of a flight that is judged at all."""
 
@@ -69,12 +72,13 @@ def _landed(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Ver
     if not can_stand:
         return Verdict(
             True,
-            f"{landing}; standing is not judged: the legs do not bear this landing even when level",
+            f"{landing}; standing is not judged: the legs do not bear this landing even when "
+            f"level; ends at {_final_tilt(metrics)}",
         )
     if not metrics.upright_at_end:
         ends = f"{landing} but does not stay up: ends at {_final_tilt(metrics)}"
         return Verdict(False, ends, Fault.STANDING)
-    return Verdict(True, f"{landing} and stands")
+    return Verdict(True, f"{landing} and stands, in the end at {_final_tilt(metrics)}")
 
 
 def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
@@ -85,12 +89,33 @@ def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
     if not can_stand:
         falls = "not judged: the legs do not keep the robot up, not even unshoved"
         return Verdict(None, falls, Fault.UNSOUND)
+    if leans := _leaning(metrics):
+        return Verdict(None, leans, Fault.UNSOUND)
     pitch, roll = np.degrees([metrics.pitch_swing, metrics.roll_swing])
     swing = f"swings by pitch {_degrees(pitch)}, roll {_degrees(roll)} deg from peak to peak"
     if not metrics.upright_at_end:
         ends = f"{swing} and does not stay up: ends at {_final_tilt(metrics)}"
         return Verdict(False, ends, Fault.STANDING)
     return Verdict(True, f"{swing}, is at rest after {metrics.settling_time:.2f} s and stands")
+
+
+def _leaning(metrics: Metrics) -> str:
+    """Why a robot is in no state to be shoved; empty if it stands level and at rest.
+
+    What a shove has for touchdown is the instant that it begins.
+    """
+    if _landing_failure(metrics):
+        return (
+            f"not judged: the robot does not stand level by itself: it leans by {_tilt(metrics)} "
+            f"before the shove"
+        )
+    if metrics.touchdown_rate > REST_RATE:
+        rate = np.degrees(metrics.touchdown_rate)
+        return (
+            f"not judged: the robot does not stand still by itself: it turns at {rate:.0f} deg/s "
+            f"before the shove"
+        )
+    return ""
 
 
 def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:

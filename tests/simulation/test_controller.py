@@ -36,7 +36,8 @@ def seen_from(rotation):
 
 def level(rate=(0.0, 0.0), acceleration=(0.0, 0.0)):
     upright = np.array([[0.0, 0.0, 1.0]])
-    return Target(upright, np.array([rate]), np.array([acceleration]), np.zeros((1, 2)))
+    stands = np.zeros(1, dtype=bool)
+    return Target(upright, np.array([rate]), np.array([acceleration]), np.zeros((1, 2)), stands)
 
 
 def acceleration(body, torque, rate, wheel_speed):
@@ -160,3 +161,18 @@ def test_unlimited_motors_have_no_line():
     assert MotorLimits.of(motor()) == MotorLimits(np.inf, 0.0, np.inf)
     assert MotorLimits.of(motor(stall_torque=2.0, torque_limit=3.0)).torque_limit == 2.0
     assert MotorLimits.of(motor(700.0, 2.0)).line_slope == pytest.approx(350.0)
+
+
+def test_on_the_ground_the_wheels_damp_and_leave_the_attitude_to_the_legs():
+    """A lean that the legs settle in asks for no torque, however long it lasts."""
+    law = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
+    leaning = seen_from(Rotation.from_rotvec([0.1, -0.25, 0.0]))
+    planned = level(rate=(0.3, -0.2), acceleration=(1.0, -4.0))
+    still, spin = np.zeros((1, 3)), np.zeros((1, 2))
+    stands = planned.landed(np.ones(1, dtype=bool))
+    assert np.abs(law.torque(leaning, still, spin, planned, 1e-3)).max() > 0.1
+    np.testing.assert_array_equal(law.torque(leaning, still, spin, stands, 1e-3), 0.0)
+    turning = np.array([[0.4, 0.0, 0.0]])
+    damped = law.torque(leaning, turning, spin, stands, 1e-3)[0]
+    slowing = acceleration(gyrostat(), damped, turning[0], spin[0])
+    np.testing.assert_allclose(slowing[:2], [-12.0 * 0.4, 0.0], atol=1e-9)

@@ -50,4 +50,4 @@ def test_a_biped_without_balance_is_judged_on_touchdown_alone():
     jump, drop, flip = (run.reason for run in runs if run.ocs)
     assert "standing is not judged" in jump
     assert "standing is not judged" in drop
-    assert flip.endswith("and stands")
+    assert "and stands" in flip

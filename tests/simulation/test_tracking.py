@@ -68,7 +68,10 @@ def test_on_the_trajectory_the_law_adds_nothing():
     trajectory = replace(trajectory, wheel_speed=trajectory.wheel_speed + np.array([80.0, -50.0]))
     times, period = trajectory.time[:-1], trajectory.time[1]
     found = track(trajectory, law, times, period)
-    target = Target(found.vertical, found.rate, np.zeros_like(found.rate), found.torque)
+    flies = np.zeros(len(times), dtype=bool)
+    target = Target(
+        found.vertical, found.rate, np.zeros_like(found.rate), found.torque, stands=flies
+    )
     state = trajectory.vertical[:-1], trajectory.rate[:-1], trajectory.wheel_speed[:-1]
     given = WheelLaw.stack([law] * len(times)).torque(*state, target, period)
     between = 0.5 * (trajectory.wheel_torque[1:] + trajectory.wheel_torque[:-1])

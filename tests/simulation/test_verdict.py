@@ -13,7 +13,7 @@ GOOD = Metrics(
     touchdown_time=0.39,
     touchdown_roll=0.0,
     touchdown_pitch=np.radians(1.0),
-    touchdown_rate=0.1,
+    touchdown_rate=0.05,
     turned_angle=np.radians(-29.0),
     heading_drift=0.0,
     peak_wheel_speed=800.0,
@@ -25,6 +25,7 @@ GOOD = Metrics(
     roll_swing=0.0,
     pitch_swing=np.radians(3.0),
     settling_time=0.2,
+    final_wheel_speed=10.0,
     nutation=1e-3,
 )
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
@@ -37,13 +38,13 @@ TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
 @pytest.mark.parametrize(
     ("metrics", "maneuver", "can_stand", "passed", "reason"),
     [
-        (GOOD, DROP, True, True, "pitch 1.0, roll 0.0 deg and stands"),
+        (GOOD, DROP, True, True, "pitch 1.0, roll 0.0 deg and stands, in the end at pitch 0.0"),
         (GOOD, DROP, None, True, "without legs"),
         (replace(GOOD, lift_off_time=None), DROP, True, None, "do not bring the robot off"),
         (TILTED, DROP, True, False, "roll -5.1 deg, more than 5 deg"),
         (TILTED, DROP, None, False, "roll -5.1 deg"),
         (FALLEN, DROP, True, False, "does not stay up: ends at pitch 180.0"),
-        (FALLEN, DROP, False, True, "standing is not judged"),
+        (FALLEN, DROP, False, True, "even when level; ends at pitch 180.0"),
         (GOOD, FLIP, True, False, "turns -29.0 of -360 deg"),
         (replace(GOOD, turned_angle=np.radians(-356.0)), FLIP, True, True, "stands"),
         (replace(GOOD, turned_angle=np.radians(360.0)), FLIP, True, False, "turns 360.0 of -360"),
@@ -73,6 +74,8 @@ def test_a_robot_that_topples_slowly_does_not_count_as_standing():
         (GOOD, True, True, "swings by pitch 3.0, roll 0.0 deg"),
         (FALLEN, True, False, "does not stay up: ends at pitch 180.0"),
         (FALLEN, False, None, "not even unshoved"),
+        (TILTED, True, None, "does not stand level by itself: it leans by pitch 1.0, roll -5.1"),
+        (replace(GOOD, touchdown_rate=0.2), True, None, "does not stand still by itself: it turns"),
         (GOOD, None, None, "without legs"),
     ],
 )
