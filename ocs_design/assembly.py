@@ -113,13 +113,17 @@ def _driven_motor(wheel: DrivenWheel, line: DriveLine) -> Motor:
         armature=armature(rotor, gear),
         torque_constant=motor.torque_constant,
         resistance=motor.resistance,
-        continuous_torque=None
-        if motor.continuous_torque is None
-        else gain * motor.continuous_torque,
+        continuous_torque=_geared(motor.continuous_torque, gain),
         mounting=motor.mounting if gear == DIRECT else None,
         no_load_current=motor.no_load_current,
         gear_room=gear.room,
+        saturation_torque=_geared(motor.saturation_torque, gain),
     )
+
+
+def _geared(torque: float | None, gain: float) -> float | None:
+    """At the wheel; None if it is not known."""
+    return None if torque is None else gain * torque
 
 
 def _modules(incidence: float, centers: FloatArray) -> tuple[Module, Module]:

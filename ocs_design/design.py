@@ -121,6 +121,7 @@ class Motor:
         mounting: its shaft and threads, where the wheel sits on it without a gear and any is known.
         no_load_current: that the motor itself draws turning freely at its rated voltage [A].
         gear_room: that its gear takes; None: there is no gear.
+        saturation_torque: at the wheel, above which the motor's k_t falls off [N m].
     """
 
     name: str
@@ -146,6 +147,7 @@ class Motor:
     mounting: Mounting | None = None
     no_load_current: float | None = None
     gear_room: GearRoom | None = None
+    saturation_torque: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,7 +30,14 @@ _OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "cente
 
 _LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter"}
 _POSITIVE = {"density", "mass", "spin_inertia", "gear_efficiency", "no_load_speed", "speed_max"}
-_POSITIVE |= {"stall_torque", "torque_limit", "torque_constant", "resistance", "bus_voltage"}
+_POSITIVE |= {
+    "stall_torque",
+    "torque_limit",
+    "saturation_torque",
+    "torque_constant",
+    "resistance",
+    "bus_voltage",
+}
 _POSITIVE |= {"rated_voltage"}
 _ANY_SIGN = {"rotor_inertia", "gear_ratio", "stress_margin", "armature"}
 _ANY_SIGN |= {"along", "up", "product_of_inertia"}

@@ -55,13 +55,15 @@ class Exported:
     Attributes:
         folder: that it was written to.
         files: SHA-256 of each file that was made, by its path in the folder.
-        warnings: one sentence each.
+        warnings: about the robot or what was not drawn, one sentence each.
+        notes: what else is to be known of the files.
     """
 
     schema_version: int
     folder: str
     files: Mapping[str, str]
     warnings: tuple[str, ...]
+    notes: tuple[str, ...] = ()
 
 
 def read_order(
@@ -113,7 +115,8 @@ def export_order(
         OutputError: it cannot be written, or exists already.
     """
     with staged_folder(folder, force=force) as staging:
-        remarks = export_formats(order.subject, order.formats, staging)
+        notes = export_formats(order.subject, _formats(order, needs_robot=False), staging)
+        remarks = export_formats(order.subject, _formats(order, needs_robot=True), staging)
         if finish is not None:
             remarks += finish(order, staging)
         made = file_hashes(staging)
@@ -127,7 +130,12 @@ def export_order(
         folder=str(folder),
         files=made,
         warnings=(*order.warnings, *(remark for remark in remarks if remark not in known)),
+        notes=notes,
     )
+
+
+def _formats(order: Order, *, needs_robot: bool) -> tuple[Format, ...]:
+    return tuple(each for each in order.formats if each.needs_robot is needs_robot)
 
 
 def exported_to_json(exported: Exported) -> bytes:

@@ -12,7 +12,7 @@ from ocs_design.requirement.resolving import Resolved
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.margins.driven_wheel import DrivenWheel
 from ocs_design.sizing.margins.margin import Margin, worst
-from ocs_design.sizing.margins.margins import margins
+from ocs_design.sizing.margins.margins import HOOP_STRESS, margins
 from ocs_design.sizing.margins.motion import Motion
 
 if TYPE_CHECKING:
@@ -103,14 +103,14 @@ def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) 
         yield Margin("wheel torque, least", least, limit, "N m")
     if wheel.hoop_stress is not None:
         strength = resolved.material.yield_strength
-        yield Margin("hoop stress, to yield", wheel.hoop_stress, strength, "Pa")
+        yield Margin(HOOP_STRESS, wheel.hoop_stress, strength, "Pa")
 
 
 def _room(resolved: Resolved, device: Device) -> Iterator[Margin]:
     wheel, envelope = device.flywheel, resolved.envelope
     yield Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m")
     yield Margin("height", wheel.height, envelope.height_max, "m")
-    yield Margin("rim mass", wheel.mass, envelope.mass_max, "kg")
+    yield Margin("rim mass", wheel.rim_mass, envelope.mass_max, "kg")
 
 
 def _record(margin: Margin) -> MarginRecord:

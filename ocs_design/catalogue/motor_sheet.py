@@ -34,6 +34,7 @@ class MotorSheet:
         speed_max_rpm: highest that the maker allows.
         peak_torque_nm, peak_current_a: highest that the maker allows for a short time.
         continuous_torque_nm: that the winding stands for good.
+        saturation_torque_nm: above which k_t falls off.
         rotor_inertia_kg_m2: of the rotor.
         shaft_diameter_m: where it comes out of the motor on the wheel's side.
         shaft_length_m: by which it stands out there, from the face that the motor is mounted by.
@@ -77,6 +78,7 @@ class MotorSheet:
     stator_thread: str | None = None
     stator_face: Face | None = None
     remark: str = ""
+    saturation_torque_nm: float | None = None
 
     @property
     def torque_constant(self) -> float | None:
@@ -136,6 +138,7 @@ class MotorSheet:
             remark=self.remark,
             mounting=self.mounting,
             no_load_current=self.no_load_current_a,
+            saturation_torque=self.saturation_torque_nm,
         )
 
     def _peak_torque(self) -> tuple[float | None, str]:
@@ -206,5 +209,6 @@ MOTOR_COLUMNS: Mapping[str, Reader] = {
     "source": text,
     "confidence": text,
     "remark": text,
+    "saturation_torque_nm": positive,
 }
 """Each column and how its cells are read."""

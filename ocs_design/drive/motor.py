@@ -30,6 +30,8 @@ class Motor:
         remark: what a reader of the figures must know.
         mounting: shaft and threads, if any of them is known.
         no_load_current: that it draws turning freely, at the rated voltage [A].
+        saturation_torque: above which k_t falls off [N m]; no bound on the torque, for the maker's
+            peak torque is measured with it.
     """
 
     name: str
@@ -52,3 +54,4 @@ class Motor:
     remark: str = ""
     mounting: Mounting | None = None
     no_load_current: float | None = None
+    saturation_torque: float | None = None

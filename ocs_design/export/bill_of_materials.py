@@ -34,7 +34,7 @@ class BillRow:
     Attributes:
         part: what it is. material: of what. stock: what to cut it from, mm.
         quantity: in the whole device.
-        mass: of one [kg].
+        mass: of one [kg]; 0: not known.
         source: where it is from, or what to mind.
     """
 
@@ -54,6 +54,7 @@ def bill_rows(device: Device) -> Sequence[BillRow]:
         rows.append(_motor(device))
     if motor.gear != DIRECT.name:
         rows.append(_gear(motor))
+    rows += _controllers(motor)
     standing = device.carrier.mass - motor.mass - motor.gear_mass
     if standing > _MASSLESS:
         rows += [*_printed(device), *_screws(device)]
@@ -90,8 +91,8 @@ def _cells(row: BillRow) -> tuple[str, ...]:
         str(row.quantity),
         row.material,
         row.stock,
-        _grams(row.mass),
-        _grams(row.quantity * row.mass),
+        _grams(row.mass) if row.mass else "",
+        _grams(row.quantity * row.mass) if row.mass else "",
         row.source,
     )
 
@@ -164,6 +165,22 @@ def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
 def _gear(motor: Motor) -> BillRow:
     source = f"ratio {motor.gear_ratio:g}; see `ocs-design catalogue gears -v`"
     return BillRow(f"gear {motor.gear}", 2, "", "", motor.gear_mass, source)
+
+
+def controller_current(motor: Motor) -> float | None:
+    """Of the supply line that a motor's controller must give [A]; None without a limit or k_t."""
+    if motor.torque_limit is None or motor.torque_constant is None:
+        return None
+    return motor.torque_limit / (motor.gear_ratio * motor.gear_efficiency * motor.torque_constant)
+
+
+def _controllers(motor: Motor) -> Iterator[BillRow]:
+    """Not chosen: what they weigh is not known."""
+    current = controller_current(motor)
+    if current is not None and motor.bus_voltage is not None:
+        rated = f"for {current:.0f} A at {motor.bus_voltage:g} V"
+        told = f"{rated}, of your choice; not weighed, not in the device's mass"
+        yield BillRow("motor controller", 2, "", "", 0.0, told, counted=False)
 
 
 def _printed(device: Device) -> Iterator[BillRow]:

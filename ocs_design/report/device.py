@@ -94,7 +94,7 @@ def _drive(motor: Motor) -> Iterator[tuple[str, str]]:
     if motor.torque_limit is not None:
         limits.append(f"{motor.torque_limit:.3g} N m at the current limit")
     if motor.speed_max is not None:
-        limits.append(f"never above {rpm(motor.speed_max)}")
+        limits.append(f"driven to {rpm(motor.speed_max)} at most")
     yield "drive at the wheel", ", ".join(limits)
 
 

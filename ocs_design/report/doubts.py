@@ -27,13 +27,23 @@ def doubts(design: OcsDesign) -> Iterator[str]:
             )
         if stated is not None and demand.spin_inertia > stated:
             yield f"{demand.source}: asks for more spin inertia than the {stated:.3e} kg m2 stated"
-        if abs(demand.incidence - design.ocs.incidence) > SAME_ANGLE:
-            yield (
-                f"{demand.source}: sized and flown with both modules turned by hand to "
-                f"{degrees(demand.incidence)}, not at the {degrees(design.ocs.incidence)} that "
-                "the files have"
-            )
+        yield from _turned_by_hand(demand, design)
         yield from _lopsided(demand, design)
+
+
+def turned_by_hand(design: OcsDesign) -> Iterator[str]:
+    """Maneuvers for which somebody has to turn the modules."""
+    for demand in design.requirement.demands:
+        yield from _turned_by_hand(demand, design)
+
+
+def _turned_by_hand(demand: DemandRecord, design: OcsDesign) -> Iterator[str]:
+    if abs(demand.incidence - design.ocs.incidence) > SAME_ANGLE:
+        yield (
+            f"{demand.source}: sized and flown with both modules turned by hand to "
+            f"{degrees(demand.incidence)}, not at the {degrees(design.ocs.incidence)} that "
+            "the files have"
+        )
 
 
 def _lopsided(demand: DemandRecord, design: OcsDesign) -> Iterator[str]:

@@ -23,10 +23,9 @@ def print_examination(console: Console, examination: Examination) -> None:
     _table(console, "Packages", (each for each in examination.packages if each.required))
     _table(console, "Extras", (each for each in examination.packages if not each.required))
     lacking = [each for each in examination.findings if each.state is not State.WORKS]
-    cures = dict.fromkeys(_cure(each) for each in lacking if each.cure)
-    if cures:
-        heading(console, "To mend")
-        items(console, cures, style="")
+    optional = [each for each in lacking if not each.required and each.state is State.MISSING]
+    _cures(console, "To mend", (each for each in lacking if each not in optional))
+    _cures(console, "To add, if you want what it is for", optional)
     console.print()
     console.print(Text(_verdict(examination), style="bold"))
 
@@ -38,6 +37,13 @@ def _table(console: Console, title: str, findings: Iterable[Finding]) -> None:
         table.add_row(each.name, state, each.found, each.wanted, each.purpose)
     console.print()
     show(console, table)
+
+
+def _cures(console: Console, title: str, findings: Iterable[Finding]) -> None:
+    cures = dict.fromkeys(_cure(each) for each in findings if each.cure)
+    if cures:
+        heading(console, title)
+        items(console, cures, style="")
 
 
 def _cure(finding: Finding) -> str:

@@ -31,8 +31,8 @@ def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
     """Verdicts, attitude at touchdown, what the wheels did, and why."""
     heading(console, "Proof in MuJoCo: the same flights with and without the device")
     table = columns(
-        "scenario", "device", "verdict", "touchdown deg\npitch  roll", "turned\ndeg",
-        "wheel\nrpm", "torque\nN m", left=3,
+        "scenario", "device", "verdict", "touchdown deg\npitch  roll", "end deg\npitch  roll",
+        "turned\ndeg", "wheel\nrpm", "torque\nN m", left=3,
     )  # fmt: skip
     for run in runs:
         table.add_row(*_run_row(run))
@@ -43,23 +43,35 @@ def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
 def _run_row(run: ValidationRecord) -> list[Text | str]:
     word, style = (WITH_DEVICE if run.ocs else WITHOUT_DEVICE)[run.passed]
     metrics = run.metrics
-    tilt = f"{_deg(metrics, 'touchdown_pitch')} {_deg(metrics, 'touchdown_roll'):>6}"
     speed, torque = metrics.get("peak_wheel_speed"), metrics.get("peak_wheel_torque")
     return [
         Text(run.scenario),
         "with" if run.ocs else "without",
         Text(word, style=style),
-        tilt,
-        _deg(metrics, "turned_angle"),
+        _tilt(metrics, "touchdown") if flies(metrics) else "-",
+        _tilt(metrics, "final"),
+        _deg(metrics, "turned_angle") if flies(metrics) else "-",
         "-" if not run.ocs or speed is None else f"{speed * 30 / np.pi:,.0f}",
         "-" if not run.ocs or torque is None else f"{torque:.2f}",
     ]
 
 
-def run_story(run: ValidationRecord) -> str:
-    """The verdict in words, with what was changed about the turn."""
+def run_story(run: ValidationRecord, *, with_note: bool = True) -> str:
+    """The verdict in words, with what was changed about the turn unless that is told elsewhere."""
     device = "with" if run.ocs else "without"
-    return f"{run.scenario}, {device}: " + "; ".join(filter(None, (run.reason, run.note)))
+    told = (run.reason, run.note if with_note else "")
+    return f"{run.scenario}, {device}: " + "; ".join(filter(None, told))
+
+
+def flies(metrics: Mapping[str, float | bool | None]) -> bool:
+    """Whether the robot was in the air; who is shoved as they stand touch down at once."""
+    touchdown, lift_off = (metrics.get(f"{name}_time") for name in ("touchdown", "lift_off"))
+    return touchdown is None or lift_off is None or touchdown > lift_off
+
+
+def _tilt(metrics: Mapping[str, float | bool | None], when: str) -> str:
+    """Pitch and roll [deg], side by side."""
+    return f"{_deg(metrics, f'{when}_pitch')} {_deg(metrics, f'{when}_roll'):>6}"
 
 
 def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:

@@ -6,16 +6,17 @@ from pathlib import Path, PurePosixPath
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.design_file import OcsDesign, OcsRecord
+from ocs_design.design_file import OcsDesign
 from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
-from ocs_design.report.device import device_facts, overrated
-from ocs_design.report.doubts import doubts
-from ocs_design.report.flights import WITH_DEVICE, WITHOUT_DEVICE, run_story, summary
+from ocs_design.report.device import device_facts
+from ocs_design.report.flights import WITH_DEVICE, WITHOUT_DEVICE, summary
 from ocs_design.report.layout import columns, facts, heading, items, note, show
+from ocs_design.report.mind import mind
 from ocs_design.report.prices import what_buys
 from ocs_design.report.quantities import degrees
 from ocs_design.report.terminal import recorded_margins, robot_facts
 from ocs_design.report.tilt_plot import off_level, tilt_plots
+from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.margins.margin import Margin
 
@@ -50,10 +51,10 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     heading(console, "Device: two flywheels" + ("" if _has_motor(design) else ", no motors yet"))
     facts(console, [*_device(design), ("limits", _limits(design)), *_prices(design)])
     _print_flights(console, design, runs)
-    warnings = list(_warnings(design))
-    if warnings:
+    remarks = list(mind(design))
+    if remarks:
         heading(console, "Mind")
-        items(console, warnings, style="yellow")
+        items(console, remarks, style="yellow")
     console.print()
     console.print(Text(f"{folder}/: {', '.join(_written(design))}"))
     console.print(
@@ -116,46 +117,26 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
 
 
 def _verdict(run: Run, *, turns: bool) -> Text:
-    """With the angle that it rests on: turned by in a flip, else off level at touchdown."""
+    """With the angle that it rests on."""
     word, style = (WITH_DEVICE if run.ocs else WITHOUT_DEVICE)[run.passed]
-    found = run.metrics
-    if found is None:
+    if run.metrics is None:
         return Text(word, style=style)
-    angle = (
-        abs(found.turned_angle) if turns else off_level(found.touchdown_roll, found.touchdown_pitch)
-    )
-    figure = degrees(float(angle)).removesuffix(" deg")
-    return Text(f"{word:<5} {figure:>5}{' turned' if turns else ''}", style=style)
+    angle, kind = _angle(run.metrics, turns=turns)
+    return Text(f"{word:<5} {degrees(angle).removesuffix(' deg'):>5}{kind}", style=style)
+
+
+def _angle(found: Metrics, *, turns: bool) -> tuple[float, str]:
+    """Turned by in a flip, swung by after a shove, else off level at touchdown [rad]."""
+    if turns:
+        return abs(found.turned_angle), " turned"
+    if found.touchdown_time == found.lift_off_time:
+        return float(off_level(found.roll_swing, found.pitch_swing)), " swing"
+    return float(off_level(found.touchdown_roll, found.touchdown_pitch)), ""
 
 
 def _plots(pair: tuple[Run, Run], width: int) -> list[Text]:
     plots, _ = tilt_plots([run.series for run in pair], width)
     return [Text(plot) for plot in plots]
-
-
-def _warnings(design: OcsDesign) -> Iterator[str]:
-    """Everything that could make the design another than the reader thinks it is."""
-    yield from (f"warning: {told}" for told in (*design.robot.warnings, *design.ocs.warnings))
-    yield from doubts(design)
-    yield from overrated(design.ocs.motor)
-    yield from _reachable(design.ocs)
-    if design.ocs.fitting:
-        yield f"for the workshop there are {len(design.ocs.fitting)} notes more: see them with -v"
-    if design.ocs.flywheel.stress_margin is None:
-        yield f"the stress is NOT checked: no strength of {design.ocs.flywheel.material} is known"
-    yield from (
-        run_story(record)
-        for record in design.validation
-        if record.ocs and (record.passed is not True or record.note)
-    )
-
-
-def _reachable(ocs: OcsRecord) -> Iterator[str]:
-    """Links that would hit a module; the whole report says how."""
-    found = () if ocs.mounting is None else ocs.mounting.reachable
-    if found:
-        names = ", ".join(dict.fromkeys(reach.part for reach in found))
-        yield f"within their joints' limits these could hit a module: {names}"
 
 
 def _written(design: OcsDesign) -> Iterator[str]:

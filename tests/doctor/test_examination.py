@@ -1,16 +1,20 @@
 """The verdict over all findings, and that it can be had where packages are missing."""
 
 import json
+from dataclasses import replace
 from importlib import metadata
+from io import StringIO
 
 import pytest
 from commands import run
 from loading import HEAVY, modules_loaded_by
+from rich.console import Console
 
 from ocs_design.doctor import packages
 from ocs_design.doctor.examination import Examination, examination_to_json, examine
 from ocs_design.doctor.finding import Finding, State
 from ocs_design.exceptions import MissingToolError
+from ocs_design.report.examination import print_examination
 
 
 def finding(state, *, required):
@@ -59,3 +63,20 @@ def test_here_everything_required_works():
     assert found["mujoco"]["state"] == "works"
     assert found["mujoco"]["found"] == metadata.version("mujoco")
     assert {"Python", "this folder", "ffmpeg", "matplotlib"} <= set(found)
+
+
+def test_what_is_only_optional_is_not_to_be_mended():
+    lacking = [
+        replace(finding(state, required=required), name=name, cure=f"get {name}")
+        for name, state, required in (
+            ("needed", State.MISSING, True),
+            ("extra", State.MISSING, False),
+            ("torn", State.BROKEN, False),
+        )
+    ]
+    console = Console(file=StringIO(), width=80)
+    print_examination(console, Examination("1.0", (), tuple(lacking)))
+    said = console.file.getvalue()
+    mend, add = said.split("To mend")[1].split("To add")
+    assert "get needed" in mend and "get torn" in mend
+    assert "get extra" in add and "get extra" not in mend

@@ -209,7 +209,7 @@ def test_a_robot_that_may_not_be_read_is_an_error(solo12, monkeypatch):
 def test_the_json_document_names_what_was_made(solo12):
     result = run("export", solo12, "-o", "again", "--json")
     assert (result.code, result.stderr) == (0, "")
-    assert set(result.document) == {"schema_version", "folder", "files", "warnings"}
+    assert set(result.document) == {"schema_version", "folder", "files", "warnings", "notes"}
     assert set(result.document["files"]) == set(made_in("again"))
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from html import escape
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,6 +22,26 @@ _LETTER = 6.2
 """Mean width of a letter [px], generously."""
 
 _MOST_ROW = 26
+
+_DOT, _GAP = 4.0, 7.0
+"""Radius of a disc, and from its middle to its word [px]."""
+
+_RISES = (0.0, -11.0, 11.0, -22.0, 22.0, -33.0, 33.0)
+"""By which a word gives way to others, the least first [px]."""
+
+
+class _Box(NamedTuple):
+    """What a word or a disc takes of the sheet [px]."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    def meets(self, other: "_Box") -> bool:
+        """Whether they overlap."""
+        across = self.left < other.right and other.left < self.right
+        return across and self.top < other.bottom and other.top < self.bottom
 
 
 def inline_svg(chart: Chart) -> str:
@@ -49,6 +70,12 @@ class _Drawing:
         if chart.equal:
             chart = self._equal(chart)
         self._chart = chart
+        self._taken = [
+            _Box(x - _DOT, y - _DOT, x + _DOT, y + _DOT)
+            for mark in chart.marks
+            if isinstance(mark, Points)
+            for x, y in self._at(mark.x, mark.y).tolist()
+        ]
 
     def text(self, style: str) -> str:
         """The whole element."""
@@ -143,10 +170,15 @@ class _Drawing:
         return ""
 
     def _beside(self, x: float, y: float, text: str) -> str:
-        """To the right of a place, or to its left where there is no room."""
-        if x + 7.0 + _LETTER * len(text) > WIDTH:
-            return _word("note", x - 7.0, y + 3.5, text, "end")
-        return _word("note", x + 7.0, y + 3.5, text, "start")
+        """To the right of a place, or to its left where there is no room, clear of all others."""
+        reach = _LETTER * len(text)
+        leftwards = x + _GAP + reach > WIDTH
+        near = x - _GAP - reach if leftwards else x + _GAP
+        tried = [_Box(near, y + rise - 6.0, near + reach, y + rise + 5.0) for rise in _RISES]
+        box = next((each for each in tried if not any(map(each.meets, self._taken))), tried[0])
+        self._taken.append(box)
+        far, anchor = (x - _GAP, "end") if leftwards else (x + _GAP, "start")
+        return _word("note", far, box.top + 9.5, text, anchor)
 
     def _line(self, mark: Line) -> str:
         look = f"line {mark.ink}{_dashes(mark.dashed)}" + (" thin" if mark.thin else "")
@@ -162,7 +194,7 @@ class _Drawing:
     def _points(self, mark: Points) -> str:
         look = f"ring {mark.ink}" if mark.hollow else f"disc fill-{mark.ink}"
         discs = (
-            f'<circle class="{look}" cx="{x:.1f}" cy="{y:.1f}" r="4"/>'
+            f'<circle class="{look}" cx="{x:.1f}" cy="{y:.1f}" r="{_DOT:g}"/>'
             for x, y in self._at(mark.x, mark.y)
         )
         return "".join(discs)

@@ -2,9 +2,12 @@
 
 from ocs_design.design_file import OcsDesign
 from ocs_design.drive.gear import DIRECT
+from ocs_design.report.doubts import turned_by_hand
 from ocs_design.report.flights import summary
 from ocs_design.report.html.elements import Markup, element
 from ocs_design.report.quantities import degrees, grams, rpm, tenths
+from ocs_design.report.terminal import recorded_margins
+from ocs_design.sizing.margins.margins import HOOP_STRESS
 
 _WORDS = {"pass": "Pass", "fail": "Fail", "open": "Not proved"}
 
@@ -32,6 +35,7 @@ def _verdict(design: OcsDesign) -> Markup:
         "p",
         element("strong", _WORDS[state]),
         element("span", summary(verdicts).plain),
+        *(element("span", told) for told in turned_by_hand(design)),
         class_=f"verdict {state}",
     )
 
@@ -47,7 +51,7 @@ def _tiles(design: OcsDesign) -> Markup:
         ("Motor", ocs.motor.name, _drive(design) + gear),
         ("Rim R / r / h", f"{lengths} mm", wheel.material),
         ("Spin inertia", f"{1e6 * ocs.spin_inertia:.4g} kg mm²", "of each wheel"),
-        ("Top wheel speed", rpm(design.requirement.wheel_speed_max), _stress(design)),
+        ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), _stress(design)),
     )
     return element("ul", *(_tile(*tile) for tile in tiles), class_="tiles")
 
@@ -63,5 +67,9 @@ def _drive(design: OcsDesign) -> str:
 
 
 def _stress(design: OcsDesign) -> str:
+    """The figure of the table of margins, where the drive may run away; else at this speed."""
+    stress = next((each for each in recorded_margins(design) if each.name == HOOP_STRESS), None)
+    if stress is not None and stress.factor is not None:
+        return f"stress margin {stress.factor:.2f} {stress.note}"
     margin = design.ocs.flywheel.stress_margin
     return "stress not checked" if margin is None else f"stress margin {margin:.2f}"

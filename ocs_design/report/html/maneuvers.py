@@ -5,16 +5,20 @@ from collections.abc import Sequence
 from ocs_design.design_file import ValidationRecord
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.figures.figures import scenario_charts
-from ocs_design.report.flights import WITH_DEVICE, WITHOUT_DEVICE, run_story
-from ocs_design.report.html.elements import Markup, element, section, table
+from ocs_design.report.flights import WITH_DEVICE, WITHOUT_DEVICE, flies, run_story
+from ocs_design.report.html.elements import Markup, element, items, section, table
 from ocs_design.report.html.figure import figures
+from ocs_design.report.landings import flight_remarks
 from ocs_design.report.quantities import degrees, rpm
 from ocs_design.report.story import Story
 
 _COLUMNS = (
-    "robot", "verdict", "pitch at touchdown [deg]", "roll [deg]", "turned [deg]",
+    "robot", "verdict", "pitch at touchdown [deg]", "roll [deg]", "at the end [deg]", "roll [deg]",
+    "turned [deg]",
     "wheel speed [rpm]", "torque [N m]",
 )  # fmt: skip
+
+_TOUCHDOWN = ("touchdown_pitch", "touchdown_roll")
 
 
 def maneuvers_section(story: Story, scenarios: Sequence[str]) -> Markup:
@@ -24,7 +28,8 @@ def maneuvers_section(story: Story, scenarios: Sequence[str]) -> Markup:
     if not names:
         return section("maneuvers", "Maneuvers", element("p", "No flight was simulated."))
     parts = (_maneuver(story, name, charts.get(name, ()), scenarios) for name in names)
-    return section("maneuvers", "Maneuvers, with the device and without", *parts)
+    remarks = items(flight_remarks(story.design), look="warnings")
+    return section("maneuvers", "Maneuvers, with the device and without", remarks, *parts)
 
 
 def _maneuver(story: Story, name: str, charts: Sequence[Chart], scenarios: Sequence[str]) -> Markup:
@@ -50,9 +55,10 @@ def _cells(run: ValidationRecord) -> tuple[str, ...]:
     return (
         "with" if run.ocs else "without",
         mark,
-        _angle(run, "touchdown_pitch"),
-        _angle(run, "touchdown_roll"),
-        _angle(run, "turned_angle"),
+        *(_angle(run, name) if flies(run.metrics) else "-" for name in _TOUCHDOWN),
+        _angle(run, "final_pitch"),
+        _angle(run, "final_roll"),
+        _angle(run, "turned_angle") if flies(run.metrics) else "-",
         _shown(run, "peak_wheel_speed"),
         _shown(run, "peak_wheel_torque"),
     )

@@ -13,6 +13,8 @@ from ocs_design.sizing.margins.motion import Motion
 from ocs_design.sizing.margins.supply import Supply, supply, torque_constant
 from ocs_design.sizing.selection.drive_table import OVERSPEED
 
+HOOP_STRESS = "hoop stress, to yield"
+
 NO_SUPPLY = "both motors together, ideal inverter; no limit of the supply is known"
 
 
@@ -63,7 +65,7 @@ def _rim(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     if stress is not None:
         strength = wheel.material.yield_strength
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
-        yield Margin("hoop stress, to yield", stress, strength, "Pa", note, of_motion=False)
+        yield Margin(HOOP_STRESS, stress, strength, "Pa", note, of_motion=False)
     energy = 0.5 * wheel.moved_inertia * np.sum(motion.wheel_speed**2, axis=1)
     yield Margin("stored energy", float(energy.max()), None, "J", "both wheels with their rotors")
 

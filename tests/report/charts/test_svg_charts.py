@@ -80,3 +80,17 @@ def test_thinning_keeps_ends_and_peaks():
     assert (few_y.max(), few_y.min()) == (5.0, y.min())
     assert (few_x[0], few_x[-1]) == (0.0, 1.0)
     assert set(zip(few_x, few_y, strict=True)) <= set(zip(x, y, strict=True))
+
+
+def test_words_that_would_lie_on_each_other_or_on_a_disc_give_way():
+    near = np.array([5.0, 5.02]), np.array([5.0, 5.01])
+    drawn = chart(
+        Points(*near, Ink.BLUE, labels=("kick in hop", "off the table")),
+        Points(np.array([5.5]), np.array([0.5]), Ink.GREEN),
+        Rule(5.1, upright=True, label="alpha 28 deg"),
+    )
+    words = ET.fromstring(inline_svg(drawn)).iter(f"{SVG}text")
+    first, second, rule = (float(each.get("y")) for each in words if each.get("class") == "note")
+    assert abs(first - second) > 10.0
+    disc = places(inline_svg(drawn))[2]
+    assert not -4.0 < rule - disc[1] < 13.5, "clear of the disc"

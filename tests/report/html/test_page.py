@@ -95,3 +95,13 @@ def test_without_flights_it_says_that_nothing_is_proved():
 
 def test_equal_stories_make_equal_pages():
     assert report_page(story()) == report_page(story())
+
+
+def test_the_verdict_says_for_which_maneuver_the_modules_are_turned_by_hand():
+    told = story()
+    (first, *_) = told.design.requirement.demands
+    turned = replace(first, source="back-flip", incidence=told.design.ocs.incidence + 0.3)
+    requirement = replace(told.design.requirement, demands=(turned,))
+    page = report_page(replace(told, design=replace(told.design, requirement=requirement)))
+    verdict = page.partition('class="verdict')[2].partition("</p>")[0]
+    assert "back-flip: sized and flown with both modules turned by hand" in verdict

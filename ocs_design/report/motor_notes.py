@@ -1,0 +1,44 @@
+"""What is to be minded about the figures of the chosen motor, and about what drives it."""
+
+from collections.abc import Iterator
+
+from ocs_design.design import Motor
+from ocs_design.design_file import OcsDesign
+from ocs_design.drive.gear import DIRECT
+from ocs_design.export.bill_of_materials import controller_current
+
+
+def motor_notes(design: OcsDesign) -> Iterator[str]:
+    """One sentence each; none where no motor was chosen."""
+    motor = design.ocs.motor
+    if motor.bus_voltage is None:
+        return
+    yield from _saturation(motor, _peak_torque(design))
+    if motor.rotor_inertia == 0.0 and motor.gear == DIRECT.name:
+        yield (
+            f"the rotor's inertia of {motor.name} is not in the catalogue and counts as 0: the "
+            "wheels turn a little slower than computed, never faster"
+        )
+    current = controller_current(motor)
+    if current is not None:
+        yield (
+            f"not in the mass: two motor controllers, each for {current:.0f} A at "
+            f"{motor.bus_voltage:g} V, and their cables"
+        )
+
+
+def _peak_torque(design: OcsDesign) -> float:
+    """That the maneuvers ask of a wheel [N m]."""
+    return max(
+        (each.demand for each in design.margins if each.name.startswith("torque")), default=0
+    )
+
+
+def _saturation(motor: Motor, asked: float) -> Iterator[str]:
+    starts = motor.saturation_torque
+    if starts is not None and asked > starts:
+        yield (
+            f"{motor.name} saturates from {starts:.3g} N m at the wheel and is asked for "
+            f"{asked:.3g}: it takes more current and voltage than its k_t says, and the margins of "
+            "both are too good"
+        )
