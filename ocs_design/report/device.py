@@ -9,6 +9,7 @@ from ocs_design.design import Motor
 from ocs_design.design_file import OcsDesign, OcsRecord
 from ocs_design.drive.gear import DIRECT
 from ocs_design.report.layout import columns, facts, heading, items, print_warnings, show
+from ocs_design.report.motor_notes import motor_notes
 from ocs_design.report.mounting import could_hit, mounted
 from ocs_design.report.quantities import (
     degrees,
@@ -32,7 +33,7 @@ def print_device(console: Console, design: OcsDesign) -> None:
     heading(console, "Device: two flywheels" + ("" if ocs.motor.bus_voltage else ", no motors yet"))
     facts(console, device_facts(design))
     print_warnings(console, ocs.warnings)
-    items(console, cautions(ocs), style="yellow")
+    items(console, (*cautions(ocs), *motor_notes(design)), style="yellow")
     table = columns("incidence by criterion", "deg", "robot alone")
     for name, angle in ocs.incidence_by_criterion.items():
         before = ocs.incidence_by_criterion_robot_alone.get(name)

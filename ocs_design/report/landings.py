@@ -23,16 +23,22 @@ SPENT = 0.95
 
 
 def flight_remarks(design: OcsDesign) -> Iterator[str]:
-    """Flights that do not pass or end unjudged, poor landings, and wheels left at speed."""
+    """Flights that do not pass or end unjudged, poor landings, and what was changed about them."""
     carrying = [run for run in design.validation if run.ocs]
-    bare = {run.scenario: run for run in design.validation if not run.ocs}
     for run in carrying:
         if run.passed is not True or run.can_stand is False:
             yield run_story(run, with_note=False)
+    yield from landing_remarks(design)
+    yield from shared_notes(carrying)
+
+
+def landing_remarks(design: OcsDesign) -> Iterator[str]:
+    """What no verdict says: landings that the device does not mend, and wheels left at speed."""
+    carrying = [run for run in design.validation if run.ocs]
+    bare = {run.scenario: run for run in design.validation if not run.ocs}
     yield from _worse(carrying, bare)
     yield from _leaning(carrying)
     yield from _spent(carrying, design.ocs.motor)
-    yield from shared_notes(carrying)
 
 
 def shared_notes(runs: Iterable[ValidationRecord]) -> Iterator[str]:

@@ -8,6 +8,7 @@ from ocs_design.design_file import MarginRecord, OcsDesign
 from ocs_design.report.device import print_device
 from ocs_design.report.doubts import doubts
 from ocs_design.report.flights import print_flights
+from ocs_design.report.landings import landing_remarks
 from ocs_design.report.layout import (
     columns,
     facts,
@@ -46,6 +47,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
     _print_limits(console, design)
     _print_margins(console, design)
     print_flights(console, design)
+    items(console, landing_remarks(design), style="yellow")
 
 
 def print_solution(console: Console, design: OcsDesign) -> None:

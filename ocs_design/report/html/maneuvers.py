@@ -8,7 +8,7 @@ from ocs_design.report.figures.figures import scenario_charts
 from ocs_design.report.flights import WITH_DEVICE, WITHOUT_DEVICE, flies, run_story
 from ocs_design.report.html.elements import Markup, element, items, section, table
 from ocs_design.report.html.figure import figures
-from ocs_design.report.landings import flight_remarks
+from ocs_design.report.landings import landing_remarks
 from ocs_design.report.quantities import degrees, rpm
 from ocs_design.report.story import Story
 
@@ -28,7 +28,7 @@ def maneuvers_section(story: Story, scenarios: Sequence[str]) -> Markup:
     if not names:
         return section("maneuvers", "Maneuvers", element("p", "No flight was simulated."))
     parts = (_maneuver(story, name, charts.get(name, ()), scenarios) for name in names)
-    remarks = items(flight_remarks(story.design), look="warnings")
+    remarks = items(landing_remarks(story.design), look="warnings")
     return section("maneuvers", "Maneuvers, with the device and without", remarks, *parts)
 
 
