@@ -200,7 +200,7 @@ def make_design() -> None:
 
 
 def references(command: tuple[str, ...]) -> tuple[Mapping[str, str], Mapping[str, str], float]:
-    """The old folder and the new one as they must be, and how much processor time the command takes [s]."""
+    """Old folder and new one as they must be, and the processor time of the command [s]."""
     shutil.rmtree("old", ignore_errors=True)
     shutil.rmtree("out", ignore_errors=True)
     run_to_end(("size", SOLO12, *QUICK, "--seed", "1", "-o", "old"))

@@ -180,7 +180,7 @@ def _controllers(motor: Motor) -> Iterator[BillRow]:
     if current is not None and motor.bus_voltage is not None:
         rated = f"for {current:.0f} A at {motor.bus_voltage:g} V"
         told = f"{rated}, of your choice; not weighed, not in the device's mass"
-        yield BillRow("motor controller", 2, "", "", 0.0, told, counted=False)
+        yield BillRow("motor controller", 2, "", "", 0.0, told)
 
 
 def _printed(device: Device) -> Iterator[BillRow]:
