@@ -5,7 +5,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.inspection import Inspection
-from ocs_design.report.layout import columns, facts, heading, note, show
+from ocs_design.report.layout import columns, heading, note, show
 from ocs_design.report.quantities import signed
 from ocs_design.report.terminal import print_joints, print_robot
 
@@ -23,9 +23,9 @@ SAME_RATE = (
 def print_inspection(console: Console, inspection: Inspection, *, verbose: bool = False) -> None:
     """Mass, posture, inertia, incidence angles and how they move with the posture."""
     robot = inspection.robot
-    print_robot(console, robot)
-    facts(
+    print_robot(
         console,
+        robot,
         [
             ("read from", f"{robot.source} ({robot.format})"),
             ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
@@ -56,7 +56,7 @@ def _print_postures(console: Console, inspection: Inspection) -> None:
     heading(console, "Incidence angle (equal-rate) over postures")
     table = columns("posture", "Ixx\nkg m2", "Iyy\nkg m2", "Izz\nkg m2", "alpha*\ndeg")
     for line in inspection.incidence_by_posture:
-        moments = (f"{moment:.4g}" for moment in line.inertia_diagonal)
+        moments = (f"{moment:#.4g}" for moment in line.inertia_diagonal)
         table.add_row(Text(line.posture), *moments, f"{np.degrees(line.incidence):.2f}")
     show(console, table)
     if "solo12" in inspection.robot.name.lower():

@@ -1,5 +1,7 @@
 """The story of a design in the terminal: what was read, asked, found, proved and written."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from rich.console import Console
 from rich.text import Text
@@ -35,6 +37,9 @@ TURNS = (
     "Turns are sized for constant torque one way and then the other, a peak rate of 2 theta / T: "
     "the least torque that does it. More torque may do with up to half the wheel: the flights tell."
 )
+
+ROUNDING = 1e-9
+"""Of the largest moment of inertia: a product below this is what rounding leaves of zero."""
 
 
 def print_design(console: Console, design: OcsDesign) -> None:
@@ -79,10 +84,10 @@ def print_joints(console: Console, robot: RobotRecord) -> None:
     show(console, table)
 
 
-def print_robot(console: Console, robot: RobotRecord) -> None:
-    """What was read: mass, trunk, posture, locked inertia."""
+def print_robot(console: Console, robot: RobotRecord, more: Iterable[tuple[str, str]] = ()) -> None:
+    """What was read: mass, trunk, posture, locked inertia, and more of it; then the warnings."""
     heading(console, f"Robot: {robot.name}")
-    facts(console, robot_facts(robot))
+    facts(console, [*robot_facts(robot), *more])
     print_warnings(console, robot.warnings)
 
 
@@ -96,7 +101,11 @@ def robot_facts(robot: RobotRecord) -> list[tuple[str, str]]:
         posture += f", trunk {millimetres(robot.standing_height, 0)} over the feet"
     com = ", ".join(map(tenths, robot.com))
     diagonal = "  ".join(f"{robot.inertia[i][i]:.4g}" for i in range(3))
-    products = "  ".join(f"{robot.inertia[i][j]:.2g}" for i, j in ((0, 1), (0, 2), (1, 2)))
+    least = ROUNDING * max(robot.inertia[i][i] for i in range(3))
+    products = "  ".join(
+        f"{value:.2g}" if abs(value) > least else "0"
+        for value in (robot.inertia[i][j] for i, j in ((0, 1), (0, 2), (1, 2)))
+    )
     return [
         ("mass", f"{robot.mass:.4g} kg"),
         ("trunk", trunk),
