@@ -167,19 +167,21 @@ def _gear(motor: Motor) -> BillRow:
     return BillRow(f"gear {motor.gear}", 2, "", "", motor.gear_mass, source)
 
 
-def controller_current(motor: Motor) -> float | None:
-    """Of the supply line that a motor's controller must give [A]; None without a limit or k_t."""
-    if motor.torque_limit is None or motor.torque_constant is None:
-        return None
-    return motor.torque_limit / (motor.gear_ratio * motor.gear_efficiency * motor.torque_constant)
+def controller_rating(motor: Motor) -> str:
+    """What a motor's controller must give; empty without a limit, k_t or supply to tell it from."""
+    limit, k_t, supply = motor.torque_limit, motor.torque_constant, motor.bus_voltage
+    if limit is None or k_t is None or supply is None:
+        return ""
+    current = limit / (motor.gear_ratio * motor.gear_efficiency * k_t)
+    saturates = motor.saturation_torque is not None and limit > motor.saturation_torque
+    return f"{'more than ' if saturates else ''}{current:.0f} A at {supply:g} V"
 
 
 def _controllers(motor: Motor) -> Iterator[BillRow]:
     """Not chosen: what they weigh is not known."""
-    current = controller_current(motor)
-    if current is not None and motor.bus_voltage is not None:
-        rated = f"for {current:.0f} A at {motor.bus_voltage:g} V"
-        told = f"{rated}, of your choice; not weighed, not in the device's mass"
+    rating = controller_rating(motor)
+    if rating:
+        told = f"for {rating}, of your choice; not weighed, not in the device's mass"
         yield BillRow("motor controller", 2, "", "", 0.0, told)
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from ocs_design.design import Motor
 from ocs_design.design_file import OcsDesign
 from ocs_design.drive.gear import DIRECT
-from ocs_design.export.bill_of_materials import controller_current
+from ocs_design.export.bill_of_materials import controller_rating
 
 
 def motor_notes(design: OcsDesign) -> Iterator[str]:
@@ -19,12 +19,9 @@ def motor_notes(design: OcsDesign) -> Iterator[str]:
             f"the rotor's inertia of {motor.name} is not in the catalogue and counts as 0: the "
             "wheels turn a little slower than computed, never faster"
         )
-    current = controller_current(motor)
-    if current is not None:
-        yield (
-            f"not in the mass: two motor controllers, each for {current:.0f} A at "
-            f"{motor.bus_voltage:g} V, and their cables"
-        )
+    rating = controller_rating(motor)
+    if rating:
+        yield f"not in the mass: two motor controllers, each for {rating}, and their cables"
 
 
 def _peak_torque(design: OcsDesign) -> float:

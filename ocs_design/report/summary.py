@@ -119,7 +119,7 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
 def _verdict(run: Run, *, turns: bool) -> Text:
     """With the angle that it rests on."""
     word, style = (WITH_DEVICE if run.ocs else WITHOUT_DEVICE)[run.passed]
-    if run.metrics is None:
+    if run.metrics is None or run.passed is None:
         return Text(word, style=style)
     angle, kind = _angle(run.metrics, turns=turns)
     return Text(f"{word:<5} {degrees(angle).removesuffix(' deg'):>5}{kind}", style=style)

@@ -42,6 +42,8 @@ def test_controllers_are_not_in_the_mass():
     drive = {"torque_limit": 1.8, "gear_ratio": 2.0, "gear_efficiency": 0.8}
     (found,) = said(changed(torque_constant=0.025, **drive), "motor controllers")
     assert "each for 45 A at 24 V" in found
+    saturating = changed(torque_constant=0.025, saturation_torque=1.0, **drive)
+    assert said(saturating, "each for more than 45 A at 24 V")
 
 
 def test_parts_that_are_left_to_design_are_named_and_the_rest_counted():
