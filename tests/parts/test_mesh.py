@@ -13,7 +13,7 @@ SECTIONS = (32, 64, 128, 256)
 ORDER_OF_ARCS, ORDER_OF_CIRCLES = 2.5, 3.8
 """Third and fourth, less what steps in the number of chords cost."""
 
-WITH_ARCS = {"drum", "lid", "foot", "slotted"}
+WITH_ARCS = {"drum", "lid", "cage", "foot", "slotted"}
 
 
 def weighed(part: Part, sections: int) -> trimesh.Trimesh:
