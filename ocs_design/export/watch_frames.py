@@ -20,13 +20,16 @@ PAUSE = 1.0
 """Between the end of a run and its next beginning [s]."""
 
 
-def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float) -> None:
+def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float, parent: int) -> None:
     """Play a run in real time, again and again, until the window is closed.
+
+    Or until the command that asked for it is no more: nobody would close it for that.
 
     Args:
         model: see `film_model`.
         qpos: of each pose, shape (n, nq).
         seconds: from one pose to the next [s].
+        parent: process that asked for it.
     """
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -35,7 +38,7 @@ def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float) -> None:
         viewer.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING
         viewer.cam.trackbodyid = 1
         start, whole = time.monotonic(), len(qpos) * seconds + PAUSE
-        while viewer.is_running():
+        while viewer.is_running() and os.getppid() == parent:
             pose = int((time.monotonic() - start) % whole / seconds)
             with viewer.lock():
                 data.qpos[:] = qpos[min(pose, len(qpos) - 1)]
@@ -47,9 +50,9 @@ def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float) -> None:
 
 def main(arguments: list[str]) -> None:
     """One window for every two paths: model and joint positions."""
-    seconds, *paths = arguments
+    (seconds, *paths), parent = arguments, os.getppid()
     for model, qpos in zip(*(iter(paths),) * 2, strict=True):
-        watch(mujoco.MjModel.from_binary_path(model), np.load(qpos), float(seconds))
+        watch(mujoco.MjModel.from_binary_path(model), np.load(qpos), float(seconds), parent)
 
 
 if __name__ == "__main__":
