@@ -99,6 +99,10 @@ Position: TypeAlias = Annotated[
         "--position", metavar="X,Y,Z", help="Centre of the left wheel in the trunk's frame."
     ),
 ]
+MassMax: TypeAlias = Annotated[
+    Text,
+    typer.Option("--mass-max", metavar="MASS", help="Largest mass of the device, both modules."),
+]
 RMax: TypeAlias = Annotated[
     Text, typer.Option("--r-max", metavar="LENGTH", help="Largest outer radius, e.g. 30mm.")
 ]
@@ -219,6 +223,7 @@ TASK_OPTIONS: Mapping[str, object] = {
     "alpha": Alpha,
     "alpha_criterion": AlphaCriterion,
     "position": Position,
+    "mass_max": MassMax,
     "r_max": RMax,
     "r_min": RMin,
     "h_max": HMax,

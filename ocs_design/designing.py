@@ -5,12 +5,14 @@ from typing import TYPE_CHECKING
 
 from ocs_design.assembly import assemble, assemble_selected
 from ocs_design.design import Device
+from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import LIGHTEST, Specification
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.device_sizing import size_device
 from ocs_design.sizing.free_place import stated_place
 from ocs_design.sizing.incidence import Criterion
+from ocs_design.sizing.limits import DEVICE_MASS
 from ocs_design.sizing.selection.by_criterion import select_by
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, Selection
@@ -61,8 +63,32 @@ def design_device(specification: Specification, robot: Robot, resolved: Resolved
     """The lightest device that meets the specification.
 
     Raises:
-        Infeasible: there is none. UsageError: nothing is asked for, or a limit is no limit.
+        Infeasible: there is none. UsageError: nothing is asked for, or a limit is no DEVICE_MASS.
     """
+    designed = _lightest(specification, robot, resolved)
+    if specification.ocs.mass_max is not None:
+        _check_mass(designed.device, specification.ocs.mass_max)
+    return designed
+
+
+def _check_mass(device: Device, most: float) -> None:
+    """Nothing is lighter than the lightest: no search is needed."""
+    if device.mass <= most:
+        return
+    raise Infeasible(
+        f"The lightest device that does everything weighs {DEVICE_MASS.figure(device.mass)}, both "
+        f"modules: ocs.mass_max allows {DEVICE_MASS.figure(most)}.",
+        binding=[DEVICE_MASS.name],
+        required_spin_inertia=device.flywheel.spin_inertia,
+        largest_spin_inertia=device.flywheel.spin_inertia,
+        relaxations={DEVICE_MASS.name: device.mass},
+        hint=f"{DEVICE_MASS.loose_text(device.mass)} would do. Without this limit `size` tells "
+        "what makes it lighter: more room, voltage or time.",
+    )
+
+
+def _lightest(specification: Specification, robot: Robot, resolved: Resolved) -> Designed:
+    """Whatever it weighs."""
     problem = selection_problem(specification, robot, resolved)
     if problem is None:
         return _by_bound(specification, robot, resolved)

@@ -12,8 +12,8 @@ from ocs_design.export.naming import safe_name
 from ocs_design.export.single_file import write_whole
 from ocs_design.requirement.commented import commented_toml
 from ocs_design.requirement.defaults import default_specification
-from ocs_design.requirement.froude import SOLO12
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.requirement.froude import SOLO12, example_shove
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.requirement.writing import with_files_from
@@ -33,11 +33,13 @@ class Start:
         stated: what is stated already.
         robot: that it is for; None: not known yet.
         default: what holds where nothing is stated; Solo12's where the robot is not known.
+        examples: maneuvers that are not assumed, scaled likewise.
     """
 
     stated: Specification
     robot: Robot | None
     default: Specification
+    examples: tuple[Maneuver, ...]
 
     @property
     def default_file(self) -> Path:
@@ -80,13 +82,11 @@ def read_start(
     )
     scaled_to = robot or _solo12()
     gains = wheel_gains(scaled_to)
+    gravity = stated.requirement.gravity or STANDARD_GRAVITY
     default = default_specification(
-        scaled_to,
-        kp=gains.stiffness,
-        kd=gains.damping,
-        gravity=stated.requirement.gravity or STANDARD_GRAVITY,
+        scaled_to, kp=gains.stiffness, kd=gains.damping, gravity=gravity
     )
-    return Start(stated, robot, default)
+    return Start(stated, robot, default, (example_shove(scaled_to, gravity),))
 
 
 def write_start(
@@ -115,6 +115,7 @@ def write_start(
         start.default,
         title=f"What {whose} must do and may be.\n\n  {command}",
         chosen=chosen,
+        examples=start.examples,
     )
     write_whole(file, text, force=force)
     return Initialized(

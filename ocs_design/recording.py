@@ -49,7 +49,8 @@ if TYPE_CHECKING:
 
 HOUSING_ASSUMED = (
     f"Housing: printed in PETG, wall {format_quantity(WALL, 'mm')}, "
-    f"{format_quantity(CLEARANCE, 'mm')} clear of the rim."
+    f"{format_quantity(CLEARANCE, 'mm')} clear of the rim. It adds "
+    f"{format_quantity(WALL + CLEARANCE, 'mm')} to r_max, the rim's."
 )
 
 

@@ -16,6 +16,9 @@ from ocs_design.exceptions import QuantityError
 LARGEST = 1e15
 """In SI; whatever is measured here is far below, and the fifth power of a length must be finite."""
 
+CELL_NOMINAL, CELL_FULL = 3.7, 4.2
+"""Of one cell of lithium polymer [V], as makers of packs state them."""
+
 LONGEST_QUANTITY = 64
 """Characters; more is not a number, and long exponents would cost time."""
 
@@ -109,6 +112,8 @@ _QUANTITY = re.compile(
     r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", re.DOTALL
 )
 
+_PACK = re.compile(r"\s*([0-9]{1,3})\s*[sS]\s*")
+
 
 def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
     """The SI value of a bare number or of a number with its unit.
@@ -128,6 +133,12 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
     return number
 
 
+def written_unit(value: object, dimension: Dimension) -> str:
+    """The unit that a readable `value` was written in; a bare number's is that of SI."""
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    return (match and match[2]) or si_unit(dimension)
+
+
 def si_unit(dimension: Dimension) -> str:
     """Name of the unit that a bare number is in."""
     return "parts of 1" if dimension is Dimension.RATIO else next(iter(UNITS[dimension]))
@@ -144,6 +155,16 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     """The SI `value` in `unit`, for people, as in `30 mm`; `parse_quantity` reads it back."""
     space = "" if unit in {"%", "°"} else " "
     return f"{to_unit(value, unit):.{digits}g}{space}{unit}"
+
+
+def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:
+    """`value` to that many significant digits, never below it if upwards, never above it if not."""
+    if value == 0.0 or not math.isfinite(value):
+        return value
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
+    # A figure that has no more digits than that stays what it is.
+    scaled = round(value / unit, 6)
+    return (math.ceil(scaled) if upwards else math.floor(scaled)) * unit
 
 
 def _parse(value: object, dimension: Dimension, where: str) -> float:
@@ -174,12 +195,25 @@ def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
     found = _UNIT_OF_SPELLING.get(_normalised(unit))
     hint = f"Units of {dimension}: {_known(dimension)}; a bare number is in {si_unit(dimension)}."
     if found is None:
-        raise QuantityError(f"{where}: {text.strip()!r} has the unknown unit {unit!r}", hint=hint)
+        cells = _cells(text) if dimension is Dimension.VOLTAGE else ""
+        raise QuantityError(
+            f"{where}: {text.strip()!r} has the unknown unit {unit!r}", hint=f"{cells}{hint}"
+        )
     if found[0] is not dimension:
         raise QuantityError(
             f"{where}: {text.strip()!r} has a unit of {found[0]}, not of {dimension}", hint=hint
         )
     return UNITS[dimension][found[1]]
+
+
+def _cells(text: str) -> str:
+    """What a pack of cells in series has, as in `6S`; empty for anything else."""
+    match = _PACK.fullmatch(text)
+    if match is None:
+        return ""
+    count = int(match[1])
+    nominal, full = (f"{count * volts:.4g} V" for volts in (CELL_NOMINAL, CELL_FULL))
+    return f"{count}S is {nominal} nominal, {full} full: state the voltage under load. "
 
 
 def _normalised(unit: str) -> str:

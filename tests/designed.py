@@ -15,13 +15,13 @@ MOTOR = "EC 45 flat 70 W 411812"
 
 
 @cache
-def designed(motor=MOTOR, alpha=None, criterion=None):
+def designed(motor=MOTOR, alpha=None, criterion=None, mass_max=None):
     """The task and what came of it."""
     task = by_hand()
     given = Specification(
         robot=task.specification.robot,
         motor=MotorSection(name=motor, gear=None if motor == "none" else "direct"),
-        ocs=OcsSection(alpha=alpha, alpha_criterion=criterion),
+        ocs=OcsSection(alpha=alpha, alpha_criterion=criterion, mass_max=mass_max),
     )
     task = task.with_specification(given)
     return task, design_device(given, task.robot, task.resolved)

@@ -42,7 +42,11 @@ FULL = Specification(
         rate_change=0.1, wheel_speed_max=31415.926, spin_inertia=7.11e-5, gravity=9.81
     ),
     ocs=OcsSection(
-        alpha=radians(40.0), alpha_criterion="lightest", position=(0.1, 0.2, 1e-17), co_design=True
+        alpha=radians(40.0),
+        alpha_criterion="lightest",
+        position=(0.1, 0.2, 1e-17),
+        co_design=True,
+        mass_max=1.25,
     ),
     flywheel=FlywheelSection(
         r_max=0.05,

@@ -5,6 +5,8 @@ import pytest
 from designed import MOTOR, designed
 from wheels import braked_inertia
 
+from ocs_design.exceptions import Infeasible
+
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 def test_the_total_is_robot_and_device_braked(motor):
@@ -51,3 +53,15 @@ def test_a_motor_weighs_more_than_wheels_alone():
     _, chosen = designed(alpha=0.4)
     assert chosen.device.mass > bound.device.mass + chosen.device.motor.mass
     assert chosen.sized.total.inertia[1, 1] > bound.sized.total.inertia[1, 1]
+
+
+@pytest.mark.parametrize("motor", ["none", MOTOR])
+def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
+    _, free = designed(motor)
+    mass = free.device.mass
+    assert designed(motor, mass_max=mass * 1.001)[1].device.mass == pytest.approx(mass, rel=1e-12)
+    with pytest.raises(Infeasible, match="mass_max allows") as caught:
+        designed(motor, mass_max=0.99 * mass)
+    assert caught.value.binding == ("mass_max",)
+    assert caught.value.relaxations == {"mass_max": pytest.approx(mass, rel=1e-12)}
+    assert "would do" in caught.value.hint

@@ -40,6 +40,17 @@ def gear(name: str, known: Mapping[str, GearSheet] | None = None) -> GearSheet:
     return entry(gears() if known is None else known, name, "gear")
 
 
+def named_stages(name: str, known: Mapping[str, GearSheet] | None = None) -> tuple[Gear, ...]:
+    """Every stage of the gear called `name`, or the one stage that is: a gear's with its ratio.
+
+    Raises:
+        SpecificationError: see `gear`.
+    """
+    sheets = gears() if known is None else known
+    one = tuple(stage for stage in stages(sheets.values()) if stage.name == name)
+    return one if one and name not in sheets else stages([gear(name, sheets)])
+
+
 def load_gears(path: Path) -> Mapping[str, GearSheet]:
     """Every gear of a CSV or TOML file by name, sorted.
 

@@ -94,8 +94,9 @@ def newton_step(demand: SpinDemand, spin_inertia: FloatArray, can: Capability) -
         spin_inertia: h where it is tried [kg m^2].
         can: what wheels of that spin inertia do.
     """
-    lack = can.sweep * (1.0 - can.sweep / demand.sweep)
+    # Where nothing is to be swept the lack is infinitely negative, and the step leads to zero.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        lack = can.sweep * (1.0 - can.sweep / demand.sweep)
         gain = lack / (can.slope * spin_inertia)
         ahead = (can.slope > 0.0) & (gain < 1.0)
         return np.where(ahead, spin_inertia / (1.0 - gain), np.inf)

@@ -18,7 +18,7 @@ TASKS = ("asked by", "alpha\ndeg", "spin inertia\nkg m2", "needed\ns", "given\ns
 RANKED = ("lightest drives", "mass\ng", "rim", "R\nmm", "h\nmm", "alpha\ndeg")
 """Columns of the ranking; the last ones are left out where the terminal is too narrow."""
 SHOWN = 5
-"""Drives that the report shows; -v shows those of the whole ranking."""
+"""Motors that the report shows; -v shows all drives of the ranking."""
 
 
 def print_selection(console: Console, selection: SelectionRecord, *, verbose: bool = False) -> None:
@@ -34,8 +34,8 @@ def print_selection(console: Console, selection: SelectionRecord, *, verbose: bo
         f"Needed: the least time at {selection.reserve:.0%} of voltage and current; "
         f"{selection.binding_maneuver} asks for the most.",
     )
-    drives = best_drives(selection.ranking)
-    _print_ranking(console, drives if verbose else drives[:SHOWN])
+    ranking = selection.ranking
+    _print_ranking(console, best_drives(ranking) if verbose else best_motors(ranking)[:SHOWN])
     _print_rejections(console, selection.rejections, verbose=verbose)
     _print_co_design(console, selection)
 
@@ -94,6 +94,14 @@ def best_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
     best: dict[tuple[str, str], RankedRecord] = {}
     for entry in ranking:
         best.setdefault((entry.motor, entry.gear), entry)
+    return tuple(best.values())
+
+
+def best_motors(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
+    """The lightest of each motor: another that can be bought."""
+    best: dict[str, RankedRecord] = {}
+    for entry in ranking:
+        best.setdefault(entry.motor, entry)
     return tuple(best.values())
 
 

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterator, Mapping
 from itertools import chain
 
 from ocs_design.requirement.key import Key
-from ocs_design.requirement.key_notes import FIELD_NOTES, KEY_NOTES, MANEUVER_NOTES, KeyNote
+from ocs_design.requirement.key_notes import KEY_NOTES, MANEUVER_NOTES, KeyNote, field_note
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.maneuver_table import kind_of
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, keys_of
@@ -27,6 +27,7 @@ def commented_toml(
     *,
     title: str,
     chosen: Collection[str] = (),
+    examples: tuple[Maneuver, ...] = (),
 ) -> str:
     """The text of the file; it is read back as `stated` with the chosen maneuvers.
 
@@ -35,6 +36,7 @@ def commented_toml(
         default: what holds where nothing is stated, to four digits, behind a `#`.
         title: of the file, for people; may have several lines.
         chosen: names of default maneuvers to state as well.
+        examples: maneuvers that are not assumed, shown behind a `#` where none of the kind is.
     """
     blocks = [
         *(f"# {line}".rstrip() for line in (*title.splitlines(), "", *INTRODUCTION.splitlines())),
@@ -42,6 +44,7 @@ def commented_toml(
             _section(name, getattr(stated, name), getattr(default, name)) for name in SECTIONS
         ),
         *_maneuvers(stated.maneuvers, default.maneuvers, chosen),
+        *_examples(stated.maneuvers or default.maneuvers, examples),
     ]
     return "\n".join(blocks) + "\n"
 
@@ -83,20 +86,30 @@ def _maneuvers(
     for maneuver in stated or default:
         is_stated = bool(stated) or maneuver.name in chosen
         figures = Figures.EXACT if stated else Figures.ROUNDED
+        yield ""
         yield from _maneuver(maneuver, figures, "" if is_stated else "# ")
+
+
+def _examples(shown: tuple[Maneuver, ...], examples: tuple[Maneuver, ...]) -> Iterator[str]:
+    """Of kinds that are not shown yet; nothing of them is assumed."""
+    kinds = {kind_of(maneuver)[0] for maneuver in shown}
+    for maneuver in examples:
+        if kind_of(maneuver)[0] not in kinds:
+            yield from ("", "# Not assumed, an example:")
+            yield from _maneuver(maneuver, Figures.ROUNDED, "# ")
 
 
 def _maneuver(maneuver: Maneuver, figures: Figures, mark: str) -> Iterator[str]:
     word, values = kind_of(maneuver)
-    yield from ("", f"# {MANEUVER_NOTES[word]}", f"{mark}[[maneuver]]", f'{mark}kind = "{word}"')
-    yield from (f"{mark}{line}" for line in _fields(maneuver, values, figures))
+    yield from (f"# {MANEUVER_NOTES[word]}", f"{mark}[[maneuver]]", f'{mark}kind = "{word}"')
+    yield from (f"{mark}{line}" for line in _fields(maneuver, word, values, figures))
 
 
 def _fields(
-    maneuver: Maneuver, values: Mapping[str, Value[object]], figures: Figures
+    maneuver: Maneuver, kind: str, values: Mapping[str, Value[object]], figures: Figures
 ) -> Iterator[str]:
     for name, how in values.items():
         value = getattr(maneuver, name)
         if value is not None:
             line = f"{name} = {written(value, how, figures)}"
-            yield f"{line:<{_WIDTH}} # {FIELD_NOTES[name]}"
+            yield f"{line:<{_WIDTH}} # {field_note(kind, name)}"

@@ -14,6 +14,7 @@ from ocs_design.requirement.maneuver import (
     Disturbance,
     Drop,
     Flip,
+    Shove,
 )
 from ocs_design.robot.robot import Robot
 
@@ -140,6 +141,25 @@ def default_maneuvers(
     """
     scale = Scale.of(robot)
     return _disturbance(scale, gravity), _drop(scale, gravity), _back_flip(scale)
+
+
+def example_shove(robot: Robot, gravity: float = STANDARD_GRAVITY) -> Shove:
+    """The torque of the first test on the robot that stands, for twice as long.
+
+    It is none of the paper's tests and not assumed: a figure to start from.
+
+    Args:
+        robot: to scale to. gravity: [m/s^2].
+    """
+    scale = Scale.of(robot)
+    like, time = _disturbance(scale, gravity), scale.time(gravity)
+    return Shove(
+        name="shove",
+        gravity=gravity,
+        torque=like.torque,
+        duration=2.0 * like.duration,
+        settling=0.5 * time,
+    )
 
 
 def default_envelope(robot: Robot) -> Envelope:

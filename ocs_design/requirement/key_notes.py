@@ -83,9 +83,14 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "found, free of the robot's own parts",
             '["0 mm", "50 mm", "70 mm"]',
         ),
+        "ocs.mass_max": KeyNote(
+            "What the robot may carry: if the lightest device is heavier, there is none.",
+            "not limited",
+            '"1 kg"',
+        ),
         "ocs.co_design": KeyNote("A few per cent lighter at best, and slower to find."),
         "flywheel.r_max": KeyNote(
-            "The room on the trunk: the same inertia weighs less the wider the rim is."
+            "Of the rim: its housing adds 3.6 mm all around. The wider the rim, the lighter."
         ),
         "flywheel.r_min": KeyNote("Room for the motor's shaft or can inside the rim."),
         "flywheel.h_max": KeyNote("The room along the spin axis."),
@@ -172,7 +177,8 @@ FIELD_NOTES: Mapping[str, str] = MappingProxyType(
         "takeoff_velocity": "forward, up",
         "torque": "on the trunk, about its x (forward), y (left) and z",
         "onset": "after lift-off",
-        "duration": "of the torque, or of the turn",
+        "duration": "of the torque",
+        "flip.duration": "of the turn, from lift-off",
         "settling": "from the end of the torque to rest",
         "height": "of the trunk over the ground",
         "roll": "at release",
@@ -181,4 +187,9 @@ FIELD_NOTES: Mapping[str, str] = MappingProxyType(
         "angle": "of pitch",
     }
 )
-"""What each field of a `[[maneuver]]` is."""
+"""What each field of a `[[maneuver]]` is; by `kind.field`, of that kind alone."""
+
+
+def field_note(kind: str, field: str) -> str:
+    """Of a field of a kind of maneuver."""
+    return FIELD_NOTES.get(f"{kind}.{field}") or FIELD_NOTES[field]

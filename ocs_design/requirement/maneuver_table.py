@@ -6,8 +6,16 @@ from math import pi
 from types import MappingProxyType
 from typing import Any
 
+from ocs_design.requirement.believed import MOST_TURNS, ONE_TURN
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
-from ocs_design.requirement.values import Quantities, Quantity, Sign, Text, Value
+from ocs_design.requirement.values import (
+    Quantities,
+    Quantity,
+    Sign,
+    Text,
+    Value,
+    angle,
+)
 from ocs_design.units import Dimension
 
 
@@ -32,10 +40,13 @@ class ManeuverKind:
 _COMMON: Mapping[str, Value[Any]] = {
     "name": Text(),
     "gravity": Quantity(Dimension.ACCELERATION),
-    "incidence": Quantity(Dimension.ANGLE, Sign.NOT_NEGATIVE, pi / 2),
+    "incidence": angle(Sign.NOT_NEGATIVE, pi / 2),
 }
 _TIME = Quantity(Dimension.TIME)
-_ANGLE = Quantity(Dimension.ANGLE, Sign.ANY)
+_TILT = angle(Sign.ANY, pi, pi / 2)
+"""Upside down at most, and soon given in degrees without saying so."""
+
+_TURN = angle(Sign.ANY, MOST_TURNS * 2.0 * pi, ONE_TURN)
 
 MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     {
@@ -60,14 +71,14 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
         ),
         "drop": ManeuverKind(
             Drop,
-            {**_COMMON, "height": Quantity(Dimension.LENGTH), "roll": _ANGLE, "pitch": _ANGLE},
+            {**_COMMON, "height": Quantity(Dimension.LENGTH), "roll": _TILT, "pitch": _TILT},
         ),
         "flip": ManeuverKind(
             Flip,
             {
                 **_COMMON,
                 "jump_height": Quantity(Dimension.LENGTH),
-                "angle": _ANGLE,
+                "angle": _TURN,
                 "duration": _TIME,
             },
         ),

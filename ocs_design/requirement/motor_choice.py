@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ocs_design.catalogue.gears import gear, known_gears, stages
+from ocs_design.catalogue.gears import known_gears, named_stages, stages
 from ocs_design.catalogue.materials import Material, material, materials
 from ocs_design.catalogue.motors import known_motors, motor
 from ocs_design.drive.gear import DIRECT, Gear
@@ -85,7 +85,7 @@ def _gears(specification: Specification) -> tuple[Gear, ...]:
         return (DIRECT, *stages(known.values()))
     if stated.gear == DIRECT.name:
         return (DIRECT,)
-    return stages([gear(stated.gear, known)])
+    return named_stages(stated.gear, known)
 
 
 def _materials(name: str | None) -> tuple[Material, ...]:

@@ -6,6 +6,7 @@ from ocs_design.catalogue.materials import material
 from ocs_design.exceptions import OcsError, SpecificationError
 from ocs_design.requirement.contradictions import without_motor
 from ocs_design.requirement.envelope import Envelope
+from ocs_design.requirement.maneuver import Drop, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.motor_choice import unknown_names
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.specification import AUTO, FlywheelSection, Specification
@@ -93,9 +94,27 @@ def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:
             maneuver.momentum(robot.inertia, requirement.standing_height)
         except OcsError as error:
             yield error.message
-    asked = (requirement.maneuvers, requirement.rate_change, requirement.spin_inertia)
-    if not any(asked):
+    if requirement.rate_change is not None or requirement.spin_inertia is not None:
+        return
+    if not requirement.maneuvers:
         yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
+    idle = {maneuver.name: _zeros(maneuver) for maneuver in requirement.maneuvers}
+    if all(idle.values()):
+        for name, zeros in idle.items():
+            yield f"maneuver.{name}: {zeros}: this asks nothing of the device"
+
+
+def _zeros(maneuver: Maneuver) -> str:
+    """Which keys are zero, so that nothing is asked; empty: something is. Yaw never is."""
+    match maneuver:
+        case Drop(roll=0.0, pitch=0.0):
+            return "roll and pitch are 0"
+        case Flip(angle=0.0):
+            return "angle is 0"
+        case Unforeseen(torque=(0.0, 0.0, _)):
+            return "torque about roll and pitch is 0"
+        case _:
+            return ""
 
 
 def _unknown_material(name: str | None) -> Iterator[str]:

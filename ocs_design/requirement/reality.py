@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cache
+from math import pi
 from types import MappingProxyType
 from typing import Annotated, get_args, get_type_hints
 
@@ -16,10 +17,13 @@ from ocs_design.units import Dimension
 _MOST_OFF = 0.9
 """Largest relative error that leaves anything of a mass or a motor."""
 
+_MOST_ASKEW = pi / 4
+"""[rad], of a mount or a sensor; more is a number in degrees without its unit."""
+
 _RELATIVE = Spread(Dimension.RATIO, "%", -_MOST_OFF, _MOST_OFF)
-_ANGLE = Spread(Dimension.ANGLE, "deg")
+_ANGLE = Spread(Dimension.ANGLE, "deg", -_MOST_ASKEW, _MOST_ASKEW)
 _RATE = Spread(Dimension.ANGULAR_SPEED, "deg/s")
-_ANGLE_SPREAD = Spread(Dimension.ANGLE, "deg", 0.0)
+_ANGLE_SPREAD = Spread(Dimension.ANGLE, "deg", 0.0, _MOST_ASKEW)
 _RATE_SPREAD = Spread(Dimension.ANGULAR_SPEED, "deg/s", 0.0)
 
 
@@ -71,7 +75,7 @@ class RealitySection:
     attitude_noise: Annotated[
         Distribution | None,
         Key(
-            Spread(Dimension.ANGLE, "deg", 0.0),
+            _ANGLE_SPREAD,
             "standard deviation of each measurement of attitude",
         ),
     ] = None

@@ -10,6 +10,7 @@ from functools import cache
 from math import pi
 from typing import Annotated, TypeVar, get_args, get_type_hints
 
+from ocs_design.requirement.believed import FASTEST_BARE, FASTEST_TURN, HIGHEST_VOLTAGE
 from ocs_design.requirement.key import Key
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.reality import RealitySection
@@ -23,6 +24,7 @@ from ocs_design.requirement.values import (
     Sign,
     Switch,
     Text,
+    angle,
 )
 from ocs_design.units import Dimension
 
@@ -39,9 +41,6 @@ AUTO = "auto"
 
 NO_MOTOR = "none"
 """In place of a motor's name: size the wheels by the bound alone, as the paper does."""
-
-FASTEST_BARE = 4000.0
-"""[rad/s], 38,000 rpm: a larger wheel speed without a unit was meant in rpm."""
 
 DISC = "disc"
 """A rim's web: a thin disc of aluminium with a hub."""
@@ -99,7 +98,11 @@ class RequirementSection:
     """`[requirement]`: what the wheels must do [rad/s, rad/s, kg m^2, m/s^2]."""
 
     rate_change: Annotated[
-        float | None, Key(Quantity(Dimension.ANGULAR_SPEED), "change of the trunk's rate")
+        float | None,
+        Key(
+            Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s"),
+            "change of the trunk's rate",
+        ),
     ] = None
     wheel_speed_max: Annotated[
         float | None,
@@ -121,11 +124,11 @@ class RequirementSection:
 
 @dataclass(frozen=True, kw_only=True)
 class OcsSection:
-    """`[ocs]`: how the device sits on the trunk [rad, m]."""
+    """`[ocs]`: how the device sits on the trunk, and what it may weigh [rad, m, kg]."""
 
     alpha: Annotated[
         float | None,
-        Key(Quantity(Dimension.ANGLE, Sign.NOT_NEGATIVE, pi / 2), "incidence of the wheel axes"),
+        Key(angle(Sign.NOT_NEGATIVE, pi / 2), "incidence of the wheel axes"),
     ] = None
     alpha_criterion: Annotated[str | None, Key(Choice(CRITERIA), "how the incidence is chosen")] = (
         None
@@ -133,6 +136,9 @@ class OcsSection:
     position: Annotated[
         tuple[float, ...] | None,
         Key(Quantities(Dimension.LENGTH, (3,)), "centre of the left wheel on the trunk: x, y, z"),
+    ] = None
+    mass_max: Annotated[
+        float | None, Key(Quantity(Dimension.MASS), "largest mass of the device, both modules")
     ] = None
     co_design: Annotated[
         bool | None, Key(Switch(), "whether to refine all dimensions by optimal control in 3-D")
@@ -184,7 +190,11 @@ class MotorSection:
         str | None, Key(Text(), "motor from the catalogue, auto, or none", option="motor")
     ] = None
     bus_voltage: Annotated[
-        float | None, Key(Quantity(Dimension.VOLTAGE), "of the supply of both motors")
+        float | None,
+        Key(
+            Quantity(Dimension.VOLTAGE, most=HIGHEST_VOLTAGE, likely="mV"),
+            "of the supply of both motors",
+        ),
     ] = None
     gear: Annotated[str | None, Key(Text(), "gear from the catalogue, direct, or auto")] = None
     motors: Annotated[str | None, Key(Text(), "file with motors of your own, CSV or TOML")] = None

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ocs_design.exceptions import QuantityError
 from ocs_design.requirement.distributions import Constant, Distribution, Normal, Uniform
 from ocs_design.requirement.values import Quantity, Value
-from ocs_design.units import Dimension, parse_quantity, si_unit
+from ocs_design.units import Dimension, format_quantity, parse_quantity
 
 _FORM = re.compile(r"\s*(normal|uniform)\s*\(([^,()]*),([^,()]*)\)\s*")
 
@@ -39,9 +39,9 @@ class Spread(Value[Distribution]):
         for end, beyond in ((low, low < self.least), (high, high > self.most)):
             if beyond:
                 limit = self.least if end < self.least else self.most
+                told, bound = (format_quantity(value, self.unit) for value in (end, limit))
                 raise QuantityError(
-                    f"{where}: {raw} reaches {end:.4g}, beyond {limit:.4g} "
-                    f"{si_unit(self.dimension)}",
+                    f"{where}: {raw} reaches {told}, beyond {bound}",
                     hint="Make it narrower; a normal distribution ends at three deviations.",
                 )
         return found

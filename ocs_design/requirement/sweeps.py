@@ -8,6 +8,7 @@ from types import MappingProxyType
 from ocs_design.exceptions import UsageError
 from ocs_design.requirement.froude import default_bus_voltage
 from ocs_design.requirement.maneuver import Drop, Flip, Maneuver
+from ocs_design.requirement.slower import slower
 from ocs_design.requirement.sweep import KeySweep, ManeuverSweep, Sweep
 from ocs_design.units import Dimension
 
@@ -27,8 +28,7 @@ def _with_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Mane
     """A fall from the height that takes so long; a turn in a jump that is longer by as much."""
     match maneuver:
         case Drop():
-            fall = (maneuver.height - standing_height) * ratio**2
-            return replace(maneuver, height=standing_height + fall)
+            return slower(maneuver, ratio, standing_height)
         case Flip():
             return replace(
                 maneuver,

@@ -13,7 +13,15 @@ from reprlib import repr as shortened
 from typing import Generic, TypeVar
 
 from ocs_design.exceptions import QuantityError, SpecificationError
-from ocs_design.units import UNITS, Dimension, parse_quantity, si_unit
+from ocs_design.requirement.believed import ONE_TURN
+from ocs_design.units import (
+    UNITS,
+    Dimension,
+    format_quantity,
+    parse_quantity,
+    si_unit,
+    written_unit,
+)
 
 T = TypeVar("T")
 
@@ -63,8 +71,8 @@ class Quantity(Value[float]):
     Attributes:
         dimension: what it measures.
         sign: which numbers make sense.
-        most: largest that makes sense (SI).
-        most_bare: largest that is believed without its unit (SI).
+        most: largest that makes sense, of either sign (SI).
+        most_bare: largest that is believed without its unit, likewise.
         likely: unit that a larger bare number was probably meant in.
     """
 
@@ -86,25 +94,35 @@ class Quantity(Value[float]):
             raise QuantityError(f"{where}: {raw} must be {self.sign.value}")
         if 0.0 < number < SMALLEST:
             raise QuantityError(f"{where}: {raw} is next to nothing", hint="Check its unit.")
-        if number > self.most:
-            limit = f"{self.most:.4g} {si_unit(self.dimension)}"
-            raise QuantityError(f"{where}: {raw} is above {limit}", hint=self._hint(raw))
-        if number > self.most_bare and _is_bare(raw):
+        if abs(number) > self.most:
+            raise QuantityError(f"{where}: {self._too_much(raw, number)}", hint=self._hint(raw))
+        if abs(number) > self.most_bare and _is_bare(raw):
             raise QuantityError(
                 f"{where}: {raw} without a unit is {raw} {si_unit(self.dimension)}",
-                hint=f"Did you mean {raw}{self.likely}? Give the number with its unit.",
+                hint=f"{self._hint(raw)} Give the number with its unit.",
             )
         return number
 
+    def _too_much(self, raw: object, number: float) -> str:
+        """Against the limit in the unit that it was written in; a bare number's is named."""
+        unit = written_unit(raw, self.dimension)
+        limit = format_quantity(math.copysign(self.most, number), unit)
+        told = f"{raw} {unit}" if _is_bare(raw) else raw
+        return f"{told} is {'above' if number > 0.0 else 'below'} {limit}"
+
     def _hint(self, raw: object) -> str:
-        """The cure where degrees were given as a bare number."""
-        meant = _is_bare(raw) and self.dimension is Dimension.ANGLE
-        return f"Did you mean {raw}deg?" if meant else ""
+        """The cure where a bare number was meant in another unit."""
+        return f"Did you mean {raw}{self.likely}?" if _is_bare(raw) and self.likely else ""
 
 
 def _is_bare(raw: object) -> bool:
     """Whether a number was given without a unit."""
-    return str(raw).strip()[-1].isdigit()
+    return str(raw).strip()[-1] in "0123456789."
+
+
+def angle(sign: Sign, most: float, most_bare: float = math.inf) -> Quantity:
+    """An angle of at most that size [rad], which is soon given in degrees without saying so."""
+    return Quantity(Dimension.ANGLE, sign, most, most_bare, "deg")
 
 
 @dataclass(frozen=True)
@@ -255,9 +273,14 @@ class JointValues(Value[Mapping[str, float]]):
 
     def _value(self, raw: object, where: str) -> float:
         try:
-            return parse_quantity(raw, Dimension.LENGTH, where)
+            length = parse_quantity(raw, Dimension.LENGTH, where)
         except QuantityError:
             return parse_quantity(raw, Dimension.ANGLE, where)
+        # Neither does a joint turn so far, nor is one so long.
+        return _BARE_JOINT.read(raw, where) if _is_bare(raw) else length
+
+
+_BARE_JOINT = angle(Sign.ANY, math.inf, ONE_TURN)
 
 
 def did_you_mean(word: object, known: tuple[str, ...]) -> str:

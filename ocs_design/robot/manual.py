@@ -14,6 +14,9 @@ from ocs_design.robot.tree import Body, Placement, Shape, ShapeKind, Tree
 TRUNK = "base"
 """The only link of a robot given by hand."""
 
+LARGEST = 10.0
+"""Radius of gyration [m] beyond which the inertia is in another unit."""
+
 _DENSEST = 4.0 / 3.0 * np.pi * (5.0 / 6.0) ** 1.5 * 19_300.0
 """Mass over cube of `sqrt(trace(I) / m)` of a ball of tungsten [kg/m^3]."""
 
@@ -106,6 +109,13 @@ def _check_physical(weighed: MassProperties) -> None:
             f"the robot given by hand has the principal moment {smallest:.3g} kg m^2", hint=hint
         )
     radius = float(np.sqrt(np.trace(weighed.inertia) / weighed.mass))
+    if radius > LARGEST:
+        raise RobotError(
+            f"the robot given by hand, {weighed.mass:.3g} kg with a radius of gyration of "
+            f"{radius:.3g} m, is larger than any robot",
+            hint=f"is the inertia in kg mm2? Write the unit, as in "
+            f"{weighed.inertia[0, 0]:.6g}kgmm2; a bare number is in kg m2",
+        )
     if weighed.mass > _DENSEST * radius**3:
         raise RobotError(
             f"the robot given by hand, {weighed.mass:.3g} kg with a radius of gyration of "

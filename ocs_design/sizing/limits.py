@@ -3,11 +3,12 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from math import ceil, floor, isfinite, log10, pi
+from math import isfinite, log10, pi
 from typing import Any, TypeVar
 
 from ocs_design.requirement.envelope import Envelope
 from ocs_design.requirement.requirement import Requirement
+from ocs_design.units import round_outwards
 
 MOST_CHANGE = 1e3
 """A limit that helps only when multiplied or divided by more than this is no advice."""
@@ -51,9 +52,13 @@ class Limit:
         """`value` made looser by a factor above one."""
         return value * factor if self.loosens_upwards else value / factor
 
+    def figure(self, value: float) -> str:
+        """Figure and unit."""
+        return f"{value * self.per_si:.5g} {self.unit}".rstrip()
+
     def text(self, value: float) -> str:
         """Name, figure and unit."""
-        return f"{self.label} {value * self.per_si:.5g} {self.unit}".rstrip()
+        return f"{self.label} {self.figure(value)}"
 
     def loose_text(self, value: float) -> str:
         """The same with three digits, rounded to the loose side."""
@@ -78,8 +83,10 @@ WHEEL_SPEED = Limit("wheel_speed_max", "wheel_speed_max", "wheel_speed_max", Tru
 BUS_VOLTAGE = Limit("bus_voltage", "bus_voltage", "bus_voltage", True, "V", 1.0)
 TIME = Limit("time", "time for every maneuver", "", True, "times what is given", 1.0)
 
+DEVICE_MASS = Limit("mass_max", "mass_max", "mass_max", True, "g", 1e3)
+
 LIMITS: Mapping[str, Limit] = {
-    limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, TIME)
+    limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, TIME, DEVICE_MASS)
 }
 """By name."""
 
@@ -136,13 +143,3 @@ def smallest_change(
             tight = middle
     # Just inside: on the edge itself a single point is feasible, and no solver can prove it.
     return limit.loosened(now, loose * (1.0 + precision / 3.0))
-
-
-def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:
-    """`value` to that many significant digits, never below it if upwards, never above it if not."""
-    if value == 0.0 or not isfinite(value):
-        return value
-    unit = 10.0 ** (floor(log10(abs(value))) - digits + 1)
-    # A figure that has no more digits than that stays what it is.
-    scaled = round(value / unit, 6)
-    return (ceil(scaled) if upwards else floor(scaled)) * unit

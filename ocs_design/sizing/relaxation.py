@@ -10,11 +10,11 @@ from ocs_design.sizing.limits import (
     MOST_CHANGE,
     RIM_LIMITS,
     Limit,
-    round_outwards,
     smallest_changes,
 )
 from ocs_design.sizing.rim_closed_form import lightest_rim, smallest_spin_inertia
 from ocs_design.sizing.rim_problem import RimProblem
+from ocs_design.units import round_outwards
 
 
 def infeasible_rim(problem: RimProblem, solve: Callable[[RimProblem], object]) -> Infeasible:

@@ -9,6 +9,8 @@ from specifications import FULL
 
 from ocs_design.requirement.commented import commented_toml, rounded_text
 from ocs_design.requirement.defaults import default_specification
+from ocs_design.requirement.froude import example_shove
+from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.specification import (
     SECTIONS,
@@ -18,6 +20,7 @@ from ocs_design.requirement.specification import (
     all_keys,
     keys_of,
 )
+from ocs_design.robot.manual import robot_by_hand
 
 KEY_LINE = re.compile(r"^(?:# )?(\w+) = ", re.MULTILINE)
 MANEUVER = re.compile(r"^# \[\[maneuver\]\]\n(?:# \w+ = .*\n)+", re.MULTILINE)
@@ -31,7 +34,11 @@ def default(solo12):
 @pytest.fixture
 def empty(default):
     """With nothing stated."""
-    return commented_toml(Specification(), default, title="Anything")
+    return commented_toml(Specification(), default, title="Anything", examples=(shove(),))
+
+
+def shove():
+    return example_shove(robot_by_hand(2.5, (0.03, 0.05, 0.07)))
 
 
 def read(text):
@@ -80,8 +87,21 @@ def test_all_maneuvers_stated_are_the_default_ones(empty, default):
     uncommented = MANEUVER.sub(lambda match: match[0].replace("# ", "", 1), empty)
     uncommented = re.sub(r"^# (?=\w+ = .* # )", "", uncommented, flags=re.MULTILINE)
     uncommented = re.sub(r"^# (?=kind = )", "", uncommented, flags=re.MULTILINE)
-    found = read(uncommented).maneuvers
-    assert leaves(found) == pytest.approx(leaves(default.maneuvers))
+    *found, example = read(uncommented).maneuvers
+    assert leaves(tuple(found)) == pytest.approx(leaves(default.maneuvers))
+    assert example.torque == pytest.approx(shove().torque, rel=1e-3)
+    assert example.settling == pytest.approx(shove().settling, rel=1e-3)
+
+
+def test_every_kind_of_maneuver_is_shown(empty):
+    assert set(re.findall(r'^# kind = "(\w+)"', empty, flags=re.MULTILINE)) == set(MANEUVER_KINDS)
+
+
+def test_an_example_is_not_shown_where_one_is_stated(default):
+    text = commented_toml(
+        Specification(maneuvers=(shove(),)), default, title="x", examples=(shove(),)
+    )
+    assert text.count('kind = "shove"') == 1
 
 
 def leaves(value, path=""):

@@ -46,13 +46,13 @@ def test_ends_may_have_units():
 @pytest.mark.parametrize(
     ("text", "word"),
     [
-        ("normal(0, 40%)", "reaches -1.2"),
+        ("normal(0, 40%)", "reaches -120%, beyond -90%"),
         ("normal(0, -1%)", "deviation"),
         ("uniform(1%, 0%)", "low end"),
         ("uniform(0)", "no distribution"),
         ("gamma(1, 2)", "no distribution"),
         ("normal(0, 1deg)", "angle"),
-        ("2", "beyond 0.9"),
+        ("2", "reaches 200%, beyond 90%"),
     ],
 )
 def test_what_makes_no_sense_is_refused(text, word):

@@ -67,6 +67,14 @@ def test_a_stated_torque_limits_every_stage():
         assert after.torque_max == min(before.torque_max, 0.5)
 
 
+@pytest.mark.parametrize("sheet", [sheet for sheet in gears().values() if sheet.stages()])
+def test_a_gear_is_meant_with_any_ratio_or_with_the_one_that_is_printed(sheet):
+    stages = sheet.stages()
+    assert choice_of(gear=sheet.name).gears == stages
+    for stage in (stages[0], stages[-1]):
+        assert choice_of(gear=stage.name).gears == (stage,)
+
+
 def test_own_motors_join_the_catalogue(tmp_path):
     file = tmp_path / "own.toml"
     file.write_text('[[motor]]\nname = "Own 1"\nmaker = "me"\nsource = "bench"\n')

@@ -139,6 +139,80 @@ def test_a_rate_change_alone_is_enough(solo12):
     assert resolve(stated(text), solo12, SIZE).requirement.rate_change == 2.0
 
 
+DROP = "[[maneuver]]\nkind = 'drop'\nname = 'x'\nheight = 1"
+FLIP = "[[maneuver]]\nkind = 'flip'\nname = 'x'\njump_height = 1\nduration = '0.4 s'"
+IDLE = """
+[[maneuver]]
+kind = "drop"
+name = "level"
+height = 1.2
+pitch = 0
+[[maneuver]]
+kind = "flip"
+name = "hop"
+jump_height = 1
+angle = 0
+duration = 0.4
+[[maneuver]]
+kind = "shove"
+name = "twist"
+torque = [0, 0, 1]
+duration = 0.1
+settling = 0.4
+[[maneuver]]
+kind = "disturbance"
+name = "calm"
+takeoff_velocity = [0.5, 2.4]
+torque = [0, 0, 0]
+onset = 0.1
+duration = 0.05
+"""
+
+
+def test_what_asks_nothing_of_the_device_is_told_by_its_name_and_its_keys(solo12):
+    with pytest.raises(SpecificationError) as caught:
+        resolve(stated(IDLE), solo12, SIZE)
+    for name, keys in (
+        ("level", "roll and pitch are 0"),
+        ("hop", "angle is 0"),
+        ("twist", "torque about roll and pitch is 0"),
+        ("calm", "torque about roll and pitch is 0"),
+    ):
+        told = f"maneuver.{name}: {keys}: this asks nothing of the device"
+        assert told in caught.value.problems
+
+
+def test_beside_what_asks_for_something_it_is_no_demand(solo12):
+    text = f"{IDLE}\n[requirement]\nrate_change = 2"
+    assert len(resolve(stated(text), solo12, SIZE).requirement.maneuvers) == 4
+
+
+@pytest.mark.parametrize(
+    ("kind", "key", "raw", "told"),
+    [
+        (DROP, "pitch", "20", "20 rad is above 3.142 rad. Did you mean 20deg?"),
+        (DROP, "pitch", "-20", "-20 rad is below -3.142 rad. Did you mean -20deg?"),
+        (DROP, "pitch", "2", "2 without a unit is 2 rad. Did you mean 2deg?"),
+        (DROP, "pitch", "'400deg'", "400deg is above 180 deg"),
+        (DROP, "roll", "30", "Did you mean 30deg?"),
+        (FLIP, "angle", "-360", "-360 rad is below -62.83 rad. Did you mean -360deg?"),
+        (FLIP, "angle", "12", "12 without a unit is 12 rad. Did you mean 12deg?"),
+        (FLIP, "angle", "'11 rev'", "11 rev is above 10 rev"),
+        (FLIP, "incidence", "'400deg'", "400deg is above 90 deg"),
+    ],
+)
+def test_angles_that_were_meant_in_degrees_are_asked_about(kind, key, raw, told):
+    with pytest.raises(SpecificationError) as caught:
+        stated(f"{kind}\n{key} = {raw}")
+    assert any(f".{key}: {told}" in line or told in line for line in caught.value.problems)
+
+
+@pytest.mark.parametrize("raw", ["'-360deg'", "-6.2832", "'3 rev'"])
+def test_turns_that_can_be_meant_are_read(raw):
+    (flip,) = stated(f"{FLIP}\nangle = {raw}").maneuvers
+    assert abs(flip.angle) > 6.28
+
+
 def test_a_left_wheel_on_the_right_is_refused(solo12):
     with pytest.raises(SpecificationError) as caught:
         resolve(stated("[ocs]\nposition = [0, '-50mm', '80mm']"), solo12, SIZE)

@@ -9,7 +9,7 @@ from anatomy import ANATOMY
 from robots import ROBOTS, SOLO12
 from urdf_text import inertial, link, robot
 
-from ocs_design.exceptions import RobotError, UsageError
+from ocs_design.exceptions import RobotError
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Format
 
@@ -54,8 +54,9 @@ def test_another_trunk_is_another_frame_of_the_same_robot():
 
 
 def test_an_unknown_trunk_lists_the_nearest_links():
-    with pytest.raises(UsageError) as caught:
+    with pytest.raises(RobotError) as caught:
         read_robot(SOLO12, trunk="base")
+    assert caught.value.exit_code == 3
     assert "no link 'base'" in caught.value.message
     assert caught.value.hint.startswith("available: base_link")
 

@@ -1,5 +1,6 @@
 """The selection: a winner recomputed from scratch, rejections, and what would do."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -15,10 +16,12 @@ from ocs_design.drive.wheel_pair import WheelPairTask, pair_slew_time, smallest_
 from ocs_design.exceptions import Infeasible, UsageError
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.selection.infeasible import BUS_VOLTAGE, PRECISION, TIME, with_limit
+from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
+from ocs_design.sizing.selection.changed_limits import with_limit
 from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.search import is_possible
 from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.selection.single_changes import PRECISION, single_changes
 
 MASS_DIGITS = 2e-5
 """To which the lightest device is found."""
@@ -108,7 +111,7 @@ def test_ranking(solved):
     problem, selection = solved
     masses = [ranked.mass for ranked in selection.ranking]
     assert masses == sorted(masses)
-    assert 1 <= len(masses) <= 10
+    assert 1 <= len(masses) <= 14
     kinds = {(r.motor.name, r.gear.name, r.material.name) for r in selection.ranking}
     assert len(kinds) == len(masses)
     for ranked in selection.ranking:
@@ -181,9 +184,10 @@ def test_rejections_name_what_is_in_the_way():
     heavy = replace(strong, name="heavy", mass=5.0 * strong.mass)
     unknown = replace(strong, name="unknown", resistance=None, mass=None)
     fleet = (strong, weak, slow, heavy, unknown)
-    # Only the lightest ten are no rejections: leave room for one motor alone.
+    # The five best motors are no rejections, nor those of the ten lightest devices.
     many = tuple(replace(problem.materials[0], name=f"steel {index}") for index in range(10))
-    selection = select(replace(problem, motors=fleet, materials=many))
+    twins = tuple(replace(strong, name=f"twin {index}") for index in range(4))
+    selection = select(replace(problem, motors=(*fleet, *twins), materials=many))
     found = {rejection.motor: rejection for rejection in selection.rejections}
     assert found["weak"].reason is Reason.TORQUE
     assert " s at best for " in found["weak"].detail
@@ -228,10 +232,26 @@ def test_infeasible_says_what_would_do():
     assert error.message.startswith(f"Motor {motor.name} cannot do it at {problem.bus_voltage:g} V")
     assert "Any one of these alone would do" in error.hint
     assert "time" in error.relaxations
+    told = re.search(r"([\w-]+) (height|duration|takeoff_velocity|settling) ", error.hint)
+    assert told is not None
+    assert told[1] in {maneuver.name for maneuver in narrow.requirement.maneuvers}
     limits = {limit.name: limit for limit in (BUS_VOLTAGE, TIME)}
     value = error.relaxations["time"]
     assert is_possible(with_limit(narrow, limits["time"], value))
     assert not is_possible(with_limit(narrow, limits["time"], value * (1.0 - PRECISION)))
+
+
+def test_no_motor_can_do_with_a_smaller_change():
+    """Nor one that is far from it before the change: each is asked by itself."""
+    problem = random_problem(9)
+    least = 0.1 * select(problem).best.outer_radius
+    room = replace(problem.envelope, outer_radius_max=least, inner_radius_min=0.1 * least)
+    small = replace(problem, envelope=room)
+    changed = single_changes(small)
+    limit = next(limit for limit in changed if limit.name == "r_max")
+    tighter = with_limit(small, limit, changed[limit] / (1.0 + 1.01 * PRECISION))
+    assert is_possible(with_limit(small, limit, changed[limit]))
+    assert not any(is_possible(replace(tighter, motors=[motor])) for motor in small.motors)
 
 
 def test_nothing_to_do_and_nothing_to_choose_from():

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
-from ocs_design.exceptions import UsageError
+from ocs_design.exceptions import RobotError
 from ocs_design.robot.remarks import listed
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.stance.chain import neutral_posture
@@ -64,13 +64,13 @@ def resolve_posture(
     )
 
 
-def unknown_name(kind: str, name: str, known: Iterable[str]) -> UsageError:
+def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
     """The error for a name that the robot does not have, with what it has, closest first."""
     every = sorted(known)
     close = get_close_matches(name, every, n=len(every) or 1, cutoff=0.5)
     ordered = [*close, *(each for each in every if each not in close)]
     available = listed(ordered, most=12) if ordered else "none"
-    return UsageError(f"the robot has no {kind} '{name}'", hint=f"available: {available}")
+    return RobotError(f"the robot has no {kind} '{name}'", hint=f"available: {available}")
 
 
 def _named(tree: Tree, trunk: str, legs: Sequence[Leg], name: str) -> Posture:
@@ -80,7 +80,7 @@ def _named(tree: Tree, trunk: str, legs: Sequence[Leg], name: str) -> Posture:
     if name == STAND:
         found = stand(tree, trunk, legs)
         if found is None:
-            raise UsageError(
+            raise RobotError(
                 "no legs were found, so there is no posture 'stand'",
                 hint="use --posture zero, a posture named in the file, or --joint NAME=VALUE",
             )
@@ -104,10 +104,10 @@ def _check_joints(tree: Tree, joints: Mapping[str, float]) -> None:
         if name not in tree.joints:
             raise unknown_name("moving joint", name, tree.joints)
         if not abs(value) <= LARGEST_NUMBER:
-            raise UsageError(f"joint '{name}' cannot be at {value}", hint="give a finite number")
+            raise RobotError(f"joint '{name}' cannot be at {value}", hint="give a finite number")
         mimic = tree.joints[name].mimic
         if mimic is not None and mimic[0] in tree.joints:
-            raise UsageError(
+            raise RobotError(
                 f"joint '{name}' follows joint '{mimic[0]}'", hint=f"set '{mimic[0]}' instead"
             )
 

@@ -14,8 +14,8 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED, Limit
+from ocs_design.sizing.selection.changed_limits import limits_of, with_limit
 from ocs_design.sizing.selection.drive_table import drive_table
-from ocs_design.sizing.selection.infeasible import limits_of, with_limit
 from ocs_design.sizing.selection.lot import lot_of
 from ocs_design.sizing.selection.polishing import HELD, Programme, coordinates, lightest
 from ocs_design.sizing.selection.problem import SelectionProblem

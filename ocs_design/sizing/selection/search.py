@@ -3,11 +3,12 @@
 Every pair of a motor and a gear carries a lower bound on the mass of its lightest device. It starts
 as what motor, gear and the smallest wheel weigh, is tightened step by step (`bounds`), and becomes
 the mass itself where the fixed point is solved (`fixed_point`), for the most promising candidates
-first. A candidate is left out once its bound exceeds the tenth lightest device that is known, so
-that the ten lightest are found whatever the order.
+first. A candidate is left out once its bound exceeds the tenth lightest device that is known, and
+is none of a motor that may be among the five with the lightest devices: so the ten lightest and the
+lightest of the five best motors are found whatever the order.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -28,7 +29,10 @@ from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.settling import Outset, Settled, refine, settle
 
 RANKED = 10
-"""Devices that a selection lists."""
+"""Devices that a selection lists at least."""
+
+MOTORS = 5
+"""Motors of which it lists the lightest device: not every motor can be bought."""
 
 _BATCH = 24
 _CHUNK = 1024
@@ -38,11 +42,12 @@ Indices = NDArray[np.intp]
 
 @dataclass(frozen=True, order=True)
 class Rank:
-    """One of the lightest devices: its mass [kg] and where it is settled."""
+    """One of the lightest devices: its mass [kg], where it is settled, and of which motor."""
 
     mass: float
     lot: int
     row: int
+    motor: int
 
 
 @dataclass(eq=False)
@@ -56,6 +61,7 @@ class Found:
             inf: there is none.
         spin_inertia: lower bound of that of its wheels [kg m^2], as far as it was looked for.
         lots: settled candidates. places: of the lightest, lightest first.
+        any_will_do: whether the search ends with the first device.
     """
 
     problem: SelectionProblem
@@ -65,9 +71,10 @@ class Found:
     spin_inertia: FloatArray
     lots: list[Settled] = field(default_factory=list)
     places: list[Rank] = field(default_factory=list)
+    any_will_do: bool = False
 
     @classmethod
-    def nothing(cls, problem: SelectionProblem) -> "Found":
+    def nothing(cls, problem: SelectionProblem, *, any_will_do: bool = False) -> "Found":
         """Before the search."""
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
@@ -78,7 +85,7 @@ class Found:
         least = 2.0 * (drives + floor.mass.min(initial=np.inf))
         known = known_pairs(problem.motors, problem.gears)
         least = np.where(known, least, np.inf)
-        return cls(problem, floor, known, least, np.zeros(known.shape))
+        return cls(problem, floor, known, least, np.zeros(known.shape), any_will_do=any_will_do)
 
     @property
     def lightest(self) -> float:
@@ -86,14 +93,24 @@ class Found:
         return self.places[0].mass if self.places else np.inf
 
     @property
-    def enough(self) -> float:
-        """Mass that a device must stay below to be listed [kg]."""
-        return self.places[RANKED - 1].mass if len(self.places) >= RANKED else np.inf
+    def enough(self) -> FloatArray:
+        """Mass that a device of each motor must stay below to be listed [kg], shape (motors,)."""
+        masses = np.full(len(self.problem.motors), -np.inf)
+        if self.places and self.any_will_do:
+            return masses
+        best = _best_of_motors(self.places)
+        # A motor is listed below the last that is, and then with what is lighter yet.
+        masses[:] = best[-1].mass if len(best) >= MOTORS else np.inf
+        for rank in best:
+            masses[rank.motor] = rank.mass
+        tenth = self.places[RANKED - 1].mass if len(self.places) >= RANKED else np.inf
+        enough: FloatArray = np.maximum(masses, tenth)
+        return enough
 
     def add(self, settled: Settled) -> None:
         """List what belongs among the lightest."""
         self.lots.append(settled)
-        self._rank()
+        self._list([*self.places, *_ranks(len(self.lots) - 1, settled)])
 
     def refine(self) -> None:
         """Look more closely at what may be the lightest of all, and list anew."""
@@ -102,23 +119,32 @@ class Found:
             self.lots[index] = refined
             pair = refined.lot.drives.motor, refined.lot.drives.gear
             np.minimum.at(self.least, pair, refined.mass)
-            self._rank()
+        self._list([rank for index, lot in enumerate(self.lots) for rank in _ranks(index, lot)])
 
-    def _rank(self) -> None:
-        ranks = [
-            Rank(float(mass), index, row)
-            for index, settled in enumerate(self.lots)
-            for row, mass in enumerate(settled.mass)
-            if mass < np.inf
-        ]
-        self.places = sorted(ranks)[:RANKED]
+    def _list(self, ranks: Sequence[Rank]) -> None:
+        """The lightest of these, and the lightest of each of the best motors."""
+        ordered = sorted(ranks)
+        self.places = sorted({*ordered[:RANKED], *_best_of_motors(ordered)})
+
+
+def _ranks(lot: int, settled: Settled) -> Iterator[Rank]:
+    for row in np.flatnonzero(settled.mass < np.inf):
+        yield Rank(float(settled.mass[row]), lot, int(row), int(settled.lot.drives.motor[row]))
+
+
+def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
+    """The lightest of each of the best motors, lightest first."""
+    best: dict[int, Rank] = {}
+    for rank in ordered:
+        best.setdefault(rank.motor, rank)
+    return list(best.values())[:MOTORS]
 
 
 def search(problem: SelectionProblem) -> Found:
     """The lightest devices, and for every motor and gear how light its lightest is at least."""
     found = Found.nothing(problem)
     for pairs in _chunks(found):
-        worth = pairs[found.least[tuple(pairs.T)] < found.enough]
+        worth = pairs[found.least[tuple(pairs.T)] < found.enough[pairs[:, 0]]]
         if worth.size:
             _examine(found, worth)
     found.refine()
@@ -127,7 +153,7 @@ def search(problem: SelectionProblem) -> Found:
 
 def is_possible(problem: SelectionProblem) -> bool:
     """Whether there is any device; what can only just be is not looked for as closely."""
-    found = Found.nothing(problem)
+    found = Found.nothing(problem, any_will_do=True)
     for pairs in _chunks(found):
         _examine(found, pairs)
         if found.places:
@@ -156,7 +182,7 @@ def _examine(found: Found, pairs: Indices) -> None:
     angles = np.zeros((len(drives), 2))
     bound = np.full((len(problem.materials), len(drives)), -np.inf)
     for count in (1, CELLS, CELLS):
-        worth = np.flatnonzero(bound.min(axis=0) < found.enough)
+        worth = np.flatnonzero(bound.min(axis=0) < found.enough[drives.motor])
         cells = cells_of(problem.incidence, count)
         some = drives.take(worth)
         needed = least_spin_inertias(problem, found.floor, some, cells, spin[worth])
@@ -176,9 +202,9 @@ def _settle_best(
     problem = found.problem
     order = np.argsort(bound, axis=None, kind="stable")
     order = order[np.isfinite(bound.flat[order])]
-    for start in range(0, order.size, _BATCH):
-        some = order[start : start + _BATCH]
-        some = some[bound.flat[some] < found.enough]
+    while True:
+        worth = bound.flat[order] < found.enough[drives.motor[order % len(drives)]]
+        order, some = order[worth][_BATCH:], order[worth][:_BATCH]
         if not some.size:
             break
         material, row = np.unravel_index(some, bound.shape)

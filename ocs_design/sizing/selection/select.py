@@ -12,7 +12,7 @@ from ocs_design.sizing.selection.search import search
 
 
 def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
-    """The ten lightest devices, and why the other motors fell out.
+    """The lightest devices, those of the best motors among them, and why the others fell out.
 
     Exact for the closed forms that it rests on: no lighter device of these motors, gears and
     materials does every maneuver in time, at any incidence, with any rim within the envelope

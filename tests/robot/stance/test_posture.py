@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from anatomy import legs_of, stand_of, tree_of
 
-from ocs_design.exceptions import UsageError
+from ocs_design.exceptions import RobotError
 from ocs_design.robot.stance.posture import resolve_posture
 
 SOLO12 = "solo_description/robots/solo12"
@@ -83,7 +83,7 @@ def test_a_posture_of_the_file_behind_a_built_in_name_is_told():
     ],
 )
 def test_an_unknown_name_lists_the_nearest_first(arguments, wrong, right):
-    with pytest.raises(UsageError) as caught:
+    with pytest.raises(RobotError) as caught:
         solo12(**arguments)
     assert wrong in caught.value.message
     assert caught.value.hint.startswith(f"available: {right}")
@@ -91,18 +91,18 @@ def test_an_unknown_name_lists_the_nearest_first(arguments, wrong, right):
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e308])
 def test_a_joint_needs_a_value_that_can_be(value):
-    with pytest.raises(UsageError, match="FL_HFE"):
+    with pytest.raises(RobotError, match="FL_HFE"):
         solo12(joints={"FL_HFE": value})
 
 
 def test_stand_needs_legs():
-    with pytest.raises(UsageError, match="no legs"):
+    with pytest.raises(RobotError, match="no legs"):
         resolve_posture(tree_of(UR5), "base_link", (), "stand", {})
 
 
 def test_a_joint_that_follows_another_cannot_be_set():
     tree = tree_of("tiago_pro_description/robots/tiago_pro")
     follower = next(joint for joint in tree.joints.values() if joint.mimic is not None)
-    with pytest.raises(UsageError) as caught:
+    with pytest.raises(RobotError) as caught:
         resolve_posture(tree, "base_footprint", (), "zero", {follower.name: 0.1})
     assert follower.mimic[0] in caught.value.hint
