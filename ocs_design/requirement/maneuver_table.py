@@ -2,11 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
-from math import pi
 from types import MappingProxyType
 from typing import Any
 
-from ocs_design.requirement.believed import MOST_TURNS, ONE_TURN
+from ocs_design.requirement.believed import INCIDENCE, TILT, TURN
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
 from ocs_design.requirement.values import (
     Quantities,
@@ -14,7 +13,6 @@ from ocs_design.requirement.values import (
     Sign,
     Text,
     Value,
-    angle,
 )
 from ocs_design.units import Dimension
 
@@ -40,13 +38,9 @@ class ManeuverKind:
 _COMMON: Mapping[str, Value[Any]] = {
     "name": Text(),
     "gravity": Quantity(Dimension.ACCELERATION),
-    "incidence": angle(Sign.NOT_NEGATIVE, pi / 2),
+    "incidence": INCIDENCE,
 }
 _TIME = Quantity(Dimension.TIME)
-_TILT = angle(Sign.ANY, pi, pi / 2)
-"""Upside down at most, and soon given in degrees without saying so."""
-
-_TURN = angle(Sign.ANY, MOST_TURNS * 2.0 * pi, ONE_TURN)
 
 MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     {
@@ -71,14 +65,14 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
         ),
         "drop": ManeuverKind(
             Drop,
-            {**_COMMON, "height": Quantity(Dimension.LENGTH), "roll": _TILT, "pitch": _TILT},
+            {**_COMMON, "height": Quantity(Dimension.LENGTH), "roll": TILT, "pitch": TILT},
         ),
         "flip": ManeuverKind(
             Flip,
             {
                 **_COMMON,
                 "jump_height": Quantity(Dimension.LENGTH),
-                "angle": _TURN,
+                "angle": TURN,
                 "duration": _TIME,
             },
         ),

@@ -7,10 +7,9 @@ is read. None means that it was not stated and that a default holds.
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
-from math import pi
 from typing import Annotated, TypeVar, get_args, get_type_hints
 
-from ocs_design.requirement.believed import FASTEST_BARE, FASTEST_TURN, HIGHEST_VOLTAGE
+from ocs_design.requirement.believed import INCIDENCE, SUPPLY, TRUNK_RATE, WHEEL_SPEED
 from ocs_design.requirement.key import Key
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.reality import RealitySection
@@ -24,7 +23,6 @@ from ocs_design.requirement.values import (
     Sign,
     Switch,
     Text,
-    angle,
 )
 from ocs_design.units import Dimension
 
@@ -97,20 +95,8 @@ class RobotSection:
 class RequirementSection:
     """`[requirement]`: what the wheels must do [rad/s, rad/s, kg m^2, m/s^2]."""
 
-    rate_change: Annotated[
-        float | None,
-        Key(
-            Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s"),
-            "change of the trunk's rate",
-        ),
-    ] = None
-    wheel_speed_max: Annotated[
-        float | None,
-        Key(
-            Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm"),
-            "highest speed of a wheel",
-        ),
-    ] = None
+    rate_change: Annotated[float | None, Key(TRUNK_RATE, "change of the trunk's rate")] = None
+    wheel_speed_max: Annotated[float | None, Key(WHEEL_SPEED, "highest speed of a wheel")] = None
     spin_inertia: Annotated[
         float | None, Key(Quantity(Dimension.INERTIA), "spin inertia of one wheel, asked directly")
     ] = None
@@ -126,10 +112,7 @@ class RequirementSection:
 class OcsSection:
     """`[ocs]`: how the device sits on the trunk, and what it may weigh [rad, m, kg]."""
 
-    alpha: Annotated[
-        float | None,
-        Key(angle(Sign.NOT_NEGATIVE, pi / 2), "incidence of the wheel axes"),
-    ] = None
+    alpha: Annotated[float | None, Key(INCIDENCE, "incidence of the wheel axes")] = None
     alpha_criterion: Annotated[str | None, Key(Choice(CRITERIA), "how the incidence is chosen")] = (
         None
     )
@@ -189,13 +172,7 @@ class MotorSection:
     name: Annotated[
         str | None, Key(Text(), "motor from the catalogue, auto, or none", option="motor")
     ] = None
-    bus_voltage: Annotated[
-        float | None,
-        Key(
-            Quantity(Dimension.VOLTAGE, most=HIGHEST_VOLTAGE, likely="mV"),
-            "of the supply of both motors",
-        ),
-    ] = None
+    bus_voltage: Annotated[float | None, Key(SUPPLY, "of the supply of both motors")] = None
     gear: Annotated[str | None, Key(Text(), "gear from the catalogue, direct, or auto")] = None
     motors: Annotated[str | None, Key(Text(), "file with motors of your own, CSV or TOML")] = None
     gears: Annotated[str | None, Key(Text(), "file with gears of your own, CSV or TOML")] = None

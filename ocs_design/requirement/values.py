@@ -13,7 +13,6 @@ from reprlib import repr as shortened
 from typing import Generic, TypeVar
 
 from ocs_design.exceptions import QuantityError, SpecificationError
-from ocs_design.requirement.believed import ONE_TURN
 from ocs_design.units import (
     UNITS,
     Dimension,
@@ -24,6 +23,9 @@ from ocs_design.units import (
 )
 
 T = TypeVar("T")
+
+ONE_TURN = 6.3
+"""[rad], to two digits: a larger bare number was meant in degrees."""
 
 SMALLEST = 1e-15
 """In SI, of what must be positive; less is a slip, and its powers would vanish."""
