@@ -57,7 +57,11 @@ FULL = Specification(
         wheel_mass_max=0.25,
         material="auto",
         stress_safety=2.5,
-        web="none",
+        web="disc",
+        chamfer=0.3e-3,
+        balancing_holes=4,
+        balancing_hole_diameter=2e-3,
+        balancing_hole_depth=1.5e-3,
     ),
     motor=MotorSection(
         name="auto", bus_voltage=24.0, gear="direct", motors="m.csv", gears="g.toml", torque_max=1.1

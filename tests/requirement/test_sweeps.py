@@ -135,5 +135,6 @@ def test_what_cannot_be_varied(task, name, maneuver, text, message):
 
 def test_a_level_drop_has_no_angle_to_scale(task):
     level = '[[maneuver]]\nname = "fall"\nkind = "drop"\nheight = 0.8\npitch = 0\n'
+    level += "[requirement]\nrate_change = 2\n"
     with pytest.raises(UsageError, match="has no turn"):
         SWEEPS["angle"].own(task(level))
