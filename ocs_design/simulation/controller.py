@@ -43,6 +43,7 @@ class WheelLaw:
         torque_map: from roll and pitch acceleration and the gyroscopic torque to motor torques,
             shape (n, 2, 5).
         stiffness, damping: `Gains`, shape (n,).
+        standing_stiffness: in place of `stiffness` on the ground, shape (n,).
         no_load_speed, line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
         wheel_response: see `Gyrostat`, shape (n,).
     """
@@ -56,12 +57,19 @@ class WheelLaw:
     torque_limit: FloatArray
     speed_max: FloatArray
     wheel_response: FloatArray
+    standing_stiffness: FloatArray
 
     @classmethod
     def of(
-        cls, body: Gyrostat, gains: Gains, limits: MotorLimits, allocation: Allocation
+        cls,
+        body: Gyrostat,
+        gains: Gains,
+        limits: MotorLimits,
+        allocation: Allocation,
+        *,
+        balances: bool = False,
     ) -> "WheelLaw":
-        """The law of one world (n = 1)."""
+        """The law of one world (n = 1); `balances`: the wheels hold the attitude in stance too."""
         momentum_map = np.hstack([body.inertia, body.spin_inertia * body.axes])
         shared = body.axes.T / body.reaction if allocation is Allocation.TRANSPOSE else body.sharing
         torque_map = _torque_map(body.actuated_inertia, shared)
@@ -75,13 +83,15 @@ class WheelLaw:
             np.array([limits.torque_limit]),
             np.array([limits.speed_max]),
             np.array([body.wheel_response]),
+            np.array([gains.stiffness if balances else 0.0]),
         )
 
     @classmethod
     def off(cls) -> "WheelLaw":
         """No torque, in one world."""
         one, none = np.ones(1), np.zeros(1)
-        return cls(np.zeros((1, 3, 5)), np.zeros((1, 2, 5)), none, none, one, one, none, one, one)
+        maps = np.zeros((1, 3, 5)), np.zeros((1, 2, 5))
+        return cls(*maps, none, none, one, one, none, one, one, none)
 
     @classmethod
     def stack(cls, laws: Sequence["WheelLaw"]) -> "WheelLaw":
@@ -133,7 +143,7 @@ class WheelLaw:
         """Roll and pitch acceleration that the law asks for [rad/s^2], shape (n, 2)."""
         error = tilt_error(vertical, target.vertical)
         slip = target.rate - rate[:, :2]
-        stiffness = np.where(target.stands, 0.0, self.stiffness)
+        stiffness = np.where(target.stands, self.standing_stiffness, self.stiffness)
         return stiffness[:, None] * error + self.damping[:, None] * slip + target.acceleration
 
     def _limited(self, torque: FloatArray, wheel_speed: FloatArray, period: float) -> FloatArray:
@@ -159,9 +169,9 @@ class Target:
         rate, acceleration: about roll and pitch in B [rad/s, rad/s^2], shape (n, 2).
         torque: of the motors, on top of what the acceleration and the gyroscopic torque of the
             moment ask for [N m], shape (n, 2).
-        stands: whether the feet are on the ground, shape (n,). The legs then hold the attitude and
-            the wheels only damp: whatever the stance leans by, wheels that push against it run up
-            to their top speed and are of no use any more.
+        stands: whether the feet are on the ground, shape (n,). Three legs and more then hold the
+            attitude and the wheels only damp: whatever the stance leans by, wheels that push
+            against it run up to their top speed and are of no use any more.
     """
 
     vertical: FloatArray

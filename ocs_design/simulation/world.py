@@ -44,6 +44,10 @@ PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
 """K_p and K_d that docs/validation.md, was measured with, for Solo12."""
 
 
+STEADY_LEGS = 3
+"""With so many a robot stands by itself."""
+
+
 @dataclass(frozen=True)
 class Addresses:
     """Where things are in the vectors of a model; equal for all worlds of a batch.
@@ -230,7 +234,9 @@ class WorldBuilder:
     def _law(self, body: Gyrostat, wheels: Wheels) -> WheelLaw:
         if wheels is not Wheels.ACTIVE:
             return WheelLaw.off()
-        return WheelLaw.of(body, self._gains, self._limits, self._allocation)
+        # One leg or two on the ground hold no attitude.
+        balances = 0 < len(self._robot.legs) < STEADY_LEGS
+        return WheelLaw.of(body, self._gains, self._limits, self._allocation, balances=balances)
 
 
 def wheel_gains(robot: Robot) -> Gains:

@@ -172,6 +172,15 @@ def test_on_the_ground_the_wheels_damp_and_leave_the_attitude_to_the_legs():
     stands = planned.landed(np.ones(1, dtype=bool))
     assert np.abs(law.torque(leaning, still, spin, planned, 1e-3)).max() > 0.1
     np.testing.assert_array_equal(law.torque(leaning, still, spin, stands, 1e-3), 0.0)
+    balancing = WheelLaw.of(
+        gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE, balances=True
+    )
+    righting = acceleration(
+        gyrostat(), balancing.torque(leaning, still, spin, stands, 1e-3)[0], still[0], spin[0]
+    )
+    np.testing.assert_allclose(
+        righting[:2], 60.0 * tilt_error(leaning, stands.vertical)[0], atol=1e-9
+    )
     turning = np.array([[0.4, 0.0, 0.0]])
     damped = law.torque(leaning, turning, spin, stands, 1e-3)[0]
     slowing = acceleration(gyrostat(), damped, turning[0], spin[0])
