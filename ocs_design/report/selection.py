@@ -18,7 +18,7 @@ TASKS = ("asked by", "alpha\ndeg", "spin inertia\nkg m2", "needed\ns", "given\ns
 RANKED = ("lightest drives", "mass\ng", "rim", "R\nmm", "h\nmm", "alpha\ndeg")
 """Columns of the ranking; the last ones are left out where the terminal is too narrow."""
 SHOWN = 5
-"""Motors that the report shows; -v shows all drives of the ranking."""
+"""Drives that the report shows; -v shows those of the whole ranking."""
 
 
 def print_selection(console: Console, selection: SelectionRecord, *, verbose: bool = False) -> None:
@@ -35,7 +35,7 @@ def print_selection(console: Console, selection: SelectionRecord, *, verbose: bo
         f"{selection.binding_maneuver} asks for the most.",
     )
     ranking = selection.ranking
-    _print_ranking(console, best_drives(ranking) if verbose else best_motors(ranking)[:SHOWN])
+    _print_ranking(console, best_drives(ranking) if verbose else shown_drives(ranking))
     _print_rejections(console, selection.rejections, verbose=verbose)
     _print_co_design(console, selection)
 
@@ -97,12 +97,15 @@ def best_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
     return tuple(best.values())
 
 
-def best_motors(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
-    """The lightest of each motor: another that can be bought."""
-    best: dict[str, RankedRecord] = {}
-    for entry in ranking:
-        best.setdefault(entry.motor, entry)
-    return tuple(best.values())
+def shown_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
+    """The lightest of each motor, as not every one can be bought; then other gears of the same."""
+    drives = best_drives(ranking)
+    motors: dict[str, RankedRecord] = {}
+    for entry in drives:
+        motors.setdefault(entry.motor, entry)
+    first = tuple(motors.values())
+    others = tuple(entry for entry in drives if entry not in first)
+    return tuple(sorted((*first, *others)[:SHOWN], key=lambda entry: entry.mass))
 
 
 def _print_rejections(
