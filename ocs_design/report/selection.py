@@ -105,7 +105,8 @@ def shown_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
         motors.setdefault(entry.motor, entry)
     first = tuple(motors.values())
     others = tuple(entry for entry in drives if entry not in first)
-    return tuple(sorted((*first, *others)[:SHOWN], key=lambda entry: entry.mass))
+    shown = (*first, *others)[:SHOWN]
+    return tuple(entry for entry in drives if entry in shown)
 
 
 def _print_rejections(
