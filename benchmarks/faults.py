@@ -42,6 +42,9 @@ def main() -> None:
     parser.add_argument("parts", nargs="*", default=["killed", "full", "together", "same"])
     parser.add_argument("--moments", type=int, default=50)
     asked = parser.parse_args()
+    for number in SIGNALS[1:]:
+        # Where this was started by `nohup` or behind an `&`, what it starts would ignore them.
+        signal.signal(number, signal.SIG_DFL)
     for part in asked.parts:
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)

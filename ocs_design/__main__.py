@@ -46,9 +46,9 @@ def _open_closed_streams() -> None:
 
 def main() -> None:
     """Run the command line and end with its exit code."""
-    _open_closed_streams()
-    _interrupt_by_signals()
     try:
+        _open_closed_streams()
+        _interrupt_by_signals()
         # Importing it takes a tenth of a second, in which people change their mind.
         from ocs_design.cli import main as run  # noqa: PLC0415
 
