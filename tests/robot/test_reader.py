@@ -28,7 +28,9 @@ def test_solo12_with_no_option():
     )
     assert found.sha256 == hashlib.sha256(SOLO12.read_bytes()).hexdigest()
     assert found.mass == pytest.approx(2.50000279)
-    assert found.warnings == ()
+    # 1000 N m: a placeholder, of a robot of 2.5 kg.
+    (warning,) = found.warnings
+    assert "efforts over 10 times" in warning
 
 
 def test_solo12_at_its_nominal_posture_weighs_what_pinocchio_says():
