@@ -4,6 +4,7 @@ import os
 import signal
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from types import FrameType
 
@@ -25,13 +26,12 @@ class _Interrupts:
             raise KeyboardInterrupt
 
 
-def _interrupt_by_signals() -> None:
-    interrupts = _Interrupts()
+def _on_signals(handler: Callable[[int, FrameType | None], None] | signal.Handlers) -> None:
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
         # Windows has no SIGHUP; `nohup` has it ignored, and shells SIGINT behind an `&`.
         if number is not None and signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, interrupts)
+            signal.signal(number, handler)
 
 
 def _open_closed_streams() -> None:
@@ -48,11 +48,13 @@ def main() -> None:
     """Run the command line and end with its exit code."""
     try:
         _open_closed_streams()
-        _interrupt_by_signals()
+        _on_signals(_Interrupts())
         # Importing it takes a tenth of a second, in which people change their mind.
         from ocs_design.cli import main as run  # noqa: PLC0415
 
         code = run()
+        # All is done; Python tidies up, and would complain of an interrupt.
+        _on_signals(signal.SIG_IGN)
     except KeyboardInterrupt:
         code = INTERRUPTED
     if code == INTERRUPTED:

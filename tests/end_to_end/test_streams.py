@@ -73,6 +73,6 @@ def test_signals_that_are_ignored_stay_so(monkeypatch):
     handlers = {signal.SIGHUP: signal.SIG_IGN}
     monkeypatch.setattr(signal, "getsignal", lambda number: handlers.get(number, signal.SIG_DFL))
     monkeypatch.setattr(signal, "signal", handlers.__setitem__)
-    program._interrupt_by_signals()
+    program._on_signals(program._Interrupts())
     assert handlers[signal.SIGHUP] is signal.SIG_IGN
     assert set(handlers) == {signal.SIGHUP, signal.SIGINT, signal.SIGTERM}
