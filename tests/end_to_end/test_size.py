@@ -83,7 +83,8 @@ def test_the_choice_says_what_it_looked_at(document):
     selection = document["selection"]
     masses = [entry["mass"] for entry in selection["ranking"]]
     assert masses == sorted(masses)
-    assert len(masses) == 10
+    assert len(masses) >= 10
+    assert len({entry["motor"] for entry in selection["ranking"]}) >= 5
     assert selection["candidates"] > 1_000_000
     for task in selection["tasks"]:
         assert task["time_needed"] <= task["time_given"] * (1.0 + 1e-9)
