@@ -29,9 +29,10 @@ from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world import WorldBuilder
-from ocs_design.sizing.carrier import Carrier, drive_moments
+from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.margins.driven_wheel import DrivenWheel
 from ocs_design.sizing.placement import place_on_top
+from ocs_design.sizing.standing import drive_moments
 
 ROBOT = Path(__file__).with_name("solo12.urdf")
 INNER_RADIUS, OUTER_RADIUS, HEIGHT = 0.022, 0.03, 0.01  # m
@@ -70,7 +71,7 @@ def on_paper_wheel(robot: Robot, motor: Motor, voltage: float) -> Device:
         bus_voltage=voltage,
     )
     centers = place_on_top(robot)(OUTER_RADIUS, HEIGHT)
-    return assemble_driven(wheel, Carrier.of(drive_moments(motor, DIRECT)), INCIDENCE, centers)
+    return assemble_driven(wheel, Carrier.of(drive_moments(motor)), INCIDENCE, centers)
 
 
 def fly(

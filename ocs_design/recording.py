@@ -48,9 +48,8 @@ if TYPE_CHECKING:
     from ocs_design.sizing.optimal_control.reference import Reference
 
 HOUSING_ASSUMED = (
-    f"Housing: printed in PETG, wall {format_quantity(WALL, 'mm')}, "
-    f"{format_quantity(CLEARANCE, 'mm')} clear of the rim. It adds "
-    f"{format_quantity(WALL + CLEARANCE, 'mm')} to r_max, the rim's."
+    f"Housing: PETG, wall {format_quantity(WALL, 'mm')}, {format_quantity(CLEARANCE, 'mm')} clear: "
+    f"r_max + {format_quantity(WALL + CLEARANCE, 'mm')}."
 )
 
 

@@ -56,6 +56,7 @@ def test_a_motor_weighs_more_than_wheels_alone():
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
+@pytest.mark.exhaustive
 def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
     _, free = designed(motor)
     mass = free.device.mass

@@ -22,8 +22,7 @@ from ocs_design.report.quantities import (
 
 _OVERRATED = (
     "{motor.name} is rated for {motor.rated_voltage:g} V and fed with {motor.bus_voltage:g} V: its "
-    "speed is limited as above; whether winding and controller stand the voltage is for their "
-    "makers to say."
+    "speed is limited, whether winding and controller bear it is for their makers to say"
 )
 
 
@@ -77,7 +76,7 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
         "web": 0.0 if ocs.flywheel.web is None else ocs.flywheel.web.mass,
         "motor": ocs.motor.mass,
         "gear": ocs.motor.gear_mass,
-        "print and screws": ocs.carrier.mass - ocs.motor.mass - ocs.motor.gear_mass,
+        "housing": ocs.carrier.mass - ocs.motor.mass - ocs.motor.gear_mass,
     }
     named = " + ".join(f"{name} {grams(mass)}" for name, mass in parts.items() if mass > 1e-9)
     yield "mass of a module", named

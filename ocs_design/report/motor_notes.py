@@ -15,13 +15,10 @@ def motor_notes(design: OcsDesign) -> Iterator[str]:
         return
     yield from _saturation(motor, _peak_torque(design))
     if motor.rotor_inertia == 0.0 and motor.gear == DIRECT.name:
-        yield (
-            f"the rotor's inertia of {motor.name} is not in the catalogue and counts as 0: the "
-            "wheels turn a little slower than computed, never faster"
-        )
+        yield "rotor inertia is not known, taken for 0: wheels turn slower, never faster"
     rating = controller_rating(motor)
     if rating:
-        yield f"not in the mass: two motor controllers, each for {rating}, and their cables"
+        yield f"not in the mass: cables, and two motor controllers, each for {rating}"
 
 
 def _peak_torque(design: OcsDesign) -> float:

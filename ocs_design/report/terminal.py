@@ -164,7 +164,7 @@ def _print_limits(console: Console, design: OcsDesign) -> None:
 
 def _print_prices(console: Console, selection: SelectionRecord) -> None:
     binding = ", ".join(selection.binding) or "nothing"
-    heading(console, f"What more would buy; the wheel's shape is held by {binding}")
+    heading(console, f"What binds: {binding}; and what more would buy")
     table = columns(*COLUMNS)
     for price in selection.prices:
         table.add_row(*map(Text, price_cells(price)))

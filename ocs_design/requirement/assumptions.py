@@ -116,7 +116,7 @@ def _assumed_cuts(flywheel: FlywheelSection) -> Iterator[str]:
     if flywheel.web == NO_WEB:
         return
     if flywheel.chamfer is None:
-        yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')} at 45 deg, and counted."
+        yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')}."
     if flywheel.balancing_holes:
         across = flywheel.balancing_hole_diameter or BALANCING_DIAMETER
         deep = flywheel.balancing_hole_depth or BALANCING_DEPTH

@@ -12,6 +12,7 @@ BULKY = ("size", "--mass", "1.2", "--inertia", "0.1,0.15,0.18", "--no-validate")
 """As hard to turn as a robot of three times its mass."""
 
 
+@pytest.mark.exhaustive
 def test_a_heavy_device_is_warned_of(folder):
     result = run(*BULKY, "-o", "out")
     assert result.code == 0

@@ -129,7 +129,7 @@ def test_a_robot_that_has_changed_is_refused_until_it_is_named(solo12):
 def test_a_robot_without_the_designs_trunk_is_refused(solo12):
     go2 = ROBOTS / "go2_description" / "urdf" / "go2.urdf"
     result = run("export", solo12, "-o", "again", "--robot", go2)
-    assert result.code == 2
+    assert result.code == 3
     assert "the robot has no link 'base_link'" in result.said
     assert not Path("again").exists()
 

@@ -251,4 +251,4 @@ def test_an_srdf_state_by_name(folder, solo12):
     found = design("solo12.urdf", "--posture", "kneel")
     check_inertia(found, solo12, {"FL_HFE": 0.7, "HR_KFE": 1.5})
     wrong = run("size", "solo12.urdf", "--posture", "kneal", "-o", "wrong")
-    assert (wrong.code, "available: kneel" in wrong.said) == (2, True)
+    assert (wrong.code, "available: kneel" in wrong.said) == (3, True)

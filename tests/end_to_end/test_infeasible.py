@@ -71,6 +71,7 @@ def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
     assert everything_in(folder) == []
 
 
+@pytest.mark.exhaustive
 def test_a_motor_that_is_too_weak_is_told_how_much_time_it_needs(folder):
     """No limit of the room mends a torque: Solo12's own motor needs longer for the drop."""
     result = run("size", SOLO12, "--motor", "Antigravity 4004 KV300", "--json")
@@ -90,10 +91,12 @@ def test_a_robot_that_no_motor_can_turn(folder):
     assert (result.code, error["kind"], error["binding"]) == (4, "infeasible", ["torque"])
     assert re.search(r"None of \d+ motors can do it at 48 V; .* comes closest", error["message"])
     assert set(error["relaxations"]) == {"time"}
-    assert f"{error['relaxations']['time']:.3g} times what is given" in error["hint"]
+    for key in ("disturbance takeoff_velocity", "drop height", "back-flip jump_height", "duration"):
+        assert key in error["hint"]
     assert everything_in(folder) == []
 
 
+@pytest.mark.exhaustive
 def test_the_figures_of_a_refusal_are_those_of_its_words(folder):
     result = run("size", SOLO12, "--motor", "R80 KV110", "--r-max", "12mm", "--json")
     error = result.document["error"]
@@ -127,6 +130,7 @@ MORE = {
         ),
     ],
 )
+@pytest.mark.exhaustive
 def test_what_the_hint_proposes_for_a_motor_works_as_it_is_printed(folder, limits):
     told = run("size", *BY_HAND, *ONE_DRIVE, *limits)
     assert told.code == 4

@@ -47,6 +47,21 @@ def written(process, folder, said):
     return any(folder.glob(".*/new/robot/*.urdf"))
 
 
+@pytest.fixture(autouse=True)
+def heeded():
+    """Who starts the tests in the background ignores interrupts, and so would all that they start.
+
+    What is caught here is at its default in a new process.
+    """
+    before = {
+        number: signal.signal(number, signal.default_int_handler)
+        for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM)
+    }
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
 @pytest.fixture
 def interrupted(folder, tmp_path_factory):
     """Sends signals to a process at a moment; its exit code and what it said."""

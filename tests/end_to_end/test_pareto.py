@@ -30,6 +30,7 @@ def test_the_document_and_the_folder_say_the_same(written):
     assert everything_in(folder) == [
         "front.csv",
         "front.json",
+        "front.png",
         "front.svg",
         "points",
         *(f"points/0{index}.toml" for index in (1, 2, 3)),
@@ -91,6 +92,7 @@ def test_words_for_people(tmp_path):
     assert "\x1b" not in result.stderr
 
 
+@pytest.mark.exhaustive
 def test_quiet_is_quiet():
     result = run("pareto", SOLO12, *ONE_MOTOR, "--points", "2", "-q")
     assert (result.code, result.stdout, result.stderr) == (0, "", "")

@@ -40,6 +40,7 @@ def test_more_is_never_heavier(solo12, against, least):
     assert found[0] > found[-1]
 
 
+@pytest.mark.exhaustive
 def test_a_larger_angle_is_never_lighter(solo12):
     found = masses(solo12, "angle", (0.5, 1.0, 1.6))
     assert all(small <= large * (1.0 + SETTLED) for small, large in pairwise(found))

@@ -175,6 +175,7 @@ def reasons(problem):
     return caught.value
 
 
+@pytest.mark.exhaustive
 def test_rejections_name_what_is_in_the_way():
     problem = only(random_problem(9), incidence=None)
     best = select(problem).best

@@ -15,6 +15,8 @@ from ocs_design.sizing.selection.by_criterion import select_by
 from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.select import select
 
+pytestmark = pytest.mark.exhaustive
+
 DRAWN = (4,)
 EXACT = 1e-6
 """To which a mass is settled, relative."""
@@ -36,7 +38,7 @@ def worked_out(problem, device):
     """Inertia about roll and pitch with the device on, by hand."""
     drive = Drive(problem, device.motor, device.gear)
     sizes = (device.outer_radius, device.inner_radius, device.height)
-    rims = Rims(*(np.array([size]) for size in sizes), device.material.density)
+    rims = Rims(*(np.array([size]) for size in sizes), device.material.density, device.cuts.chamfer)
     return inertia_on(problem, drive, rims, np.array([device.incidence]))[:, 0]
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, asked, inertia_on
+from naive_device import Drive, asked, chamfer_of, inertia_on
 from naive_wheel import Rims
 from rims import STEEL
 from scipy.optimize import minimize
@@ -47,7 +47,7 @@ def answer(request):
 
 def lightest_mass(problem, device, room, stress):
     """Of one rim with its housing, over outer and inner radius in parts of the design's."""
-    drive = Drive(problem, device.motor, device.gear)
+    drive, chamfer = Drive(problem, device.motor, device.gear), chamfer_of(problem)
     inertia = device.spin_inertia - drive.rotor_momentum - drive.hub[1]
     density, nu = device.material.density, device.material.poisson_ratio
     radius = device.outer_radius
@@ -55,13 +55,14 @@ def lightest_mass(problem, device, room, stress):
     def rims(x):
         outer, inner = radius * x
         web = Rims(outer, inner, 0.0, density).web[1] if drive.webbed else 0.0
-        height = 2.0 * (inertia - web) / (np.pi * density * (outer**4 - inner**4))
-        return Rims(outer, inner, height, density)
+        edges = Rims(outer, inner, 0.0, density, chamfer).body[1]
+        height = 2.0 * (inertia - web - edges) / (np.pi * density * (outer**4 - inner**4))
+        return Rims(outer, inner, height, density, chamfer)
 
     def mass(x):
         rim = rims(x)
         web = rim.web + drive.hub if drive.webbed else np.zeros(3)
-        one = Rims(*np.array([[rim.outer], [rim.inner], [rim.height]]), density)
+        one = Rims(*np.array([[rim.outer], [rim.inner], [rim.height]]), density, chamfer)
         return rim.body[0] + web[0] + drive.standing(one)[0, 0]
 
     def spare(x):
@@ -154,7 +155,8 @@ def worked_out(problem, device, angle):
     """Inertia about roll and pitch with the device on and turned to this angle, by hand."""
     drive = Drive(problem, device.motor, device.gear)
     sizes = (device.outer_radius, device.inner_radius, device.height)
-    rims = Rims(*(np.array([size]) for size in sizes), device.material.density)
+    edges = chamfer_of(problem)
+    rims = Rims(*(np.array([size]) for size in sizes), device.material.density, edges)
     return inertia_on(problem, drive, rims, np.array([angle]))[:, 0]
 
 

@@ -53,7 +53,7 @@ def test_holes_without_room_are_refused(text, words):
     [
         ("balancing_holes = 2", "2 is not 3 to 100, or 0"),
         ('web = "none"\nchamfer = "0.1 mm"', "says nothing where flywheel.web is 'none'"),
-        ('chamfer = "2 mm"', "above 0.0005 m"),
+        ('chamfer = "2 mm"', "above 0.5 mm"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(text, words):
