@@ -14,9 +14,9 @@ from ocs_design.export.seat import Seat
 from ocs_design.export.urdf import export_robot_urdf, urdf_remarks
 from ocs_design.export.workshop import (
     export_pieces_3mf,
-    export_pieces_step,
     export_pieces_stl,
     export_printed,
+    export_step,
 )
 from ocs_design.robot.robot import Robot
 
@@ -92,7 +92,7 @@ def _3mf(subject: Subject, folder: Path) -> tuple[str, ...]:
 
 
 def _step(subject: Subject, folder: Path) -> tuple[str, ...]:
-    export_pieces_step(subject.device, folder)
+    export_step(subject.device, folder)
     return ()
 
 

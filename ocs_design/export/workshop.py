@@ -33,8 +33,8 @@ def export_pieces_3mf(device: Device, folder: Path) -> None:
     (folder / "flywheel.3mf").write_bytes(threemf_bytes(wheel_meshes(device.flywheel)))
 
 
-def export_pieces_step(device: Device, folder: Path) -> None:
-    """`flywheel.step`, or one file for each of its pieces.
+def export_step(device: Device, folder: Path) -> None:
+    """`flywheel.step`, or one file for each of its pieces, and one for each printed part.
 
     Raises:
         MissingToolError: Open CASCADE is not installed.
@@ -43,7 +43,8 @@ def export_pieces_step(device: Device, folder: Path) -> None:
     from ocs_design.parts.step import step_bytes  # noqa: PLC0415
 
     parts = {part.name: part for part in wheel_parts(made_wheel(device.flywheel))}
-    for name, part in _by_file(parts).items():
+    printed = {f"housing_{part.name}": part for part in printed_parts(device)}
+    for name, part in (_by_file(parts) | printed).items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
 
 

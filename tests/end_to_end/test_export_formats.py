@@ -27,7 +27,8 @@ def test_what_is_written_on_request_alone(product, folder):
     assert result.code == 0, result.said
     again = files_in("again")
     parts = {f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")}
-    steps = {f"cad/{piece}.step" for piece in product.case.pieces}
+    printed = ("housing_drum", "housing_lid", "housing_foot")
+    steps = {f"cad/{piece}.step" for piece in (*product.case.pieces, *printed)}
     made = {"cad/flywheel.3mf", "cad/housing.3mf", *parts, *steps}
     assert set(again) == {"design.json", *made}
     assert "foot" in result.said
