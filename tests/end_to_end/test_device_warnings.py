@@ -30,7 +30,10 @@ def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
     assert everything_in(folder) == []
 
 
-@pytest.mark.parametrize(("voltage", "remarked"), [("24V", True), ("16.8V", False)])
+@pytest.mark.parametrize(
+    ("voltage", "remarked"),
+    [("24V", True), pytest.param("16.8V", False, marks=pytest.mark.exhaustive)],
+)
 def test_a_motor_fed_beyond_its_rating_is_remarked(folder, voltage, remarked):
     name = "AT2814 KV1050"
     assert motors()[name].rated_voltage == 16.8

@@ -78,6 +78,7 @@ def test_options_hold_in_every_point(written):
     assert {device["gear"] for device in devices} == {"direct"}
 
 
+@pytest.mark.exhaustive
 def test_words_for_people(tmp_path):
     result = run(
         "pareto", SOLO12, *ONE_MOTOR, "--against", "radius", "--from", "40mm", "--to", "60mm",
@@ -141,6 +142,7 @@ def test_a_foreign_folder_is_refused_before_any_work(tmp_path):
     assert "choose a device" not in result.stderr
 
 
+@pytest.mark.exhaustive
 def test_a_robot_by_hand_and_a_specification_file(tmp_path):
     spec = tmp_path / "spec.toml"
     spec.write_text('[motor]\nname = "Antigravity MN5008 KV400"\ngear = "direct"\n')
@@ -152,6 +154,7 @@ def test_a_robot_by_hand_and_a_specification_file(tmp_path):
     assert result.document["points"][1]["device"]["motor"] == "Antigravity MN5008 KV400"
 
 
+@pytest.mark.exhaustive
 def test_drawing_needs_no_display_and_helping_no_numbers(tmp_path):
     result = run_process(
         "pareto", SOLO12, *ONE_MOTOR, "--points", "2", "-o", tmp_path / "front",

@@ -34,6 +34,7 @@ def masses(task, against, ratios):
         pytest.param("height", 0.21, marks=pytest.mark.exhaustive),
     ],
 )
+@pytest.mark.exhaustive
 def test_more_is_never_heavier(solo12, against, least):
     found = masses(solo12, against, (least, 1.0, 1.3))
     assert all(less >= more * (1.0 - SETTLED) for less, more in pairwise(found))

@@ -112,6 +112,7 @@ def test_data_for_json():
 
 @few
 @given(rim_problems())
+@pytest.mark.exhaustive
 def test_each_relaxation_is_the_smallest_that_does(problem):
     assume(not is_feasible(problem))
     error = failure(problem)

@@ -242,6 +242,7 @@ def test_infeasible_says_what_would_do():
     assert not is_possible(with_limit(narrow, limits["time"], value * (1.0 - PRECISION)))
 
 
+@pytest.mark.exhaustive
 def test_no_motor_can_do_with_a_smaller_change():
     """Nor one that is far from it before the change: each is asked by itself."""
     problem = random_problem(9)

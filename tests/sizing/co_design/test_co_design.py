@@ -184,6 +184,7 @@ def test_where_only_the_finer_mesh_fails_the_coarse_one_counts(monkeypatch):
     assert found.adopted
 
 
+@pytest.mark.exhaustive
 def test_the_incidence_stays_where_it_is_stated():
     problem = replace(random_problem(ROLL_AND_PITCH, mounted=False), incidence=0.5)
     asked = CoDesignProblem(problem, select(problem, advise=False).best)
@@ -191,6 +192,7 @@ def test_the_incidence_stays_where_it_is_stated():
     assert found.shape.incidence == 0.5
 
 
+@pytest.mark.exhaustive
 def test_seeds_are_what_they_are_for():
     assert question(GEARED).selected.gear is not DIRECT
     assert question(GEARED).selected.armature > 0.0

@@ -142,6 +142,7 @@ def test_more_voltage_is_no_heavier_where_no_speed_is_limited(problem):
     assert no_heavier(free, *higher)
 
 
+@pytest.mark.exhaustive
 def test_a_free_incidence_is_no_heavier_than_any(problem):
     free = mass(replace(problem, incidence=None))
     fixed = [

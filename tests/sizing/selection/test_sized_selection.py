@@ -38,7 +38,13 @@ PROBLEMS = {
 }
 
 
-@pytest.fixture(scope="module", params=PROBLEMS)
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(name, marks=[pytest.mark.exhaustive] if name == "crowded" else [])
+        for name in PROBLEMS
+    ],
+)
 def answer(request):
     problem = replace(PROBLEMS[request.param], incidence=0.4)
     best = select(problem).best
