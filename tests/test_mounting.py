@@ -94,7 +94,7 @@ def test_mujoco_sees_contact_where_a_limb_is_said_to_hit():
         assert any(reach.part in bodies for bodies in touched)
 
 
-@pytest.mark.parametrize("name", every(3, MEASURED))
+@pytest.mark.parametrize("name", every(6, MEASURED))
 def test_mujoco_sees_no_contact_in_the_flights(name):
     """Postures of the legs as simulated, from lift-off to the end of a flight that passes."""
     robot, device, _ = mounted(name)

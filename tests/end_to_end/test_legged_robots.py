@@ -80,7 +80,7 @@ CASES = [(name, ()) for name in DRIVEN[::2]] + [
 @pytest.mark.parametrize(
     ("name", "options"),
     [
-        pytest.param(*case, marks=pytest.mark.exhaustive if index % 11 else pytest.mark.slow)
+        pytest.param(*case, marks=pytest.mark.exhaustive if index % 22 else pytest.mark.slow)
         for index, case in enumerate(CASES)
     ],
 )
@@ -96,7 +96,7 @@ def test_size_ends_with_a_design_and_its_proof(name, options, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(TOO_HEAVY)[::12])
+@pytest.mark.parametrize("name", sorted(TOO_HEAVY)[::24])
 def test_what_no_motor_turns_is_told_what_is_missing(name, tmp_path):
     code, document = size(name, tmp_path / "out")
     error = document["error"]

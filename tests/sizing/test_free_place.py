@@ -112,7 +112,7 @@ def test_twice_the_same():
     assert place_free(robot, envelope) == place_free(again, envelope)
 
 
-@pytest.mark.parametrize("name", every(10, LEGGED))
+@pytest.mark.parametrize("name", every(20, LEGGED))
 def test_every_legged_robot_has_a_free_place(name):
     robot = robot_of(name)
     envelope = default_envelope(robot)
