@@ -4,6 +4,13 @@ import os
 
 from hypothesis import settings
 
+LONGEST = "test_the_commands_that_the_docs_show_still_print_that"
+
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=500, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "reproducible"))
+
+
+def pytest_collection_modifyitems(items):
+    """The longest test goes first, so that one worker is not left with it when all others end."""
+    items.sort(key=lambda item: item.name != LONGEST)
