@@ -84,6 +84,7 @@ def test_a_motor_that_is_too_weak_is_told_how_much_time_it_needs(folder):
     assert everything_in(folder) == []
 
 
+@pytest.mark.exhaustive
 def test_a_robot_that_no_motor_can_turn(folder):
     """What is missing, and what would do."""
     result = run("size", "--mass", "200", "--inertia", "40,60,60", "--json")

@@ -85,7 +85,8 @@ def test_nothing_lighter_is_on_a_grid(seed):
     check_nothing_lighter(draw(seed).problem)
 
 
-@pytest.mark.parametrize("seed", every(16, SLOW))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", SLOW)
 def test_nothing_lighter_is_on_more_grids(seed):
     check_nothing_lighter(draw(seed).problem)
 

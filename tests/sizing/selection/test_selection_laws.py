@@ -103,7 +103,7 @@ def test_the_lightest_is_that_of_each_combination_by_itself(problem):
     check_each_by_itself(problem)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_so_it_is_on_the_edge_of_the_possible():
     check_each_by_itself(draw(ON_THE_EDGE).problem)
 
