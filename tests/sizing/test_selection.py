@@ -27,8 +27,7 @@ MASS_DIGITS = 2e-5
 """To which the lightest device is found."""
 
 POSSIBLE = (
-    0,
-    21,
+    *(0, 21),
     pytest.param(3, marks=pytest.mark.slow),
     *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (9, 12, 17, 20, 22)),
 )
