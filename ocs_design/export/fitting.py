@@ -26,6 +26,9 @@ def fitting_remarks(device: Device) -> tuple[str, ...]:
 
 
 def _broken(device: Device) -> Iterator[str]:
+    """Of a wheel that was sized with sharp edges."""
+    if device.flywheel.cuts.chamfer > 0.0:
+        return
     _, share = lost_by_breaking(made_wheel(device.flywheel))
     edge = format_quantity(BROKEN_EDGE, "mm")
     yield f"with its edges broken {edge} a wheel has {share:.2%} less inertia than was designed"

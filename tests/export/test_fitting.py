@@ -13,6 +13,7 @@ from ocs_design.drive.mounting import BoltCircle, Face, Mounting
 from ocs_design.export.fitting import fitting_remarks, standing_remarks
 from ocs_design.export.standing import standing_visuals
 from ocs_design.export.wheel_frame import wheel_placement
+from ocs_design.sizing.rim_cuts import RimCuts
 from ocs_design.sizing.web import Hub
 
 M3 = BoltCircle(0.02, 4, "M3")
@@ -44,6 +45,12 @@ def test_a_motor_whose_shaft_is_long_enough_needs_no_word():
 def test_broken_edges_are_told():
     (remark,) = fitting_remarks(paper_device())
     assert remark == "with its edges broken 0.2 mm a wheel has 0.10% less inertia than was designed"
+
+
+def test_broken_edges_that_are_sized_with_take_nothing():
+    device = paper_device()
+    cut = replace(device.flywheel, cuts=RimCuts(chamfer=0.2e-3))
+    assert fitting_remarks(replace(device, flywheel=cut)) == ()
 
 
 def test_a_shaft_that_is_too_short_or_not_known():
