@@ -7,9 +7,9 @@ it ends. So a later run can tell what is left over from what another one is writ
 import errno
 import os
 import re
+import secrets
 import shutil
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -19,6 +19,9 @@ NEW, OLD = "new", "old"
 
 _MARK = "ocs-design"
 """In their names, so that nobody's own hidden folders are taken for them."""
+
+_unfinished: dict[Path, Path] = {}
+"""Those of this process and their targets, from before they are made until they are gone."""
 
 
 @contextmanager
@@ -33,8 +36,19 @@ def staging_beside(target: Path) -> Iterator[Path]:
         yield folder
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+        _unfinished.pop(folder, None)
         if handle is not None:
             os.close(handle)
+
+
+def remove_unfinished() -> None:
+    """What is left of blocks that were interrupted where no `finally` holds yet, or holds no more.
+
+    To be called when nothing interrupts any longer.
+    """
+    for folder, target in _unfinished.items():
+        with suppress(OSError):
+            _undo(folder, target)
 
 
 def clear_leftovers(target: Path) -> None:
@@ -49,29 +63,50 @@ def clear_leftovers(target: Path) -> None:
 def _locked_folder(target: Path) -> tuple[Path, int | None]:
     """Its path, and the handle that bears the lock; None where there are no locks."""
     while True:
-        prefix, parent = f".{target.name}.{_MARK}-", target.absolute().parent
-        folder = Path(tempfile.mkdtemp(prefix=prefix, dir=parent))
+        folder = _new_folder(target)
         try:
             handle = _lock(folder)
         except (BlockingIOError, FileNotFoundError):
             # A run that is clearing up took it for a leftover before it was locked.
+            del _unfinished[folder]
             continue
         except OSError:
             return folder, None
         if folder.exists():
             return folder, handle
+        del _unfinished[folder]
         os.close(handle)
+
+
+def _new_folder(target: Path) -> Path:
+    """Its name is known before it is there, which `tempfile` tells only afterwards."""
+    while True:
+        name = f".{target.name}.{_MARK}-{secrets.token_hex(4)}"
+        folder = target.absolute().parent / name
+        _unfinished[folder] = target
+        try:
+            folder.mkdir(mode=0o700)
+        except OSError as error:
+            del _unfinished[folder]
+            if not isinstance(error, FileExistsError):
+                raise
+        else:
+            return folder
 
 
 def _clear(folder: Path, target: Path) -> None:
     with suppress(OSError):
         handle = _lock(folder)
         try:
-            if (folder / OLD).exists() and not os.path.lexists(target):
-                (folder / OLD).rename(target)
-            shutil.rmtree(folder, ignore_errors=True)
+            _undo(folder, target)
         finally:
             os.close(handle)
+
+
+def _undo(folder: Path, target: Path) -> None:
+    if (folder / OLD).exists() and not os.path.lexists(target):
+        (folder / OLD).rename(target)
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def _lock(folder: Path) -> int:

@@ -9,8 +9,9 @@ from commands import everything_in
 
 from ocs_design.exceptions import OutputError
 from ocs_design.export import folder as folders
+from ocs_design.export import staging as stagings
 from ocs_design.export.folder import DESIGN_FILE, staged_folder
-from ocs_design.export.staging import clear_leftovers
+from ocs_design.export.staging import clear_leftovers, remove_unfinished
 
 REPLACE = """
     import os, signal, sys
@@ -82,6 +83,59 @@ def test_killed_at_any_moment_it_is_the_old_folder_or_the_new(tmp_path, how, mom
     assert all(cleared in (OLD, NEW) and names == WHOLE for _, cleared, names in found)
     assert (found[0][1], found[-1][1]) == (OLD, NEW)
     assert sum(at_once is None for at_once, _, _ in found) == moments_without
+
+
+class InterruptedAt:
+    """Raises an interrupt before the n-th instruction of the code that makes folders whole."""
+
+    FILES = (folders.__file__, stagings.__file__)
+
+    def __init__(self, moment):
+        self.left = moment
+
+    def __call__(self, frame, event, argument):
+        if frame.f_code.co_filename not in self.FILES:
+            return None
+        frame.f_trace_opcodes = True
+        if event == "opcode":
+            self.left -= 1
+            if self.left == 0:
+                raise KeyboardInterrupt
+        return self
+
+
+def replaced(target, trace):
+    """Whether all of it was done before the interrupt."""
+    before = sys.gettrace()
+    try:
+        sys.settrace(trace)
+        with staged_folder(target, force=True) as new:
+            for name in ("cad", DESIGN_FILE):
+                (new / name).write_text("new")
+    except KeyboardInterrupt:
+        return False
+    finally:
+        sys.settrace(before)
+    return True
+
+
+@pytest.mark.parametrize("aside", [False, True])
+def test_interrupted_at_any_instruction_it_is_the_old_folder_or_the_new(
+    tmp_path, monkeypatch, aside
+):
+    if aside:
+        monkeypatch.setattr(folders, "exchange", lambda one, other: False)
+    target, moment, done = tmp_path / "out", 0, False
+    make_output(target)
+    while not done:
+        moment += 1
+        done = replaced(target, InterruptedAt(moment))
+        remove_unfinished()
+        assert texts(target) in (OLD, NEW), moment
+        assert everything_in(tmp_path) == WHOLE, moment
+        for path in target.iterdir():
+            path.write_text("old")
+    assert moment > 500
 
 
 def test_what_another_run_is_writing_stays(tmp_path):
