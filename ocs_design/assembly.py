@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from ocs_design.arrays import FloatArray
 from ocs_design.catalogue.materials import Material
-from ocs_design.design import Device, Flywheel, Module, Motor, Web
+from ocs_design.design import SIDES, Device, Flywheel, Module, Motor, Web
 from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.line import DriveLine, armature, rotor_share
 from ocs_design.requirement.resolving import Resolved
@@ -129,9 +129,7 @@ def _geared(torque: float | None, gain: float) -> float | None:
 def _modules(incidence: float, centers: FloatArray) -> tuple[Module, Module]:
     left, right = (
         Module(name, axis, center)
-        for name, axis, center in zip(
-            ("left", "right"), module_axes(incidence).T, centers, strict=True
-        )
+        for name, axis, center in zip(SIDES, module_axes(incidence).T, centers, strict=True)
     )
     return left, right
 

@@ -74,12 +74,16 @@ class Flywheel:
         return self.mass - (0.0 if self.web is None else self.web.mass)
 
 
+SIDES = ("left", "right")
+"""Of the trunk; where there is one of something for each, in this order."""
+
+
 @dataclass(frozen=True, eq=False)
 class Module:
     """One flywheel on the trunk.
 
     Attributes:
-        name: "left" or "right".
+        name: of its side.
         axis: unit spin axis in B, shape (3,).
         position: of the wheel's centre of mass in B [m], shape (3,).
     """

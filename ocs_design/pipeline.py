@@ -12,7 +12,7 @@ from ocs_design.designing import Designed, design_device
 from ocs_design.device_warnings import device_warnings
 from ocs_design.export.folder import DESIGN_FILE, check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
-from ocs_design.export.naming import safe_name
+from ocs_design.export.naming import require_no_device, safe_name
 from ocs_design.flight_control import control_of, flight_options, jump_plans, trajectories
 from ocs_design.inspection import posture_lines
 from ocs_design.jumping.jump import JumpPlans
@@ -93,6 +93,7 @@ def design_ocs(
         robot = read_stated_robot(specification, package_paths=package_paths, strict=strict)
         folder = out or Path(f"{safe_name(robot.name)}-ocs")
         check_target(folder, force=force)
+        require_no_device(robot.tree.joints)
         step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
     with steps.step("size the device") as step:
         sized = _size(specification, robot, strict=strict)

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterable
 
-from ocs_design.design import Device, Module
+from ocs_design.design import SIDES, Device, Module
 from ocs_design.exceptions import RobotError
 
 PREFIX = "ocs_"
@@ -60,6 +60,11 @@ def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None
             f"the robot already has a {kind} named {clash[0]!r}, which the device needs",
             hint=f"rename that {kind} in the robot's file, or give the file without a device in it",
         )
+
+
+def require_no_device(joints: Iterable[str]) -> None:
+    """Refuse a robot that has a device already, by its joints, before another one is sized."""
+    require_free("joint", joints, (f"{PREFIX}{side}" for side in SIDES))
 
 
 def flywheel_names(device: Device) -> tuple[str, ...]:

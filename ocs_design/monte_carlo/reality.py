@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 from math import inf, isfinite
 from types import MappingProxyType
 
-from ocs_design.design import Device, Motor
+from ocs_design.design import SIDES, Device, Motor
 from ocs_design.requirement.distributions import Distribution, Uniform
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reality import RealitySection, default_reality
@@ -15,11 +15,11 @@ PARTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "inertia_error": ("x", "y", "z"),
         "com_error": ("x", "y", "z"),
-        "incidence_error": ("left", "right"),
-        "torque_constant_error": ("left", "right"),
-        "resistance_error": ("left", "right"),
-        "coulomb_friction": ("left", "right"),
-        "viscous_friction": ("left", "right"),
+        "incidence_error": SIDES,
+        "torque_constant_error": SIDES,
+        "resistance_error": SIDES,
+        "coulomb_friction": SIDES,
+        "viscous_friction": SIDES,
         "attitude_bias": ("roll", "pitch"),
         "gyro_bias": ("x", "y", "z"),
     }

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.design import SIDES
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.recording import Recording
 from ocs_design.simulation.world import World
@@ -70,7 +71,7 @@ def _of_wheels(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]
     """One column a wheel; none where there is nothing to tell."""
     if values is None:
         return {}
-    return {name.format(side): values[:, i] for i, side in enumerate(("left", "right"))}
+    return {name.format(side): values[:, i] for i, side in enumerate(SIDES)}
 
 
 @dataclass(frozen=True)

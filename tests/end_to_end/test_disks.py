@@ -77,6 +77,5 @@ def test_a_parent_that_is_read_only(folder):
 def test_a_failing_run_keeps_the_output_that_it_was_to_replace(folder):
     assert run("size", SOLO12, *BOUND, "--no-validate", "-o", "out").code == 0
     before = file_hashes(folder)
-    weak = ("--motor", "Antigravity 4004 KV300")
-    assert run("size", SOLO12, *weak, "-o", "out", "--force").code == 4
+    assert run("size", SOLO12, *BOUND, "--r-max", "6mm", "-o", "out", "--force").code == 4
     assert file_hashes(folder) == before

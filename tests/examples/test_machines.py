@@ -2,6 +2,7 @@
 
 import importlib.util
 import sys
+from functools import cache
 from math import cos, degrees, pi, sqrt
 from pathlib import Path
 
@@ -17,6 +18,8 @@ from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.sizing.cylinder import cylinder_spin_inertia, cylinder_transverse_inertia
+
+pytestmark = pytest.mark.xdist_group(__name__)
 
 ROOT = Path(__file__).parents[2]
 MACHINES = ROOT / "examples" / "machines"
@@ -209,4 +212,7 @@ def test_the_page_shows_what_the_script_prints(comparison, capsys):
 
 @pytest.fixture(scope="module")
 def comparison():
-    return load("compare")
+    script = load("compare")
+    # Each device takes seconds.
+    script.lightest = cache(script.lightest)
+    return script

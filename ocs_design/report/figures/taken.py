@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.design import SIDES
 from ocs_design.report.flight import Flight
 from ocs_design.report.story import Story
 from ocs_design.sizing.incidence import module_axes
@@ -44,7 +45,7 @@ def _flown(story: Story, flight: Flight) -> Taken:
     own = {each.name: each.incidence for each in story.design.requirement.maneuvers}
     stated = own.get(flight.scenario)
     incidence = story.design.ocs.incidence if stated is None else stated
-    speeds = [flight.columns[f"wheel_speed_{side}_rad_s"] for side in ("left", "right")]
+    speeds = [flight.columns[f"wheel_speed_{side}_rad_s"] for side in SIDES]
     along = story.design.ocs.spin_inertia * np.stack(speeds, axis=1)[flight.driven]
     return Taken(flight.scenario, incidence, along @ module_axes(incidence)[:2].T)
 

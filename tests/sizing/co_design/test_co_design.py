@@ -1,6 +1,7 @@
 """The co-design: its symbols against numbers, never heavier, and what it gains in 3-D."""
 
 from dataclasses import replace
+from functools import cache
 
 import casadi as ca
 import numpy as np
@@ -19,15 +20,23 @@ from ocs_design.sizing.optimal_control import joint_program
 from ocs_design.sizing.optimal_control.nonlinear_program import solve_program
 from ocs_design.sizing.selection.select import select
 
+pytestmark = pytest.mark.xdist_group(__name__)
+
 ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE = 0, 21, 8, 16
 """Seeds of random problems: what asks for most of their devices."""
 
 
+@cache
 def question(seed, **changes):
     # Where a mount's holes bound the foot's plate its mass has kinks: see docs/parts.md.
     problem = random_problem(seed, mounted=False)
     problem = replace(problem, requirement=replace(problem.requirement, **changes))
     return CoDesignProblem(problem, select(problem, advise=False).best)
+
+
+@cache
+def answer(seed):
+    return co_design(question(seed))
 
 
 @pytest.fixture(
@@ -39,8 +48,7 @@ def question(seed, **changes):
     ],
 )
 def answered(request):
-    asked = question(request.param)
-    return asked, co_design(asked)
+    return question(request.param), answer(request.param)
 
 
 def _at(expression, symbols, values):
@@ -129,7 +137,7 @@ def test_what_is_adopted_is_a_whole_device(answered):
 
 def test_roll_and_pitch_at_once_gain_in_3d():
     """The closed form holds the axis and the wheels in proportion; in 3-D neither needs to be."""
-    found = co_design(question(ROLL_AND_PITCH))
+    found = answer(ROLL_AND_PITCH)
     assert found.adopted
     assert found.gain > 0.003
 

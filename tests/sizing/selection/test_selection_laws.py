@@ -1,6 +1,7 @@
 """What must hold of a selection whatever its robot: laws on problems drawn at random."""
 
 from dataclasses import replace
+from functools import cache
 from math import inf, pi
 
 import numpy as np
@@ -12,6 +13,8 @@ from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.selection.select import select
 
+pytestmark = pytest.mark.xdist_group(__name__)
+
 POSSIBLE = (2, 6)
 """Of the drawn problems, two with a device and all kinds of maneuvers between them."""
 ON_THE_EDGE = 15
@@ -20,11 +23,14 @@ EXACT = 1e-9
 """To which a mass is settled, relative."""
 
 
-@pytest.fixture(params=[POSSIBLE[0], pytest.param(POSSIBLE[1], marks=pytest.mark.exhaustive)])
+@pytest.fixture(
+    scope="module", params=[POSSIBLE[0], pytest.param(POSSIBLE[1], marks=pytest.mark.exhaustive)]
+)
 def problem(request):
     return draw(request.param).problem
 
 
+@cache
 def mass(problem):
     """Of the lightest device [kg]; inf where there is none."""
     try:
