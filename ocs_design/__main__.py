@@ -57,7 +57,7 @@ def main() -> None:
         _open_closed_streams()
         _on_signals(_Interrupts())
         # Importing it takes a tenth of a second, in which people change their mind.
-        from ocs_design.cli import main as run  # noqa: PLC0415
+        from ocs_design.cli.app import main as run  # noqa: PLC0415
 
         code = run()
         # All is done; Python tidies up, and would complain of an interrupt.

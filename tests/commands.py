@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
 
-from ocs_design import cli_errors
-from ocs_design.cli import app
+from ocs_design.cli import errors
+from ocs_design.cli.app import app
 
 ROOT = Path(__file__).parents[1]
 SOLO12 = str(ROOT / "examples" / "solo12.urdf")
@@ -51,7 +51,7 @@ def run(*arguments, stdin=b""):
         redirect_stderr(streams[1]),
         mock.patch.object(sys, "stdin", given),
     ):
-        code = cli_errors.run(app, [str(argument) for argument in arguments])
+        code = errors.run(app, [str(argument) for argument in arguments])
     out, err = (stream.buffer.getvalue().decode() for stream in streams)
     return Result(code, out, err)
 

@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "ocs_design"
 
 
-@pytest.mark.parametrize("module", ["ocs_design", "ocs_design.cli"])
+@pytest.mark.parametrize("module", ["ocs_design", "ocs_design.cli.app"])
 def test_start_up_loads_nothing_heavy(module):
     assert modules_loaded_by(f"import {module}").isdisjoint(HEAVY)
 

@@ -146,8 +146,8 @@ def test_a_robot_from_standard_input_is_asked_for(folder):
 def test_parts_and_snippets_need_neither_simulator_nor_solver(solo12):
     """That is most of the time of a start."""
     code = (
-        "import sys\nfrom ocs_design import cli_errors\nfrom ocs_design.cli import app\n"
-        f"assert not cli_errors.run(app, ['export', {str(solo12)!r}, '-q', '--formats', 'stl,bom'])"
+        "import sys\nfrom ocs_design.cli import errors\nfrom ocs_design.cli.app import app\n"
+        f"assert not errors.run(app, ['export', {str(solo12)!r}, '-q', '--formats', 'stl,bom'])"
         "\nprint(*{name.partition('.')[0] for name in sys.modules})"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

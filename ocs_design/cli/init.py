@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias, TypeVar
 
 import typer
 
-from ocs_design import cli_options as opt
-from ocs_design.cli_signatures import with_options
-from ocs_design.cli_stated import stated_package_paths, stated_specification
+from ocs_design.cli import options as opt
+from ocs_design.cli.signatures import with_options
+from ocs_design.cli.stated import stated_package_paths, stated_specification
 from ocs_design.exceptions import OcsError, UsageError
 
 if TYPE_CHECKING:

@@ -91,7 +91,7 @@ def _fall_silent() -> int:
 
 def _report_system(error: OSError, *, as_json: bool, color: bool) -> int:
     """What a disk or a terminal said while something was printed, or where nobody expected it."""
-    from ocs_design.export.folder import output_error  # noqa: PLC0415  only here
+    from ocs_design.export.folder import output_error
 
     told = output_error(error, Path())
     if error.filename is None:
@@ -144,6 +144,6 @@ def _print_json(kind: str, message: str, hint: str, data: object) -> None:
 
 
 def _print_panel(lines: Sequence[str], hint: str, *, color: bool) -> None:
-    from ocs_design.report.console import error_panel  # noqa: PLC0415  rich costs 80 ms
+    from ocs_design.report.console import error_panel
 
     error_panel(lines, hint, color=color)

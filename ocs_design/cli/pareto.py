@@ -6,9 +6,9 @@ from typing import Annotated, TypeAlias
 
 import typer
 
-from ocs_design import cli_options as opt
-from ocs_design.cli_signatures import with_options
-from ocs_design.cli_stated import stated_package_paths, stated_specification
+from ocs_design.cli import options as opt
+from ocs_design.cli.signatures import with_options
+from ocs_design.cli.stated import stated_package_paths, stated_specification
 
 Against: TypeAlias = Annotated[
     str,

@@ -12,15 +12,15 @@ from typing import Annotated
 
 import typer
 
-from ocs_design import cli_errors
-from ocs_design import cli_options as opt
-from ocs_design.cli_doctor import doctor
-from ocs_design.cli_export import export
-from ocs_design.cli_init import init
-from ocs_design.cli_pareto import pareto
-from ocs_design.cli_signatures import with_options
-from ocs_design.cli_stated import stated_package_paths, stated_specification, typed_command
-from ocs_design.cli_validate import validate
+from ocs_design.cli import errors
+from ocs_design.cli import options as opt
+from ocs_design.cli.doctor import doctor
+from ocs_design.cli.export import export
+from ocs_design.cli.init import init
+from ocs_design.cli.pareto import pareto
+from ocs_design.cli.signatures import with_options
+from ocs_design.cli.stated import stated_package_paths, stated_specification, typed_command
+from ocs_design.cli.validate import validate
 
 app = typer.Typer(
     name="ocs-design",
@@ -33,7 +33,7 @@ app = typer.Typer(
 
 def main() -> int:
     """Run what was typed; the exit code."""
-    return cli_errors.run(app, sys.argv[1:])
+    return errors.run(app, sys.argv[1:])
 
 
 @contextmanager

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from ocs_design.cli_stated import stated_package_paths, stated_specification
+from ocs_design.cli.stated import stated_package_paths, stated_specification
 from ocs_design.exceptions import UsageError
 
 

@@ -6,8 +6,8 @@ from typing import Annotated, TypeAlias
 
 import typer
 
-from ocs_design import cli_options as opt
-from ocs_design.cli_stated import stated_package_paths, typed_command
+from ocs_design.cli import options as opt
+from ocs_design.cli.stated import stated_package_paths, typed_command
 
 DesignFile: TypeAlias = Annotated[
     Path, typer.Argument(metavar="DESIGN", help="design.json, or the folder that it lies in.")

@@ -9,7 +9,7 @@ from typing import Annotated, TypeAlias
 
 import typer
 
-from ocs_design.cli_signatures import Command, parameters, redeclare
+from ocs_design.cli.signatures import Command, parameters, redeclare
 
 Text: TypeAlias = str | None
 

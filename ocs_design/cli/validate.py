@@ -6,9 +6,9 @@ from typing import Annotated, TypeAlias
 
 import typer
 
-from ocs_design import cli_options as opt
-from ocs_design.cli_export import DesignFile, OtherRobot
-from ocs_design.cli_stated import stated_package_paths, stated_specification
+from ocs_design.cli import options as opt
+from ocs_design.cli.export import DesignFile, OtherRobot
+from ocs_design.cli.stated import stated_package_paths, stated_specification
 
 FlightsFolder: TypeAlias = Annotated[
     Path | None,

@@ -4,7 +4,7 @@ import sys
 
 import typer
 
-from ocs_design import cli_options as opt
+from ocs_design.cli import options as opt
 
 
 def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
