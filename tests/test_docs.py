@@ -1,5 +1,6 @@
 """The docs say what the program says."""
 
+import ast
 import importlib.util
 import os
 import re
@@ -134,15 +135,41 @@ def test_pages_that_errors_point_to_exist():
         assert not match["anchor"] or match["anchor"] in anchors(DOCS / match["page"]), match[0]
 
 
+CITED = re.compile(r"docs/([\w-]+\.md), ([A-Z].{60})")
+
+
 def test_every_section_that_the_code_cites_exists():
-    titles = set(re.findall(r"^#+ (.+)$", (DOCS / "theory.md").read_text(), re.MULTILINE))
     cited = {
-        title
+        citation
         for path in (ROOT / "ocs_design").rglob("*.py")
-        for title in re.findall(r"docs/theory\.md, ([A-Z][a-z' ]+)", path.read_text())
+        for citation in CITED.findall(" ".join(path.read_text().split()))
     }
-    assert {title.rstrip() for title in cited if not title.startswith(tuple(titles))} == set()
-    assert cited
+    titles = {page: tuple(HEADING.findall((DOCS / page).read_text())) for page in dict(cited)}
+    assert {(page, text) for page, text in cited if not text.startswith(titles[page])} == set()
+    assert len(cited) > 20
+
+
+NAMED = re.compile(r"((?:`\w+`(?:, | and | ))+)in `([\w/]+\.py)`")
+
+
+def defined_in(path):
+    """Names of the functions, classes and constants of a module."""
+    body = ast.parse(path.read_text()).body
+    constants = [line.targets[0] for line in body if isinstance(line, ast.Assign)]
+    others = [line for line in body if isinstance(line, ast.FunctionDef | ast.ClassDef)]
+    return {name.id for name in constants if isinstance(name, ast.Name)} | {
+        each.name for each in others
+    }
+
+
+def test_functions_that_the_docs_name_stand_where_they_say():
+    named = 0
+    for page in DOCS.glob("*.md"):
+        for names, path in NAMED.findall(" ".join(page.read_text().split())):
+            there = defined_in(ROOT / "ocs_design" / path)
+            assert set(re.findall(r"`(\w+)`", names)) <= there, (page.name, path)
+            named += 1
+    assert named > 40
 
 
 def test_every_reference_of_the_theory_is_listed():

@@ -77,7 +77,7 @@ def with_device(trunk: MassProperties, device: Device) -> MassProperties:
     """A trunk that carries a device whose wheels spin freely: nothing drives them until lift-off.
 
     The momentum of wheel and rotor about their axis does not turn with the trunk (docs/theory.md,
-    The gyrostat); the carrier's inertia has the rotor's in it.
+    The robot with its wheels: a gyrostat); the carrier's inertia has the rotor's in it.
     """
     wheel, motor = device.flywheel, device.motor
     free = Carrier(wheel.mass, -motor.rotor_inertia, wheel.transverse_inertia)

@@ -136,7 +136,8 @@ def spin_inertia_for(momentum: FloatArray, incidence: float, wheel_speed_max: fl
     """Smallest spin inertia of each wheel that takes roll and pitch momentum at once [kg m^2].
 
     The reachable momenta form the rhombus `|L_x| / sin a + |L_y| / cos a <= 2 I_w gamma`
-    (docs/theory.md). An axis that needs nothing costs nothing, whatever the incidence.
+    (docs/theory.md, What a maneuver asks for). An axis that needs nothing costs nothing, whatever
+    the incidence.
 
     Args:
         momentum: of roll and pitch [N m s], shape (2,).
@@ -169,7 +170,8 @@ def spin_demands(
     """What each maneuver, and the rate change about each axis, asks of a wheel.
 
     From the gyrostat's momentum `H = I_tot w + A I_w W`: the wheels must take `I_tot d`, which is
-    `corrected_bound` with the device counted in the total (docs/theory.md, The robot's inertia).
+    `corrected_bound` with the device counted in the total (docs/theory.md, The robot with its
+    wheels: a gyrostat).
 
     Args:
         requirement: maneuvers, rate change and wheel speed.

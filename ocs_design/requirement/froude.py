@@ -179,7 +179,8 @@ def default_envelope(robot: Robot) -> Envelope:
 def _disturbance(scale: Scale, gravity: float) -> Disturbance:
     """A torque that changes the rates by what the paper's changes Solo12's, over T.
 
-    The paper states no lift-off speed; 2.4 m/s up is that of docs/validation.md.
+    The paper states no lift-off speed; 2.4 m/s up is assumed
+    (docs/validation.md, Scenarios).
     """
     time, speed = scale.time(gravity), scale.speed(gravity)
     return Disturbance(

@@ -98,7 +98,7 @@ class Unforeseen(Maneuver):
         """From the end of the torque until the trunk must be level and at rest again [s]."""
 
     def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """The angular impulse, which the wheels hold until touchdown (docs/theory.md)."""
+        """The impulse, which the wheels hold till touchdown (docs/theory.md, Disturbances)."""
         del inertia, standing_height
         roll, pitch, _ = self.torque
         return np.array([abs(roll) * self.duration, abs(pitch) * self.duration])

@@ -119,7 +119,7 @@ _DEFAULTS: Mapping[str, str] = MappingProxyType(
         "contact_friction": "uniform(0.5, 1)",
     }
 )
-"""Those that depend on neither robot nor motor (docs/validation.md has the source of each)."""
+"""Those that depend on neither robot nor motor (docs/monte_carlo.md, What is drawn)."""
 
 
 def default_reality(standing_height: float) -> RealitySection:

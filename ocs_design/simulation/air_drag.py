@@ -1,4 +1,4 @@
-"""What the air in its housing takes from a wheel (docs/validation.md, What reality adds).
+"""What the air in its housing takes from a wheel (docs/monte_carlo.md, The wheel's air).
 
 The faces drag as an enclosed disc (Daily and Nece, J. Basic Engineering 82, 1960, 217-230), the rim
 as a cylinder in a wider one: Couette flow, exact, then with vortices and turbulent (Bilgen and

@@ -201,7 +201,7 @@ def _flight(series: Series, lift_off: int) -> tuple[slice, bool]:
 
 
 def _momentum_error(recording: Recording, index: int, flown: slice, world: World) -> float:
-    """`|H(t) - H(0) - impulse|` over the momentum that was moved about (docs/theory.md).
+    """`|H(t) - H(0) - impulse|` over what was moved about (docs/validation.md, The momentum gate).
 
     H itself is near zero in most of these flights, as trunk and wheels turn against each other, so
     the scale is the largest momentum of the wheels plus that of the trunk with its legs, as if they

@@ -46,7 +46,8 @@ class Sensor(StrEnum):
 def robot_scene(robot: Robot) -> mujoco.MjSpec:
     """The bare robot on a floor, its legs on drives, with sensors; free to fall.
 
-    Runge-Kutta, because Euler and implicitfast drift with fast wheels (docs/theory.md); the
+    Runge-Kutta, because Euler and implicitfast drift with fast wheels (docs/theory.md,
+    Numerics of fast wheels); the
     dense Jacobian, because MuJoCo 4.0's sparse Newton solver has a fault.
     """
     spec = build_spec(robot, visuals=False).spec

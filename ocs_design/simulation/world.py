@@ -41,7 +41,7 @@ from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory import Trajectory
 
 PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
-"""K_p and K_d that docs/validation.md, was measured with, for Solo12."""
+"""K_p and K_d of all robots where none are stated."""
 
 
 STEADY_LEGS = 3

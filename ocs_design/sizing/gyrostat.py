@@ -1,4 +1,7 @@
-"""A rigid trunk with two driven wheels in free flight (docs/theory.md, The robot's inertia)."""
+"""A rigid trunk with two driven wheels in free flight.
+
+See docs/theory.md, The robot with its wheels: a gyrostat.
+"""
 
 from dataclasses import dataclass
 

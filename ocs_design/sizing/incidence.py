@@ -86,13 +86,13 @@ def simultaneous_momentum(momenta: FloatArray) -> float:
 
 
 def condition_number(incidence: float) -> float:
-    """How unevenly the wheels act on roll and pitch: max(tan, cot) (docs/theory.md)."""
+    """How unevenly the wheels act on roll and pitch: max(tan, cot)."""
     tangent = abs(np.tan(incidence))
     return float(max(tangent, 1.0 / tangent)) if tangent > 0.0 else float("inf")
 
 
 def heading_drift(inertia: FloatArray) -> FloatArray:
-    """Yaw rate per roll rate and per pitch rate at zero momentum, shape (2,) (docs/theory.md).
+    """Yaw rate per roll rate and per pitch rate at zero momentum, shape (2,).
 
     Args:
         inertia: of the robot with its device about the centre of mass in B [kg m^2], shape (3, 3).
@@ -116,7 +116,7 @@ def cross_momentum(inertia: FloatArray) -> FloatArray:
 def actuated_inertia(total: FloatArray, spin_inertia: float, incidence: float) -> FloatArray:
     """What the motors' torque accelerates, J = I_tot - I_w A A^T [kg m^2], shape (3, 3).
 
-    The wheels' mass and transverse inertia count, their spin inertia does not (docs/theory.md).
+    The wheels' mass and transverse inertia count, their spin inertia does not.
 
     Args:
         total: inertia of the robot with its device, wheels braked [kg m^2], shape (3, 3).
