@@ -1,5 +1,7 @@
 """Formulas as MathML, made by docutils at build time: no network, no script, no fonts."""
 
+import re
+
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.application import Sphinx
@@ -8,6 +10,7 @@ from sphinx.util.typing import ExtensionMetadata
 from sphinx.writers.html5 import HTML5Translator
 
 LOGGER = logging.getLogger(__name__)
+DOTTED = re.compile(r"(\\d?dot(?: ?\\?[A-Za-z]+|\{(?:[^{}]|\{[^{}]*\})*\}))(?=_)")
 
 
 def visit_inline(translator: HTML5Translator, node: nodes.math) -> None:
@@ -26,11 +29,12 @@ def mathml(node: nodes.Element, *, as_block: bool) -> str:
     r"""The formula of a node.
 
     docutils lets \boldsymbol run on to the formula's end; \mathbf does what is meant, Greek too.
+    And it puts the index of a dotted letter below it, unless nothing stands in between.
     """
     formula = node.astext()
     if r"\boldsymbol" in formula:
         LOGGER.warning(r"write \mathbf in place of \boldsymbol: %s", formula, location=node)
-    return str(tex2mathml(formula, as_block=as_block))
+    return str(tex2mathml(DOTTED.sub(r"\1{}", formula), as_block=as_block))
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
