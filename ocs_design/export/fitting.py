@@ -75,8 +75,8 @@ def _held(mounting: Mounting, device: Device) -> Iterator[str]:
     if stator is None:
         bare = mount.holes.pilot_radius == 0.0
         hole = format_quantity(2.0 * mount.holes.pilot_radius, "mm")
-        there = "" if bare else f"beside the hole of {hole} for what turns "
-        yield f"the motor's threads are not in the catalogue: {there}{_UNDRILLED}"
+        there = "" if bare else f", beyond the hole of {hole} for what turns"
+        yield f"the motor's threads are not in the catalogue: {_UNDRILLED}{there}"
     elif mount.holes.screws is None and mounting.stator_face is Face.BACK:
         yield (
             f"the motor's threads, {stator}, are at its back, and its size is not known or its "
@@ -94,20 +94,22 @@ def _driven(mounting: Mounting, device: Device, foot: Foot) -> Iterator[str]:
     web, middle = device.flywheel.web, foot.back + motor_mount(device).gap
     if web is None:
         return
-    near, far = (format_quantity(middle + side * web.hub.height / 2.0, "mm") for side in (-1, 1))
+    half = web.hub.height / 2.0
+    near, reach, far = (
+        format_quantity(length, "mm", digits=3) for length in (middle - half, middle, middle + half)
+    )
     if mounting.rotor is not None:
         yield (
             f"the hub stands {near} off the rotor that it is screwed to, plate and floor between "
             "them: it needs a spacer, which is not designed"
         )
     elif mounting.shaft_length is None:
-        reach = format_quantity(middle, "mm")
         yield (
             f"the shaft has to stand out by {reach} to reach the hub's middle, by {far} to go "
             "through it; its length is not in the catalogue"
         )
     elif mounting.shaft_length < middle:
-        short = format_quantity(middle - mounting.shaft_length, "mm")
+        short = format_quantity(middle - mounting.shaft_length, "mm", digits=3)
         yield f"the shaft ends {short} short of the hub's middle"
 
 

@@ -29,7 +29,7 @@ def footing_remarks(robot: Robot, device: Device) -> tuple[str, ...]:
     underside = float(device.modules[0].position[2]) - printed_foot(device).wheel_height
     above = underside - trunk_top(robot.tree, robot.trunk)
     if abs(above) > _STANDS:
-        gap = format_quantity(abs(above), "mm")
+        gap = format_quantity(abs(above), "mm", digits=3)
         where = "above" if above > 0.0 else "below"
         return (
             f"the feet are {gap} {where} the trunk's top: each needs a bracket of your own, level "
@@ -46,7 +46,7 @@ def _beside(robot: Robot, device: Device) -> Iterator[str]:
     # Without shapes the trunk has no width.
     if half <= 0.0 or over <= 0.0:
         return
-    beyond = format_quantity(over, "mm")
+    beyond = format_quantity(over, "mm", digits=2)
     screw = out + foot.slot_radius / sqrt(2.0) + TRUNK_SCREW.clearance_hole / 2.0 - half
     if screw <= 0.0:
         yield f"the feet stand {beyond} over the trunk's sides; their screws are on it"
@@ -54,6 +54,6 @@ def _beside(robot: Robot, device: Device) -> Iterator[str]:
     width = format_quantity(2.0 * (half + over), "mm")
     yield (
         f"the feet stand {beyond} over the trunk's sides, and the outer screw of each is "
-        f"{format_quantity(screw, 'mm')} off it: put a plate of {width} across the trunk under "
-        "both, which no mass has in it, or ask for a smaller device with --r-max"
+        f"{format_quantity(screw, 'mm', digits=2)} off it: put a plate of {width} across the "
+        "trunk under both, which no mass has in it, or ask for a smaller device with --r-max"
     )

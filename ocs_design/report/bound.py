@@ -9,7 +9,8 @@ from ocs_design.report.quantities import degrees, inertia, rpm
 
 NOTE = (
     "The paper prints I_r d / (d + gamma); from its own momentum follows I_r d / (gamma - d). "
-    "Necessary, never sufficient: torque, angle and time are not asked for here."
+    "I_r is the robot's inertia, d the change of its rate, gamma the wheel's speed. Necessary, "
+    "never sufficient: torque, angle and time are not asked for here."
 )
 
 

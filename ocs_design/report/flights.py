@@ -52,7 +52,7 @@ def _run_row(run: ValidationRecord) -> list[Text | str]:
         _tilt(metrics, "final"),
         _deg(metrics, "turned_angle") if flies(metrics) else "-",
         "-" if not run.ocs or speed is None else f"{speed * 30 / np.pi:,.0f}",
-        "-" if not run.ocs or torque is None else f"{torque:.2f}",
+        "-" if not run.ocs or torque is None else f"{torque:.3g}",
     ]
 
 

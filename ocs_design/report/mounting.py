@@ -11,11 +11,11 @@ _SHOWN = 2
 
 def mounted(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     """What is near, and what the device changes."""
-    yield "nearest part", _nearest(ocs.clearance)
+    yield "nearest, standing", _nearest(ocs.clearance)
     if ocs.mounting is None:
         return
     if ocs.mounting.landing is not None:
-        yield "legs give way", _nearest(ocs.mounting.landing)
+        yield "nearest, landing", _nearest(ocs.mounting.landing)
     yield "the device shifts", _changes(ocs.mounting)
 
 

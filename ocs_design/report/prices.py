@@ -44,7 +44,7 @@ def _change(price: PriceRecord) -> str:
     limit = LIMITS[price.limit]
     if limit is TIME:
         return f"{price.changed - price.value:+.0%}"
-    before, after = (f"{value * limit.per_si:.5g}" for value in (price.value, price.changed))
+    before, after = (f"{value * limit.per_si:.4g}" for value in (price.value, price.changed))
     return f"{before} to {after} {limit.unit}".rstrip()
 
 

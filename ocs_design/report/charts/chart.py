@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
 from ocs_design.report.charts.marks import Mark
@@ -41,7 +42,16 @@ def thinned(x: FloatArray, y: FloatArray, most: int = MOST_POINTS) -> tuple[Floa
     """A line with fewer points that has the same peaks: the least and the largest of each piece."""
     if len(x) <= most:
         return x, y
-    pieces = np.array_split(np.arange(len(x)), most // 2)
-    ends = (piece[[np.argmin(y[piece]), np.argmax(y[piece])]] for piece in pieces)
+    pieces, size = most // 2, len(x) // (most // 2)
+    # As `array_split` has it: the first ones are longer by one.
+    longer = (size + 1) * (len(x) % pieces)
+    ends = (*_ends(y[:longer], size + 1), *(longer + end for end in _ends(y[longer:], size)))
     kept = np.unique(np.concatenate([[0], *ends, [len(x) - 1]]))
     return x[kept], y[kept]
+
+
+def _ends(y: FloatArray, size: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where the least and the largest of each piece of that size are."""
+    rows = y.reshape(-1, size)
+    first = np.arange(len(rows)) * size
+    return first + rows.argmin(axis=1), first + rows.argmax(axis=1)

@@ -61,4 +61,4 @@ def _sample(mark: Mark, x: float, y: float) -> str:
             box = f'x="{x:.1f}" y="{y - 5.0:.1f}" width="{_SAMPLE:g}" height="10"'
             return f'<rect class="area fill-{mark.ink}" {box}/>'
         case Rule():
-            return ""
+            return f'<path class="rule dashed {mark.ink}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'

@@ -61,12 +61,16 @@ class Points(_Drawn):
 
 @dataclass(frozen=True)
 class Rule:
-    """A dashed line across the chart at one value of an axis; a word stands at an upright one."""
+    """A dashed line across the chart at one value of an axis.
+
+    A `label` stands at an upright one; `name` goes into the legend.
+    """
 
     value: float
     upright: bool
     label: str = ""
     ink: Ink = Ink.PLAIN
+    name: str = ""
 
 
 Mark: TypeAlias = Line | Area | Points | Rule

@@ -112,7 +112,10 @@ def _draw(axes: "Axes", mark: Mark) -> None:
 
 def _draw_rule(axes: "Axes", rule: Rule) -> None:
     across = axes.axvline if rule.upright else axes.axhline
-    across(rule.value, color=COLORS[rule.ink], linewidth=0.8, linestyle="--", zorder=0)
+    across(
+        rule.value, color=COLORS[rule.ink], linewidth=0.8, linestyle="--", zorder=0,
+        label=rule.name or None,
+    )  # fmt: skip
     if rule.label and rule.upright:
         axes.annotate(
             rule.label, (rule.value, 0.02), (3.0, 0.0), xycoords=axes.get_xaxis_transform(),

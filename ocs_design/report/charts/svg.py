@@ -76,6 +76,7 @@ class _Drawing:
             if isinstance(mark, Points)
             for x, y in self._at(mark.x, mark.y).tolist()
         ]
+        self._curves: list[FloatArray] = []
 
     def text(self, style: str) -> str:
         """The whole element."""
@@ -166,30 +167,54 @@ class _Drawing:
                 words = zip(places, labels, strict=True)
                 return "".join(self._beside(x, y, text) for (x, y), text in words)
             case Rule(label=label, upright=True) if label:
-                return self._beside(self._rule(mark)[0], self._bottom - 9.0, label)
+                return self._along(self._rule(mark)[0], label)
         return ""
+
+    def _along(self, x: float, text: str) -> str:
+        """Beside an upright rule: below, above or in between, where no curve is in the way."""
+        low, high = self._bottom - 9.0, self._top + 9.0
+        heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
+        places = ((y, self._box(x, y, text)) for y in heights)
+        free = (y for y, box in places if not any(map(box.meets, self._taken + self._met(box))))
+        return self._beside(x, next(free, low), text)
+
+    def _met(self, box: _Box) -> list[_Box]:
+        """What the curves, which are drawn by now, take between the ends of a box."""
+        parts = [
+            curve[(curve[:, 0] >= box.left) & (curve[:, 0] <= box.right), 1]
+            for curve in self._curves
+        ]
+        return [
+            _Box(box.left, float(part.min()), box.right, float(part.max()))
+            for part in parts
+            if part.size
+        ]
 
     def _beside(self, x: float, y: float, text: str) -> str:
         """To the right of a place, or to its left where there is no room, clear of all others."""
-        reach = _LETTER * len(text)
-        leftwards = x + _GAP + reach > WIDTH
-        near = x - _GAP - reach if leftwards else x + _GAP
-        tried = [_Box(near, y + rise - 6.0, near + reach, y + rise + 5.0) for rise in _RISES]
+        tried = [self._box(x, y + rise, text) for rise in _RISES]
         box = next((each for each in tried if not any(map(each.meets, self._taken))), tried[0])
         self._taken.append(box)
-        far, anchor = (x - _GAP, "end") if leftwards else (x + _GAP, "start")
+        far, anchor = (x - _GAP, "end") if box.left < x else (x + _GAP, "start")
         return _word("note", far, box.top + 9.5, text, anchor)
+
+    def _box(self, x: float, y: float, text: str) -> _Box:
+        """What a word beside a place takes."""
+        reach = _LETTER * len(text)
+        near = x - _GAP - reach if x + _GAP + reach > WIDTH else x + _GAP
+        return _Box(near, y - 6.0, near + reach, y + 5.0)
 
     def _line(self, mark: Line) -> str:
         look = f"line {mark.ink}{_dashes(mark.dashed)}" + (" thin" if mark.thin else "")
         broken = np.isnan(mark.x) | np.isnan(mark.y)
         pieces = np.split(np.arange(len(mark.x)), np.flatnonzero(broken))
-        paths = []
-        for piece in pieces:
-            whole = piece[~broken[piece]]
-            if len(whole) > 1:
-                paths.append(_path(self._at(*thinned(mark.x[whole], mark.y[whole]))))
-        return f'<path class="{look}" d="{"".join(paths)}"/>' if paths else ""
+        wholes = (piece[~broken[piece]] for piece in pieces)
+        curves = [
+            self._at(*thinned(mark.x[whole], mark.y[whole])) for whole in wholes if len(whole) > 1
+        ]
+        self._curves += curves
+        paths = "".join(map(_path, curves))
+        return f'<path class="{look}" d="{paths}"/>' if paths else ""
 
     def _points(self, mark: Points) -> str:
         look = f"ring {mark.ink}" if mark.hollow else f"disc fill-{mark.ink}"
@@ -224,8 +249,17 @@ def _stretched(axis: Axis, span: float) -> Axis:
 
 
 def _path(places: FloatArray, *, closed: bool = False) -> str:
-    steps = "L".join(f"{x:.1f} {y:.1f}" for x, y in places.tolist())
+    steps = "L".join(f"{x:.1f} {y:.1f}" for x, y in _bent(places.round(1)).tolist())
     return f"M{steps}{'Z' if closed else ''}"
+
+
+def _bent(places: FloatArray) -> FloatArray:
+    """Without those in the middle of a level stretch, which say nothing."""
+    steps = np.diff(places, axis=0)
+    onwards = steps[1:, 0] * steps[:-1, 0] >= 0.0
+    level = (steps[1:, 1] == 0.0) & (steps[:-1, 1] == 0.0)
+    kept: FloatArray = places[np.concatenate([[True], ~(level & onwards), [True]])]
+    return kept
 
 
 def _straight(look: str, x1: float, y1: float, x2: float, y2: float) -> str:

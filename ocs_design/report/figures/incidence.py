@@ -62,7 +62,8 @@ def _rows(
         name=name,
         title=title,
         description=description,
-        x=Axis("incidence angle", "deg", 0.0, 90.0),
+        # Discs at either end are seen whole.
+        x=Axis("incidence angle", "deg", -3.0, 93.0),
         y=Axis("", "", len(rows) - 0.4, -0.6),
         marks=tuple(marks),
         rows=rows,

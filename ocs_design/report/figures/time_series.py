@@ -38,8 +38,11 @@ def _tilt(scenario: str, name: str, flights: Sequence[Flight]) -> Chart:
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
     lines = _about_axes(flights, "{axis}_rad", "deg", thin=False)
     marks: list[Mark] = [
-        *(Rule(side * tolerance, upright=False, ink=Ink.FAINT) for side in (-1.0, 1.0)),
         *lines,
+        *(
+            Rule(side * tolerance, upright=False, ink=Ink.FAINT, name="allowed at touchdown")
+            for side in (-1.0, 1.0)
+        ),
         *_events(flights),
     ]
     return Chart(

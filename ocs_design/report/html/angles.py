@@ -53,10 +53,11 @@ def _choice(selection: SelectionRecord) -> Iterator[Markup]:
         f"Chosen from {selection.candidates:,} combinations of motor, gear, material and "
         f"incidence at {selection.bus_voltage:g} V; {selection.binding_maneuver} asks for most.",
     )
-    needed = f"At the least, with {selection.reserve:.0%} of voltage and current"
+    needed = f"What each asks for at the least, with {selection.reserve:.0%} of voltage and current"
     yield table(needed, _words(TASKS), map(task_cells, selection.tasks))
     drives = best_drives(selection.ranking)
-    yield table("The lightest drives", _words(RANKED), map(ranked_cells, drives), words=(0, 2))
+    columns = ("motor, gear", *_words(RANKED)[1:])
+    yield table("The lightest drives", columns, map(ranked_cells, drives), words=(0, 2))
     if selection.co_design is not None:
         yield element("p", selection.co_design.remark)
     reasons = (f"{each.motor}: {each.detail}" for each in selection.rejections)

@@ -14,7 +14,7 @@ _ESCAPED = {
 """What must not stand in a script's element, as JSON may write it too."""
 
 
-_POWER = re.compile(r"\b(kg m|kg mm|m/s|rad/s)([23])\b")
+_POWER = re.compile(r"\b(kg m|kg mm|m/s|rad/s)\^?([23])\b")
 
 
 class Markup(str):
@@ -112,5 +112,5 @@ def _safe(content: str) -> str:
 
 
 def _typeset(text: str) -> str:
-    """Powers of units as the terminal spells them."""
+    """Powers of units, which the terminal and the messages spell without raised figures."""
     return _POWER.sub(lambda found: found[1] + {"2": "²", "3": "³"}[found[2]], text)

@@ -13,7 +13,8 @@ from ocs_design.report.quantities import degrees, rpm
 from ocs_design.report.story import Story
 
 _COLUMNS = (
-    "robot", "verdict", "pitch at touchdown [deg]", "roll [deg]", "at the end [deg]", "roll [deg]",
+    "device", "verdict",
+    "pitch at touchdown [deg]", "roll [deg]", "pitch at the end [deg]", "roll [deg]",
     "turned [deg]",
     "wheel speed [rpm]", "torque [N m]",
 )  # fmt: skip
@@ -80,4 +81,4 @@ def _shown(run: ValidationRecord, name: str) -> str:
     value = run.metrics.get(name)
     if not run.ocs or value is None:
         return "-"
-    return rpm(value).removesuffix(" rpm") if name == "peak_wheel_speed" else f"{value:.2f}"
+    return rpm(value).removesuffix(" rpm") if name == "peak_wheel_speed" else f"{value:.3g}"

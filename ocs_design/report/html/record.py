@@ -88,7 +88,7 @@ def _versions() -> Iterator[str]:
 
 def _files(design: OcsDesign) -> Markup:
     rows = ((name, element("code", digest)) for name, digest in design.files.items())
-    return table("Files", ("file", "SHA-256"), rows, words=(0, 1))
+    return element("div", table("Files", ("file", "SHA-256"), rows, words=(0, 1)), class_="sums")
 
 
 def _data_note() -> Iterator[str]:

@@ -14,6 +14,7 @@ from ocs_design.report.prices import COLUMNS as PRICES
 from ocs_design.report.prices import price_cells, price_notes
 from ocs_design.report.terminal import price_text, recorded_margins
 from ocs_design.selection_record import SelectionRecord
+from ocs_design.sizing.selection.binding import HOUSING, HUB, MOUNT, WEB
 
 _MARGIN_NOTE = (
     "The worst over all maneuvers, as flown where they were flown. A factor of 1 uses everything "
@@ -24,6 +25,15 @@ _PRICE_NOTE = (
     "not touch costs nothing: more of it buys nothing."
 )
 _NOT_REACHED = "0, not reached"
+_FREE = "nothing: it lies inside all limits"
+_MEANT = {
+    HOUSING: "its housing: a larger rim would be lighter, and its housing heavier by more",
+    MOUNT: "the motor's mount: its screws ask for so wide a housing",
+    HUB: "the hub, which its bore must clear",
+    WEB: "the web, which it must be taller than",
+}
+"""What holds a wheel though nobody has stated it."""
+
 _FRONT_NOTE = "How the mass changes with room, voltage or time, motor and all, is drawn by "
 
 
@@ -44,7 +54,7 @@ def sizes_section(design: OcsDesign) -> Markup:
 
 def limits_section(design: OcsDesign) -> Markup:
     """What binds, and what more of it would buy."""
-    held = ", ".join(design.sizing.binding) or "nothing: it lies inside all limits"
+    held = ", ".join(_MEANT.get(name, name) for name in design.sizing.binding) or _FREE
     selection = design.selection
     priced = selection is not None and selection.prices
     return section(

@@ -6,7 +6,8 @@ SIGGRAPH 2000).
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,9 @@ DEVICE_GRAIN = 0.2
 _LEAST_GROWTH = 1.1
 """Of the cell from one attempt to the next."""
 
+_BITS = 21
+"""Of the number of a vertex: three of them make the number of a face."""
+
 _FLAT = 0.05
 """Singular values of a quadric below this part of its largest one say nothing of the place."""
 
@@ -34,16 +38,16 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
     extent = max((float(np.ptp(each, axis=0).max()) for each in points), default=0.0)
     if extent == 0.0:
         return tuple(bodies)
-    cell = FINEST * extent
-    while (count := _count(bodies, cell)) > most_triangles:
+    cell, boxed = FINEST * extent, [_Boxed.of(body) for body in bodies]
+    while (count := sum(each.count(cell) for each in chain(*boxed))) > most_triangles:
         # A surface takes as many cells as it has area.
         cell *= max(_LEAST_GROWTH, float(np.sqrt(count / most_triangles)))
-    return tuple(_clustered_body(body, _cell(body, cell)) for body in bodies)
+    return tuple(_clustered_body(body, _grain(body) * cell) for body in bodies)
 
 
-def _cell(body: ShownBody, cell: float) -> float:
-    """The device is what one looks for: it keeps its edges."""
-    return DEVICE_GRAIN * cell if body.name.startswith(PREFIX) else cell
+def _grain(body: ShownBody) -> float:
+    """Of its cells: the device is what one looks for, and keeps its edges."""
+    return DEVICE_GRAIN if body.name.startswith(PREFIX) else 1.0
 
 
 def triangles_of(bodies: Sequence[ShownBody]) -> int:
@@ -56,38 +60,72 @@ def _clustered_body(body: ShownBody, cell: float) -> ShownBody:
     return replace(body, surfaces=tuple(surface for surface in found if len(surface.faces)))
 
 
-def _count(bodies: Sequence[ShownBody], cell: float) -> int:
-    return sum(
-        len(_distinct(_clusters(surface, _cell(body, cell))[surface.faces]))
-        for body in bodies
-        for surface in body.surfaces
-    )
+@dataclass(frozen=True, eq=False)
+class _Boxed:
+    """A surface in its box, to be merged again and again.
+
+    Attributes:
+        offsets: of the vertices from the box's lowest corner [m], columns of shape (n,).
+        faces: columns of shape (m,). grain: see `_grain`.
+    """
+
+    offsets: tuple[FloatArray, ...]
+    faces: tuple[NDArray[np.int64], ...]
+    grain: float
+
+    @classmethod
+    def of(cls, body: ShownBody) -> "tuple[_Boxed, ...]":
+        """All surfaces of a body."""
+        return tuple(cls.around(surface, _grain(body)) for surface in body.surfaces)
+
+    @classmethod
+    def around(cls, surface: Surface, grain: float = 1.0) -> "_Boxed":
+        """One surface."""
+        offsets = tuple(column - column.min() for column in surface.vertices.T)
+        return cls(offsets, tuple(np.ascontiguousarray(surface.faces.T)), grain)
+
+    def cells(self, cell: float) -> NDArray[np.int64]:
+        """A number below 2^21 for each vertex, the same for those in one cell."""
+        x, y, z = (np.floor(column / cell).astype(np.int64) for column in self.offsets)
+        number = (x * (int(y.max()) + 1) + y) * (int(z.max()) + 1) + z
+        return number if number.max() < 1 << _BITS else _numbered(number)
+
+    def count(self, cell: float) -> int:
+        """How many triangles are left."""
+        cells = self.cells(self.grain * cell)
+        _, key = _keyed(*(cells[column] for column in self.faces))
+        key.sort()
+        return int(np.count_nonzero(np.diff(key)) + bool(key.size))
 
 
 def clustered(surface: Surface, cell: float) -> Surface:
     """A surface whose vertices in one cell [m] are one; triangles that shrink to nothing go."""
-    cluster = _clusters(surface, cell)
+    cluster = _numbered(_Boxed.around(surface).cells(cell))
     faces = _distinct(cluster[surface.faces])
     vertices = _representatives(surface, cluster, cell)
     used, renumbered = np.unique(faces, return_inverse=True)
     return Surface(vertices[used], renumbered.reshape(-1, 3), surface.color)
 
 
-def _clusters(surface: Surface, cell: float) -> NDArray[np.intp]:
-    """Number of the cell that each vertex lies in; only cells with a vertex count."""
-    low = surface.vertices.min(axis=0)
-    x, y, z = np.floor((surface.vertices - low) / cell).astype(np.int64).T
-    _, cluster = np.unique((x << 42) | (y << 21) | z, return_inverse=True)
-    return np.asarray(cluster.ravel())
+def _numbered(values: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The place of each among the distinct ones, from zero."""
+    return np.asarray(np.unique(values, return_inverse=True)[1].ravel())
 
 
-def _distinct(faces: NDArray[np.intp]) -> NDArray[np.intp]:
+def _distinct(faces: NDArray[np.int64]) -> NDArray[np.int64]:
     """Faces of three corners, each once."""
-    a, b, c = faces.T
-    kept = faces[(a != b) & (b != c) & (c != a)]
-    low, middle, high = np.sort(kept, axis=1).astype(np.int64).T
-    _, first = np.unique((low << 42) | (middle << 21) | high, return_index=True)
-    return np.asarray(kept[first])
+    kept, key = _keyed(*faces.T)
+    return np.asarray(faces[kept][np.unique(key, return_index=True)[1]])
+
+
+def _keyed(
+    a: NDArray[np.int64], b: NDArray[np.int64], c: NDArray[np.int64]
+) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+    """Which faces have three corners, and a number for each, the same for the same corners."""
+    kept = (a != b) & (b != c) & (c != a)
+    a, b, c = a[kept], b[kept], c[kept]
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    return kept, (low << 2 * _BITS) | ((a + b + c - low - high) << _BITS) | high
 
 
 def _representatives(surface: Surface, cluster: NDArray[np.intp], cell: float) -> FloatArray:

@@ -51,7 +51,7 @@ def _drive(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
         share,
         1.0,
         "",
-        f"of {wheel.bus_voltage:g} V, largest |W / w_0 + tau / tau_s|",
+        f"of {wheel.bus_voltage:g} V: speed over no-load speed plus torque over stall torque",
     )
     yield Margin("wheel speed, to no load", speed, no_load, "rad/s")
     yield Margin("wheel speed, mechanical", speed, _finite(line.speed_max), "rad/s")

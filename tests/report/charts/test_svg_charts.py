@@ -94,3 +94,31 @@ def test_words_that_would_lie_on_each_other_or_on_a_disc_give_way():
     assert abs(first - second) > 10.0
     disc = places(inline_svg(drawn))[2]
     assert not -4.0 < rule - disc[1] < 13.5, "clear of the disc"
+
+
+def test_the_word_at_a_rule_stands_where_no_curve_is():
+    x = np.linspace(0.0, 10.0, 200)
+    low = Line(x, np.where(x > 8.0, 4.0, 0.3), Ink.BLUE)
+    high = Line(x, np.full(200, 9.8), Ink.GREEN)
+    root = ET.fromstring(inline_svg(chart(low, high, Rule(2.0, upright=True, label="touchdown"))))
+    word = next(
+        float(each.get("y")) for each in root.iter(f"{SVG}text") if each.text == "touchdown"
+    )
+    top, bottom = map(float, root.get("data-y").split())
+    height = (bottom - word) / (bottom - top)
+    assert 0.07 < height < 0.9
+
+
+def test_a_rule_with_a_name_is_in_the_legend_once():
+    rules = (Rule(side, upright=False, name="allowed") for side in (2.0, 8.0))
+    texts = [each.text for each in ET.fromstring(inline_svg(chart(*rules))).iter(f"{SVG}text")]
+    assert texts.count("allowed") == 1
+
+
+def test_a_level_stretch_is_drawn_by_its_ends():
+    x = np.linspace(0.0, 10.0, 300)
+    shape = np.concatenate([x, x[::-1]]), np.concatenate([np.full(300, 8.0), np.full(300, 2.0)])
+    area = ET.fromstring(inline_svg(chart(Area(*shape, Ink.FAINT)))).find(
+        f".//{SVG}path[@class='area fill-faint']"
+    )
+    assert area.get("d").count("L") == 3

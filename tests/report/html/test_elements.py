@@ -50,7 +50,10 @@ def test_markup_stands_as_it_is_and_what_is_not_does_not():
 
 
 def test_units_get_their_powers():
-    assert element("p", "4 kg m2, robot_m2, 3 rad/s2") == "<p>4 kg m², robot_m2, 3 rad/s²</p>"
+    assert (
+        element("p", "4 kg m2, 5 kg m^2, robot_m2, 3 rad/s2")
+        == "<p>4 kg m², 5 kg m², robot_m2, 3 rad/s²</p>"
+    )
 
 
 def test_lists_without_anything_are_not_there():
