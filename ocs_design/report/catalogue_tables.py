@@ -22,7 +22,9 @@ BASIS_MARK = {"peak current": "+", "stall torque": "*"}
 def print_motors(console: Console, found: Sequence[Motor]) -> None:
     """Every motor with what a choice goes by, the lightest first; then what some lack."""
     heading(console, "Motors")
-    table = columns("name", "g", "V", "rpm\nmax", "N m\npeak ", "mN m/A", "ohm")
+    table = columns(
+        "name", "mass\ng", "rated\nV", "max\nrpm", "peak \nN m ", "k_t\nmN m/A", "R\nohm"
+    )
     for motor in sorted(found, key=lambda motor: (motor.mass or math.inf, motor.name)):
         mark = BASIS_MARK.get(motor.peak_basis, " ")
         table.add_row(
@@ -44,7 +46,7 @@ def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
     """Every stage that the gears offer; then the gears that offer none, with what they lack."""
     heading(console, "Gears")
     table = columns(
-        "name", "ratio", "g", "g cm2\nat wheel", "N m\npeak", "rpm\nmotor", "rpm\nwheel"
+        "name", "ratio", "mass\ng", "at wheel\ng cm2", "peak\nN m", "motor\nrpm", "wheel\nrpm"
     )
     for sheet in found:
         for gear in sheet.stages():
@@ -69,7 +71,7 @@ def _add_gear(table: Table, gear: Gear) -> None:
 def print_materials(console: Console, found: Sequence[Material]) -> None:
     """Every material with its figures."""
     heading(console, "Materials")
-    table = columns("name", "kg/m3", "yield\nMPa", "ultimate\nMPa", "Poisson")
+    table = columns("name", "density\nkg/m3", "yield\nMPa", "ultimate\nMPa", "Poisson")
     for material in found:
         table.add_row(
             Text(material.name),

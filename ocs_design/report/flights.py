@@ -31,8 +31,8 @@ def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
     """Verdicts, attitude at touchdown, what the wheels did, and why."""
     heading(console, "Proof in MuJoCo: the same flights with and without the device")
     table = columns(
-        "scenario", "device", "verdict", "touchdown deg\npitch  roll", "end deg\npitch  roll",
-        "turned\ndeg", "wheel\nrpm", "torque\nN m", left=3,
+        "scenario", "verdict", "touchdown\npitch  roll\ndeg", "end\npitch  roll\ndeg",
+        "turned\n\ndeg", "wheel\nspeed\nrpm", "motor\ntorque\nN m", left=2,
     )  # fmt: skip
     for run in runs:
         table.add_row(*_run_row(run))
@@ -45,8 +45,7 @@ def _run_row(run: ValidationRecord) -> list[Text | str]:
     metrics = run.metrics
     speed, torque = metrics.get("peak_wheel_speed"), metrics.get("peak_wheel_torque")
     return [
-        Text(run.scenario),
-        "with" if run.ocs else "without",
+        Text(run.scenario if run.ocs else "  without"),
         Text(word, style=style),
         _tilt(metrics, "touchdown") if flies(metrics) else "-",
         _tilt(metrics, "final"),
@@ -71,7 +70,7 @@ def flies(metrics: Mapping[str, float | bool | None]) -> bool:
 
 def _tilt(metrics: Mapping[str, float | bool | None], when: str) -> str:
     """Pitch and roll [deg], side by side."""
-    return f"{_deg(metrics, f'{when}_pitch')} {_deg(metrics, f'{when}_roll'):>6}"
+    return f"{_deg(metrics, f'{when}_pitch')} {_deg(metrics, f'{when}_roll'):>5}"
 
 
 def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:

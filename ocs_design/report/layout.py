@@ -62,5 +62,7 @@ def fits(console: Console, table: Table) -> bool:
 
 
 def show(console: Console, table: Table) -> None:
-    """A table, indented like everything under a heading."""
+    """A table, indented like everything under a heading; closer where it would break a line."""
+    if not fits(console, table):
+        table.padding = (0, 1, 0, 0)
     console.print(Padding(table, INDENT))

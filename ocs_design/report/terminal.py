@@ -38,6 +38,11 @@ TURNS = (
     "the least torque that does it. More torque may do with up to half the wheel: the flights tell."
 )
 
+DRIVEN = (
+    "Momenta are those of constant torque one way and then the other; spin inertia is what the "
+    "chosen drive needs, which may hold its speed longer and leave less in the wheels."
+)
+
 ROUNDING = 1e-9
 """Of the largest moment of inertia: a product below this is what rounding leaves of zero."""
 
@@ -139,8 +144,7 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
     if requirement.spin_inertia_by_hand is not None:
         table.add_row("stated", "", "", "", f"{requirement.spin_inertia_by_hand:.3e}", "-")
     show(console, table)
-    if design.selection is None:
-        note(console, TURNS)
+    note(console, TURNS if design.selection is None else DRIVEN)
     items(console, doubts(design), style="yellow")
     if requirement.assumptions:
         heading(console, "Assumed, because nothing else was stated")
