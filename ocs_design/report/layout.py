@@ -56,13 +56,18 @@ def columns(*names: str, left: int = 1) -> Table:
 
 
 def fits(console: Console, table: Table) -> bool:
-    """Whether a table can be shown without breaking a line."""
+    """Whether a table can be shown without breaking a line, its columns closer if need be."""
+    if not _has_room(console, table):
+        table.padding = (0, 1, 0, 0)
+    return _has_room(console, table)
+
+
+def _has_room(console: Console, table: Table) -> bool:
     whole = console.options.update(max_width=sys.maxsize)
     return console.measure(table, options=whole).maximum <= console.width - INDENT[-1]
 
 
 def show(console: Console, table: Table) -> None:
     """A table, indented like everything under a heading; closer where it would break a line."""
-    if not fits(console, table):
-        table.padding = (0, 1, 0, 0)
+    fits(console, table)
     console.print(Padding(table, INDENT))

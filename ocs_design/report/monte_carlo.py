@@ -9,7 +9,7 @@ from rich.text import Text
 from ocs_design.monte_carlo.interval import Share
 from ocs_design.monte_carlo.severity import Cause
 from ocs_design.monte_carlo.summary import MonteCarloRecord, ScenarioSummary, Spread
-from ocs_design.report.layout import columns, heading, items, note, show
+from ocs_design.report.layout import columns, fits, heading, items, note, show
 
 _BARS = " ▁▂▃▄▅▆▇█"
 _UNITS = (
@@ -56,17 +56,19 @@ def share_cells(share: Share) -> tuple[str, str, str]:
     )
 
 
+_SPREADS = ("scenario", "in flight", "5 %", "median", "95 %", "most", "least to most")
+
+
 def _print_spreads(console: Console, record: MonteCarloRecord) -> None:
     console.print()
-    table = columns(
-        "scenario", "in flight", "5 %", "median", "95 %", "most", "least to most", left=2
-    )
-    table.columns[-1].justify = "left"
-    for column in table.columns:
-        column.no_wrap = True
-    for scenario in record.scenarios:
-        for row in _spread_rows(scenario):
-            table.add_row(*map(Text, row))
+    # The histogram is left out where the terminal is too narrow: no figure is cut.
+    for shown in (_SPREADS, _SPREADS[:-1]):
+        table = columns(*shown, left=2)
+        for scenario in record.scenarios:
+            for row in _spread_rows(scenario):
+                table.add_row(*map(Text, row[: len(shown)]))
+        if fits(console, table):
+            break
     show(console, table)
 
 
