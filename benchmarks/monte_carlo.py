@@ -6,6 +6,7 @@ Ratios of one process on one machine, each case once a round so that other load 
     python benchmarks/monte_carlo.py threads    two threads / one
     python benchmarks/monte_carlo.py workers    two Dask workers / one
     python benchmarks/monte_carlo.py memory     10,000 drops, within 2 GiB
+    python benchmarks/monte_carlo.py growth     as many, cut short after 10 ms: does memory grow?
 
 Goals: 0.85, 1.8, 1.7 and 2 GiB.
 """
@@ -33,6 +34,7 @@ from ocs_design.simulation.scenario import Options
 
 SOLO12 = Path(__file__).parents[1] / "examples" / "solo12.urdf"
 WORLDS, SECONDS = 1024, 0.2
+DROPS, SHORT = 10_000, 0.01
 
 
 def drops(until=None):
@@ -111,16 +113,39 @@ def workers():
     print(f"two workers over one: {spread(rates['two'] / rates['one'])}")
 
 
-def memory(samples=10_000):
-    """The peak of this process after all of them."""
-    campaign = drops()
+class Weighed(ThisMachine):
+    """Tells the peak of this process each time that twice as many samples are flown."""
+
+    def fly(self, campaign, blocks, progress):
+        told = 0
+        for block, outcomes in super().fly(campaign, blocks, progress):
+            yield block, outcomes
+            if block.stop >= 2 * told:
+                told = block.stop
+                print(f"{told:9,} samples: {peak():7.1f} MiB", flush=True)
+
+
+def peak():
+    """Largest memory that this process ever held [MiB]."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**10
+
+
+def memory(until=None):
+    """Whether the peak grows with the number of samples, and what it comes to."""
     start = time.perf_counter()
-    outcomes = run_campaign(campaign, blocks_of(samples), workers=ThisMachine())
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
-    took = time.perf_counter() - start
-    print(f"{samples:,} drops in {took:.0f} s, {peak:.2f} GiB, {outcomes.passed.mean():.1%} pass")
+    outcomes = run_campaign(drops(until), blocks_of(DROPS), workers=Weighed())
+    took, passed = time.perf_counter() - start, outcomes.passed.mean()
+    print(f"{DROPS:,} drops in {took:.0f} s, {peak():.1f} MiB, {passed:.1%} pass")
+
+
+def growth():
+    """The same drops, cut short: what is kept of each is as large."""
+    memory(SHORT)
+
+
+BENCHMARKS = (speed, threads, workers, memory, growth)
 
 
 if __name__ == "__main__":
     for wanted in sys.argv[1:]:
-        {"speed": speed, "threads": threads, "workers": workers, "memory": memory}[wanted]()
+        next(each for each in BENCHMARKS if each.__name__ == wanted)()
