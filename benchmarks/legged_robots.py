@@ -1,10 +1,9 @@
 """`ocs-design size`, with no option beyond the file, on every legged robot of example-robot-data.
 
-    python benchmarks/legged_robots.py [--samples N] [PART_OF_A_NAME ...]
+    python benchmarks/legged_robots.py [PART_OF_A_NAME ...]
 
 Prints a Markdown table: what came out, what it took, and why the first scenario fails that does.
-Goals: below 10 s and 1 GiB for each. With --samples each device is flown as it might be built, by
-`validate --samples N`, and the table says how often each scenario passes and what else came of it.
+Goals: below 10 s and 1 GiB for each. `legged_samples.py` flies the devices as they might be built.
 """
 
 import argparse
@@ -71,64 +70,24 @@ class Outcome:
 
 def main() -> None:
     parser = argparse.ArgumentParser()
-    parser.add_argument("--samples", type=int, default=0)
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
     wanted = [
         name for name in LEGGED if not arguments.names or any(w in name for w in arguments.names)
     ]
-    if arguments.samples:
-        print(
-            "| robot | scenario | as designed | passes of all | what else came of it | time [s] |"
-        )
-        print("|---|---|---|--:|---|--:|")
-    else:
-        print(
-            "| robot | exit | wheels / robot [%] | passed with / without | time [s] | memory [MiB] "
-            "| written [MiB] | first reason |"
-        )
-        print("|---|--:|--:|--:|--:|--:|--:|---|")
+    print(
+        "| robot | exit | wheels / robot [%] | passed with / without | time [s] | memory [MiB] "
+        "| written [MiB] | first reason |"
+    )
+    print("|---|--:|--:|--:|--:|--:|--:|---|")
     for name in wanted:
-        robot = ROBOTS / f"{name}.urdf"
-        rows = (
-            sampled(name, robot, arguments.samples)
-            if arguments.samples
-            else [row(name, size(robot))]
-        )
-        print(*rows, sep="\n", flush=True)
+        print(row(name, size(ROBOTS / f"{name}.urdf")), flush=True)
 
 
 def size(robot: Path) -> Outcome:
     """What it writes is thrown away."""
     with tempfile.TemporaryDirectory() as folder:
         return run("size", str(robot), out=Path(folder) / "out")
-
-
-def sampled(name: str, robot: Path, samples: int) -> list[str]:
-    """A row for each scenario of the device that comes out."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "out"
-        sizing = run("size", str(robot), "--no-validate", out=out)
-        if sizing.code != 0:
-            return [f"| {Path(name).name} | - | {sizing.document['error']['message']} | | | |"]
-        flown = run("validate", str(out), "--samples", str(samples), out=Path(folder) / "mc")
-    if "error" in flown.document:
-        return [f"| {Path(name).name} | - | {flown.document['error']['message']} | | | |"]
-    designed = {r["scenario"]: r["reason"] for r in flown.document["validation"] if r["ocs"]}
-    return [
-        sampled_row(Path(name).name, each, designed[each["scenario"]], flown.seconds)
-        for each in flown.document["monte_carlo"]["scenarios"]
-    ]
-
-
-def sampled_row(name: str, scenario: dict[str, Any], designed: str, seconds: float) -> str:
-    """Of the table."""
-    success, causes = scenario["success"], scenario["causes"]
-    came = [f"{count} {fault}" for fault, count in scenario["faults"].items()]
-    came += [f"with {cause['quantity']} {cause['correlation']:+.2f}" for cause in causes[:2]]
-    rate = f"{success['passed']} / {success['flown']}"
-    cells = (name, scenario["scenario"], designed, rate, ", ".join(came) or "-", f"{seconds:.0f}")
-    return f"| {' | '.join(cells)} |"
 
 
 def run(command: str, *arguments: str, out: Path) -> Outcome:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.monte_carlo.advice import advice
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.interval import CONFIDENCE, Share, share
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
@@ -40,6 +41,7 @@ class ScenarioSummary:
         attitude_error: largest of roll and pitch at touchdown, and of what a flip lacks [rad].
         peak_wheel_speed, peak_wheel_torque: in flight [rad/s], [N m].
         causes: what bad outcomes go with. worst: samples, the worst first.
+        advice: how to mend what fails, where that is known; one sentence or empty.
     """
 
     scenario: str
@@ -50,6 +52,7 @@ class ScenarioSummary:
     peak_wheel_torque: Spread | None
     causes: tuple[Cause, ...]
     worst: tuple[int, ...]
+    advice: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,6 +115,7 @@ def _scenario(campaign: Campaign, outcomes: Outcomes, number: int) -> ScenarioSu
         peak_wheel_torque=_spread(outcomes.metric("peak_wheel_torque")[:, number]),
         causes=causes(outcomes, ranking),
         worst=tuple(outcomes.index[ranking[::-1][:WORST]].tolist()),
+        advice=advice(outcomes, maneuver, number),
     )
 
 

@@ -95,6 +95,8 @@ def _stories(record: MonteCarloRecord) -> Iterator[str]:
         found = ", ".join(map(_cause, scenario.causes))
         if found:
             yield f"{scenario.scenario}: off level with {found}"
+        if scenario.advice:
+            yield f"{scenario.scenario}: {scenario.advice}"
         worst = ", ".join(map(str, scenario.worst))
         yield f"{scenario.scenario}: worst are samples {worst}"
 

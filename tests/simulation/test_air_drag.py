@@ -50,6 +50,26 @@ def test_a_housing_is_better_than_open_air():
     assert np.all(disc_drag(fast, radius, 0.004) < free)
 
 
+def test_a_turbulent_gap_drags_as_a_motor_designer_has_it():
+    """Touhami's thesis (Toulouse 2020, equations II-70 and II-73) as FAST-OAD_CS23-HE checks it.
+
+    The rotor of 0.1814 m turns 2.8 mm away from its stator at Re = 27082: `C = 0.001487`, of
+    `C pi rho W^2 R^4 h`.
+    """
+    radius, gap, height = 0.0907, 0.0028, 0.01
+    speed = np.array([27082.0 * AIR_VISCOSITY / (radius * gap)])
+    quoted = 0.001487 * np.pi * AIR_DENSITY * speed**2 * radius**4 * height
+    np.testing.assert_allclose(cylinder_drag(speed, radius, height, gap), quoted, rtol=5e-4)
+
+
+def test_turbulent_faces_drag_as_a_review_has_it():
+    """Harmand et al. (2013): `C = 0.051 (s/R)^0.1 Re^-1/5` of each face, boundary layers apart."""
+    radius, gap, fast = 0.2, 0.02, np.array([1500.0])
+    reynolds = fast * radius**2 / AIR_VISCOSITY
+    each = 0.051 * (gap / radius) ** 0.1 / reynolds**0.2 * 0.5 * AIR_DENSITY * fast**2 * radius**5
+    np.testing.assert_allclose(disc_drag(fast, radius, gap), 2.0 * each, rtol=1e-12)
+
+
 def test_the_table_is_the_formula():
     curve = air_drag(PAPER_WHEEL, 0.002)
     between = np.random.default_rng(0).uniform(1.0, 3000.0, 200)

@@ -20,6 +20,7 @@ def monte_carlo_section(record: MonteCarloRecord | None) -> Markup:
         "Monte Carlo",
         element("p", told),
         table("How often they pass", heads, _rows(record)),
+        *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
         figures(distribution_charts(record)),
         details("What was drawn", facts(record.reality.items())),
     )
