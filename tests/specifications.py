@@ -24,7 +24,7 @@ MANEUVERS = (
         onset=0.1,
         duration=0.05,
     ),
-    Shove(name="nudge", torque=(0.5, 0.0, 0.0), duration=0.1, settling=0.4),
+    Shove(name="nudge", torque=(0.5, 0.0, 0.0), duration=0.1, settling=0.4, stride=0.3),
     Drop(name="drop", height=1.0, pitch=radians(30.0), roll=-0.1, incidence=0.0),
     Flip(name="back-flip", gravity=1.62, jump_height=1.0, angle=-2 * pi, duration=2.0),
 )

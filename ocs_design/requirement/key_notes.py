@@ -162,7 +162,7 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
 MANEUVER_NOTES: Mapping[str, str] = MappingProxyType(
     {
         "disturbance": "A jump in which something hits the trunk; to stay level until touchdown.",
-        "shove": "A torque on the trunk of a robot that stands; to be at rest soon after.",
+        "shove": "A torque on the trunk of a robot that stands or trots; to be at rest soon.",
         "drop": "A fall from rest with the trunk tilted; to be level before touchdown.",
         "flip": "A turn in pitch during a vertical jump; a back-flip is negative.",
     }
@@ -180,6 +180,7 @@ FIELD_NOTES: Mapping[str, str] = MappingProxyType(
         "duration": "of the torque",
         "flip.duration": "of the turn, from lift-off",
         "settling": "from the end of the torque to rest",
+        "stride": "of a trot on the spot; 0: the robot stands",
         "height": "of the trunk over the ground",
         "roll": "at release",
         "pitch": "at release",

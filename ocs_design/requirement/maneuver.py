@@ -157,7 +157,7 @@ class Disturbance(Unforeseen):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Shove(Unforeseen):
-    """A torque on the trunk of a robot that stands, to be calmed (paper, section 5).
+    """A torque on the trunk of a robot that stands or trots, to be calmed (paper, section 5).
 
     What the legs do about it is not counted: the device is sized to do it alone.
 
@@ -165,11 +165,13 @@ class Shove(Unforeseen):
         torque: on the trunk in B [N m], shape (3,).
         duration: of the torque [s].
         settling: from its end until the trunk must be level and at rest again [s].
+        stride: of a trot on the spot [s]; 0: the robot stands.
     """
 
     torque: tuple[float, float, float]
     duration: float
     settling: float
+    stride: float = 0.0
 
     @property
     def time_left(self) -> float:
@@ -179,8 +181,9 @@ class Shove(Unforeseen):
     @property
     def summary(self) -> str:
         """Torque and time."""
+        does = f"trots on the spot, {self.stride:.3g} s a stride" if self.stride else "stands"
         return (
-            f"stands; {_torque(self.torque)} on the trunk for {self.duration:.3g} s, "
+            f"{does}; {_torque(self.torque)} on the trunk for {self.duration:.3g} s, "
             f"to be at rest {self.settling:.3g} s after it"
         )
 

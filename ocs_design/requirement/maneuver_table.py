@@ -41,6 +41,8 @@ _COMMON: Mapping[str, Value[Any]] = {
     "incidence": INCIDENCE,
 }
 _TIME = Quantity(Dimension.TIME)
+_LONGEST_STRIDE = 5.0
+"""[s]: a giraffe's takes one; a robot is watched for several."""
 
 MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     {
@@ -61,6 +63,7 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
                 "torque": Quantities(Dimension.TORQUE, (3,)),
                 "duration": _TIME,
                 "settling": _TIME,
+                "stride": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE),
             },
         ),
         "drop": ManeuverKind(

@@ -11,7 +11,7 @@ from ocs_design.design import Device
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
 from ocs_design.jumping.leg_trajectory import LegTrajectory
 from ocs_design.requirement.froude import Scale
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Shove, Unforeseen
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Unforeseen
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.controller import Allocation, Gains, WheelLaw
 from ocs_design.simulation.desaturation import Desaturation
@@ -36,6 +36,7 @@ from ocs_design.simulation.scene import (
     locked_inertia,
     robot_scene,
 )
+from ocs_design.simulation.trotting import waiting
 from ocs_design.simulation.trunk import TrunkChain
 from ocs_design.sizing.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory import Trajectory
@@ -80,9 +81,9 @@ class World:
         law: of the wheels. turn: what the trunk should do. push: what hits it.
         limits: of the motors; None where the wheels are not driven, or by no limited torque.
         trajectory: what it should do in place of the turn, with its feed-forward torque.
-        legs: how they push the robot off the ground; None: it starts in flight.
+        legs: how they push the robot off the ground, or trot; None: they hold their posture.
         standing_height: of the trunk frame's origin when level with the feet on the ground [m].
-        stands: for how long, before the maneuver [s]; None: it flies or jumps.
+        stands: or trots, for how long before the maneuver [s]; None: it flies or jumps.
         flight_time: expected [s]. duration: of the run, push-off included [s].
         note: why it starts in flight where a jump was asked for; how the turn was changed to suit
             the wheels, or what is to be said of the trajectory; empty if nothing.
@@ -188,7 +189,8 @@ class WorldBuilder:
         )
         flight = flight_time(start, standing, maneuver.gravity)
         settling = settling_time(self._robot, maneuver.gravity)
-        stands = settling if isinstance(maneuver, Shove) else None
+        weight = float(model.body_mass.sum()) * maneuver.gravity
+        waits = waiting(maneuver, self._robot, weight, settling)
         fitted = self._fit(start.turn, body, wheels, trajectory)
         if legs is not None:
             start = on_the_ground(start, standing)
@@ -205,12 +207,15 @@ class WorldBuilder:
             limits=self._limits if wheels is Wheels.ACTIVE and self._limits.is_finite else None,
             turn=fitted.turn,
             trajectory=trajectory,
-            legs=legs,
+            legs=waits.legs or legs,
             push=start.push,
             standing_height=standing,
-            stands=stands,
+            stands=waits.duration,
             flight_time=flight,
-            duration=(stands or 0.0) + (0.0 if legs is None else legs.lift_off) + flight + settling,
+            duration=(waits.duration or 0.0)
+            + (0.0 if legs is None else legs.lift_off)
+            + flight
+            + settling,
             note="; ".join(filter(None, (jump.note, fitted.note))),
             desaturation=self._desaturation(body, wheels, standing, maneuver.gravity),
         )

@@ -1,0 +1,191 @@
+"""A trot on the spot by the joint drives alone: the feet lift in diagonal pairs, turn by turn.
+
+Nothing places the feet by what the trunk does: what calms a robot that is shoved is that its feet
+stand apart, and the device.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ocs_design.arrays import FloatArray
+from ocs_design.exceptions import SpecificationError
+from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.jumping.legged_body import obstacle_to_jumping
+from ocs_design.requirement.froude import Scale
+from ocs_design.requirement.maneuver import Maneuver, Shove
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance.leg_geometry import LegGeometry, leg_geometries
+
+STEP_HEIGHT = 0.02
+"""How high Solo12 lifts its feet [m]; other robots in proportion."""
+
+DUTY = 0.8
+"""Share of its stride that a foot is on the ground: all four are for three fifths of it. While two
+are in the air a robot with narrow feet topples, and has to be caught again (A1 is not at 0.7)."""
+
+_UNLOADING = 3.0
+"""A foot bears nothing from a ninth of its swing on: `3 sin(pi s) = 1`."""
+
+TROTTED = 3.0
+"""How long it trots before it is shoved, over how long others stand."""
+
+_QUADRANTS = 4
+_SAMPLE = 2e-3
+"""[s], between two samples of the references."""
+
+_HEIGHTS = 21
+_SWEEPS = 6
+"""Newton steps from one height of a foot to the next."""
+
+
+class Waiting(NamedTuple):
+    """What a robot does on the ground before it is shoved.
+
+    Attributes:
+        duration: [s]; None: it is not shoved. legs: what they track; None: their posture.
+    """
+
+    duration: float | None
+    legs: LegTrajectory | None
+
+
+def waiting(maneuver: Maneuver, robot: Robot, weight: float, settling: float) -> Waiting:
+    """It stands until its legs have given way under its weight, or trots.
+
+    Args:
+        maneuver: see `Maneuver`. robot: see `Robot`.
+        weight: of the robot with what it carries [N].
+        settling: how long it stands, and is watched afterwards [s].
+
+    Raises:
+        SpecificationError: it is to trot and has no two diagonal pairs of point feet.
+    """
+    if not isinstance(maneuver, Shove):
+        return Waiting(None, None)
+    if not maneuver.stride:
+        return Waiting(settling, None)
+    duration = shoved_at(maneuver.stride, TROTTED * settling)
+    trot = Trot(maneuver.stride, settling, duration + settling, weight)
+    return Waiting(duration, trot.references(robot))
+
+
+@dataclass(frozen=True)
+class Trot:
+    """Of one robot.
+
+    Attributes:
+        stride: of each foot [s]. start: in which the steps grow from nothing to their height [s].
+        duration: of all of it [s].
+        weight: of the robot with what it carries [N].
+    """
+
+    stride: float
+    start: float
+    duration: float
+    weight: float
+
+    def references(self, robot: Robot) -> LegTrajectory:
+        """What the joints track.
+
+        Raises:
+            SpecificationError: the robot has no two diagonal pairs of point feet.
+        """
+        geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
+        height = STEP_HEIGHT * Scale.of(robot).length
+        time = np.arange(0.0, self.duration + _SAMPLE, _SAMPLE)
+        growth = np.clip(time / self.start, 0.0, 1.0)
+        swing = _swings(time / self.stride, _pairs(robot, geometries))
+        share = 1.0 - growth * np.minimum(1.0, _UNLOADING * np.sin(np.pi * swing))
+        force = self.weight * share / share.sum(axis=0)
+        lift = height * growth * np.sin(np.pi * swing) ** 2
+        legs = [
+            _Leg.of(each, robot, height).follow(lift[i], force[i])
+            for i, each in enumerate(geometries)
+        ]
+        position = np.hstack([angles for angles, _ in legs])
+        return LegTrajectory(
+            joints=tuple(name for each in geometries for name in each.chain.names),
+            time=time,
+            position=position,
+            velocity=np.gradient(position, _SAMPLE, axis=0),
+            torque=np.hstack([torques for _, torques in legs]),
+            lift_off=0.0,
+        )
+
+
+def shoved_at(stride: float, earliest: float) -> float:
+    """The first instant from `earliest` on at which the first pair of feet lifts [s]."""
+    return float((np.ceil(earliest / stride - DUTY) + DUTY) * stride)
+
+
+def _swings(strides: FloatArray, pairs: FloatArray) -> FloatArray:
+    """Share of its swing that each foot has behind it, 0 where it stands, shape (feet, k).
+
+    Args:
+        strides: that have passed, shape (k,). pairs: of each foot, 0 or 1, shape (feet,).
+    """
+    phase = (strides + 0.5 * pairs[:, None]) % 1.0
+    return np.asarray(np.maximum(phase - DUTY, 0.0) / (1.0 - DUTY))
+
+
+def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
+    """Which of both diagonals each foot is on, shape (feet,)."""
+    obstacle = obstacle_to_jumping(robot)
+    feet = np.array([_foot(each, robot) for each in geometries]).reshape(-1, 3)
+    quadrants = len(np.unique(np.sign(feet[:, :2]), axis=0))
+    if obstacle or not len(feet) == quadrants == _QUADRANTS:
+        why = obstacle or "it has no foot before and one behind on either side, and no others"
+        raise SpecificationError(
+            f"{robot.name} cannot trot: {why}",
+            hint="leave out `stride` of the maneuver: the robot is then shoved as it stands",
+        )
+    return np.where(feet[:, 0] * feet[:, 1] > 0.0, 0.0, 1.0)
+
+
+def _foot(each: LegGeometry, robot: Robot) -> FloatArray:
+    """In B, in the nominal posture [m], shape (3,)."""
+    values = np.array([robot.posture[name] for name in each.chain.names])
+    return each.chain.pose(values).point(each.leg.foot)
+
+
+@dataclass(frozen=True, eq=False)
+class _Leg:
+    """A leg by the height that its foot is lifted to.
+
+    Attributes:
+        height: [m], shape (m,).
+        position: of the joints [rad or m], shape (m, n).
+        bearing: torque of the joints per force of the ground, upwards, shape (m, n).
+    """
+
+    height: FloatArray
+    position: FloatArray
+    bearing: FloatArray
+
+    @classmethod
+    def of(cls, each: LegGeometry, robot: Robot, highest: float) -> "_Leg":
+        """The foot straight up from the nominal posture, by Newton's method."""
+        chain, start = each.chain, _foot(each, robot)
+        values = np.array([robot.posture[name] for name in chain.names])
+        heights, positions, bearings = np.linspace(0.0, highest, _HEIGHTS), [], []
+        for height in heights:
+            goal = start + np.array([0.0, 0.0, height])
+            for _ in range(_SWEEPS):
+                pose = chain.pose(values)
+                foot = pose.point(each.leg.foot)
+                values = values + np.linalg.pinv(chain.point_jacobian(pose, foot)) @ (goal - foot)
+            pose = chain.pose(values)
+            positions.append(values)
+            # Virtual work: the ground pushes the foot up, and the joints hold against it.
+            bearings.append(-chain.point_jacobian(pose, pose.point(each.leg.foot))[2])
+        return cls(heights, np.array(positions), np.array(bearings))
+
+    def follow(self, lift: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Joints and their torques at k instants, shape (k, n) each."""
+        position, bearing = (
+            np.column_stack([np.interp(lift, self.height, column) for column in values.T])
+            for values in (self.position, self.bearing)
+        )
+        return position, bearing * force[:, None]
