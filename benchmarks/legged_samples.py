@@ -120,7 +120,10 @@ def sized(robot: str, out: Path, *options: str) -> Outcome:
 def rates(found: list[Found]) -> str:
     """A row for each robot: passes of all, and the largest error of attitude at touchdown."""
     names = list(dict.fromkeys(each["scenario"] for robot in found for each in robot.scenarios))
-    return table(("robot", "samples", *names), (rate_row(robot, names) for robot in found))
+    rows = table(("robot", "samples", *names), (rate_row(robot, names) for robot in found))
+    there = {robot.name for robot in found}
+    missing = ", ".join(name for name in map(name_of, LEGGED) if name not in there)
+    return rows + (f"\nNot flown yet: {missing}.\n" if missing else "")
 
 
 def rate_row(robot: Found, names: list[str]) -> tuple[str, ...]:
@@ -140,7 +143,7 @@ def rate(robot: Found, scenario: dict[str, Any]) -> str:
 
 def failures(found: list[Found]) -> str:
     """A row for each maneuver of a robot that does not pass every time."""
-    header = ("robot", "maneuver", "passes", "as designed", "samples", "goes with")
+    header = ("robot", "maneuver", "passes", "what came of the others", "goes with", "as designed")
     return table(header, (row for robot in found for row in failing_rows(robot)))
 
 
@@ -153,8 +156,9 @@ def failing_rows(robot: Found) -> Iterator[tuple[str, ...]]:
             causes = ", ".join(
                 f"`{cause['quantity']}` {cause['correlation']:+.2f}" for cause in scenario["causes"]
             )
-            said = robot.designed[scenario["scenario"]]["reason"]
-            yield robot.name, scenario["scenario"], share, said, faults, causes or "-"
+            designed = robot.designed[scenario["scenario"]]
+            said = "passes" if designed["passed"] else designed["reason"]
+            yield robot.name, scenario["scenario"], share, faults, causes or "-", said
 
 
 def starts(found: list[Found]) -> str:
