@@ -10,6 +10,7 @@ types come from the package.
 from math import inf, sqrt
 
 import numpy as np
+from naive_inertia import compliance_of, coupling_on, inertia_on, let_go, wheels_of
 from naive_module import (
     GAP,
     behind,
@@ -18,8 +19,6 @@ from naive_module import (
     least_outer,
     mount_of,
     printed,
-    room_taken,
-    round_thing,
     screws_around,
 )
 from naive_wheel import hub_body
@@ -96,7 +95,7 @@ class Drive:
         )
 
     def standing(self, rims):
-        """Motor, gear, housing and foot, see `naive_module`, shape (6, n)."""
+        """Motor, gear, housing and foot, see `naive_module`, shape (7, n)."""
         drive = behind(self.behind[:, None] + 0.0 * rims.height, -(rims.height / 2.0 + GAP))
         shell = printed(rims.outer, rims.height, self.mount)
         return drive + shell + screws_around(rims.outer, rims.height)
@@ -141,29 +140,6 @@ def usable(motor, gear):
     return None not in [*figures, speed_of(motor)]
 
 
-def inertia_on(problem, drive, rims, angle):
-    """Of robot and both modules about roll and pitch through the common centre, braked."""
-    module = round_thing(*drive.wheel(rims)) + drive.standing(rims)
-    mass, along, up, across, axis, upright = module
-    robot, place = problem.robot, problem.place
-    reach, standing = room_taken(rims.outer, rims.height, drive.motor, drive.gear)
-    x, y, z = (o + d * reach for o, d in zip(place.origin, place.outward, strict=True))
-    z = z + standing if place.upright else z
-    sine, cosine = np.sin(angle), np.cos(angle)
-    whole = robot.mass + 2.0 * mass
-    px, py, pz = robot.com
-    cx = (robot.mass * px + 2.0 * (mass * x + along * sine)) / whole
-    cy = robot.mass * py / whole
-    cz = (robot.mass * pz + 2.0 * (mass * z + up)) / whole
-    # Of one module about B's origin, which is the other's too.
-    xx = mass * x**2 + 2.0 * x * along * sine + across * cosine**2 + axis * sine**2
-    yy = mass * y**2 + 2.0 * y * along * cosine + across * sine**2 + axis * cosine**2
-    zz = mass * z**2 + 2.0 * z * up + upright
-    roll = robot.inertia[0, 0] + robot.mass * (py**2 + pz**2) + 2.0 * (yy + zz)
-    pitch = robot.inertia[1, 1] + robot.mass * (px**2 + pz**2) + 2.0 * (xx + zz)
-    return np.stack([roll - whole * (cy**2 + cz**2), pitch - whole * (cx**2 + cz**2)])
-
-
 def chamfer_of(problem):
     """Wheels without a web have none [m]."""
     return problem.cuts.chamfer if problem.web else 0.0
@@ -200,7 +176,7 @@ def holds(problem, drive, rims, material, slack=0.0):
     return seated & (stress * problem.envelope.stress_safety <= material.yield_strength * more)
 
 
-def asked(maneuver, inertia, standing):
+def asked(maneuver, inertia, coupling, standing):
     """Momentum through the wheels over time, momentum left at the end, and the time."""
     if isinstance(maneuver, Drop):
         time = sqrt(2.0 * (maneuver.height - standing) / maneuver.gravity)
@@ -213,8 +189,9 @@ def asked(maneuver, inertia, standing):
         flight = 2.0 * maneuver.takeoff_velocity[1] / maneuver.gravity
         time = flight - maneuver.onset - maneuver.duration
         left = np.array(maneuver.torque)[:2, None] * maneuver.duration
-        angles = left * maneuver.duration / 2.0 / inertia
-    return np.abs(inertia * angles), np.abs(left) + 0.0 * inertia, time
+        # The momentum rises evenly while the torque acts.
+        return left * maneuver.duration / 2.0 + 0.0 * inertia, left + 0.0 * inertia, time
+    return inertia * angles + coupling * angles[::-1], left + 0.0 * inertia, time
 
 
 def _off_level(roll, pitch):
@@ -241,29 +218,47 @@ def margin(problem, drive, rims, angle):
         can = _maneuver_margin(problem, drive, rims, maneuver, spin, at)
         worst = np.minimum(worst, can)
     if problem.requirement.rate_change is not None:
-        rates = inertia_on(problem, drive, rims, angle) * problem.requirement.rate_change
-        reached = 2.0 * np.stack([np.sin(angle), np.cos(angle)]) * spin * drive.top
-        worst = np.minimum(worst, (reached / rates).min(axis=0))
+        own, other = (
+            inertia_on(problem, drive, rims, angle),
+            coupling_on(problem, drive, rims, angle),
+        )
+        shares = np.stack([np.sin(angle), np.cos(angle)])
+        held = (own / shares + np.abs(other) / shares[::-1]) * problem.requirement.rate_change
+        worst = np.minimum(worst, (2.0 * spin * drive.top / held).min(axis=0))
     return worst
 
 
 def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     inertia = inertia_on(problem, drive, rims, angle)
-    through, left, time = asked(maneuver, inertia, problem.requirement.standing_height)
+    coupling = coupling_on(problem, drive, rims, angle)
     shares = np.stack([np.sin(angle), np.cos(angle)])
+    inertia, coupling = let_go(inertia, coupling, shares, _chord(maneuver))
+    through, left, time = asked(maneuver, inertia, coupling, problem.requirement.standing_height)
     # A cosine of 1e-17 is no lever.
-    levers = np.where(shares > 1e-9, 2.0 * shares * spin, np.where(through > 0.0, 1e-30, 1.0))
-    part, held = through / levers, left / levers
+    levers = np.where(shares > 1e-9, 2.0 * shares * spin, np.where(through != 0.0, 1e-30, 1.0))
     # Roll is half the difference of both wheels' angles, pitch half their sum.
-    busy, idle = part[0] + part[1], part[1] - part[0]
-    ratio = np.divide(idle, busy, out=np.ones_like(busy), where=busy > 0.0)
+    turns = wheels_of(through / levers)
+    row = np.abs(turns).argmax(axis=0)
+    busy, idle = (np.take_along_axis(turns, k[None], 0)[0] for k in (row, 1 - row))
+    ratio = np.divide(idle, busy, out=np.ones_like(busy), where=busy != 0.0)
     # Of  tau = ((I_rim + load) 1 - h^2 A' J^-1 A) dW  the row of the busier wheel.
-    own = (shares**2 / inertia).sum(axis=0)
-    other = (shares**2 / inertia * np.array([[-1.0], [1.0]])).sum(axis=0)
-    load = drive.wheel(rims)[1] + drive.rotor_load - spin**2 * (own + ratio * other)
-    moved = drive.turn(time, np.maximum(load, 1e-15), held.sum(axis=0))
+    compliance = compliance_of(inertia, coupling, shares)
+    own = compliance[0, 0] * (row == 0) + compliance[1, 1] * (row == 1)
+    load = drive.wheel(rims)[1] + drive.rotor_load - spin**2 * (own + ratio * compliance[0, 1])
+    final = np.abs(wheels_of(left / levers)).max(axis=0)
+    moved = drive.turn(time, np.maximum(load, 1e-15), final)
+    busy = np.abs(busy)
     enough = np.divide(moved, busy, out=np.where(moved >= 0.0, inf, 0.0), where=busy > 0.0)
     return np.where(load > 0.0, enough, 0.0)
+
+
+def _chord(maneuver):
+    """How far a turn leads off level."""
+    if isinstance(maneuver, Disturbance):
+        return 0.0
+    if isinstance(maneuver, Flip):
+        return 2.0 * abs(np.sin(maneuver.angle / 2.0))
+    return 2.0 * np.sin(np.linalg.norm(_off_level(maneuver.roll, maneuver.pitch)) / 2.0)
 
 
 def device_mass(drive, rims):

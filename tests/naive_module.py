@@ -1,8 +1,9 @@
 """What of a module stands still, worked out the long way: for checks of the selection.
 
 Areas and second moments come from the outlines of the parts that are printed, one for each radius
-and each height; here they become bodies. A body is its integrals of 1, Y, Z, X^2, Y^2 and Z^2 over
-the mass, about the wheel's centre: X across the axis, Y along it away from the other module, Z up.
+and each height; here they become bodies. A body is its integrals of 1, Y, Z, X^2, Y^2, Z^2 and YZ
+over the mass, about the wheel's centre: X across the axis, Y along it away from the other module, Z
+up.
 """
 
 from functools import lru_cache
@@ -34,30 +35,32 @@ def layer(area, second, low, high, axis):
     zero = 0.0 * mass
     first, other = DENSITY * long * first_across + zero, DENSITY * long * second_across + zero
     if axis == "y":
-        return np.stack([mass, mass * middle, zero, first, along + zero, other])
-    return np.stack([mass, zero, mass * middle, first, other, along + zero])
+        return np.stack([mass, mass * middle, zero, first, along + zero, other, zero])
+    return np.stack([mass, zero, mass * middle, first, other, along + zero, zero])
 
 
 def lifted(body, up):
     """The same higher up."""
-    mass, y, z, xx, yy, zz = body
-    return np.stack([mass, y, z + mass * up, xx, yy, zz + 2.0 * up * z + mass * up**2])
+    mass, y, z, xx, yy, zz, yz = body
+    moved = zz + 2.0 * up * z + mass * up**2
+    return np.stack([mass, y, z + mass * up, xx, yy, moved, yz + up * y])
 
 
 def behind(body, along):
     """The same moved along the axis."""
-    mass, y, z, xx, yy, zz = body
-    return np.stack([mass, y + mass * along, z, xx, yy + 2.0 * along * y + mass * along**2, zz])
+    mass, y, z, xx, yy, zz, yz = body
+    moved = yy + 2.0 * along * y + mass * along**2
+    return np.stack([mass, y + mass * along, z, xx, moved, zz, yz + along * z])
 
 
 def round_thing(mass, axial, across):
     """A body of revolution about the axis, its middle at the wheel's."""
     zero = 0.0 * mass
-    return np.stack([mass, zero, zero, axial / 2.0, across - axial / 2.0, axial / 2.0])
+    return np.stack([mass, zero, zero, axial / 2.0, across - axial / 2.0, axial / 2.0, zero])
 
 
 def printed(outer, height, mount):
-    """Drum, lid and foot of each size, shape (6, n)."""
+    """Drum, lid and foot of each size, shape (7, n)."""
     half = height / 2.0 + GAP
     return drum_and_lid(outer, height, mount, half) + foot_of(outer, height, mount, half)
 
@@ -95,6 +98,7 @@ def foot_of(outer, height, mount, half):
     area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), least)
     plate = layer(area, (in_x, in_z), -back, -half, "y")
     plate[2] += DENSITY * PLATE_THICKNESS * first_z
+    plate[6] -= DENSITY * PLATE_THICKNESS * first_z * (back + half) / 2.0
     return body + plate - layer(*_mount_outline(mount), -back, -half, "y")
 
 
@@ -158,16 +162,18 @@ def screws_around(outer, height):
     ears = lid * (outer + GAP + m2.clearance_hole / 2.0) ** 2 / 2.0
     slots = trunk * (half + PLATE_THICKNESS + m3.head_diameter / 2.0 + WALL) ** 2
     one, zero = np.ones_like(outer), np.zeros_like(outer)
-    on_lid = np.stack([lid * one, lid * along, zero, ears, lid * along**2, ears])
-    return on_lid + np.stack([trunk * one, zero, trunk * up, slots, slots, trunk * up**2])
+    on_lid = np.stack([lid * one, lid * along, zero, ears, lid * along**2, ears, zero])
+    return on_lid + np.stack([trunk * one, zero, trunk * up, slots, slots, trunk * up**2, zero])
 
 
 def body_of(pieces):
     """The sum of some, about their origin."""
-    total = np.zeros(6)
+    total = np.zeros(7)
     for piece in pieces:
         second = np.trace(piece.inertia) / 2.0 - np.diag(piece.inertia)
-        total += [piece.mass, *(piece.mass * piece.com[1:]), *(second + piece.mass * piece.com**2)]
+        com, mass = piece.com, piece.mass
+        aslant = mass * com[1] * com[2] - piece.inertia[1, 2]
+        total += [mass, *(mass * com[1:]), *(second + mass * com**2), aslant]
     return total
 
 

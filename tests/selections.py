@@ -1,5 +1,7 @@
 """Random robots, specifications and small catalogues for tests of the selection."""
 
+from dataclasses import replace
+
 import numpy as np
 from drawn_mounts import with_mounts
 from rims import STEEL
@@ -80,6 +82,17 @@ def random_problem(seed, motors=3, *, mounted=True):
         wheel_speed_max=rng.choice([None, speed * 1.5]),
     )  # fmt: skip
     return with_mounts(problem, seed) if mounted else problem
+
+
+def lopsided(problem, seed):
+    """The same with a robot that has something on one side."""
+    rng, robot = np.random.default_rng(1000 + seed), problem.robot
+    size = np.sqrt(np.trace(robot.inertia) / robot.mass)
+    com = robot.com + np.array([0.0, rng.uniform(-0.1, 0.1) * size, 0.0])
+    load = rng.normal(size=3)
+    load *= rng.uniform(0.1, 0.4) * size / np.linalg.norm(load)
+    own = robot.mass * (load @ load * np.eye(3) - np.outer(load, load))
+    return replace(problem, robot=MassProperties(robot.mass, com, robot.inertia + own))
 
 
 def _maneuvers(rng, standing, fall, torque, time):

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.requirement.bound import bound_curve
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.robot.robot import Robot
@@ -132,7 +133,7 @@ def momentum_figure(robot: Robot, flights: Flights) -> Figure:
         )
     for name, marker in (("disturbance", "o"), ("drop", "s"), ("back-flip", "D")):
         roll, pitch = 1e3 * flights.maneuvers[name].momentum(
-            robot.inertia, robot.standing_height or 0.0
+            TiltInertia.of(robot.inertia), robot.standing_height or 0.0
         )
         axes.plot(pitch, roll, marker, color=THIRD, label=f"asked for: {name}")
     axes.set_xlabel("pitch momentum [mN m s]")

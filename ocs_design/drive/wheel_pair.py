@@ -2,12 +2,12 @@
 
 Per wheel, at its speed W relative to the trunk, h is its spin inertia (momentum per speed, the
 motor's rotor included) and I_m = h + armature what its motor accelerates. With s, c = sin, cos of
-the incidence and I_xx, I_yy of the whole with its wheels braked, momentum about roll and pitch is
+the incidence and J of the whole about roll and pitch with its wheels braked, momentum is
 
-    I_xx w_x + s h (W_1 - W_2) = L_x        I_yy w_y + c h (W_1 + W_2) = L_y
+    J w + h (s (W_1 - W_2), c (W_1 + W_2)) = L
 
-so that a turn that sweeps P = (P_x, P_y), inertia times angle, and leaves L in the wheels, asks the
-busier wheel for
+so that a turn that sweeps P, inertia times angle, and leaves L in the wheels, asks the busier wheel
+for
 
     phi = (|P_x| / s + |P_y| / c) / (2 h)        W_f = (|L_x| / s + |L_y| / c) / (2 h)
 
@@ -15,13 +15,13 @@ while the other one does its k-th part, k = (|P_y| / c - |P_x| / s) / (|P_y| / c
 wheel's own equation, d/dt (h (s w_x + c w_y) + I_m W) = tau, then reads I_red dW/dt = tau with
 
     I_red = h + armature - kappa h^2,
-    kappa = s^2 / I_xx + c^2 / I_yy + k (c^2 / I_yy - s^2 / I_xx).
+    kappa = s^2 K_xx (1 - k) + c^2 K_yy (1 + k) + 2 s c K_xy sign(P_x P_y),        K = J^-1.
 
 The less busy wheel needs no more torque than the busier one, and has more
 (docs/theory.md, Two wheels on a trunk). Where P and L are not in proportion, k is that of P.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
@@ -31,10 +31,11 @@ from ocs_design.arrays import FloatArray
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.slew import slew_time
 from ocs_design.drive.spin_root import SpinDemand, smallest_root
+from ocs_design.drive.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.drive.unit_drive import UnitDrive
 
-# A share below it is none: the cosine of a right angle is 6e-17.
-_OUT_OF_REACH = 1e-9
+# |J_xy| over sqrt(I_xx I_yy) beyond which a bound says nothing.
+_LOOSE = 0.5
 
 
 class SlewReason(IntEnum):
@@ -54,32 +55,88 @@ class WheelPairTask:
 
     Attributes:
         swept: P, momentum over time that must pass the wheels about roll and pitch [N m s^2],
-            shape (..., 2).
+            shape (..., 2); its sign counts.
         momentum: L, that they hold at the end [N m s], shape (..., 2).
         duration: T [s], shape (...).
-        inertia: I_xx, I_yy of the whole, wheels braked [kg m^2], shape (..., 2).
+        inertia: of the whole, wheels braked.
         incidence: between wheel axes and lateral direction [rad], shape (...).
     """
 
     swept: ArrayLike
     momentum: ArrayLike
     duration: ArrayLike
-    inertia: ArrayLike
+    inertia: TiltInertia
     incidence: ArrayLike
 
     def load(self) -> "WheelLoad":
         """What it asks of the busier wheel; see the module's text."""
-        shares = np.stack([np.sin(self.incidence), np.cos(self.incidence)], axis=-1)
-        shares = np.where(shares > _OUT_OF_REACH, shares, 0.0)
+        shares = self._shares()
         excess, held = _per_share(self.swept, shares), _per_share(self.momentum, shares)
         turning = excess.sum(axis=-1, keepdims=True) > 0.0
-        compliance = shares**2 / np.asarray(self.inertia)
-        across = compliance[..., 1] - compliance[..., 0]
+        asked = np.where(turning, self.swept, self.momentum)
+        balance = _balance(np.where(turning, excess, held))
         return WheelLoad(
             excess=excess.sum(axis=-1),
             held=held.sum(axis=-1),
-            coupling=compliance.sum(axis=-1) + _balance(np.where(turning, excess, held)) * across,
+            coupling=self._coupling(shares, balance, np.sign(asked.prod(axis=-1))),
         )
+
+    def _shares(self) -> FloatArray:
+        shares = np.stack([np.sin(self.incidence), np.cos(self.incidence)], axis=-1)
+        return np.where(shares > OUT_OF_REACH, shares, 0.0)
+
+    def _coupling(self, shares: FloatArray, balance: FloatArray, sense: FloatArray) -> FloatArray:
+        """kappa; where only one axis is asked for, of the wheel that the trunk helps less."""
+        diagonal, product = self.inertia
+        determinant = diagonal.prod(axis=-1) - product**2
+        compliance = shares**2 * diagonal[..., ::-1] / determinant[..., None]
+        across = compliance[..., 1] - compliance[..., 0]
+        mixed = -2.0 * shares.prod(axis=-1) * product / determinant
+        mixed = np.where(sense == 0.0, -np.abs(mixed), sense * mixed)
+        return np.asarray(compliance.sum(axis=-1) + balance * across + mixed)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WheelPairBound(WheelPairTask):
+    """What no turn is below, on any trunk that is no lighter and about as much coupled.
+
+    Attributes:
+        swept: P without the coupling [N m s^2], shape (..., 2).
+        inertia: no larger than theirs about either axis.
+        incidence: sine and cosine, each by itself, no smaller than theirs.
+        turn: theta, that P comes from; 0: a push left it [rad], shape (..., 2).
+        spread: that J_xy differs by from theirs at most [kg m^2], shape (...).
+        reached: whether the wheels reach roll and pitch at every incidence of theirs, or the
+            trunk may drift there, shape (..., 2).
+    """
+
+    turn: ArrayLike
+    spread: FloatArray
+    reached: NDArray[np.bool_]
+
+    def load(self) -> "WheelLoad":
+        """No more than is asked of the busier wheel (docs/theory.md, The selection)."""
+        diagonal, product = self.inertia
+        most = TiltInertia(diagonal, np.abs(product) + self.spread)
+        share = most.share[..., None]
+        known = share < _LOOSE
+        swept = np.where(known, self._least_swept(share), 0.0)
+        momentum = np.where(known, self.momentum, 0.0)
+        alone = TiltInertia.uncoupled(diagonal)
+        load = WheelPairTask(swept, momentum, self.duration, alone, self.incidence).load()
+        gives = 2.0 * (self._shares() ** 2 / diagonal).max(axis=-1)
+        gives = gives / (1.0 - np.minimum(most.share, _LOOSE))
+        return replace(load, coupling=np.where(most.product > 0.0, gives, load.coupling))
+
+    def _least_swept(self, share: FloatArray) -> FloatArray:
+        """Of |P|; where an axis may be left to itself nothing of it, and less of the other one."""
+        turn, alone = np.asarray(self.turn), np.abs(self.swept)
+        both = turn.prod(axis=-1)
+        sense = np.where(both == 0.0, 1.0, np.sign(both * self.inertia.product))
+        coupled = sense * np.abs(self.inertia.product) - self.spread
+        least = np.maximum(alone + coupled[..., None] * np.abs(turn[..., ::-1]), 0.0)
+        left = np.where(self.reached[..., ::-1], 1.0, 1.0 - share**2)
+        return np.asarray(np.where(self.reached | (turn != 0.0), least, alone) * left)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,13 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ocs_design.arrays import FloatArray, frozen
+from ocs_design.drive.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.requirement.requirement import Requirement
 
 AXES = ("roll", "pitch")
 """The axes that the wheels can turn the trunk about, in the order of all (2,) arrays."""
-
-SMALLEST_AUTHORITY = 1e-9
-"""Sine or cosine of an incidence below which an axis counts as out of reach; cos(pi/2) is 6e-17."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +56,7 @@ class SpinDemand:
     @property
     def unreachable_axes(self) -> tuple[str, ...]:
         """Names of the axes that need momentum and get none at this incidence."""
-        blind = (self.momentum != 0.0) & (authority(self.incidence) < SMALLEST_AUTHORITY)
+        blind = (self.momentum != 0.0) & (authority(self.incidence) < OUT_OF_REACH)
         return tuple(axis for axis, is_blind in zip(AXES, blind, strict=True) if is_blind)
 
 
@@ -107,7 +105,7 @@ def spin_bound(
         share: `cos alpha` for pitch, `sin alpha` for roll (see `authority`).
     """
     required = corrected_bound(inertia, rate_change, wheel_speed_max)
-    per_wheel = required / (2.0 * share) if share >= SMALLEST_AUTHORITY else float("inf")
+    per_wheel = required / (2.0 * share) if share >= OUT_OF_REACH else float("inf")
     return SpinBound(
         paper=elroy_beanie_bound(inertia, rate_change, wheel_speed_max),
         required=required,
@@ -159,7 +157,7 @@ def per_wheel(both: FloatArray, incidence: float) -> float:
     """
     asked = np.abs(both)
     share = authority(incidence)
-    if np.any((asked > 0.0) & (share < SMALLEST_AUTHORITY)):
+    if np.any((asked > 0.0) & (share < OUT_OF_REACH)):
         return float("inf")
     return float(np.divide(asked, share, out=np.zeros(2), where=asked > 0.0).sum() / 2.0)
 
@@ -187,17 +185,29 @@ def spin_demands(
         per_motor = 0.0 if torque is None else per_wheel(torque, at)
         return SpinDemand(source, at, momentum, least, per_motor)
 
-    found = [
-        demand(
-            maneuver.name,
-            maneuver.momentum(total_inertia, requirement.standing_height),
-            incidence if maneuver.incidence is None else maneuver.incidence,
-            maneuver.least_torque(total_inertia, requirement.standing_height),
-        )
-        for maneuver in requirement.maneuvers
-    ]
+    whole, height = TiltInertia.of(total_inertia), requirement.standing_height
+    found = []
+    for maneuver in requirement.maneuvers:
+        at = incidence if maneuver.incidence is None else maneuver.incidence
+        turned = whole.within_reach(authority(at), maneuver.stray)
+        momentum, torque = maneuver.momentum(turned, height), maneuver.least_torque(turned, height)
+        found.append(demand(maneuver.name, momentum, at, torque))
     if requirement.rate_change is not None:
-        momenta = np.diag(np.diag(total_inertia)[:2] * requirement.rate_change)
+        momenta = rate_momenta(whole, requirement.rate_change)
         for axis, momentum in zip(AXES, momenta, strict=True):
             found.append(demand(f"rate change, {axis}", momentum, incidence))
     return tuple(found)
+
+
+def rate_momenta(inertia: TiltInertia, rate_change: float) -> FloatArray:
+    """About roll and pitch for a change of the rate of roll, and of that of pitch [N m s].
+
+    Args:
+        inertia: of the robot with its device, wheels braked.
+        rate_change: about either axis, one at a time [rad/s].
+
+    Returns:
+        No momentum below zero, shape (..., 2, 2): axis of the change, axis of the momentum.
+    """
+    each = [inertia.momentum(rate) for rate in np.diag([rate_change, rate_change])]
+    return np.abs(np.stack(each, axis=-2))

@@ -6,27 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.exceptions import SpecificationError
+from ocs_design.requirement.slew import Slew
 from ocs_design.units import format_quantity
 
 STANDARD_GRAVITY = 9.81
 """[m/s^2], as the paper takes it."""
-
-
-@dataclass(frozen=True, eq=False)
-class Slew:
-    """What both wheels together must do to the trunk in a given time, roll and pitch.
-
-    Attributes:
-        swept: momentum that must pass through the wheels, over time: inertia times angle of a turn
-            from rest to rest [N m s^2], shape (..., 2).
-        momentum: that the wheels still hold at the end [N m s], shape (..., 2).
-        duration: in which it must be done [s].
-    """
-
-    swept: FloatArray
-    momentum: FloatArray
-    duration: float
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -43,35 +29,47 @@ class Maneuver(ABC):
     gravity: float = STANDARD_GRAVITY
     incidence: float | None = None
 
+    @property
+    def turn(self) -> FloatArray:
+        """That it asks for about roll and pitch [rad], shape (2,); none where a push leaves it."""
+        return np.zeros(2)
+
+    @property
+    def stray(self) -> float:
+        """By how much it ends off level where the trunk drifts about the other axis, per drift.
+
+        The chord of the turn [rad]: a whole one ends where it began (`TiltInertia.within_reach`).
+        """
+        return float(2.0 * abs(np.sin(np.hypot(*self.turn) / 2.0)))
+
     @abstractmethod
-    def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """Largest roll and pitch momentum that both wheels take at once [N m s], shape (2,).
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """Largest roll and pitch momentum that both wheels take at once, none below zero [N m s].
 
         Args:
-            inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+            inertia: of the robot with its device, wheels braked.
             standing_height: of the trunk over the ground [m].
         """
 
-    def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
+    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Least torque of both wheels together on roll and on pitch [N m], shape (2,).
 
         Less than that cannot finish a turn in time, whatever the wheel; zero where no time is set
         (docs/theory.md, What a motor can do).
 
         Args:
-            inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+            inertia: of the robot with its device, wheels braked.
             standing_height: of the trunk over the ground [m].
         """
         del inertia, standing_height
         return np.zeros(2)
 
     @abstractmethod
-    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
         """What a motor must do for it (docs/theory.md, What a motor can do).
 
         Args:
-            inertia: of the robot with its device about roll and pitch, wheels braked [kg m^2],
-                shape (..., 2).
+            inertia: of the robot with its device, wheels braked, or of many such.
             standing_height: of the trunk over the ground [m].
         """
 
@@ -97,25 +95,29 @@ class Unforeseen(Maneuver):
     def time_left(self) -> float:
         """From the end of the torque until the trunk must be level and at rest again [s]."""
 
-    def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """The impulse, which the wheels hold till touchdown (docs/theory.md, Disturbances)."""
         del inertia, standing_height
-        roll, pitch, _ = self.torque
-        return np.array([abs(roll) * self.duration, abs(pitch) * self.duration])
+        return np.abs(self._impulse)
 
-    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
         """Stop the trunk, turn it back and hold its momentum, from the end of the torque on.
 
         A torque on a free trunk has tilted it by half its impulse times its duration over the
         inertia when it ends.
         """
-        momentum = self.momentum(np.zeros((3, 3)), standing_height)
-        shape = np.broadcast_shapes(np.shape(inertia), (2,))
+        del standing_height
+        momentum, shape = self._impulse, np.shape(inertia.diagonal)
         return Slew(
             np.broadcast_to(0.5 * self.duration * momentum, shape),
             np.broadcast_to(momentum, shape),
             self.time_left,
         )
+
+    @property
+    def _impulse(self) -> FloatArray:
+        """About roll and pitch [N m s], shape (2,)."""
+        return np.array(self.torque[:2]) * self.duration
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -192,8 +194,30 @@ def _torque(torque: tuple[float, float, float]) -> str:
     return f"({', '.join(f'{value:.3g}' for value in torque)}) N m"
 
 
+class Reorientation(Maneuver):
+    """A turn of the trunk from level by an angle that is stated, rest to rest."""
+
+    @abstractmethod
+    def time(self, standing_height: float) -> float:
+        """That it may take [s]."""
+
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """Half the time up, half the time down: a peak rate of 2 theta / T."""
+        peak = 2.0 / self.time(standing_height)
+        return np.abs(inertia.momentum(self.turn)) * peak
+
+    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """That of the same turn: 4 I theta / T^2."""
+        return 2.0 * self.momentum(inertia, standing_height) / self.time(standing_height)
+
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+        """The whole turn, rest to rest."""
+        swept = inertia.momentum(self.turn)
+        return Slew(swept, np.zeros_like(swept), self.time(standing_height))
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Drop(Maneuver):
+class Drop(Reorientation):
     """A fall from rest with the trunk tilted (paper, section 4, second test).
 
     Attributes:
@@ -205,7 +229,7 @@ class Drop(Maneuver):
     roll: float = 0.0
     pitch: float
 
-    def duration(self, standing_height: float) -> float:
+    def time(self, standing_height: float) -> float:
         """From release until the feet of the levelled robot meet the ground [s].
 
         Raises:
@@ -221,31 +245,17 @@ class Drop(Maneuver):
         return float(np.sqrt(2.0 * fall / self.gravity))
 
     @property
-    def tilt(self) -> FloatArray:
-        """What the trunk must be turned about roll and pitch to be level [rad], shape (2,).
+    def turn(self) -> FloatArray:
+        """What the trunk is turned about roll and pitch from level [rad], shape (2,).
 
-        The smallest turn that brings the vertical of the world, (-sin p, cos p sin r, cos p cos r)
-        as seen from a trunk that was pitched by p and then rolled by r, to the trunk's own; the
-        heading is free.
+        The smallest turn that does it: its way back brings the vertical of the world,
+        (-sin p, cos p sin r, cos p cos r) as seen from a trunk that was pitched by p and then
+        rolled by r, to the trunk's own; the heading is free.
         """
         forward, left = np.sin(self.pitch), np.cos(self.pitch) * np.sin(self.roll)
         sine = np.hypot(forward, left)
         angle = np.arctan2(sine, np.cos(self.pitch) * np.cos(self.roll))
-        return np.abs([left, forward]) * (angle / sine if sine > 0.0 else 1.0)
-
-    def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """Half the time up, half the time down: a peak rate of 2 theta / T."""
-        peak = 2.0 / self.duration(standing_height)
-        return np.diag(inertia)[:2] * self.tilt * peak
-
-    def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """That of the same turn: 4 I theta / T^2."""
-        return 2.0 * self.momentum(inertia, standing_height) / self.duration(standing_height)
-
-    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
-        """From the tilt at release to level, rest to rest, within the fall."""
-        swept = np.asarray(inertia) * self.tilt
-        return Slew(swept, np.zeros_like(swept), self.duration(standing_height))
+        return np.array([left, forward]) * (angle / sine if sine > 0.0 else 1.0)
 
     @property
     def summary(self) -> str:
@@ -255,7 +265,7 @@ class Drop(Maneuver):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Flip(Maneuver):
+class Flip(Reorientation):
     """A full turn, or part of one, in a vertical jump (paper, section 4, third test).
 
     Attributes:
@@ -268,20 +278,15 @@ class Flip(Maneuver):
     angle: float
     duration: float
 
-    def momentum(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """Half the time up, half the time down: a peak rate of 2 theta / T."""
-        del standing_height
-        return np.array([0.0, inertia[1, 1] * 2.0 * abs(self.angle) / self.duration])
+    @property
+    def turn(self) -> FloatArray:
+        """Of pitch alone."""
+        return np.array([0.0, self.angle])
 
-    def least_torque(self, inertia: FloatArray, standing_height: float) -> FloatArray:
-        """That of the same turn: 4 I theta / T^2."""
-        return 2.0 * self.momentum(inertia, standing_height) / self.duration
-
-    def slew(self, inertia: FloatArray, standing_height: float) -> Slew:
-        """The whole turn, rest to rest."""
+    def time(self, standing_height: float) -> float:
+        """As stated."""
         del standing_height
-        swept = np.asarray(inertia) * np.array([0.0, abs(self.angle)])
-        return Slew(swept, np.zeros_like(swept), self.duration)
+        return self.duration
 
     @property
     def flight_time(self) -> float:

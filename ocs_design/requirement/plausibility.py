@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from ocs_design.catalogue.materials import material
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.exceptions import OcsError, SpecificationError
 from ocs_design.requirement.contradictions import without_motor
 from ocs_design.requirement.envelope import Envelope
@@ -91,7 +92,7 @@ def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:
     """Maneuvers that this robot cannot be asked for, or nothing asked at all."""
     for maneuver in requirement.maneuvers:
         try:
-            maneuver.momentum(robot.inertia, requirement.standing_height)
+            maneuver.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
             yield error.message
     if requirement.rate_change is not None or requirement.spin_inertia is not None:

@@ -17,7 +17,7 @@ def _time(maneuver: Maneuver, standing_height: float) -> float | None:
     """Of the fall or of the turn [s]."""
     match maneuver:
         case Drop():
-            return maneuver.duration(standing_height)
+            return maneuver.time(standing_height)
         case Flip():
             return maneuver.duration
         case _:

@@ -108,7 +108,7 @@ def _dropped(maneuver: Drop, standing_height: float, profile: Profile) -> Launch
     vector = _rotation_vector(rotation)
     angle = float(np.linalg.norm(vector))
     axis = vector / angle if angle > 0.0 else PITCH
-    fall = maneuver.duration(standing_height)
+    fall = maneuver.time(standing_height)
     turn = Turn(axis, angle, 0.0, fall, profile, extendable=False)
     return Launch(rotation, maneuver.height, np.zeros(3), turn, NO_PUSH)
 

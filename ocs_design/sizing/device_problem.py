@@ -1,6 +1,6 @@
 """What is to be sized, and what a given rim on it is up to."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -14,6 +14,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass_properties import MassProperties, combine
 from ocs_design.sizing.cylinder import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.sizing.incidence import Criterion, incidence_by_criterion, module_axes
+from ocs_design.sizing.momenta import design_momenta
 from ocs_design.sizing.rim_closed_form import RimShape
 from ocs_design.sizing.rim_problem import RimProblem
 
@@ -106,24 +107,13 @@ def device_demands(
     return tuple(found)
 
 
-def design_momenta(requirement: Requirement, demands: Sequence[SpinDemand]) -> FloatArray:
-    """Largest roll and largest pitch momentum asked for at the design's incidence, shape (2,).
-
-    Maneuvers for which the device is turned by hand have no say in the design's incidence.
-    """
-    turned = {maneuver.name for maneuver in requirement.maneuvers if maneuver.incidence is not None}
-    momenta = [np.abs(demand.momentum) for demand in demands if demand.source not in turned]
-    largest: FloatArray = np.max([np.zeros(2), *momenta], axis=0)
-    return largest
-
-
 def chosen_incidence(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> float:
     """The incidence of the design [rad], with the wheels standing at `incidence` so far."""
     if problem.incidence is not None:
         return problem.incidence
     if problem.criterion in {Criterion.WEIGHTED, Criterion.SIMULTANEOUS}:
         return best_incidences(problem, shape, incidence)[problem.criterion]
-    # The others look at no demands, which take most of the time of an iteration.
+    # The others look at no momenta.
     return incidence_by_criterion(braked_total(problem, shape, incidence).inertia)[
         problem.criterion
     ]
@@ -133,8 +123,8 @@ def best_incidences(
     problem: DeviceProblem, shape: RimShape | None, incidence: float
 ) -> Mapping[Criterion, float]:
     """The best incidence under each criterion [rad], with the wheels standing at `incidence`."""
-    momenta = design_momenta(problem.requirement, device_demands(problem, shape, incidence))
-    return incidence_by_criterion(braked_total(problem, shape, incidence).inertia, momenta)
+    inertia = braked_total(problem, shape, incidence).inertia
+    return incidence_by_criterion(inertia, design_momenta(problem.requirement, inertia))
 
 
 def _parts(requirement: Requirement) -> Iterator[Requirement]:

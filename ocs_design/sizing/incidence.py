@@ -6,13 +6,15 @@ from enum import StrEnum
 import numpy as np
 
 from ocs_design.arrays import FloatArray, frozen
+from ocs_design.drive.tilt_inertia import TiltInertia
 
 
 class Criterion(StrEnum):
     """What the incidence angle is best for.
 
     Attributes:
-        EQUAL_RATE: the same change of rate on roll and on pitch, one axis at a time (paper).
+        EQUAL_RATE: the same change of rate on roll and on pitch, one axis at a time (paper; with
+            the momentum that a coupled robot carries along about the other axis).
         WEIGHTED: the momenta asked of roll and of pitch, one axis at a time.
         SIMULTANEOUS: the momenta asked of roll and of pitch at once.
         PITCH_ONLY: both axes lateral. ROLL_ONLY: both axes forward.
@@ -66,12 +68,22 @@ def incidence_by_criterion(
     same_rate = np.diag(inertia)[:2]
     roll, pitch = np.abs(momenta) if momenta is not None and np.any(momenta) else same_rate
     return {
-        Criterion.EQUAL_RATE: float(np.arctan2(*same_rate)),
+        Criterion.EQUAL_RATE: float(np.arctan2(*_of_equal_rate(TiltInertia.of(inertia)))),
         Criterion.WEIGHTED: float(np.arctan2(roll, pitch)),
         Criterion.SIMULTANEOUS: float(np.arctan2(np.cbrt(roll), np.cbrt(pitch))),
         Criterion.PITCH_ONLY: 0.0,
         Criterion.ROLL_ONLY: float(np.pi / 2.0),
     }
+
+
+def _of_equal_rate(inertia: TiltInertia) -> FloatArray:
+    """Whose ratio is the tangent: I_xx / s + |J_xy| / c = |J_xy| / s + I_yy / c, shape (2,).
+
+    Where roll and pitch are coupled by more than either of them, both want one of the axes most,
+    and that of the uncoupled robot is as good as any.
+    """
+    less = inertia.diagonal - np.abs(inertia.product)
+    return np.asarray(less if (less > 0.0).all() else inertia.diagonal)
 
 
 def simultaneous_momentum(momenta: FloatArray) -> float:

@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 from ocs_design.drive.gear import DIRECT, Gear
 from ocs_design.drive.line import DriveLine, armature, rotor_share
 from ocs_design.drive.slew_profile import slew_profile
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import WheelPairTask
 
 INF = np.inf
@@ -62,7 +63,9 @@ class Pair:
     def task(self, angle, rate):
         """Turn by `angle`, from `rate` with wheels at rest, to rest: P and L."""
         whole = np.diag(self.mass_matrix)[:2]
-        return WheelPairTask(whole * angle, whole * rate, np.nan, whole, self.incidence)
+        return WheelPairTask(
+            whole * angle, whole * rate, np.nan, TiltInertia.uncoupled(whole), self.incidence
+        )
 
 
 def motor_torque(speed, direction):

@@ -5,6 +5,7 @@ import pytest
 
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.slew_profile import slew_profile
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import (
     SlewReason,
     WheelPairTask,
@@ -20,11 +21,16 @@ ROLL, BODY = 0.030, 0.0535
 """Inertia of the trunk with the wheels' mass, without their spin inertia [kg m^2]."""
 
 
+def axes(roll, pitch):
+    """Principal axes."""
+    return TiltInertia.uncoupled([roll, pitch])
+
+
 def pitch_turn(degrees, duration, incidence, spin_inertia):
     """A turn about pitch of a body that carries wheels of that spin inertia."""
     whole = BODY + 2.0 * np.cos(incidence) ** 2 * spin_inertia
     return WheelPairTask(
-        [0.0, whole * np.radians(degrees)], [0.0, 0.0], duration, [ROLL, whole], incidence
+        [0.0, whole * np.radians(degrees)], [0.0, 0.0], duration, axes(ROLL, whole), incidence
     )
 
 
@@ -96,7 +102,7 @@ def test_want_of_torque_is_told_with_momentum_too():
     count = 5_000
     momentum = rng.uniform(0.0, 0.3, (count, 2)) * (rng.random(count) < 0.7)[:, None]
     swept, incidence = rng.uniform(0.0, 0.1, (count, 2)), rng.uniform(0.3, 1.2, count)
-    task = WheelPairTask(swept, momentum, 1.0, [1e9, 1e9], incidence)
+    task = WheelPairTask(swept, momentum, 1.0, axes(1e9, 1e9), incidence)
     line = DriveLine(INF, 1e5, rng.uniform(0.05, 2.0, count), INF)
     weak = slew_reason(task, line) == SlewReason.TORQUE
     assert (np.isinf(pair_slew_time(task, 1e3, line)) <= weak).all()
@@ -106,8 +112,8 @@ def test_want_of_torque_is_told_with_momentum_too():
 
 def test_momentum_alone_couples_the_wheels_as_the_same_turn():
     rates = np.array([[0.3, 0.1], [0.1, 0.3], [0.2, 0.0]])
-    held = WheelPairTask(0.0 * rates, rates, 1.0, [ROLL, BODY], 0.6).load()
-    turned = WheelPairTask(rates, 0.0 * rates, 1.0, [ROLL, BODY], 0.6).load()
+    held = WheelPairTask(0.0 * rates, rates, 1.0, axes(ROLL, BODY), 0.6).load()
+    turned = WheelPairTask(rates, 0.0 * rates, 1.0, axes(ROLL, BODY), 0.6).load()
     np.testing.assert_allclose(held.coupling, turned.coupling, rtol=1e-15)
     assert np.ptp(held.coupling) > 1.0
 
@@ -121,7 +127,9 @@ def random_tasks(rng, count):
     angle = np.where(asked, rng.uniform(0.05, 6.3, (count, 2)), 0.0)
     rate = np.where(asked & (rng.random(count) < 0.5)[:, None], rng.uniform(0, 4, (count, 2)), 0.0)
     duration = 10 ** rng.uniform(-0.7, 0.5, count)
-    return WheelPairTask(inertia * angle, inertia * rate, duration, inertia, incidence)
+    return WheelPairTask(
+        inertia * angle, inertia * rate, duration, TiltInertia.uncoupled(inertia), incidence
+    )
 
 
 def random_lines(rng, count):
@@ -133,7 +141,11 @@ def random_lines(rng, count):
 
 def row(values, k):
     """Tasks or lines, one of many."""
-    return type(values)(*(getattr(values, name)[k] for name in values.__dataclass_fields__))
+    return type(values)(*(_one(getattr(values, name), k) for name in values.__dataclass_fields__))
+
+
+def _one(value, k):
+    return TiltInertia(*(part[k] for part in value)) if isinstance(value, tuple) else value[k]
 
 
 def test_the_wheel_found_is_just_in_time():
@@ -235,34 +247,34 @@ def test_an_axis_out_of_reach():
         (np.pi / 2.0, [0.02, 0.0], True),
         (0.7, turn, True),
     ]:
-        task = WheelPairTask(swept, [0.0, 0.0], 1.0, [ROLL, BODY], incidence)
+        task = WheelPairTask(swept, [0.0, 0.0], 1.0, axes(ROLL, BODY), incidence)
         assert np.isfinite(smallest_spin_inertia(task, EC45)) == reachable
         assert (slew_reason(task, EC45) == SlewReason.AXIS) != reachable
 
 
 def test_roll_is_pitch_at_the_complement():
     angle = np.radians(25.0)
-    pitch = WheelPairTask([0.0, 0.02], [0.0, 0.01], 0.7, [ROLL, BODY], angle)
-    roll = WheelPairTask([0.02, 0.0], [0.01, 0.0], 0.7, [BODY, ROLL], np.pi / 2.0 - angle)
+    pitch = WheelPairTask([0.0, 0.02], [0.0, 0.01], 0.7, axes(ROLL, BODY), angle)
+    roll = WheelPairTask([0.02, 0.0], [0.01, 0.0], 0.7, axes(BODY, ROLL), np.pi / 2.0 - angle)
     h = smallest_spin_inertia(pitch, EC45)
     assert smallest_spin_inertia(roll, EC45) == pytest.approx(float(h), rel=1e-12)
 
 
 def test_nothing_asked_and_no_time():
-    nothing = WheelPairTask([0.0, 0.0], [0.0, 0.0], 0.5, [ROLL, BODY], 0.6)
+    nothing = WheelPairTask([0.0, 0.0], [0.0, 0.0], 0.5, axes(ROLL, BODY), 0.6)
     assert smallest_spin_inertia(nothing, EC45) == 0.0
     assert smallest_spin_inertia(nothing, EC45, least=3e-5) == 3e-5
     assert pair_slew_time(nothing, [0.0, 1e-4, INF], EC45).tolist() == [0.0, 0.0, 0.0]
-    turn = WheelPairTask([0.0, 0.01], [0.0, 0.0], 0.5, [ROLL, BODY], [0.6, 0.6, np.pi / 2])
+    turn = WheelPairTask([0.0, 0.01], [0.0, 0.0], 0.5, axes(ROLL, BODY), [0.6, 0.6, np.pi / 2])
     assert np.isinf(pair_slew_time(turn, [0.0, INF, 1e-4], EC45)).all()
-    late = WheelPairTask([0.0, 0.01], [0.0, 0.01], [0.0, -0.1], [ROLL, BODY], 0.6)
+    late = WheelPairTask([0.0, 0.01], [0.0, 0.01], [0.0, -0.1], axes(ROLL, BODY), 0.6)
     assert np.isinf(smallest_spin_inertia(late, EC45)).all()
     assert (slew_reason(late, EC45) == SlewReason.TORQUE).all()
 
 
 def test_momentum_alone_is_held_at_the_end():
     """No angle to turn: the wheel must still go beyond its final speed to make up for its rise."""
-    task = WheelPairTask([0.0, 0.0], [0.0, 0.04], 0.4, [ROLL, BODY], 0.6)
+    task = WheelPairTask([0.0, 0.0], [0.0, 0.04], 0.4, axes(ROLL, BODY), 0.6)
     h = smallest_spin_inertia(task, EC45)
     assert pair_slew_time(task, h, EC45) == pytest.approx(0.4, rel=1e-12)
     assert task.load().final_speed(h) < EC45.no_load_speed
@@ -280,9 +292,9 @@ def test_motors_by_angles_by_turns():
     line = DriveLine(np.array([1.0, 2.0, 3.0])[:, None, None], 650.0, 1.0, INF)
     incidence = np.radians([20.0, 40.0])[:, None]
     swept = np.array([[0.0, 0.01], [0.01, 0.0], [0.01, 0.01], [0.0, 0.02]])
-    task = WheelPairTask(swept, np.zeros(2), 0.8, [ROLL, BODY], incidence)
+    task = WheelPairTask(swept, np.zeros(2), 0.8, axes(ROLL, BODY), incidence)
     h = smallest_spin_inertia(task, line)
     assert h.shape == (3, 2, 4)
-    single = WheelPairTask(swept[2], np.zeros(2), 0.8, [ROLL, BODY], np.radians(40.0))
+    single = WheelPairTask(swept[2], np.zeros(2), 0.8, axes(ROLL, BODY), np.radians(40.0))
     one = smallest_spin_inertia(single, DriveLine(3.0, 650.0, 1.0, INF))
     assert h[2, 1, 2] == pytest.approx(float(one), rel=1e-13)

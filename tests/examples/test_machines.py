@@ -13,6 +13,7 @@ from scipy.integrate import solve_ivp
 
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.slew import slew_time
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import read_specification
@@ -96,7 +97,9 @@ def test_the_specifications_ask_for_these_turns(name, axis, machine, copies):
     angle, duration = wanted.turn
     inertia = np.diag(robot.inertia)[:2]
     assert inertia[axis] == pytest.approx(copies * wanted.inertia * HEAVIER, rel=5e-4)
-    slews = [one.slew(inertia, standing_height(robot)) for one in stated.maneuvers]
+    slews = [
+        one.slew(TiltInertia.uncoupled(inertia), standing_height(robot)) for one in stated.maneuvers
+    ]
     (slew,) = [one for one in slews if one.swept[axis] > 0.0]
     assert slew.swept[axis] == pytest.approx(copies * wanted.inertia * angle, rel=5e-4)
     assert slew.duration == pytest.approx(duration, rel=2e-4)
@@ -107,7 +110,7 @@ def test_rex_hopper_aims_its_leg_within_its_jump():
     robot = read_stated_robot(stated)
     flight = 2.0 * sqrt(2.0 * 0.5 / 9.807)  # actuator_calc.ipynb
     for maneuver in stated.maneuvers:
-        slew = maneuver.slew(np.ones(2), standing_height(robot))
+        slew = maneuver.slew(TiltInertia.uncoupled(np.ones(2)), standing_height(robot))
         assert slew.duration == pytest.approx(flight, rel=2e-3)
         assert degrees(slew.swept.max()) == pytest.approx(degrees(np.arctan(0.5)), rel=1e-4)
 
@@ -182,7 +185,7 @@ def test_the_wheelbots_own_motor_line_asks_for_nearly_its_own_wheel():
         swept=np.array([0.0, inertia * angle / HEAVIER]),
         momentum=np.zeros(2),
         duration=duration,
-        inertia=np.array([inertia, inertia]),
+        inertia=TiltInertia.uncoupled([inertia, inertia]),
         incidence=0.0,
     )
     assert float(smallest_spin_inertia(task, line)) == pytest.approx(0.538e-3, rel=1e-3)

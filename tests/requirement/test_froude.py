@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from robots import SOLO12 as ROBOTS_SOLO12
 
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.requirement.bound import spin_inertia_for
 from ocs_design.requirement.froude import (
     SOLO12,
@@ -53,7 +54,7 @@ def test_the_back_flip_asks_most_of_solo12_and_fits_its_room(solo12):
     maneuvers = default_maneuvers(solo12)
     demands = {
         item.name: spin_inertia_for(
-            item.momentum(solo12.inertia, SOLO12.standing_height),
+            item.momentum(TiltInertia.of(solo12.inertia), SOLO12.standing_height),
             np.radians(30.0) if item.incidence is None else item.incidence,
             WHEEL_SPEED_MAX,
         )
@@ -74,8 +75,8 @@ def test_a_larger_robot_moves_alike(length, mass):
     tests = zip(maneuvers_of(small), maneuvers_of(large), strict=True)
     for one, other in tests:
         height, room = SOLO12.standing_height, SOLO12.standing_height * length
-        rates = one.momentum(np.diag([0.03, 0.05, 0.07]), height) / [0.03, 0.05]
-        scaled = other.momentum(inertia * np.diag([0.03, 0.05, 0.07]), room) / [
+        rates = one.momentum(TiltInertia.uncoupled([0.03, 0.05]), height) / [0.03, 0.05]
+        scaled = other.momentum(TiltInertia.uncoupled([0.03 * inertia, 0.05 * inertia]), room) / [
             0.03 * inertia,
             0.05 * inertia,
         ]

@@ -12,6 +12,7 @@ from standing_parts import standing_parts
 
 from ocs_design.drive.gear import DIRECT
 from ocs_design.drive.line import armature, drive_line, rotor_share
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import WheelPairTask, pair_slew_time, smallest_spin_inertia
 from ocs_design.exceptions import Infeasible, UsageError
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
@@ -80,7 +81,7 @@ def test_the_winner_from_scratch(solved):
     by_name = {demand.source: demand for demand in found.demands}
     for maneuver in problem.requirement.maneuvers:
         angle = found.incidence if maneuver.incidence is None else maneuver.incidence
-        inertia = np.diag(by_pinocchio(problem, found, angle).inertia)[:2]
+        inertia = TiltInertia.of(by_pinocchio(problem, found, angle).inertia)
         slew = maneuver.slew(inertia, problem.requirement.standing_height)
         task = WheelPairTask(slew.swept, slew.momentum, slew.duration, inertia, angle)
         drag = armature(motor.rotor_inertia, gear)
@@ -89,8 +90,8 @@ def test_the_winner_from_scratch(solved):
         assert demand.time_given == pytest.approx(slew.duration)
         assert demand.time_needed == pytest.approx(float(time), rel=1e-9)
         assert time <= slew.duration * (1.0 + 1e-8)
-        needed = smallest_spin_inertia(task, line, drag)
-        assert demand.spin_inertia == pytest.approx(float(needed), rel=1e-8)
+        needed = float(smallest_spin_inertia(task, line, drag))
+        assert demand.spin_inertia == pytest.approx(needed, rel=1e-8)
         assert 0.0 < demand.peak_speed <= float(line.speed_max) * (1.0 + 1e-12)
         assert 0.0 < demand.peak_torque <= float(line.torque_limit) * (1.0 + 1e-12)
 
@@ -286,8 +287,7 @@ def test_turned_maneuvers_have_no_say_in_the_incidence():
     requirement = Requirement((roll, flip), None, 1.0, None, standing)
     found = select(replace(problem, requirement=requirement, motors=motors)).best
     assert {demand.source: demand.incidence for demand in found.demands}["flip"] == 0.0
-    # Only roll is asked for at the design's own.
-    assert found.incidence > 0.5
+    assert found.incidence > 0.5  # Only roll is asked for at the design's own.
 
 
 def test_where_no_rim_fits_at_all_none_is_said_to():

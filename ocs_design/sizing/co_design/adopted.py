@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.requirement.bound import AXES
 from ocs_design.sizing.co_design.device import (
     braked_total,
@@ -16,6 +17,7 @@ from ocs_design.sizing.co_design.device import (
 from ocs_design.sizing.co_design.problem import CoDesign, CoDesignProblem, DeviceShape
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.binding import binding_limits
+from ocs_design.sizing.selection.demand import held_by_rate, shares_of
 from ocs_design.sizing.selection.result import Candidate, TaskDemand
 from ocs_design.sizing.web import wheel_body
 
@@ -71,14 +73,14 @@ def _of_maneuvers(problem: CoDesignProblem, found: CoDesign) -> Iterator[TaskDem
 
 
 def _of_rate_change(problem: CoDesignProblem, shape: DeviceShape) -> Iterator[TaskDemand]:
-    """h = I d / (2 share W) about roll and pitch, see `selection.demand`."""
+    """About roll and pitch, see `selection.demand`."""
     change, line = problem.selection.requirement.rate_change, problem.line
     if change is None:
         return
-    inertia = np.diag(braked_total(problem, shape).inertia)[:2]
-    shares = np.array([np.sin(shape.incidence), np.cos(shape.incidence)])
+    inertia = TiltInertia.of(braked_total(problem, shape).inertia)
+    momenta = held_by_rate(change, inertia, shares_of(np.asarray(shape.incidence)))
     top = min(float(line.no_load_speed), float(line.speed_max))
-    for axis, held in zip(AXES, (inertia * change / (2.0 * shares)).tolist(), strict=True):
+    for axis, held in zip(AXES, momenta.tolist(), strict=True):
         yield TaskDemand(
             source=f"rate change, {axis}",
             incidence=shape.incidence,

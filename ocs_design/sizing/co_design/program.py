@@ -7,6 +7,7 @@ import casadi as ca
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.sizing.co_design.free_device import FreeDevice
 from ocs_design.sizing.co_design.problem import CoDesignProblem, DeviceShape
 from ocs_design.sizing.optimal_control.joint_program import Figures, FreeTask
@@ -72,5 +73,10 @@ def _rate_excess(problem: CoDesignProblem, device: FreeDevice, incidence: ca.SX)
         return ca.SX(0, 1)
     top = min(line.no_load_speed, line.speed_max)
     held = 2.0 * top * device.spin_inertia * ca.vertcat(ca.sin(incidence), ca.cos(incidence))
-    asked = device.inertia(incidence)[:2] * change
+    whole = device.inertia(incidence)
+    # Either wheel is the busier one; which of them does not change with the device.
+    product = whole[3] - whole[4] * whole[5] / whole[2]
+    sense = np.sign(TiltInertia.of(problem.selected.total.inertia).product)
+    across = sense * product * ca.vertcat(ca.tan(incidence), 1.0 / ca.tan(incidence))
+    asked = (whole[:2] + across) * change
     return (asked - held) / (np.diag(problem.selection.robot.inertia)[:2] * change)

@@ -69,7 +69,7 @@ def _drop(maneuver: Drop, standing_height: float) -> Boundary:
         final_vertical=UP,
         axis=axis / length if length > 0.0 else _PITCH,
         angle=float(np.arctan2(length, vertical[2])),
-        duration=maneuver.duration(standing_height),
+        duration=maneuver.time(standing_height),
         push=np.zeros(3),
         push_duration=0.0,
     )

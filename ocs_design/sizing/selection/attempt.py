@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import (
     SlewReason,
     pair_slew_time,
@@ -17,8 +18,9 @@ from ocs_design.drive.wheel_pair import (
 from ocs_design.requirement.envelope import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
-from ocs_design.sizing.selection.bounds import RimFloor, cells_of, least_inertia
-from ocs_design.sizing.selection.demand import columns, needed_by_rate, pair_task, shares_of
+from ocs_design.sizing.selection.bounds import RimFloor, least_inertia
+from ocs_design.sizing.selection.cells import cells_of
+from ocs_design.sizing.selection.demand import column, columns, needed_by_rate, pair_task, shares_of
 from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.web import web_axial_inertia
@@ -122,14 +124,14 @@ def _parts(
     angles: FloatArray,
     largest: FloatArray,
 ) -> Iterator[Part]:
-    inertia = least_inertia(problem, floor, drives, np.zeros(len(drives)))[:, None, :]
+    least = least_inertia(problem, floor, drives, np.zeros(len(drives)))
+    inertia = column(least.inertia)
     shape = (len(drives), angles.size)
     for maneuver in problem.requirement.maneuvers:
         at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
         shares = np.broadcast_to(shares_of(at), (*shape, 2))
-        whole = np.broadcast_to(inertia, shares.shape)
         height = problem.requirement.standing_height
-        yield _maneuver(maneuver, at, height, drives, whole, shares=shares, largest=largest)
+        yield _maneuver(maneuver, at, height, drives, inertia, shares=shares, largest=largest)
     rate = problem.requirement.rate_change
     if rate is not None:
         shares = np.broadcast_to(shares_of(angles), (*shape, 2))
@@ -144,7 +146,7 @@ def _maneuver(
     incidence: FloatArray,
     standing_height: float,
     drives: DriveTable,
-    inertia: FloatArray,
+    inertia: TiltInertia,
     *,
     shares: FloatArray,
     largest: FloatArray,

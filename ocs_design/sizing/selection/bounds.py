@@ -7,7 +7,8 @@ Each is proved by terms that only grow (docs/theory.md, The selection):
    gives the trunk less way (a larger I_red), or neither; never for less.
 2. It asks for no less over a cell of incidences than with the largest sine and the largest cosine
    in it, each by itself: |P_x| / s + |P_y| / c falls and, by their balance, kappa = 2 (s |P_x| /
-   I_xx + c |P_y| / I_yy) / (|P_x| / s + |P_y| / c) grows with either share.
+   I_xx + c |P_y| / I_yy) / (|P_x| / s + |P_y| / c) grows with either share. Where roll and pitch
+   are coupled, each of |P_x|, |P_y| and kappa is at its own best (`drive.wheel_pair`).
 3. The inertia of the whole is no less than with the lightest wheel in a plain drum for less spin
    inertia, and its motor behind it: mass, rim and distance only add to it
    (`trunk.least_trunk_inertia`).
@@ -20,7 +21,6 @@ on the spin inertia; each pass tightens them.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -31,16 +31,14 @@ from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.motor_mount import mount_of
 from ocs_design.sizing.placement import module_size
 from ocs_design.sizing.rim_closed_form import BORE_SHARE, smallest_spin_inertia
+from ocs_design.sizing.selection.cells import Cell
 from ocs_design.sizing.selection.demand import bound_by_all
 from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.lot import rim_limits
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.trunk import Least, least_trunk_inertia
+from ocs_design.sizing.selection.trunk import Least, LeastInertia, least_trunk_inertia
 from ocs_design.sizing.shell import Printed
-from ocs_design.sizing.web import hub_of
-
-CELLS = 18
-"""Of the incidence: 5 deg each."""
+from ocs_design.sizing.web import WEB_DENSITY, WEB_THICKNESS, hub_of
 
 _RIMS = 96
 _OFF_THE_EDGE = 1.0 + 1e-10
@@ -120,27 +118,6 @@ def _narrowest_mount(problem: SelectionProblem) -> float:
     return min(mount_of(motor, None).holes.reach for motor in problem.motors)
 
 
-@dataclass(frozen=True)
-class Cell:
-    """A range of incidences [rad]; a single one if both are equal."""
-
-    low: float
-    high: float
-
-    @property
-    def shares(self) -> tuple[float, float]:
-        """The largest sine and the largest cosine in it."""
-        return float(np.sin(self.high)), float(np.cos(self.low))
-
-
-def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
-    """All incidences in `count` equal cells; the one that is stated by itself."""
-    if incidence is not None:
-        return (Cell(incidence, incidence),)
-    edges = np.linspace(0.0, np.pi / 2.0, count + 1)
-    return tuple(Cell(float(a), float(b)) for a, b in pairwise(edges))
-
-
 def least_spin_inertias(
     problem: SelectionProblem,
     floor: RimFloor,
@@ -157,8 +134,7 @@ def least_spin_inertias(
         below: a lower bound over all cells, as far as it is known [kg m^2], shape (n,).
     """
     inertia = least_inertia(problem, floor, drives, below)
-    shares = np.array([cell.shares for cell in cells])
-    needed = np.maximum(bound_by_all(problem.requirement, drives, inertia, shares), below[:, None])
+    needed = np.maximum(bound_by_all(problem.requirement, drives, inertia, cells), below[:, None])
     stated = problem.requirement.spin_inertia
     if stated is None:
         return needed
@@ -167,8 +143,8 @@ def least_spin_inertias(
 
 def least_inertia(
     problem: SelectionProblem, floor: RimFloor, drives: DriveTable, spin_inertia: FloatArray
-) -> FloatArray:
-    """Of the robot with modules of at least that spin inertia [kg m^2], shape (n, 2)."""
+) -> LeastInertia:
+    """Of the robot with modules of at least that spin inertia, see `least_trunk_inertia`."""
     room = problem.envelope
     rim = np.maximum(spin_inertia - drives.beside_rim, floor.spin_inertia[:, 0].min())
     known = np.isfinite(rim)
@@ -189,8 +165,19 @@ def least_inertia(
         above=(drives.behind.z + zero) / behind,
         smallest=module_size(zero + radius, zero + room.height_min, *motor),
         largest=module_size(zero + room.outer_radius_max, zero + room.height_max, *motor),
+        heaviest=_heaviest(problem, drives),
     )
     return least_trunk_inertia(problem.robot, problem.place, least)
+
+
+def _heaviest(problem: SelectionProblem, drives: DriveTable) -> FloatArray:
+    """That no module is beyond: as wide, as high and as dense as may be [kg], shape (n,)."""
+    room, density = problem.envelope, max(material.density for material in problem.materials)
+    radius, height = np.full(len(drives), room.outer_radius_max), room.height_max
+    rim = np.minimum(room.mass_max, np.pi * density * radius**2 * height)
+    web = np.pi * WEB_THICKNESS * WEB_DENSITY * radius**2
+    shell = Printed(drives.mount_reach).mass(radius, np.full_like(radius, height))
+    return np.asarray(drives.mass + rim + web + shell)
 
 
 def least_masses(floor: RimFloor, drives: DriveTable, spin_inertia: FloatArray) -> FloatArray:

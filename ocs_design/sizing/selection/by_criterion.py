@@ -5,7 +5,7 @@ from math import pi
 
 from ocs_design.exceptions import Infeasible
 from ocs_design.sizing.incidence import Criterion, incidence_by_criterion
-from ocs_design.sizing.selection.momenta import design_momenta
+from ocs_design.sizing.momenta import design_momenta
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, Reason, Rejection, Selection
 from ocs_design.sizing.selection.select import select

@@ -7,6 +7,7 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.slew_profile import slew_profile
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
 from ocs_design.requirement.bound import AXES
 from ocs_design.robot.mass_properties import MassProperties, combine
@@ -14,7 +15,7 @@ from ocs_design.sizing.carrier import Carrier
 from ocs_design.sizing.incidence import module_frames
 from ocs_design.sizing.placement import motor_size
 from ocs_design.sizing.selection.binding import binding_limits
-from ocs_design.sizing.selection.demand import pair_task, shares_of
+from ocs_design.sizing.selection.demand import held_by_rate, pair_task, shares_of
 from ocs_design.sizing.selection.drive_table import DriveTable
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, TaskDemand
@@ -119,15 +120,16 @@ def _demands(
     armature = float(drives.armature[row])
     for maneuver in requirement.maneuvers:
         at = incidence if maneuver.incidence is None else maneuver.incidence
-        inertia = np.diag(braked(problem.robot, bodies, centers, at).inertia)[:2]
+        inertia = TiltInertia.of(braked(problem.robot, bodies, centers, at).inertia)
         shares = shares_of(np.array([[at]]))
         task = pair_task([maneuver], requirement.standing_height, inertia, shares)
         yield _of_maneuver(
             maneuver.name, at, task, line, armature=armature, spin_inertia=spin_inertia
         )
     if requirement.rate_change is not None:
-        inertia = np.diag(braked(problem.robot, bodies, centers, incidence).inertia)[:2]
-        momenta = inertia * requirement.rate_change / (2.0 * shares_of(np.asarray(incidence)))
+        inertia = TiltInertia.of(braked(problem.robot, bodies, centers, incidence).inertia)
+        shares = shares_of(np.asarray(incidence))
+        momenta = held_by_rate(requirement.rate_change, inertia, shares)
         for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
             least = momentum / float(drives.top_speed[row])
             peak = momentum / spin_inertia

@@ -8,11 +8,19 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.drive.line import DriveLine
 from ocs_design.drive.spin_root import capability, newton_step
-from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia, spin_demand
+from ocs_design.drive.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.drive.wheel_pair import (
+    WheelPairBound,
+    WheelPairTask,
+    smallest_spin_inertia,
+    spin_demand,
+)
+from ocs_design.requirement.bound import rate_momenta
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
+from ocs_design.sizing.selection.cells import Cell
 from ocs_design.sizing.selection.drive_table import DriveTable
-from ocs_design.sizing.selection.trunk import TrunkInertia
+from ocs_design.sizing.selection.trunk import LeastInertia, TrunkInertia
 
 
 class Reach(NamedTuple):
@@ -106,7 +114,7 @@ def _tried(
     drives: DriveTable,
     *,
     spin_inertia: FloatArray,
-    inertia: FloatArray,
+    inertia: TiltInertia,
     shares: FloatArray,
 ) -> list[Reach]:
     """Of each maneuver, shape (n, k)."""
@@ -131,87 +139,107 @@ def _worst(parts: Sequence[Reach], shape: tuple[int, ...]) -> Reach:
 
 
 def bound_by_all(
-    requirement: Requirement, drives: DriveTable, inertia: FloatArray, shares: FloatArray
+    requirement: Requirement, drives: DriveTable, least: LeastInertia, cells: Sequence[Cell]
 ) -> FloatArray:
     """The spin inertia that everything together needs at the least [kg m^2], shape (n, k).
 
     Args:
         requirement: maneuvers and rate change.
-        drives: n of them.
-        inertia: no larger than that about roll and pitch [kg m^2], shape (n, 2).
-        shares: no smaller than those of the design, one by one, shape (k, 2).
+        drives: n of them. least: what they turn.
+        cells: of the design's incidence, k of them.
     """
-    free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
-    height, shape = requirement.standing_height, (len(drives), len(shares), 2)
-    shares, whole = np.broadcast_to(shares, shape), np.broadcast_to(inertia[:, None, :], shape)
-    needed: FloatArray = np.zeros(shape[:-1])
-    if free:
-        needed = needed_by_maneuvers(free, height, drives, whole, shares).max(axis=0)
+    line, armature = columns(drives.line), drives.armature[:, None]
+    height, needed = requirement.standing_height, np.zeros((len(drives), len(cells)))
     for maneuver in requirement.maneuvers:
-        if maneuver.incidence is not None:
-            own = np.broadcast_to(shares_of(np.array([maneuver.incidence])), (len(drives), 1, 2))
-            one = needed_by_maneuvers([maneuver], height, drives, whole[:, :1], own)
-            needed = np.maximum(needed, one[0])
+        own = maneuver.incidence
+        task = bound_task(maneuver, height, least, cells if own is None else [Cell(own, own)])
+        needed = np.maximum(needed, smallest_spin_inertia(task, line, armature))
     if requirement.rate_change is None:
         return needed
-    return np.maximum(needed, needed_by_rate(requirement.rate_change, drives, whole, shares))
-
-
-def needed_by_maneuvers(
-    maneuvers: Sequence[Maneuver],
-    standing_height: float,
-    drives: DriveTable,
-    inertia: FloatArray,
-    shares: FloatArray,
-) -> FloatArray:
-    """The smallest spin inertia that does each maneuver in time [kg m^2], shape (m, n, k).
-
-    Inertia [kg m^2] and shares of shape (n, k, 2).
-    """
-    task = pair_task(maneuvers, standing_height, inertia, shares)
-    return smallest_spin_inertia(task, columns(drives.line), drives.armature[:, None])
+    shares = np.array([cell.shares for cell in cells])
+    alone = column(TiltInertia.uncoupled(least.inertia.diagonal))
+    return np.maximum(needed, needed_by_rate(requirement.rate_change, drives, alone, shares))
 
 
 def pair_task(
-    maneuvers: Sequence[Maneuver], standing_height: float, inertia: FloatArray, shares: FloatArray
+    maneuvers: Sequence[Maneuver], standing_height: float, inertia: TiltInertia, shares: FloatArray
 ) -> WheelPairTask:
     """Maneuvers as what two wheels must do, fields of shape (m, n, k, ...).
+
+    Args:
+        maneuvers: m of them.
+        standing_height: of the trunk over the ground [m].
+        inertia: of what they turn, shapes that broadcast against (n, k, 2) and (n, k).
+        shares: see `shares_of`; (n, k, 2).
+    """
+    inertia = inertia.times(shares.shape[:-1])
+    each = [inertia.within_reach(shares, maneuver.stray) for maneuver in maneuvers]
+    slews = [
+        maneuver.slew(own, standing_height) for maneuver, own in zip(maneuvers, each, strict=True)
+    ]
+    return WheelPairTask(
+        swept=np.stack([slew.swept for slew in slews]),
+        momentum=np.stack([slew.momentum for slew in slews]),
+        duration=np.array([slew.duration for slew in slews])[:, None, None],
+        inertia=TiltInertia(*(np.stack(parts) for parts in zip(*each, strict=True))),
+        incidence=np.arctan2(shares[..., 0], shares[..., 1]),
+    )
+
+
+def bound_task(
+    maneuver: Maneuver, standing_height: float, least: LeastInertia, cells: Sequence[Cell]
+) -> WheelPairBound:
+    """A maneuver as what two wheels must do at the least, fields of shape (n, k, ...).
 
     Shares (s, c) beyond the unit circle, n (s', c') with n > 1, do the same as (s', c') on what is
     smaller: momenta 1 / n, inertias 1 / n^2 of what they are (`drive.wheel_pair`).
 
     Args:
-        maneuvers: m of them.
+        maneuver: to be done.
         standing_height: of the trunk over the ground [m].
-        inertia: about roll and pitch [kg m^2], shape (n, k, 2), or (m, n, k, 2) where each has its
-            own.
-        shares: see `shares_of`; likewise.
+        least: what they turn, n of them.
+        cells: of the incidence, k of them.
     """
-    each = np.broadcast_to(inertia, (len(maneuvers), *shares.shape[-3:]))
-    stretch = np.hypot(shares[..., 0], shares[..., 1])[..., None]
-    slews = [
-        maneuver.slew(own, standing_height) for maneuver, own in zip(maneuvers, each, strict=True)
-    ]
-    return WheelPairTask(
-        swept=np.stack([slew.swept for slew in slews]) / stretch,
-        momentum=np.stack([slew.momentum for slew in slews]) / stretch,
-        duration=np.array([slew.duration for slew in slews])[:, None, None],
-        inertia=inertia / stretch**2,
-        incidence=np.arctan2(shares[..., 0], shares[..., 1]),
+    shares = np.array([cell.shares for cell in cells])
+    stretch = np.hypot(shares[:, 0], shares[:, 1])
+    diagonal, product = column(least.inertia)
+    slew = maneuver.slew(TiltInertia.uncoupled(diagonal), standing_height)
+    return WheelPairBound(
+        swept=slew.swept / stretch[:, None],
+        momentum=slew.momentum / stretch[:, None],
+        duration=slew.duration,
+        inertia=TiltInertia(diagonal / stretch[:, None] ** 2, product / stretch**2),
+        incidence=np.arctan2(shares[:, 0], shares[:, 1]),
+        turn=maneuver.turn * stretch[:, None],
+        spread=least.spread[:, None] / stretch**2,
+        reached=np.array([cell.least_shares for cell in cells]) > OUT_OF_REACH,
     )
 
 
 def needed_by_rate(
-    rate_change: float, drives: DriveTable, inertia: FloatArray, shares: FloatArray
+    rate_change: float, drives: DriveTable, inertia: TiltInertia, shares: FloatArray
 ) -> FloatArray:
-    """By a change of rate about either axis, one at a time, h = I d / (2 share W) [kg m^2].
+    """By a change of rate about either axis, one at a time [kg m^2], shape (n, k).
 
-    At the highest speed; no time is set (docs/theory.md, Lower bound on the wheels' inertia).
+    h = d (|J_xi| / s + |J_yi| / c) / (2 W) at the highest speed; no time is set
+    (docs/theory.md, Lower bound on the wheels' inertia).
     """
-    with np.errstate(divide="ignore"):
-        wheels = inertia * rate_change / (2.0 * drives.top_speed[:, None, None] * shares)
-    needed: FloatArray = wheels.max(axis=-1)
+    held = held_by_rate(rate_change, inertia, shares).max(axis=-1)
+    needed: FloatArray = held / drives.top_speed[:, None]
     return needed
+
+
+def held_by_rate(rate_change: float, inertia: TiltInertia, shares: FloatArray) -> FloatArray:
+    """Momentum of the busier wheel for a change of the rate of roll, and of pitch, (..., 2)."""
+    momenta = rate_momenta(inertia, rate_change)
+    asked, levers = np.broadcast_arrays(momenta, 2.0 * shares[..., None, :])
+    held = np.divide(asked, levers, out=np.full(asked.shape, np.inf), where=levers > 0.0)
+    return np.asarray(np.where(asked == 0.0, 0.0, held).sum(axis=-1))
+
+
+def column(inertia: TiltInertia) -> TiltInertia:
+    """Of n trunks against a second axis, of incidences."""
+    return TiltInertia(inertia.diagonal[:, None, :], inertia.product[:, None])
 
 
 def columns(line: DriveLine) -> DriveLine:

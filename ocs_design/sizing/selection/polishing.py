@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.drive.tilt_inertia import OUT_OF_REACH
 from ocs_design.sizing.cylinder import cylinder_mass, cylinder_spin_inertia
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
-from ocs_design.sizing.selection.demand import margins, reach
+from ocs_design.sizing.selection.demand import margins, reach, shares_of
 from ocs_design.sizing.selection.fixed_point import FixedPoint
 from ocs_design.sizing.selection.lot import Lot
 from ocs_design.sizing.selection.problem import SelectionProblem
@@ -51,7 +52,7 @@ def lightest(programme: "Programme", start: FloatArray, **how: float) -> Optimum
         start: feasible or not.
         how: see `minimise`.
     """
-    held, angle = programme.problem.incidence is not None, float(start[-1])
+    held, angle = programme.holds_incidence(start), float(start[-1])
     turn = (angle, angle, 0.0) if held else (0.0, np.pi / 2.0, _TRUST)
     return minimise(
         programme,
@@ -77,6 +78,17 @@ class Programme:
         met = margins(self.problem.requirement, lot.drives, trunk, spin, points[:, 3])
         limits = [np.log(np.clip(met, _LEAST, _MOST)), self._room(shapes), self._stated(spin)]
         return np.log(lot.drives.mass + shapes.mass), np.column_stack(limits)
+
+    def holds_incidence(self, point: FloatArray) -> bool:
+        """Whether it is stated, or no other one is near it.
+
+        Beside the one that leaves an axis out of reach, and to itself, the wheels would have to
+        take what the coupling asks there, with next to no lever.
+        """
+        shares = shares_of(point[None, 3:])
+        _, trunk = self._on_trunk(self.lot, self._shapes(point[None]))
+        alone = bool((shares <= OUT_OF_REACH).any() and trunk.at(shares).product.any())
+        return self.problem.incidence is not None or alone
 
     def fixed_point(self, points: FloatArray, *, possible: bool) -> FixedPoint:
         """A single point as what it comes to."""

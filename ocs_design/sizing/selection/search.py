@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 from ocs_design.arrays import FloatArray
 from ocs_design.sizing.motor_mount import mount_of
 from ocs_design.sizing.selection.bounds import (
-    CELLS,
     RimFloor,
-    cells_of,
     least_masses,
     least_spin_inertias,
 )
+from ocs_design.sizing.selection.cells import CELLS, cells_of
 from ocs_design.sizing.selection.drive_table import DriveTable, drive_table, known_pairs
 from ocs_design.sizing.selection.lot import lot_of
 from ocs_design.sizing.selection.problem import SelectionProblem

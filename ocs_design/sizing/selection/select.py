@@ -2,8 +2,8 @@
 
 from ocs_design.exceptions import UsageError
 from ocs_design.sizing.rim_problem import check_limits
-from ocs_design.sizing.selection.bounds import cells_of
 from ocs_design.sizing.selection.candidate import candidate
+from ocs_design.sizing.selection.cells import cells_of
 from ocs_design.sizing.selection.infeasible import infeasible
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.rejections import rejections

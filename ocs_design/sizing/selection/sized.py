@@ -6,13 +6,14 @@ from dataclasses import replace
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.requirement.bound import SpinDemand, per_wheel
+from ocs_design.drive.tilt_inertia import TiltInertia
+from ocs_design.requirement.bound import AXES, SpinDemand, authority, per_wheel, rate_momenta
 from ocs_design.sizing.incidence import incidence_by_criterion
 from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.momenta import design_momenta
 from ocs_design.sizing.motor_mount import mount_of
 from ocs_design.sizing.rim_problem import RimLimits, RimProblem
 from ocs_design.sizing.selection.candidate import braked
-from ocs_design.sizing.selection.momenta import design_momenta
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.shell import Printed
@@ -67,14 +68,15 @@ def _demands(problem: SelectionProblem, chosen: Candidate) -> tuple[SpinDemand, 
     found = []
     for demand in chosen.demands:
         maneuver = maneuvers.get(demand.source)
-        inertia = _inertia(problem, chosen, demand.incidence)
+        inertia = TiltInertia.of(_inertia(problem, chosen, demand.incidence))
         if maneuver is None:
-            axis = np.array([demand.source.endswith(name) for name in ("roll", "pitch")])
-            momentum = axis * np.diag(inertia)[:2] * (requirement.rate_change or 0.0)
+            about = [demand.source.endswith(name) for name in AXES]
+            momentum = rate_momenta(inertia, requirement.rate_change or 0.0)[about][0]
             torque = 0.0
         else:
-            momentum = maneuver.momentum(inertia, height)
-            torque = per_wheel(maneuver.least_torque(inertia, height), demand.incidence)
+            turned = inertia.within_reach(authority(demand.incidence), maneuver.stray)
+            momentum = maneuver.momentum(turned, height)
+            torque = per_wheel(maneuver.least_torque(turned, height), demand.incidence)
         found.append(
             SpinDemand(demand.source, demand.incidence, momentum, demand.spin_inertia, torque)
         )

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FALL, PUSH, asked, body, drop
 
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
 from ocs_design.sizing.optimal_control.smallest_wheel import smallest_wheel
 
@@ -12,7 +13,11 @@ from ocs_design.sizing.optimal_control.smallest_wheel import smallest_wheel
 def _closed_form(roll, pitch, incidence, duration=FALL):
     inertia = DIAGONAL.diagonal()[:2]
     task = WheelPairTask(
-        inertia * np.radians([roll, pitch]), np.zeros(2), duration, inertia, incidence
+        inertia * np.radians([roll, pitch]),
+        np.zeros(2),
+        duration,
+        TiltInertia.uncoupled(inertia),
+        incidence,
     )
     return smallest_spin_inertia(task, EC_45_FLAT).item()
 

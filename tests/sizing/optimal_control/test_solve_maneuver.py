@@ -7,6 +7,7 @@ from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FALL, FULL, PUSH, asked, 
 from scipy.integrate import solve_ivp
 
 from ocs_design.drive.line import DriveLine
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.drive.wheel_pair import WheelPairTask, pair_slew_time
 from ocs_design.exceptions import SpecificationError
 from ocs_design.requirement.maneuver import Disturbance, Flip
@@ -168,7 +169,7 @@ def test_the_shortest_time_about_pitch_is_the_closed_form(incidence):
         swept=DIAGONAL.diagonal()[:2] * np.radians([0.0, 30.0]),
         momentum=np.zeros(2),
         duration=FALL,
-        inertia=DIAGONAL.diagonal()[:2],
+        inertia=TiltInertia.uncoupled(DIAGONAL.diagonal()[:2]),
         incidence=incidence,
     )
     best = pair_slew_time(task, spin, EC_45_FLAT).item()

@@ -6,16 +6,20 @@ because it was refined until it has it; a grid that finds nothing lighter than w
 proves little.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, device_mass, fits, holds, inertia_on, margin
+from naive_device import Drive, device_mass, fits, holds, margin
+from naive_inertia import coupling_on, inertia_on
 from naive_search import Device, refine, search
 from naive_wheel import Rims
 from sampled import every
-from selections import random_problem
+from selections import lopsided, random_problem
 
 from ocs_design.exceptions import Infeasible
+from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.selection.select import select
 
 FAST = (2, 3, 12)
@@ -23,6 +27,7 @@ SLOW = (1, 6, 4, 5, 7, 8, 10, 11, 14)
 ON_THE_EDGE = (9, 15, 21)
 """Few wheels will do, and only at few incidences: a little heavier, and none is large enough."""
 AGREED = 1e-3
+LOPSIDED = (3, 9, 12, 16, 20)
 
 
 def selected(problem):
@@ -65,7 +70,12 @@ def check_by_itself(problem, chosen):
     assert margin(problem, drive, rims, angle).item() >= 1.0 - 1e-6
     assert device_mass(drive, rims).item() == pytest.approx(chosen.mass, rel=1e-9)
     inertia = inertia_on(problem, drive, rims, angle)[:, 0]
-    np.testing.assert_allclose(np.diag(chosen.total.inertia)[:2], inertia, rtol=1e-9)
+    whole = chosen.total.inertia
+    np.testing.assert_allclose(np.diag(whole)[:2], inertia, rtol=1e-9)
+    coupling = coupling_on(problem, drive, rims, angle).item()
+    assert whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2] == pytest.approx(
+        coupling, rel=1e-9, abs=1e-12 * inertia.max()
+    )
     spin = drive.wheel(rims)[1].item() + drive.rotor_momentum
     assert spin == pytest.approx(chosen.spin_inertia, rel=1e-9)
 
@@ -83,6 +93,33 @@ def check_neighbours(problem, chosen):
 @pytest.mark.parametrize("seed", FAST)
 def test_nothing_lighter_is_on_a_grid(seed):
     check_nothing_lighter(draw(seed).problem)
+
+
+@pytest.mark.parametrize("seed", LOPSIDED[:2])
+def test_a_lopsided_robots_device_is_what_it_says(seed):
+    """Its worst maneuver is just in time, which it would not be without the coupling."""
+    problem = lopsided(random_problem(seed), seed)
+    chosen = selected(problem)
+    check_by_itself(problem, chosen)
+    drive, rims = drive_of(problem, chosen), rims_of(chosen)
+    asked = margin(problem, drive, rims, np.array([chosen.incidence])).item()
+    assert asked == pytest.approx(1.0, abs=1e-6)
+    symmetric = replace(problem, robot=uncoupled(problem.robot))
+    without = margin(symmetric, drive, rims, np.array([chosen.incidence])).item()
+    assert abs(without - 1.0) > 0.01
+
+
+def uncoupled(robot):
+    """With its centre of mass in the middle."""
+    forward, _, up = robot.com
+    return MassProperties(robot.mass, [forward, 0.0, up], np.diag(np.diag(robot.inertia)))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", LOPSIDED)
+def test_nothing_lighter_is_on_a_grid_for_lopsided_robots(seed):
+    """Roll and pitch coupled by percents to tenths of what they take (`selections.lopsided`)."""
+    check_nothing_lighter(lopsided(random_problem(seed), seed))
 
 
 @pytest.mark.exhaustive

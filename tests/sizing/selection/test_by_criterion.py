@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, inertia_on
+from naive_device import Drive
+from naive_inertia import inertia_on
 from naive_wheel import Rims
 
+from ocs_design.drive.tilt_inertia import TiltInertia
 from ocs_design.exceptions import Infeasible
 from ocs_design.sizing.incidence import Criterion
 from ocs_design.sizing.selection import by_criterion
@@ -44,7 +46,7 @@ def worked_out(problem, device):
 
 def largest_momenta(problem, inertia):
     """On roll and on pitch, by the formulas of each kind of maneuver."""
-    both = np.diag([*inertia, 0.0])
+    both = TiltInertia.uncoupled(inertia)
     found = [np.zeros(2)]
     found.extend(
         maneuver.momentum(both, problem.requirement.standing_height)

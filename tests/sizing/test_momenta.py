@@ -5,7 +5,7 @@ import pytest
 
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.selection.momenta import design_momenta
+from ocs_design.sizing.momenta import design_momenta
 
 STANDING = 0.3
 INERTIA = np.array([[0.03, 0.001, 0.002], [0.001, 0.055, 0.0], [0.002, 0.0, 0.07]])
