@@ -7,6 +7,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.design_file import MarginRecord, OcsDesign
+from ocs_design.report.coupling import coupling_notes
 from ocs_design.report.device import print_device
 from ocs_design.report.doubts import doubts
 from ocs_design.report.flights import print_flights
@@ -146,6 +147,7 @@ def _print_requirement(console: Console, design: OcsDesign) -> None:
     show(console, table)
     note(console, TURNS if design.selection is None else DRIVEN)
     items(console, doubts(design), style="yellow")
+    items(console, coupling_notes(design))
     if requirement.assumptions:
         heading(console, "Assumed, because nothing else was stated")
         items(console, requirement.assumptions)

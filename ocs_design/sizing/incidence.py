@@ -112,19 +112,6 @@ def heading_drift(inertia: FloatArray) -> FloatArray:
     return frozen(-inertia[2, :2] / inertia[2, 2])
 
 
-def cross_momentum(inertia: FloatArray) -> FloatArray:
-    """Roll momentum per pitch momentum of a pure pitch, at [1], and the reverse at [0], shape (2,).
-
-    The momentum I w of a trunk that turns about one axis and, as its yaw momentum is zero and
-    stays so, drifts in heading: of I without its yaw, I_ij - I_iz I_jz / I_zz.
-
-    Args:
-        inertia: of the robot with its device about the centre of mass in B [kg m^2], shape (3, 3).
-    """
-    free = inertia[:2, :2] - np.outer(inertia[:2, 2], inertia[2, :2]) / inertia[2, 2]
-    return frozen(free[0, 1] / np.diag(free))
-
-
 def actuated_inertia(total: FloatArray, spin_inertia: float, incidence: float) -> FloatArray:
     """What the motors' torque accelerates, J = I_tot - I_w A A^T [kg m^2], shape (3, 3).
 

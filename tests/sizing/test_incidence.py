@@ -9,7 +9,6 @@ from ocs_design.sizing.incidence import (
     Criterion,
     actuated_inertia,
     condition_number,
-    cross_momentum,
     heading_drift,
     incidence_by_criterion,
     module_axes,
@@ -112,16 +111,3 @@ def test_actuated_inertia_is_what_the_motor_torque_accelerates():
     acceleration = np.linalg.solve(system, np.concatenate([np.zeros(3), torque]))[:3]
     expected = np.linalg.solve(actuated_inertia(STANCE, spin, angle), -axes @ torque)
     assert acceleration == pytest.approx(expected, rel=1e-12)
-
-
-def test_cross_momentum_is_what_a_pure_pitch_and_a_pure_roll_carry_along():
-    """L = I w with a heading rate that leaves no momentum about z."""
-    inertia = np.array([[1.49, -0.22, -0.33], [-0.22, 2.74, -0.16], [-0.33, -0.16, 2.75]])
-    drift = heading_drift(inertia)
-    for axis in (0, 1):
-        rate = np.zeros(3)
-        rate[axis], rate[2] = 1.0, drift[axis]
-        momentum = inertia @ rate
-        assert momentum[2] == pytest.approx(0.0, abs=1e-15)
-        expected = momentum[1 - axis] / momentum[axis]
-        assert cross_momentum(inertia)[axis] == pytest.approx(expected, rel=1e-12)

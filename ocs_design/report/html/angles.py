@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from ocs_design.report.bound import NOTE
+from ocs_design.report.coupling import coupling_notes
 from ocs_design.report.doubts import doubts
 from ocs_design.report.figures.bound import bound_charts
 from ocs_design.report.figures.figures import drive_charts, incidence_charts, plane_charts
@@ -37,6 +38,7 @@ def angles_section(story: Story) -> Markup:
         figures(plane_charts(story)),
         figures(incidence_charts(story)),
         items(doubts(story.design), look="warnings"),
+        items(coupling_notes(story.design)),
     )
 
 
