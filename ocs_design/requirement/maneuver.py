@@ -221,8 +221,7 @@ class Drop(Reorientation):
     """A fall from rest with the trunk tilted (paper, section 4, second test).
 
     Attributes:
-        height: of the trunk frame's origin over the ground [m].
-        roll, pitch: at release [rad].
+        height: of the trunk frame's origin over the ground [m]. roll, pitch: at release [rad].
     """
 
     height: float
@@ -270,8 +269,7 @@ class Flip(Reorientation):
 
     Attributes:
         jump_height: of the centre of mass over its height at lift-off [m].
-        angle: of pitch [rad]; a back-flip is negative about y (left).
-        duration: of the turn, from lift-off [s].
+        angle: of pitch [rad]; a back-flip is negative about y (left). duration: from lift-off [s].
     """
 
     jump_height: float
