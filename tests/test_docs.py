@@ -8,6 +8,7 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 import typer
@@ -84,6 +85,24 @@ def test_the_gallery_shows_each_of_its_pictures_and_all_are_small():
     assert sorted(shown) == sorted(path.name for path in pictures)
     assert len(shown) >= 8
     assert max(path.stat().st_size for path in pictures) < 60_000
+
+
+DOI, ARXIV = re.compile(r"10\.\d{4,9}/\S+"), re.compile(r"\d{4}\.\d{5}")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_into_the_world_are_well_formed(page):
+    """None is opened: the tests need no network."""
+    for target in LINK.findall(FENCE.sub("", page.read_text())):
+        address = urlsplit(target)
+        if not address.scheme:
+            continue
+        assert address.scheme == "https", target
+        assert re.fullmatch(r"[\w-]+(\.[\w-]+)+", address.netloc), target
+        if address.netloc == "doi.org":
+            assert DOI.fullmatch(address.path[1:]), target
+        if address.netloc == "arxiv.org":
+            assert ARXIV.fullmatch(address.path.removeprefix("/abs/")), target
 
 
 TOML = re.compile(r"^```toml\n(.*?)^```", re.MULTILINE | re.DOTALL)
