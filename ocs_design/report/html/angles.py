@@ -55,7 +55,7 @@ def _choice(selection: SelectionRecord) -> Iterator[Markup]:
         f"Chosen from {selection.candidates:,} combinations of motor, gear, material and "
         f"incidence at {selection.bus_voltage:g} V; {selection.binding_maneuver} asks for most.",
     )
-    needed = f"What each asks for at the least, with {selection.reserve:.0%} of voltage and current"
+    needed = f"Asked for at the least, with {selection.reserve:.0%} of voltage and current"
     yield table(needed, _words(TASKS), map(task_cells, selection.tasks))
     drives = best_drives(selection.ranking)
     columns = ("motor, gear", *_words(RANKED)[1:])

@@ -25,14 +25,13 @@ _PRICE_NOTE = (
     "not touch costs nothing: more of it buys nothing."
 )
 _NOT_REACHED = "0, not reached"
-_FREE = "nothing: it lies inside all limits"
 _MEANT = {
-    HOUSING: "its housing: a larger rim would be lighter, and its housing heavier by more",
-    MOUNT: "the motor's mount: its screws ask for so wide a housing",
-    HUB: "the hub, which its bore must clear",
-    WEB: "the web, which it must be taller than",
+    HOUSING: "A larger rim would be lighter, and its housing heavier by more.",
+    MOUNT: "The screws of the motor's mount ask for so wide a housing.",
+    HUB: "The rim's bore must clear the hub.",
+    WEB: "The rim must be taller than the web.",
 }
-"""What holds a wheel though nobody has stated it."""
+"""Of what holds a wheel though nobody has stated it."""
 
 _FRONT_NOTE = "How the mass changes with room, voltage or time, motor and all, is drawn by "
 
@@ -54,13 +53,14 @@ def sizes_section(design: OcsDesign) -> Markup:
 
 def limits_section(design: OcsDesign) -> Markup:
     """What binds, and what more of it would buy."""
-    held = ", ".join(_MEANT.get(name, name) for name in design.sizing.binding) or _FREE
+    held = ", ".join(design.sizing.binding) or "nothing: it lies inside all limits"
+    meant = (f" {_MEANT[name]}" for name in design.sizing.binding if name in _MEANT)
     selection = design.selection
     priced = selection is not None and selection.prices
     return section(
         "limits",
         "What binds, and what more would buy",
-        element("p", "The shape of the wheel is held by ", element("strong", held), "."),
+        element("p", "The shape of the wheel is held by ", element("strong", held), ".", *meant),
         *(_bought(selection) if selection is not None and priced else _worths(design)),
     )
 
