@@ -103,7 +103,7 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
     if start.stated.takes_default_maneuvers:
         known = [maneuver.name for maneuver in start.default.maneuvers]
         chosen = _ask(
-            f"What it shall do in the air: {', '.join(known)}, with commas, or {ALL}",
+            f"Maneuvers: {', '.join(known)}, with commas, or {ALL}",
             ALL,
             lambda answer: _maneuvers(answer, known),
         )

@@ -111,7 +111,7 @@ def test_defaults_are_the_robots_own():
 def test_on_a_terminal_it_asks(folder):
     answers = ("nowhere.urdf", SOLO12, "jump", "drop, back-flip", "forty", "45", "", "22.2 V")
     shown = on_a_terminal(answers, "init", "-o", "asked.toml")
-    for question in ("Robot file", "What it shall do", "radius", "height", "battery"):
+    for question in ("Robot file", "Maneuvers", "radius", "height", "battery"):
         assert question in shown
     assert "nowhere.urdf does not exist" in shown
     assert "jump: is none of disturbance, drop, back-flip, all" in shown
