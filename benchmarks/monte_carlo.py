@@ -119,10 +119,10 @@ class Weighed(ThisMachine):
     def fly(self, campaign, blocks, progress):
         told = 0
         for block, outcomes in super().fly(campaign, blocks, progress):
-            yield block, outcomes
             if block.stop >= 2 * told:
                 told = block.stop
                 print(f"{told:9,} samples: {peak():7.1f} MiB", flush=True)
+            yield block, outcomes
 
 
 def peak():

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 
 from ocs_design.monte_carlo.interval import share
@@ -45,3 +47,11 @@ def test_the_section_is_there_only_if_samples_were_flown():
     section = monte_carlo_section(record(VALUES))
     for text in ("500 robots", "99.8 %", "sensor.delay"):
         assert text in section
+
+
+def test_advice_is_told_where_there_is_any():
+    plain = record(VALUES)
+    advised = replace(plain.scenarios[0], advice="turn the modules")
+    section = monte_carlo_section(replace(plain, scenarios=(advised,)))
+    assert "drop: turn the modules." in section
+    assert "drop: ." not in monte_carlo_section(plain)
