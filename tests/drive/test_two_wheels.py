@@ -33,6 +33,7 @@ class Pair:
     rim: float
     gear: Gear
     incidence: float
+    product: float = 0.0
 
     @property
     def mass_matrix(self):
@@ -40,6 +41,7 @@ class Pair:
         s, c = np.sin(self.incidence), np.cos(self.incidence)
         sense = -1.0 if self.gear.reverses else 1.0
         matrix = np.diag([*TRUNK, 0.0, 0.0])
+        matrix[0, 1] = matrix[1, 0] = self.product
         for wheel, side in enumerate((1.0, -1.0)):
             spin, rotor, gearing = np.zeros((3, 4))
             along, across = np.array([side * s, c, 0, 0]), np.array([c, -side * s, 0, 0])
@@ -62,10 +64,9 @@ class Pair:
 
     def task(self, angle, rate):
         """Turn by `angle`, from `rate` with wheels at rest, to rest: P and L."""
-        whole = np.diag(self.mass_matrix)[:2]
-        return WheelPairTask(
-            whole * angle, whole * rate, np.nan, TiltInertia.uncoupled(whole), self.incidence
-        )
+        whole = self.mass_matrix[:2, :2]
+        inertia = TiltInertia(np.diag(whole), whole[0, 1])
+        return WheelPairTask(whole @ angle, whole @ rate, np.nan, inertia, self.incidence)
 
 
 def motor_torque(speed, direction):
@@ -156,5 +157,47 @@ def test_a_slew_about_both_axes(pair, angle):
     assert -state[:2] == pytest.approx(angle, abs=1e-8)
     assert state[4:] == pytest.approx(np.zeros(4), abs=1e-6)
     second, _, speed = np.array(torques).T
+    assert (second <= motor_torque(speed, 1.0) + 1e-9).all()
+    assert (second >= motor_torque(speed, -1.0) - 1e-9).all()
+
+
+COUPLED = [
+    Pair(9e-5, DIRECT, np.radians(40.0), 0.004),
+    Pair(4e-5, BELT, np.radians(25.0), -0.012),
+    Pair(6e-3, SPUR, np.radians(50.0), 0.012),
+]
+
+
+@pytest.mark.parametrize("pair", COUPLED)
+@pytest.mark.parametrize("angle", [(0.0, 0.5), (0.4, 0.0), (0.3, 0.5), (0.3, -0.5), (-0.1, 0.6)])
+def test_a_slew_of_a_trunk_whose_axes_are_coupled(pair, angle):
+    """Either wheel may be the busier one, and a turn about one axis takes both."""
+    load = pair.task(angle, [0.0, 0.0]).load()
+    profile = slew_profile(
+        load.angle(pair.spin_inertia),
+        load.reduced_inertia(pair.spin_inertia, pair.armature),
+        LINE,
+    )
+    roll, pitch = pair.mass_matrix[:2, :2] @ angle
+    roll, pitch = roll / np.sin(pair.incidence), pitch / np.cos(pair.incidence)
+    turns = np.array([pitch + roll, pitch - roll])
+    busy = int(np.abs(turns).argmax())
+    idle, sense = 1 - busy, np.sign(turns[busy])
+    part, torques = turns[idle] / turns[busy], []
+
+    def drive(phase, speeds, matrix):
+        """See above."""
+        inverse, found = np.linalg.inv(matrix)[2:, 2:], np.zeros(2)
+        found[busy] = sense * motor_torque(sense * speeds[busy], (1.0, -1.0)[phase])
+        found[idle] = found[busy] * (part * inverse[busy, busy] - inverse[idle, busy])
+        found[idle] /= inverse[idle, idle] - part * inverse[busy, idle]
+        torques.append((found[idle], speeds[idle]))
+        return np.concatenate([np.zeros(2), found])
+
+    times = [0.0, float(profile.brake_from), float(profile.end)]
+    state = flight(pair, [0.0, 0.0], drive, times)
+    assert -state[:2] == pytest.approx(angle, abs=1e-8)
+    assert state[4:] == pytest.approx(np.zeros(4), abs=1e-6)
+    second, speed = np.array(torques).T
     assert (second <= motor_torque(speed, 1.0) + 1e-9).all()
     assert (second >= motor_torque(speed, -1.0) - 1e-9).all()
