@@ -10,8 +10,8 @@ from ocs_design.report.quantities import degrees
 from ocs_design.requirement.bound import AXES, authority
 
 WORTH_TELLING = 0.02
-"""Of what the turn alone asks; 32 of 33 public robots with legs couple both axes by less than 0.4 %
-of their inertia, which is this much only at the smallest incidences."""
+"""Of what the turn alone asks; 30 of 31 public robots with legs couple both axes by less than 0.9 %
+of their inertia, which is this much only at small incidences."""
 
 
 def coupling_notes(design: OcsDesign) -> Iterator[str]:
