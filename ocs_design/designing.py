@@ -59,13 +59,19 @@ class Designed:
     choice: Choice | None
 
 
-def design_device(specification: Specification, robot: Robot, resolved: Resolved) -> Designed:
+def design_device(
+    specification: Specification, robot: Robot, resolved: Resolved, *, advise: bool = True
+) -> Designed:
     """The lightest device that meets the specification.
+
+    Args:
+        specification: what was stated. robot: that carries it. resolved: what was meant.
+        advise: see `select`.
 
     Raises:
         Infeasible: there is none. UsageError: nothing is asked for, or a limit is no DEVICE_MASS.
     """
-    designed = _lightest(specification, robot, resolved)
+    designed = _lightest(specification, robot, resolved, advise=advise)
     if specification.ocs.mass_max is not None:
         _check_mass(designed.device, specification.ocs.mass_max)
     return designed
@@ -87,13 +93,15 @@ def _check_mass(device: Device, most: float) -> None:
     )
 
 
-def _lightest(specification: Specification, robot: Robot, resolved: Resolved) -> Designed:
+def _lightest(
+    specification: Specification, robot: Robot, resolved: Resolved, *, advise: bool
+) -> Designed:
     """Whatever it weighs."""
     problem = selection_problem(specification, robot, resolved)
     if problem is None:
         return _by_bound(specification, robot, resolved)
     criterion = stated_criterion(specification)
-    selection = select_by(problem, criterion)
+    selection = select_by(problem, criterion, advise=advise)
     if criterion is not None:
         problem = replace(problem, incidence=selection.best.incidence)
     choice = _choice(problem, selection, refine=bool(specification.ocs.co_design))

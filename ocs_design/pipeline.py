@@ -36,6 +36,7 @@ from ocs_design.run_files import write_runs
 from ocs_design.simulation.poses import POSE_RATE
 from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.sizing.rim_program import load_solver
+from ocs_design.sizing.selection.infeasible import Refused
 
 if TYPE_CHECKING:
     from ocs_design.sizing.optimal_control.reference import Reference
@@ -95,9 +96,7 @@ def design_ocs(
         check_target(folder, force=force)
         require_no_device(robot.tree.joints)
         step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
-    with steps.step("size the device") as step:
-        sized = _size(specification, robot, strict=strict)
-        step.note = _what_was_sized(sized.designed)
+    sized = _sized_or_advised(specification, robot, steps, strict=strict)
     device = sized.designed.device
     with steps.step("plan the maneuvers"):
         plans = _plan(sized)
@@ -137,10 +136,27 @@ class _Sized:
     remarks: tuple[str, ...]
 
 
+def _sized_or_advised(
+    specification: Specification, robot: Robot, steps: Steps, *, strict: bool
+) -> _Sized:
+    """See `_size`; where nothing meets the specification, what would is a step of its own."""
+    with steps.step("size the device") as step:
+        try:
+            sized = _size(specification, robot, strict=strict)
+        except Refused as error:
+            refused, step.note = error, "nothing meets the specification"
+        else:
+            step.note = _what_was_sized(sized.designed)
+            return sized
+    with steps.step("look for the smallest changes that would do") as step:
+        advised = refused.advised(step.update)
+    raise advised
+
+
 def _size(specification: Specification, robot: Robot, *, strict: bool) -> _Sized:
     """What was asked for, the device that does it, and its place on the robot."""
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
-    designed = design_device(specification, robot, resolved)
+    designed = design_device(specification, robot, resolved, advise=False)
     device = designed.device
     device_warnings(device, robot.mass_properties, strict=strict)
     mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)

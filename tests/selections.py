@@ -15,6 +15,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.placement import Place
 from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.search import search
 
 ALUMINIUM = Material("aluminium", 2700.0, 250e6, 300e6, 0.33, "for tests")
 NO_LIMIT = float("inf")
@@ -93,6 +94,18 @@ def lopsided(problem, seed):
     load *= rng.uniform(0.1, 0.4) * size / np.linalg.norm(load)
     own = robot.mass * (load @ load * np.eye(3) - np.outer(load, load))
     return replace(problem, robot=MassProperties(robot.mass, com, robot.inertia + own))
+
+
+def has_device(problem):
+    """As the selection finds it, whatever it takes: every candidate is looked at by its mass."""
+    return bool(search(problem).places)
+
+
+def with_radius(problem, share):
+    """In a room that is narrower all over."""
+    room = problem.envelope
+    radius, bore = share * room.outer_radius_max, share * room.inner_radius_min
+    return replace(problem, envelope=replace(room, outer_radius_max=radius, inner_radius_min=bore))
 
 
 def _maneuvers(rng, standing, fall, torque, time):

@@ -37,7 +37,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ocs_design.arrays import FloatArray
+from ocs_design.arrays import FloatArray, put_rows
 from ocs_design.sizing.module_radii import largest_radius, smallest_radius
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
 from ocs_design.sizing.rim_problem import RimLimits
@@ -54,6 +54,8 @@ _CUT_SETTLING = 9
 _MOST_BENT = 0.5
 # Limits that meet in one point stay compatible when their figures are rounded.
 _ROUNDING = 1e-12
+# Of the largest bore over the least one, beyond what either is known to.
+_ROOMY = 1e-6
 
 
 class ModuleShape(NamedTuple):
@@ -75,6 +77,15 @@ class ModuleShape(NamedTuple):
     def mass(self) -> FloatArray:
         """Of rim, web and shell [kg]."""
         return self.rim_mass + self.web_mass + self.shell_mass
+
+    def take(self, rows: NDArray[np.intp]) -> "ModuleShape":
+        """Those of these rows."""
+        return ModuleShape(*(values[rows] for values in self))
+
+    def put(self, rows: NDArray[np.intp], others: "ModuleShape") -> "ModuleShape":
+        """With others in these rows."""
+        columns = zip(self, others, strict=True)
+        return ModuleShape(*(put_rows(own, rows, other) for own, other in columns))
 
 
 def lightest_module(spin_inertia: ArrayLike, limits: RimLimits, shell: Shell) -> ModuleShape:
@@ -106,6 +117,34 @@ def lightest_module_at(
         low, high, fits = _radii(inertia, limits)
         radius = np.clip(outer_radius, low, high)
         return _where(fits, _shape(inertia, radius, limits, shell, flatness))
+
+
+def roomy_module_at(
+    spin_inertia: FloatArray,
+    outer_radius: FloatArray,
+    limits: RimLimits,
+    shell: Shell,
+    flatness: FloatArray,
+) -> ModuleShape:
+    """`lightest_module_at` of exactly those radii; NaN where no rim of one fits, or only just.
+
+    Takes a third of the time: which radii fit at all is not asked.
+    """
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        shape = _shape(spin_inertia, outer_radius, limits, shell, flatness)
+        bore = shape.inner_radius**2
+        lower, upper = _bounds(
+            spin_inertia, outer_radius, limits, bore if limits.cuts.any else None
+        )
+        roomy = (
+            (lower <= upper * (1.0 - _ROOMY))
+            & (outer_radius > limits.wall_min)
+            & (outer_radius >= limits.outer_radius_min)
+            & (outer_radius <= limits.outer_radius_max)
+            & (np.asarray(limits.height_min) <= limits.height_max)
+            & (spin_inertia > 0.0)
+        )
+        return _where(roomy, shape)
 
 
 def _radii(

@@ -27,6 +27,8 @@ from ocs_design.sizing.rim_problem import RimLimits
 
 # From above each step of Newton's method halves the error at least; then it doubles the digits.
 _NEWTON_STEPS = 12
+# Relative, of a last step that no digit is left to gain by: the one after it would be nothing.
+_LAST_STEP = 1e-9
 # Of what is cut off a rim, at least a digit each: it is at most an eighth of its cross-section.
 _SETTLING = 7
 
@@ -89,9 +91,13 @@ def _settled(
     found = crossing(_Asked(full, mass), limits)
     for _ in range(_SETTLING if cuts.any else 0):
         # Where they do not meet nothing is cut.
-        spread, area = (np.nan_to_num(cut(*found), posinf=0.0) for cut in (cuts.spread, cuts.area))
+        spread, area = (_finite(cut(*found)) for cut in (cuts.spread, cuts.area))
         found = crossing(_Asked(full + spread, mass + area), limits)
     return found.outer
+
+
+def _finite(cut: FloatArray) -> FloatArray:
+    return np.where(np.isfinite(cut), cut, 0.0)
 
 
 def _tall_and_narrow(asked: _Asked, limits: RimLimits) -> _Crossing:
@@ -211,5 +217,8 @@ def _root_from_above(
         return root
     for _ in range(_NEWTON_STEPS):
         value, slope = excess(root)
-        root = root - value / slope
+        step = value / slope
+        root = root - step
+        if not np.any(np.abs(step) > _LAST_STEP * root):
+            break
     return root

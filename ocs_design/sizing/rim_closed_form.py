@@ -95,6 +95,25 @@ def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
     return np.asarray(np.pi * limits.density * full / 2.0, dtype=np.float64)
 
 
+def largest_spin_inertia(limits: RimLimits) -> FloatArray:
+    """Of no rim within the limits exceeded [kg m^2]; 0 where none has room.
+
+    With its web. As wide and tall as room and hoop stress let it be around the least bore; and with
+    its mass as far out as it may be, its web to the same radius.
+    """
+    web, bore = np.asarray(limits.web), np.asarray(limits.inner_radius_min)
+    nu, per_height = limits.poisson_ratio, np.pi * np.asarray(limits.density) / 2.0
+    stretched = np.maximum(limits.stretch_max - (1.0 - nu) * bore**2, 0.0) / (3.0 + nu)
+    outer = np.minimum(limits.outer_radius_max, np.sqrt(stretched))
+    tall = np.asarray(limits.height_max)
+    solid = per_height * (tall * (outer**4 - bore**4) + np.minimum(web, tall) * bore**4)
+    heavy = np.asarray(limits.mass_max) * outer**2 + per_height * web * outer**4
+    around = np.maximum(bore + limits.wall_min, limits.outer_radius_min)
+    slack = 1.0 + _ROUNDING
+    fits = (around <= outer * slack) & (np.asarray(limits.height_min) <= tall * slack)
+    return np.asarray(np.where(fits, np.minimum(solid, heavy), 0.0), dtype=np.float64)
+
+
 def flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
     """Outer radius at which a rim of the least wall and the least height has the inertia [m].
 

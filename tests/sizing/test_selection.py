@@ -7,7 +7,7 @@ import numpy as np
 import pinocchio
 import pytest
 from naive_wheel import wheel_of
-from selections import random_problem
+from selections import has_device, random_problem, with_radius
 from standing_parts import standing_parts
 
 from ocs_design.drive.gear import DIRECT
@@ -19,8 +19,8 @@ from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
 from ocs_design.sizing.selection.changed_limits import with_limit
+from ocs_design.sizing.selection.possibility import Field
 from ocs_design.sizing.selection.result import Reason
-from ocs_design.sizing.selection.search import is_possible
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.selection.single_changes import PRECISION, single_changes
 
@@ -238,22 +238,20 @@ def test_infeasible_says_what_would_do():
     assert told[1] in {maneuver.name for maneuver in narrow.requirement.maneuvers}
     limits = {limit.name: limit for limit in (BUS_VOLTAGE, TIME)}
     value = error.relaxations["time"]
-    assert is_possible(with_limit(narrow, limits["time"], value))
-    assert not is_possible(with_limit(narrow, limits["time"], value * (1.0 - PRECISION)))
+    assert has_device(with_limit(narrow, limits["time"], value))
+    assert not has_device(with_limit(narrow, limits["time"], value * (1.0 - PRECISION)))
 
 
 @pytest.mark.exhaustive
 def test_no_motor_can_do_with_a_smaller_change():
     """Nor one that is far from it before the change: each is asked by itself."""
     problem = random_problem(9)
-    least = 0.1 * select(problem).best.outer_radius
-    room = replace(problem.envelope, outer_radius_max=least, inner_radius_min=0.1 * least)
-    small = replace(problem, envelope=room)
-    changed = single_changes(small)
+    small = with_radius(problem, 0.1)
+    changed = single_changes(Field.of(small))
     limit = next(limit for limit in changed if limit.name == "r_max")
     tighter = with_limit(small, limit, changed[limit] / (1.0 + 1.01 * PRECISION))
-    assert is_possible(with_limit(small, limit, changed[limit]))
-    assert not any(is_possible(replace(tighter, motors=[motor])) for motor in small.motors)
+    assert has_device(with_limit(small, limit, changed[limit]))
+    assert not any(has_device(replace(tighter, motors=[motor])) for motor in small.motors)
 
 
 def test_nothing_to_do_and_nothing_to_choose_from():

@@ -25,6 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.requirement.envelope import Envelope
 from ocs_design.sizing.foot import PLATE_THICKNESS
 from ocs_design.sizing.housing import PlainDrum, half_height
 from ocs_design.sizing.lightest_module import lightest_module
@@ -133,7 +134,25 @@ def least_spin_inertias(
         drives: n of them. cells: k of them.
         below: a lower bound over all cells, as far as it is known [kg m^2], shape (n,).
     """
-    inertia = least_inertia(problem, floor, drives, below)
+    return needed_in_cells(
+        problem, drives, least_inertia(problem, floor, drives, below), cells, below
+    )
+
+
+def needed_in_cells(
+    problem: SelectionProblem,
+    drives: DriveTable,
+    inertia: LeastInertia,
+    cells: Sequence[Cell],
+    below: FloatArray,
+) -> FloatArray:
+    """What each drive's wheels need in each cell on a trunk of at least that inertia, shape (n, k).
+
+    Args:
+        problem: requirement. drives: n of them.
+        inertia: of each.
+        cells: k of them. below: as for `least_spin_inertias`.
+    """
     needed = np.maximum(bound_by_all(problem.requirement, drives, inertia, cells), below[:, None])
     stated = problem.requirement.spin_inertia
     if stated is None:
@@ -145,13 +164,41 @@ def least_inertia(
     problem: SelectionProblem, floor: RimFloor, drives: DriveTable, spin_inertia: FloatArray
 ) -> LeastInertia:
     """Of the robot with modules of at least that spin inertia, see `least_trunk_inertia`."""
-    room = problem.envelope
     rim = np.maximum(spin_inertia - drives.beside_rim, floor.spin_inertia[:, 0].min())
     known = np.isfinite(rim)
     about_center = np.where(known, floor.about_center_at(rim).min(axis=0), 0.0)
     about_center = np.where(np.isfinite(about_center), about_center, 0.0)
-    radius = max(room.inner_radius_min + room.wall_min, room.wall_min / (1.0 - BORE_SHARE))
-    zero = np.zeros_like(rim)
+    radius = np.full_like(rim, _smallest_radius(problem.envelope))
+    return least_inertia_around(problem, drives, np.where(known, rim, 0.0), radius, about_center)
+
+
+def least_inertia_of_any(problem: SelectionProblem, drives: DriveTable) -> LeastInertia:
+    """Likewise, of modules with any wheel."""
+    nothing = np.zeros(len(drives))
+    radius = np.full(len(drives), _smallest_radius(problem.envelope))
+    return least_inertia_around(problem, drives, nothing, radius, nothing)
+
+
+def _smallest_radius(room: Envelope) -> float:
+    """That no rim is below [m]."""
+    return max(room.inner_radius_min + room.wall_min, room.wall_min / (1.0 - BORE_SHARE))
+
+
+def least_inertia_around(
+    problem: SelectionProblem,
+    drives: DriveTable,
+    rim: FloatArray,
+    radius: FloatArray,
+    about_center: FloatArray,
+) -> LeastInertia:
+    """Of the robot with modules whose rims have no less, see `least_trunk_inertia`.
+
+    Args:
+        problem: robot, envelope, place. drives: n of them.
+        rim: spin inertia of rim and web [kg m^2]. radius: of the rim [m].
+        about_center: mass of rim, web and drum [kg].
+    """
+    room, zero = problem.envelope, np.zeros_like(rim)
     motor = drives.behind_depth, drives.behind_radius, drives.mount_reach
     behind = drives.behind.mass + drives.mount_mass
     # The holes stand by less than that behind the floor.
@@ -159,11 +206,11 @@ def least_inertia(
     least = Least(
         mass=np.maximum(about_center + drives.hub_mass - drives.mount_mass, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
-        inertia=np.minimum(drives.hub_share, drives.hub_across) + np.where(known, rim, 0.0) / 2.0,
+        inertia=np.minimum(drives.hub_share, drives.hub_across) + rim / 2.0,
         behind=behind,
         depth=half_height(room.height_max) + (holes - drives.behind.y) / behind,
         above=(drives.behind.z + zero) / behind,
-        smallest=module_size(zero + radius, zero + room.height_min, *motor),
+        smallest=module_size(radius, zero + room.height_min, *motor),
         largest=module_size(zero + room.outer_radius_max, zero + room.height_max, *motor),
         heaviest=_heaviest(problem, drives),
     )

@@ -8,19 +8,17 @@ in on the incidence as it goes. What a turn asks of the busier wheel, |P_x| / s 
 valley over the incidence, and so has the largest of several such.
 """
 
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
+from ocs_design.arrays import FloatArray, put_rows
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.demand import Reach, reach
 from ocs_design.sizing.selection.lot import Lot
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.trunk import trunk_inertia
-
-Number = TypeVar("Number", np.float64, np.bool_)
 
 _ROUNDS = 40
 _POINTS = np.linspace(-1.0, 1.0, 5)
@@ -73,7 +71,7 @@ class FixedPoint(NamedTuple):
         return FixedPoint(
             spin_inertia=self.spin_inertia[rows],
             angle=self.angle[rows],
-            shapes=ModuleShape(*(values[rows] for values in self.shapes)),
+            shapes=self.shapes.take(rows),
             possible=self.possible[rows],
             margin=self.margin[rows],
             residual=self.residual[rows],
@@ -84,9 +82,7 @@ class FixedPoint(NamedTuple):
         return FixedPoint(
             spin_inertia=put_rows(self.spin_inertia, rows, others.spin_inertia),
             angle=put_rows(self.angle, rows, others.angle),
-            shapes=ModuleShape(
-                *(put_rows(a, rows, b) for a, b in zip(self.shapes, others.shapes, strict=True))
-            ),
+            shapes=self.shapes.put(rows, others.shapes),
             possible=put_rows(self.possible, rows, others.possible),
             margin=put_rows(self.margin, rows, others.margin),
             residual=put_rows(self.residual, rows, others.residual),
@@ -158,15 +154,6 @@ def fixed_point(
     shapes = lot.shapes_at(spin, design.radius, design.flatness)
     margin = np.where(settled, step.margin, best_margin)
     return FixedPoint(spin, design.angle, shapes, settled, margin, residual), iterations
-
-
-def put_rows(
-    values: NDArray[Number], rows: NDArray[np.intp], others: NDArray[Number]
-) -> NDArray[Number]:
-    """A copy with other values in these rows."""
-    copy = values.copy()
-    copy[rows] = others
-    return copy
 
 
 def _step(

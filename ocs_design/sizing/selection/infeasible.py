@@ -7,42 +7,69 @@ from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.slower import told_change
 from ocs_design.sizing.limits import TIME, Limit
 from ocs_design.sizing.selection.attempt import largest_wheel
+from ocs_design.sizing.selection.possibility import Field
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.rejections import rejections
 from ocs_design.sizing.selection.result import Reason, Rejection
-from ocs_design.sizing.selection.search import Found, is_possible
+from ocs_design.sizing.selection.search import Found
 from ocs_design.sizing.selection.single_changes import (
     MOST_CHANGE,
+    Progress,
     single_changes,
     slowed_maneuvers,
+    unseen,
 )
 
 # What no change of a limit mends.
 _NO_LIMIT = {Reason.FIGURES, Reason.INCIDENCE}
 
 
-def infeasible(found: Found, *, advise: bool) -> Infeasible:
-    """The error for a problem that no motor solves; looks for changes that would do if asked to."""
-    problem = found.problem
-    reasons = rejections(found, ())
-    nearest = min(reasons, key=_distance)
-    looking = advise and nearest.reason not in _NO_LIMIT
-    changes = single_changes(problem) if looking else {}
-    many = f"none of {len(reasons)} motors" if len(reasons) > 1 else f"motor {nearest.motor}"
-    verdict = "can do it" if len(reasons) > 1 else "cannot do it"
-    comes = f"; {nearest.motor} comes closest" if len(reasons) > 1 else ""
-    largest = nearest.largest
-    if largest is None:
-        largest = largest_wheel(problem, problem.envelope)
-    return Infeasible(
-        f"{many[0].upper()}{many[1:]} {verdict} at {problem.bus_voltage:g} V{comes}: "
-        f"{nearest.detail}.",
-        binding=[str(nearest.reason)],
-        required_spin_inertia=nearest.needed,
-        largest_spin_inertia=largest,
-        relaxations={limit.name: value for limit, value in changes.items()},
-        hint=" ".join(_advice(problem, nearest.reason, changes)) if advise else "",
-    )
+class Refused(Infeasible):
+    """No motor can do it; what would do is not looked for yet, which takes longer than the search.
+
+    Attributes:
+        problem: that no motor solves. nearest: the motor that comes closest.
+    """
+
+    def __init__(self, found: Found) -> None:
+        reasons = rejections(found, ())
+        nearest = min(reasons, key=_distance)
+        problem, largest = found.problem, nearest.largest
+        super().__init__(
+            f"{_verdict(problem, nearest)}: {nearest.detail}.",
+            binding=[str(nearest.reason)],
+            required_spin_inertia=nearest.needed,
+            largest_spin_inertia=(
+                largest_wheel(problem, problem.envelope) if largest is None else largest
+            ),
+            relaxations={},
+        )
+        self.problem, self.nearest = problem, nearest
+
+    def advised(self, progress: Progress = unseen) -> Infeasible:
+        """The same with the single changes that would do.
+
+        Args:
+            progress: is told the share that is done.
+        """
+        field, reason = Field.of(self.problem), self.nearest.reason
+        changes = {} if reason in _NO_LIMIT else single_changes(field, progress)
+        return Infeasible(
+            self.message,
+            binding=self.binding,
+            required_spin_inertia=self.required_spin_inertia,
+            largest_spin_inertia=self.largest_spin_inertia,
+            relaxations={limit.name: value for limit, value in changes.items()},
+            hint=" ".join(_advice(field, reason, changes)),
+        )
+
+
+def _verdict(problem: SelectionProblem, nearest: Rejection) -> str:
+    """Who cannot do it, and who comes closest."""
+    count, voltage = len(problem.motors), f"{problem.bus_voltage:g} V"
+    if count == 1:
+        return f"Motor {nearest.motor} cannot do it at {voltage}"
+    return f"None of {count} motors can do it at {voltage}; {nearest.motor} comes closest"
 
 
 def _distance(rejection: Rejection) -> tuple[bool, float]:
@@ -50,19 +77,17 @@ def _distance(rejection: Rejection) -> tuple[bool, float]:
     return rejection.reason is Reason.FIGURES, rejection.shortfall
 
 
-def _told(problem: SelectionProblem, limit: Limit, value: float) -> str:
+def _told(field: Field, limit: Limit, value: float) -> str:
     """A change as the user states it: time is a matter of each maneuver's own keys."""
     if limit is not TIME:
         return limit.loose_text(value)
-    before = problem.requirement.maneuvers
-    after = slowed_maneuvers(problem, value).requirement.maneuvers
+    before = field.problem.requirement.maneuvers
+    after = slowed_maneuvers(field, value).requirement.maneuvers
     both = zip(before, after, strict=True)
     return " with ".join(told_change(old, new) for old, new in both if old is not new)
 
 
-def _advice(
-    problem: SelectionProblem, reason: Reason, changes: Mapping[Limit, float]
-) -> Iterator[str]:
+def _advice(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iterator[str]:
     """What would do, in sentences."""
     if reason is Reason.FIGURES:
         yield (
@@ -71,10 +96,10 @@ def _advice(
         )
         return
     if changes:
-        texts = [_told(problem, limit, value) for limit, value in changes.items()]
+        texts = [_told(field, limit, value) for limit, value in changes.items()]
         yield f"Any one of these alone would do: {'; '.join(texts)}."
-    freed = problem.incidence is not None and is_possible(replace(problem, incidence=None))
-    if freed:
+    free = replace(field.problem, incidence=None)
+    if field.problem.incidence is not None and field.changed(free).possible:
         yield (
             "At another incidence there is a device: leave out --alpha and --alpha-criterion, or "
             "choose --alpha-criterion lightest."

@@ -8,7 +8,11 @@ from numpy.typing import NDArray
 from ocs_design.arrays import FloatArray
 from ocs_design.sizing.cylinder import cylinder_transverse_inertia
 from ocs_design.sizing.housing import half_height
-from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
+from ocs_design.sizing.lightest_module import (
+    ModuleShape,
+    lightest_module_at,
+    roomy_module_at,
+)
 from ocs_design.sizing.mass_moments import round_body
 from ocs_design.sizing.mount import limits_with_mount
 from ocs_design.sizing.placement import module_size
@@ -59,7 +63,13 @@ class Lot:
     ) -> ModuleShape:
         """The lightest that have it with their rotors [kg m^2]; see `lightest_module_at`."""
         rim = spin_inertia - self.drives.beside_rim
-        return lightest_module_at(rim, radius, self.limits, self.shell, flatness)
+        shapes = roomy_module_at(rim, radius, self.limits, self.shell, flatness)
+        rest = np.flatnonzero(np.isnan(shapes.mass))
+        if not rest.size:
+            return shapes
+        some = self.take(rest)
+        near = lightest_module_at(rim[rest], radius[rest], some.limits, some.shell, flatness[rest])
+        return shapes.put(rest, near)
 
     def modules(self, spin_inertia: FloatArray, shapes: ModuleShape) -> Modules:
         """One module of each, braked."""

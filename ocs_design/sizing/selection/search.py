@@ -24,8 +24,9 @@ from ocs_design.sizing.selection.bounds import (
 from ocs_design.sizing.selection.cells import CELLS, cells_of
 from ocs_design.sizing.selection.drive_table import DriveTable, drive_table, known_pairs
 from ocs_design.sizing.selection.lot import lot_of
+from ocs_design.sizing.selection.outset import Outset, outset_of
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.settling import Outset, Settled, refine, settle
+from ocs_design.sizing.selection.settling import Settled, refine, settle
 
 RANKED = 10
 """Devices that a selection lists at least."""
@@ -34,6 +35,8 @@ MOTORS = 5
 """Motors of which it lists the lightest device: not every motor can be bought."""
 
 _BATCH = 24
+# Candidates that are bounded at once before the next are settled.
+_AHEAD = 256
 _CHUNK = 1024
 
 Indices = NDArray[np.intp]
@@ -60,7 +63,6 @@ class Found:
             inf: there is none.
         spin_inertia: lower bound of that of its wheels [kg m^2], as far as it was looked for.
         lots: settled candidates. places: of the lightest, lightest first.
-        any_will_do: whether the search ends with the first device.
     """
 
     problem: SelectionProblem
@@ -70,10 +72,9 @@ class Found:
     spin_inertia: FloatArray
     lots: list[Settled] = field(default_factory=list)
     places: list[Rank] = field(default_factory=list)
-    any_will_do: bool = False
 
     @classmethod
-    def nothing(cls, problem: SelectionProblem, *, any_will_do: bool = False) -> "Found":
+    def nothing(cls, problem: SelectionProblem) -> "Found":
         """Before the search."""
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
@@ -84,7 +85,7 @@ class Found:
         least = 2.0 * (drives + floor.mass.min(initial=np.inf))
         known = known_pairs(problem.motors, problem.gears)
         least = np.where(known, least, np.inf)
-        return cls(problem, floor, known, least, np.zeros(known.shape), any_will_do=any_will_do)
+        return cls(problem, floor, known, least, np.zeros(known.shape))
 
     @property
     def lightest(self) -> float:
@@ -95,8 +96,6 @@ class Found:
     def enough(self) -> FloatArray:
         """Mass that a device of each motor must stay below to be listed [kg], shape (motors,)."""
         masses = np.full(len(self.problem.motors), -np.inf)
-        if self.places and self.any_will_do:
-            return masses
         best = _best_of_motors(self.places)
         # A motor is listed below the last that is, and then with what is lighter yet.
         masses[:] = best[-1].mass if len(best) >= MOTORS else np.inf
@@ -150,16 +149,6 @@ def search(problem: SelectionProblem) -> Found:
     return found
 
 
-def is_possible(problem: SelectionProblem) -> bool:
-    """Whether there is any device; what can only just be is not looked for as closely."""
-    found = Found.nothing(problem, any_will_do=True)
-    for pairs in _chunks(found):
-        _examine(found, pairs)
-        if found.places:
-            return True
-    return False
-
-
 def _chunks(found: Found) -> Iterator[Indices]:
     """Pairs of motor and gear, shape (n, 2): every motor once with its lightest gear, then all."""
     least = np.where(found.known, found.least, np.nan)
@@ -178,40 +167,40 @@ def _examine(found: Found, pairs: Indices) -> None:
     problem = found.problem
     drives = drive_table(problem, pairs)
     spin = np.zeros(len(drives))
-    angles = np.zeros((len(drives), 2))
     bound = np.full((len(problem.materials), len(drives)), -np.inf)
     for count in (1, CELLS, CELLS):
         worth = np.flatnonzero(bound.min(axis=0) < found.enough[drives.motor])
         cells = cells_of(problem.incidence, count)
         some = drives.take(worth)
         needed = least_spin_inertias(problem, found.floor, some, cells, spin[worth])
-        best = needed.argmin(axis=1)
         spin[worth] = needed.min(axis=1)
-        angles[worth] = np.array([(cell.low, cell.high) for cell in cells])[best]
         bound[:, worth] = least_masses(found.floor, some, spin[worth])
     found.spin_inertia[drives.motor, drives.gear] = spin
-    _settle_best(found, drives, spin, angles, bound)
+    _settle_best(found, drives, spin, bound)
     found.least[drives.motor, drives.gear] = bound.min(axis=0)
 
 
-def _settle_best(
-    found: Found, drives: DriveTable, spin: FloatArray, angles: FloatArray, bound: FloatArray
-) -> None:
+def _settle_best(found: Found, drives: DriveTable, spin: FloatArray, bound: FloatArray) -> None:
     """Settle candidates in the order of their bounds, which become masses in place."""
-    problem = found.problem
-    order = np.argsort(bound, axis=None, kind="stable")
-    order = order[np.isfinite(bound.flat[order])]
+    material, row = np.nonzero(bound < found.enough[drives.motor])
+    lot = lot_of(found.problem, drives.take(row), material)
+    nowhere = np.zeros_like(spin[row])
+    outset = Outset(spin[row], bound[material, row], nowhere, nowhere)
+    left, rough = np.arange(row.size), np.ones(row.size, dtype=np.bool_)
     while True:
-        worth = bound.flat[order] < found.enough[drives.motor[order % len(drives)]]
-        order, some = order[worth][_BATCH:], order[worth][:_BATCH]
+        left = left[outset.mass[left] < found.enough[lot.drives.motor[left]]]
+        left = left[np.argsort(outset.mass[left], kind="stable")]
+        some, ahead = left[:_BATCH], left[:_AHEAD]
         if not some.size:
             break
-        material, row = np.unravel_index(some, bound.shape)
-        lot = lot_of(problem, drives.take(row), material)
-        # A little beyond the best cell, as a bound need not lie where the best incidence does.
-        spread = (angles[row, 1] - angles[row, 0]) / 2.0
-        middle = angles[row].mean(axis=1)
-        outset = Outset(spin[row], bound.flat[some], middle, 2.0 * spread)
-        settled = settle(problem, lot, outset)
-        bound.flat[some] = settled.mass
+        if rough[some].any():
+            closer = ahead[rough[ahead]]
+            rough[closer] = False
+            bounds = outset_of(found.problem, lot.take(closer), outset.spin_inertia[closer])
+            outset = outset.put(closer, bounds)
+            continue
+        settled = settle(found.problem, lot.take(some), outset.take(some))
         found.add(settled)
+        outset.mass[some] = settled.mass
+        left = left[_BATCH:]
+    bound[material, row] = outset.mass

@@ -4,7 +4,7 @@ from ocs_design.exceptions import UsageError
 from ocs_design.sizing.rim_problem import check_limits
 from ocs_design.sizing.selection.candidate import candidate
 from ocs_design.sizing.selection.cells import cells_of
-from ocs_design.sizing.selection.infeasible import infeasible
+from ocs_design.sizing.selection.infeasible import Refused
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.rejections import rejections
 from ocs_design.sizing.selection.result import Selection
@@ -21,16 +21,18 @@ def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
     Args:
         problem: what to choose from, and for what.
         advise: where no motor can do it, whether to look for single changes that would do, which
-            takes many times as long as the selection.
+            takes longer than the selection; `Refused` can do so later.
 
     Raises:
         Infeasible: no motor can do it; says what is missing, and which single change would do.
+        Refused: the same, not advised.
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
     """
     _check(problem)
     found = search(problem)
     if not found.places:
-        raise infeasible(found, advise=advise)
+        refused = Refused(found)
+        raise refused.advised() if advise else refused
     ranking = tuple(candidate(problem, found.lots[at.lot], at.row) for at in found.places)
     names = {ranked.motor.name for ranked in ranking}
     fallen = [i for i, motor in enumerate(problem.motors) if motor.name in names]

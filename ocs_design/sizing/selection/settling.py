@@ -6,13 +6,14 @@ hardly does it may be the only one that can be. So masses are compared at their 
 the best incidence for each: where two maneuvers ask for the same, neither can be mended alone.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
+from ocs_design.arrays import FloatArray, put_rows
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.rim_closed_form import smallest_spin_inertia
 from ocs_design.sizing.selection.fixed_point import (
@@ -20,9 +21,9 @@ from ocs_design.sizing.selection.fixed_point import (
     FixedPoint,
     Tolerance,
     fixed_point,
-    put_rows,
 )
 from ocs_design.sizing.selection.lot import Lot
+from ocs_design.sizing.selection.outset import Outset
 from ocs_design.sizing.selection.polishing import polish
 from ocs_design.sizing.selection.problem import SelectionProblem
 
@@ -69,21 +70,6 @@ _PROMISING, _ALMOST = 0.97, 0.998
 _BEYOND = 1e9
 
 
-class Outset(NamedTuple):
-    """Where to look for a candidate first; shape (n,) each.
-
-    Attributes:
-        spin_inertia: a lower bound [kg m^2].
-        mass: a lower bound, of both modules [kg].
-        angle: incidence [rad]. width: how far around it [rad]; 0: there only.
-    """
-
-    spin_inertia: FloatArray
-    mass: FloatArray
-    angle: FloatArray
-    width: FloatArray
-
-
 @dataclass(frozen=True, eq=False)
 class Settled:
     """Candidates about at their best, shape (n,) each.
@@ -116,17 +102,18 @@ def settle(problem: SelectionProblem, lot: Lot, outset: Outset) -> Settled:
         problem: robot, requirement and place.
         lot: the candidates. outset: of each.
     """
-    start = np.maximum(outset.spin_inertia, lot.least_spin_inertia)
-    radius, span = _radii(problem, lot, start)
-    design = Design(radius, np.ones_like(start), outset.angle, outset.width)
-    search = _Search.at(problem, lot, start, design)
-    for around in _COARSE:
-        search.close_in(around, scale=span, width=around.span * outset.width)
-    point, iterations = search.to_all_digits()
-    # The lightest radius may be the last that can be: there the fixed point runs away again.
-    lost = np.flatnonzero(search.point.possible & ~point.possible)
-    point = _polished(point, problem, search.take(lost), lost)
+    *_, search = _closing_in(problem, lot, outset)
+    point, iterations = _to_all_digits(problem, search)
     return Settled(lot, outset, search.design, point, iterations)
+
+
+def any_settles(problem: SelectionProblem, lot: Lot, outset: Outset) -> bool:
+    """Whether `settle` finds a device of any candidate; closes in no further than to the first."""
+    for search in _closing_in(problem, lot, outset):
+        some = search.take(np.flatnonzero(search.point.possible))
+        if some.score.size and _to_all_digits(problem, some)[0].possible.any():
+            return True
+    return False
 
 
 def refine(problem: SelectionProblem, settled: Settled, lightest: float) -> Settled:
@@ -156,6 +143,28 @@ def refine(problem: SelectionProblem, settled: Settled, lightest: float) -> Sett
         active = active[keep | ((some.score >= _BEYOND / 2.0) & hope)]
     found = search.take(active)
     return replace(settled, point=_polished(settled.point, problem, found, rows[active]))
+
+
+def _closing_in(problem: SelectionProblem, lot: Lot, outset: Outset) -> Iterator["_Search"]:
+    """One search, at first and each time that it has come closer."""
+    start = np.maximum(outset.spin_inertia, lot.least_spin_inertia)
+    radius, span = _radii(problem, lot, start)
+    design = Design(radius, np.ones_like(start), outset.angle, outset.width)
+    search = _Search.at(problem, lot, start, design)
+    yield search
+    for around in _COARSE:
+        search.close_in(around, scale=span, width=around.span * outset.width)
+        yield search
+
+
+def _to_all_digits(problem: SelectionProblem, search: "_Search") -> tuple[FixedPoint, int]:
+    """What the best so far come to, and the iterations it took.
+
+    The lightest radius may be the last that can be: there the fixed point runs away again.
+    """
+    point, iterations = search.to_all_digits()
+    lost = np.flatnonzero(search.point.possible & ~point.possible)
+    return _polished(point, problem, search.take(lost), lost), iterations
 
 
 def _polished(

@@ -1,11 +1,13 @@
 """The smallest single changes of a limit with which there is a device, of all motors and gears."""
 
+from collections.abc import Callable
 from math import inf, log10, sqrt
+from typing import TypeAlias
 
 from ocs_design.sizing.limits import Limit
 from ocs_design.sizing.selection.changed_limits import limits_of, with_limit, with_time
+from ocs_design.sizing.selection.possibility import Field
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.search import is_possible
 
 PRECISION = 0.03
 """Of the changes, relative: no motor can do it with less by more than that."""
@@ -16,45 +18,78 @@ MOST_CHANGE = 10.0
 _MOST_MASS_CHANGE = MOST_CHANGE**3
 
 
-def single_changes(problem: SelectionProblem) -> dict[Limit, float]:
+Progress: TypeAlias = Callable[[float], None]
+"""Is told the share that is done."""
+
+
+def unseen(share: float) -> None:
+    """Progress that nobody looks at."""
+
+
+def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, float]:
     """For each limit that can mend it alone the value that just does, gentlest first [SI].
 
-    Each is proved by selecting again, among all motors and gears of the problem.
+    Each is proved by looking for a device again, among all motors and gears of the problem.
     """
-    limits = limits_of(problem)
-    found = {limit: _smallest(problem, limit, now) for limit, now in limits.items()}
-    helpful = {limit: value for limit, value in found.items() if value is not None}
+    limits = limits_of(field.problem)
+    helpful = {}
+    for index, (limit, now) in enumerate(limits.items()):
+        value = _smallest(field, limit, now)
+        if value is not None:
+            helpful[limit] = value
+        progress((index + 1) / len(limits))
     return dict(sorted(helpful.items(), key=lambda item: abs(log10(item[1] / limits[item[0]]))))
 
 
-def slowed_maneuvers(problem: SelectionProblem, factor: float) -> SelectionProblem:
+def slowed_maneuvers(field: Field, factor: float) -> SelectionProblem:
     """With `factor` times the time for those maneuvers that need it.
 
     Args:
-        problem: that has a solution if all have so much more time.
+        field: of a problem that has a solution if all have so much more time.
         factor: above 1.
     """
+    problem = field.problem
     slow = [maneuver.name for maneuver in problem.requirement.maneuvers]
     for name in tuple(slow):
         fewer = set(slow) - {name}
-        if fewer and is_possible(with_time(problem, factor, fewer)):
+        if fewer and field.changed(with_time(problem, factor, fewer)).possible:
             slow.remove(name)
     return with_time(problem, factor, set(slow))
 
 
-def _smallest(problem: SelectionProblem, limit: Limit, now: float) -> float | None:
+def _smallest(field: Field, limit: Limit, now: float) -> float | None:
     """The value of one limit that just mends the problem; None: none does."""
 
-    def mends(factor: float) -> bool:
-        """Whether there is a device with this limit looser by a factor."""
-        return is_possible(with_limit(problem, limit, limit.loosened(now, factor)))
+    def loosened(factor: float) -> Field:
+        """The problem with this limit looser by a factor."""
+        value = limit.loosened(now, factor)
+        return field.changed(with_limit(field.problem, limit, value))
 
     if not 0.0 < now < inf:
         return None
-    low, high = 1.0, _MOST_MASS_CHANGE if limit.name == "wheel_mass_max" else MOST_CHANGE
-    if not mends(high):
+    most = _MOST_MASS_CHANGE if limit.name == "wheel_mass_max" else MOST_CHANGE
+    if not loosened(most).possible:
         return None
+    # Bounds are quick to tell and leave little above them to be looked for.
+    ruled_out, _ = _bracket(lambda factor: loosened(factor).conceivable, 1.0, most)
+    low, high = _stepped_out(lambda factor: loosened(factor).possible, ruled_out, most)
+    return limit.loosened(now, _bracket(lambda factor: loosened(factor).possible, low, high)[1])
+
+
+def _bracket(mends: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+    """Two factors next to each other, of which the larger mends and the smaller does not.
+
+    Between one that does not, or is not tried, and one that does.
+    """
     while high > (1.0 + PRECISION) * low:
         middle = sqrt(low * high)
         low, high = (low, middle) if mends(middle) else (middle, high)
-    return limit.loosened(now, high)
+    return low, high
+
+
+def _stepped_out(mends: Callable[[float], bool], low: float, most: float) -> tuple[float, float]:
+    """Likewise, by steps that double, from a factor that does not mend up to `most`, which does."""
+    step = 1.0 + PRECISION
+    while low * step < most and not mends(low * step):
+        low, step = low * step, step**2
+    return low, min(low * step, most)
