@@ -95,7 +95,7 @@ def test_nothing_lighter_is_on_a_grid(seed):
     check_nothing_lighter(draw(seed).problem)
 
 
-@pytest.mark.parametrize("seed", LOPSIDED[:2])
+@pytest.mark.parametrize("seed", [LOPSIDED[0], pytest.param(LOPSIDED[1], marks=pytest.mark.slow)])
 def test_a_lopsided_robots_device_is_what_it_says(seed):
     """Its worst maneuver is just in time, which it would not be without the coupling."""
     problem = lopsided(random_problem(seed), seed)
