@@ -182,10 +182,17 @@ def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
     s = np.linspace(0.0, 1.0, 401)
     rate = turn.span / turn.duration * turn.profile.rate(s)
     acceleration = turn.span / turn.duration**2 * turn.profile.acceleration(s)
-    momentum = body.reaction * body.sharing @ body.inertia @ turn.axis
+    momentum = body.reaction * body.sharing @ _turned(body.inertia, turn.axis)
     speed = np.outer(momentum / body.spin_inertia, rate)
-    torque = np.outer(body.sharing @ body.actuated_inertia @ turn.axis, acceleration)
+    torque = np.outer(body.sharing @ _turned(body.actuated_inertia, turn.axis), acceleration)
     return limits.utilisation(speed, torque)
+
+
+def _turned(inertia: FloatArray, axis: FloatArray) -> FloatArray:
+    """Momentum per rate of a turn that the heading follows, so that none is about yaw, (3,)."""
+    drift = -(inertia[2, :2] @ axis[:2]) / inertia[2, 2]
+    momentum: FloatArray = inertia @ np.append(axis[:2], drift)
+    return momentum
 
 
 def _stretched(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:

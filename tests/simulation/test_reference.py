@@ -61,6 +61,17 @@ def test_utilisation_is_peak_speed_over_no_load_speed():
     assert utilisation(FLIP, BODY, MotorLimits(peak, 0.0, np.inf)) == pytest.approx(1.0, rel=1e-4)
 
 
+def test_a_lopsided_trunk_asks_the_busier_wheel_and_drifts_in_heading():
+    """Both wheels' speeds and the yaw rate of a pure pitch, from three equations of momentum."""
+    inertia = np.array([[0.03, 0.004, 0.003], [0.004, 0.0535, -0.006], [0.003, -0.006, 0.068]])
+    body = replace(BODY, inertia=inertia)
+    rate = 1.875 * 2.0 * np.pi / 2.0
+    unknown = np.column_stack([inertia[:, 2], 1e-4 * body.axes])
+    _, *speeds = np.linalg.solve(unknown, -inertia[:, 1] * rate)
+    busier = float(np.abs(speeds).max())
+    assert utilisation(FLIP, body, MotorLimits(busier, 0.0, np.inf)) == pytest.approx(1.0, rel=1e-4)
+
+
 def test_a_turn_that_fits_is_left_as_it_is():
     fitted = fit_turn(FLIP, BODY, MotorLimits(np.inf, 0.0, np.inf))
     assert fitted.turn is FLIP
