@@ -32,13 +32,12 @@ a plain one of k + L, and its best bore where, with e from the derivatives of L 
 They are a few per cent at most and settle along with C.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ocs_design.arrays import FloatArray, put_rows
+from ocs_design.arrays import FloatArray
 from ocs_design.sizing.module_radii import largest_radius, smallest_radius
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
 from ocs_design.sizing.rim_problem import RimLimits
 from ocs_design.sizing.shell import Shell
@@ -56,36 +55,6 @@ _MOST_BENT = 0.5
 _ROUNDING = 1e-12
 # Of the largest bore over the least one, beyond what either is known to.
 _ROOMY = 1e-6
-
-
-class ModuleShape(NamedTuple):
-    """Hollow cylinders in their shells; NaN where no rim meets the limits.
-
-    Attributes:
-        inner_radius, outer_radius, height: of the rim [m], all of one shape.
-        rim_mass, web_mass, shell_mass: [kg].
-    """
-
-    inner_radius: FloatArray
-    outer_radius: FloatArray
-    height: FloatArray
-    rim_mass: FloatArray
-    web_mass: FloatArray
-    shell_mass: FloatArray
-
-    @property
-    def mass(self) -> FloatArray:
-        """Of rim, web and shell [kg]."""
-        return self.rim_mass + self.web_mass + self.shell_mass
-
-    def take(self, rows: NDArray[np.intp]) -> "ModuleShape":
-        """Those of these rows."""
-        return ModuleShape(*(values[rows] for values in self))
-
-    def put(self, rows: NDArray[np.intp], others: "ModuleShape") -> "ModuleShape":
-        """With others in these rows."""
-        columns = zip(self, others, strict=True)
-        return ModuleShape(*(put_rows(own, rows, other) for own, other in columns))
 
 
 def lightest_module(spin_inertia: ArrayLike, limits: RimLimits, shell: Shell) -> ModuleShape:

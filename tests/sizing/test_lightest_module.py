@@ -8,8 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rims import random_problem, rim_problems
 
-from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
-from ocs_design.sizing.rim_closed_form import lightest_rim
+from ocs_design.sizing.lightest_module import (
+    lightest_module,
+    lightest_module_at,
+    roomy_module_at,
+)
+from ocs_design.sizing.rim_closed_form import largest_spin_inertia, lightest_rim
 from ocs_design.sizing.rim_cuts import RimCuts
 from ocs_design.sizing.shell import Printed
 
@@ -150,6 +154,39 @@ def test_of_a_given_radius():
     flat = lightest_module_at(inertia, best.outer_radius, limits, SHELL, 5.0)
     assert flat.height <= best.height * (1.0 + 1e-12)
     assert flat.mass >= best.mass * (1.0 - 1e-12)
+
+
+@pytest.mark.parametrize("cuts", [RimCuts(), RimCuts(2e-4)], ids=["sharp", "broken"])
+def test_where_there_is_room_it_need_not_be_looked_for(cuts):
+    """Quickly or not: the same of every radius with room to spare, and none of the others."""
+    rng, compared = np.random.default_rng(11), 0
+    for _ in range(12):
+        problem = random_problem(rng)
+        limits = replace(with_web(problem.limits, 0.3), cuts=cuts)
+        radii = np.linspace(0.2, 1.1, 40) * limits.outer_radius_max
+        inertia, flatness = np.full(40, problem.spin_inertia), np.ones(40)
+        quick = roomy_module_at(inertia, radii, limits, SHELL, flatness)
+        sure = lightest_module_at(inertia, radii, limits, SHELL, flatness)
+        roomy = quick.mass > 0.0
+        assert (sure.outer_radius[roomy] == radii[roomy]).all()
+        assert (sure.mass[roomy] == quick.mass[roomy]).all()
+        fits = (sure.outer_radius == radii) & (sure.mass > 0.0)
+        # Within a step of either end there is room, but not to spare.
+        assert fits.sum() - roomy.sum() <= 2
+        compared += int(roomy.sum())
+    assert compared > 50
+
+
+def test_no_rim_has_more_than_the_largest():
+    rng, compared = np.random.default_rng(12), 0
+    for _ in range(40):
+        limits = with_web(random_problem(rng).limits, 0.3)
+        largest = float(largest_spin_inertia(limits))
+        tried = largest * np.array([0.9, 0.99, 1.0 + 1e-6, 1.5, 10.0])
+        there = lightest_module(tried, limits, SHELL).mass > 0.0
+        assert not there[2:].any()
+        compared += int(there[0])
+    assert compared > 0
 
 
 def _nth(shape, index):

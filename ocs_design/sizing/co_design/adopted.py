@@ -15,7 +15,7 @@ from ocs_design.sizing.co_design.device import (
     wheel_of,
 )
 from ocs_design.sizing.co_design.problem import CoDesign, CoDesignProblem, DeviceShape
-from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.selection.binding import binding_limits
 from ocs_design.sizing.selection.demand import held_by_rate, shares_of
 from ocs_design.sizing.selection.result import Candidate, TaskDemand

@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 
 from ocs_design.requirement.envelope import Envelope
-from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.rim_problem import RimLimits
 
 HOUSING = "housing"

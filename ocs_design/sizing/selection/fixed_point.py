@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.arrays import FloatArray, put_rows
-from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.selection.demand import Reach, reach
 from ocs_design.sizing.selection.lot import Lot
 from ocs_design.sizing.selection.problem import SelectionProblem

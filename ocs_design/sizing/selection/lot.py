@@ -8,12 +8,9 @@ from numpy.typing import NDArray
 from ocs_design.arrays import FloatArray
 from ocs_design.sizing.cylinder import cylinder_transverse_inertia
 from ocs_design.sizing.housing import half_height
-from ocs_design.sizing.lightest_module import (
-    ModuleShape,
-    lightest_module_at,
-    roomy_module_at,
-)
+from ocs_design.sizing.lightest_module import lightest_module_at, roomy_module_at
 from ocs_design.sizing.mass_moments import round_body
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.mount import limits_with_mount
 from ocs_design.sizing.placement import module_size
 from ocs_design.sizing.rim_closed_form import smallest_spin_inertia

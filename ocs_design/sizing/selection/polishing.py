@@ -13,7 +13,7 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.drive.tilt_inertia import OUT_OF_REACH
 from ocs_design.sizing.cylinder import cylinder_mass, cylinder_spin_inertia
-from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.rim_closed_form import BORE_SHARE
 from ocs_design.sizing.selection.demand import margins, reach, shares_of
 from ocs_design.sizing.selection.fixed_point import FixedPoint

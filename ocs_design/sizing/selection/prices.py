@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED, Limit
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.selection.changed_limits import limits_of, with_limit
 from ocs_design.sizing.selection.drive_table import drive_table
 from ocs_design.sizing.selection.lot import lot_of

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawn_selections import draw
 
-from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.module_shape import ModuleShape
 from ocs_design.sizing.selection.drive_table import drive_table
 from ocs_design.sizing.selection.fixed_point import FixedPoint
 from ocs_design.sizing.selection.lot import lot_of

@@ -7,6 +7,7 @@ from selections import has_device, random_problem, with_radius
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
 from ocs_design.sizing.selection.changed_limits import limits_of, with_limit
 from ocs_design.sizing.selection.possibility import Field
+from ocs_design.sizing.selection.search import search
 from ocs_design.sizing.selection.single_changes import PRECISION, single_changes
 
 SEEDS = (9, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (0, *range(10, 30))))
@@ -52,3 +53,14 @@ def test_each_change_mends_and_hardly_less_does(seed):
         assert has_device(with_limit(small, limit, value))
         assert not has_device(with_limit(small, limit, value * back))
     assert seed != 9 or "r_max" in {limit.name for limit in changes}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_no_device_is_lighter_than_its_own_bound(seed):
+    """Nor are its wheels smaller: of all that the search settles."""
+    found = search(random_problem(seed))
+    for settled in found.lots:
+        possible = settled.point.possible
+        assert (settled.mass >= settled.outset.mass)[possible].all()
+        assert (settled.point.spin_inertia >= settled.outset.spin_inertia)[possible].all()
+    assert any(settled.point.possible.any() for settled in found.lots)
