@@ -10,11 +10,10 @@ from ocs_design.jumping.jump import Jump
 from ocs_design.jumping.legged_body import JumpingLeg, LeggedBody
 from ocs_design.jumping.mesh import NODES, SHARES, spline_slopes
 from ocs_design.jumping.node import REACH, Layout
+from ocs_design.robot.stance.lifting import lifted
 
 _CROUCH = 0.25
 """Of the leg's length."""
-
-_SWEEPS = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,33 +66,13 @@ def guess(body: LeggedBody, jump: Jump) -> FloatArray:
     found[2] = body.height + crouch.height(SHARES)
     for leg, where in body.joint_slices:
         rows = slice(POSE + where.start, POSE + where.stop)
-        found[rows] = _bent(leg, body.posture[where], found[2] - body.height).T
+        lifts = body.height - found[2]
+        found[rows] = lifted(leg.chain, leg.foot, leg.length, body.posture[where], lifts).T
     found[layout.v], found[layout.a] = spline_slopes(found[layout.y])
     rising = found[layout.a][2] / crouch.duration**2 / jump.gravity
     found[layout.f][2::3] = np.maximum(1.0 + rising, 0.2) / len(body.legs)
     found[layout.duration] = crouch.duration
     return found
-
-
-def _bent(leg: JumpingLeg, posture: FloatArray, heights: FloatArray) -> FloatArray:
-    """Joints that keep the foot where it is while the trunk stands `heights` higher, (k, n).
-
-    Damped Newton steps from each height to the next.
-    """
-    chain, values = leg.chain, posture
-    at_rest = chain.pose(posture).point(leg.foot)
-    damping = (1e-3 * leg.length) ** 2 * np.eye(3)
-    found = []
-    for height in heights:
-        target = at_rest - np.array([0.0, 0.0, height])
-        for _ in range(_SWEEPS):
-            pose = chain.pose(values)
-            miss = target - pose.point(leg.foot)
-            jacobian = chain.point_jacobian(pose, pose.point(leg.foot))
-            step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping, miss)
-            values = np.clip(values + step, chain.lower, chain.upper)
-        found.append(values)
-    return np.array(found)
 
 
 def _stance_length(leg: JumpingLeg, body: LeggedBody) -> float:

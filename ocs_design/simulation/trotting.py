@@ -17,6 +17,7 @@ from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import Maneuver, Shove
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance.leg_geometry import LegGeometry, leg_geometries
+from ocs_design.robot.stance.lifting import lifted
 
 STEP_HEIGHT = 0.02
 """How high Solo12 lifts its feet [m]; other robots in proportion."""
@@ -36,8 +37,6 @@ _SAMPLE = 2e-3
 """[s], between two samples of the references."""
 
 _HEIGHTS = 21
-_SWEEPS = 6
-"""Newton steps from one height of a foot to the next."""
 
 
 class Waiting(NamedTuple):
@@ -166,21 +165,11 @@ class _Leg:
 
     @classmethod
     def of(cls, each: LegGeometry, robot: Robot, highest: float) -> "_Leg":
-        """The foot straight up from the nominal posture, by Newton's method."""
-        chain, start = each.chain, _foot(each, robot)
-        values = np.array([robot.posture[name] for name in chain.names])
-        heights, positions, bearings = np.linspace(0.0, highest, _HEIGHTS), [], []
-        for height in heights:
-            goal = start + np.array([0.0, 0.0, height])
-            for _ in range(_SWEEPS):
-                pose = chain.pose(values)
-                foot = pose.point(each.leg.foot)
-                values = values + np.linalg.pinv(chain.point_jacobian(pose, foot)) @ (goal - foot)
-            pose = chain.pose(values)
-            positions.append(values)
-            # Virtual work: the ground pushes the foot up, and the joints hold against it.
-            bearings.append(-chain.point_jacobian(pose, pose.point(each.leg.foot))[2])
-        return cls(heights, np.array(positions), np.array(bearings))
+        """The foot straight up from the nominal posture."""
+        chain, leg, heights = each.chain, each.leg, np.linspace(0.0, highest, _HEIGHTS)
+        posture = np.array([robot.posture[name] for name in chain.names])
+        positions = lifted(chain, leg.foot, leg.length, posture, heights)
+        return cls(heights, positions, np.array([_bearing(each, values) for values in positions]))
 
     def follow(self, lift: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Joints and their torques at k instants, shape (k, n) each."""
@@ -189,3 +178,9 @@ class _Leg:
             for values in (self.position, self.bearing)
         )
         return position, bearing * force[:, None]
+
+
+def _bearing(each: LegGeometry, values: FloatArray) -> FloatArray:
+    """Torques with which the joints hold against 1 N on the foot, upwards, shape (n,)."""
+    pose = each.chain.pose(values)
+    return np.asarray(-each.chain.point_jacobian(pose, pose.point(each.leg.foot))[2])
