@@ -1,6 +1,7 @@
 """How often the device of every legged robot of example-robot-data does its work, as it is built.
 
     python benchmarks/legged_samples.py FOLDER [--samples N] [--page docs/robots.md] [PART ...]
+    python benchmarks/legged_samples.py FOLDER --kept      of what is there; nothing is flown
 
 Sizes each robot with no option beyond its file and flies N samples of it; where no motor of the
 catalogue will do, with wheels that no motor limits. FOLDER keeps what came of each, so that a
@@ -60,9 +61,10 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--page", type=Path)
+    parser.add_argument("--kept", action="store_true")
     parser.add_argument("parts", nargs="*")
     arguments = parser.parse_intermixed_args()
-    for robot in LEGGED:
+    for robot in () if arguments.kept else LEGGED:
         wanted = not arguments.parts or any(part in robot for part in arguments.parts)
         kept = kept_of(arguments.folder, robot)
         if wanted and (kept is None or kept.samples < arguments.samples):
