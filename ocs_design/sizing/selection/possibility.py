@@ -24,7 +24,7 @@ from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.settling import any_settles
 
 # Of the incidence: wider than those of `bounds`, for all drives at once.
-_CELLS = 3
+_CELLS = 6
 # Candidates that are bounded, and settled, at once: few first, where any will do.
 _FIRST, _BLOCK = 32, 512
 _FIRST_SETTLED, _SETTLED = 4, 64

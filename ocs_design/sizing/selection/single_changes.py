@@ -14,8 +14,10 @@ PRECISION = 0.03
 
 # A limit changed more than this is another project...
 MOST_CHANGE = 10.0
-# ... and so is a mass changed more than by ten times every length.
-_MOST_MASS_CHANGE = MOST_CHANGE**3
+# ... so is a mass changed more than by ten times every length. A radius, with whose fourth power
+# the inertia goes, is changed less: wheels beyond may couple roll and pitch by anything, and no
+# bound of what they need survives that.
+_MOST_CHANGES = {"wheel_mass_max": MOST_CHANGE**3, "r_max": 7.0}
 
 
 Progress: TypeAlias = Callable[[float], None]
@@ -67,7 +69,7 @@ def _smallest(field: Field, limit: Limit, now: float) -> float | None:
 
     if not 0.0 < now < inf:
         return None
-    most = _MOST_MASS_CHANGE if limit.name == "wheel_mass_max" else MOST_CHANGE
+    most = _MOST_CHANGES.get(limit.name, MOST_CHANGE)
     if not loosened(most).possible:
         return None
     # Bounds are quick to tell and leave little above them to be looked for.
