@@ -134,6 +134,17 @@ def with_modules(document, device, incidence):
     return mass, com, sum(own + shifted(m, c - com) for m, c, own in parts)
 
 
+def coupling(inertia):
+    """Momentum about pitch per rate of roll, yaw left to itself, without sign [kg m^2]."""
+    return abs(inertia[0, 1] - inertia[0, 2] * inertia[1, 2] / inertia[2, 2])
+
+
+def equal_rate(inertia):
+    """The incidence at which one wheel speed changes roll and pitch by the same rate [rad]."""
+    across = coupling(inertia)
+    return np.arctan2(inertia[0, 0] - across, inertia[1, 1] - across)
+
+
 def composite(model, posture):
     """Mass, centre of mass and inertia about it with the joints held, by Pinocchio."""
     data, q = model.createData(), pin.neutral(model)

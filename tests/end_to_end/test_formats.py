@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from commands import SOLO12, run
+from products import equal_rate
 
 # Stated, so that nothing hangs on what only one of the formats knows.
 ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
@@ -209,7 +210,7 @@ def check_inertia(document, solo12, joints, link="base_link"):
     assert robot["trunk"] == link
     ocs = document["ocs"]
     alone = ocs["incidence_by_criterion_robot_alone"]["equal-rate"]
-    assert alone == pytest.approx(np.arctan2(inertia[0, 0], inertia[1, 1]), abs=1e-9)
+    assert alone == pytest.approx(equal_rate(inertia), abs=1e-9)
 
 
 def test_postures_are_what_is_asked_for(folder, solo12):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import ROOT, SOLO12, run
+from products import equal_rate
 
 from ocs_design.design_file import read_design
 from ocs_design.exceptions import OcsError
@@ -81,7 +82,7 @@ def test_inspect_says_what_size_goes_by():
     found = run("inspect", SOLO12, "--json").document
     robot = found["robot"]
     inertia = np.array(robot["inertia"])
-    alpha = np.arctan2(inertia[0, 0], inertia[1, 1])
+    alpha = equal_rate(inertia)
     assert found["incidence_by_criterion"]["equal-rate"] == pytest.approx(alpha, rel=1e-12)
     nominal = found["incidence_by_posture"][0]
     assert nominal["incidence"] == pytest.approx(alpha, rel=1e-12)

@@ -1,6 +1,6 @@
 """No motor can do it: what is missing, and the smallest single changes that would do."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from ocs_design.exceptions import Infeasible
@@ -20,8 +20,10 @@ from ocs_design.sizing.selection.single_changes import (
     unseen,
 )
 
-# What no change of a limit mends.
-_NO_LIMIT = {Reason.FIGURES, Reason.INCIDENCE}
+_STATE_FIGURES = (
+    "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state its "
+    "figures in a file of your own with --motors."
+)
 
 
 class Refused(Infeasible):
@@ -52,15 +54,22 @@ class Refused(Infeasible):
         Args:
             progress: is told the share that is done.
         """
-        field, reason = Field.of(self.problem), self.nearest.reason
-        changes = {} if reason in _NO_LIMIT else single_changes(field, progress)
+        reason = self.nearest.reason
+        if reason is Reason.FIGURES:
+            return self._with({}, [_STATE_FIGURES])
+        field = Field.of(self.problem)
+        # No change of a limit mends an incidence.
+        changes = {} if reason is Reason.INCIDENCE else single_changes(field, progress)
+        return self._with(changes, _advice(field, reason, changes))
+
+    def _with(self, changes: Mapping[Limit, float], advice: Iterable[str]) -> Infeasible:
         return Infeasible(
             self.message,
             binding=self.binding,
             required_spin_inertia=self.required_spin_inertia,
             largest_spin_inertia=self.largest_spin_inertia,
             relaxations={limit.name: value for limit, value in changes.items()},
-            hint=" ".join(_advice(field, reason, changes)),
+            hint=" ".join(advice),
         )
 
 
@@ -89,12 +98,6 @@ def _told(field: Field, limit: Limit, value: float) -> str:
 
 def _advice(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iterator[str]:
     """What would do, in sentences."""
-    if reason is Reason.FIGURES:
-        yield (
-            "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state "
-            "its figures in a file of your own with --motors."
-        )
-        return
     if changes:
         texts = [_told(field, limit, value) for limit, value in changes.items()]
         yield f"Any one of these alone would do: {'; '.join(texts)}."

@@ -28,6 +28,8 @@ _CELLS = 6
 # Candidates that are bounded, and settled, at once: few first, where any will do.
 _FIRST, _BLOCK = 32, 512
 _FIRST_SETTLED, _SETTLED = 4, 64
+# Candidates that are settled before the answer is no: the most promising ones come first.
+_MOST_SETTLED = 128
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +70,15 @@ class Field:
 
     @property
     def possible(self) -> bool:
-        """Whether any of them has a device; what can only just be is not looked for as closely."""
-        return any(any_settles(self.problem, lot, outset) for lot, outset in self._bounded())
+        """Whether any of the most promising has a device; what can only just be may be missed."""
+        tried = 0
+        for lot, outset in self._bounded():
+            if any_settles(self.problem, lot, outset):
+                return True
+            tried += len(lot.drives)
+            if tried >= _MOST_SETTLED:
+                break
+        return False
 
     @property
     def conceivable(self) -> bool:

@@ -31,7 +31,8 @@ def unseen(share: float) -> None:
 def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, float]:
     """For each limit that can mend it alone the value that just does, gentlest first [SI].
 
-    Each is proved by looking for a device again, among all motors and gears of the problem.
+    Each is proved by looking for a device again, among all motors and gears of the problem; what
+    only an unlikely one of them could do may be missed (`Field.possible`).
     """
     limits = limits_of(field.problem)
     helpful = {}
