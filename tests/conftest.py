@@ -2,7 +2,6 @@
 
 import os
 
-import pytest
 from hypothesis import settings
 
 LONGEST = "test_the_commands_that_the_docs_show_still_print_that"
@@ -13,11 +12,5 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "reproducible"))
 
 
 def pytest_collection_modifyitems(items):
-    """The longest test goes first, so that one worker is not left with it when all others end.
-
-    What takes a whole run to make is made by one worker.
-    """
+    """The longest test goes first, so that one worker is not left with it when all others end."""
     items.sort(key=lambda item: item.name != LONGEST)
-    for item in items:
-        if "product" in item.fixturenames:
-            item.add_marker(pytest.mark.xdist_group("product"))

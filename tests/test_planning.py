@@ -13,8 +13,6 @@ from ocs_design.planning import drive_line_of, gyrostat_of, plan
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 ROBOT = robot_by_hand(2.5, (0.032, 0.055, 0.0696, 0.001, -0.002, 0.0005), (0.001, 0.002, -0.0276))
 STANDING = 0.272
 DEVICES = {

@@ -11,8 +11,6 @@ from commands import SOLO12, environment, everything_in, run, run_process
 from ocs_design.pareto import lightest_device, read_task
 from ocs_design.requirement.reading import read_specification
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 ONE_MOTOR = ("--motor", "Antigravity MN5008 KV400", "--gear", "direct")
 """Little to choose from makes it quick."""
 

@@ -20,8 +20,6 @@ from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.sizing.cylinder import cylinder_spin_inertia, cylinder_transverse_inertia
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 ROOT = Path(__file__).parents[2]
 MACHINES = ROOT / "examples" / "machines"
 HEAVIER = 10.0

@@ -8,8 +8,6 @@ import pinocchio
 import pytest
 from robots import SOLO12
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
 TOLERANCE = 1e-9
 

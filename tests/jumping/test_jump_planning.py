@@ -15,8 +15,6 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.rotations import rotation_from_rpy
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 JUMP = Jump(0.4, 2.0, 9.81)
 
 

@@ -22,8 +22,6 @@ from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import JUMP_STEP, STEP, Wheels
 from ocs_design.simulation.world import WorldBuilder
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 
 @pytest.fixture(scope="module")
 def disturbance(solo12):

@@ -18,8 +18,6 @@ from ocs_design.sizing.placement import place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import select
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 BELT = Gear("belt", 1.2, 0.95, 0.01, 1e-6, np.inf, np.inf, np.inf, reverses=False, source="test")
 CHOICES = {
     "direct": (("AT2814 KV1050", "MN4010 KV580"), DIRECT, 24.0),

@@ -20,8 +20,6 @@ from ocs_design.sizing.optimal_control import joint_program
 from ocs_design.sizing.optimal_control.nonlinear_program import solve_program
 from ocs_design.sizing.selection.select import select
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE = 0, 21, 8, 16
 """Seeds of random problems: what asks for most of their devices."""
 

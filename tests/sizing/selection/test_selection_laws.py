@@ -13,8 +13,6 @@ from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.selection.select import select
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 POSSIBLE = (2, 6)
 """Of the drawn problems, two with a device and all kinds of maneuvers between them."""
 ON_THE_EDGE = 15

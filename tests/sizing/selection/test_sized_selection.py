@@ -15,8 +15,6 @@ from ocs_design.requirement.maneuver import Drop, Flip
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.selection.sized import sized_selection
 
-pytestmark = pytest.mark.xdist_group(__name__)
-
 FIELD = {
     "r_max": "outer_radius_max",
     "h_max": "height_max",
