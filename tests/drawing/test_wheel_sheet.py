@@ -22,7 +22,7 @@ def words(wheel):
     return [text.text for text in texts(wheel_sheet(wheel))]
 
 
-LOOKED_AT = settings(max_examples=60, suppress_health_check=[HealthCheck.filter_too_much])
+LOOKED_AT = settings(max_examples=25, suppress_health_check=[HealthCheck.filter_too_much])
 
 
 @LOOKED_AT

@@ -13,7 +13,7 @@ from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
 from ocs_design.requirement.specification import all_keys
 
 FUZZ = settings(
-    max_examples=25,
+    max_examples=15,
     deadline=None,
     derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
@@ -157,7 +157,7 @@ def test_robots_by_hand(folder, mass, inertia, options, drive):
     check_exit(folder, "size", *by_hand, *drive, *typed, "--no-validate", "-q", "-o", "out")
 
 
-@settings(FUZZ, max_examples=10)
+@settings(FUZZ, max_examples=6)
 @given(
     moments=st.lists(st.floats(0.5, 1.0), min_size=3, max_size=3),
     size=st.floats(-5.0, 5.0),
@@ -215,7 +215,7 @@ def test_specifications(folder, stated, maneuver, kind, drive):
 
 
 @pytest.mark.slow
-@settings(FUZZ, max_examples=8)
+@settings(FUZZ, max_examples=5)
 @given(
     moments=st.lists(st.floats(0.55, 1.0), min_size=3, max_size=3),
     scale=st.floats(-3.0, 3.0),

@@ -204,6 +204,7 @@ def test_a_machine_comes_out_as_it_was_built(comparison):
         assert same.spin_inertia / built[name].spin_inertia == pytest.approx(share, abs=0.01)
 
 
+@pytest.mark.exhaustive
 def test_the_page_shows_what_the_script_prints(comparison, capsys):
     comparison.main()
     printed = [line.rstrip() for line in capsys.readouterr().out.rstrip().splitlines()]

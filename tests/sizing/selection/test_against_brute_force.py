@@ -22,8 +22,8 @@ from ocs_design.exceptions import Infeasible
 from ocs_design.robot.mass_properties import MassProperties
 from ocs_design.sizing.selection.select import select
 
-FAST = (2, 3, 12)
-SLOW = (1, 6, 4, 5, 7, 8, 10, 11, 14)
+FAST = (2, 12)
+SLOW = (1, 3, 6, 4, 5, 7, 8, 10, 11, 14)
 ON_THE_EDGE = (9, 15, 21)
 """Few wheels will do, and only at few incidences: a little heavier, and none is large enough."""
 AGREED = 1e-3
