@@ -222,7 +222,8 @@ def margin(problem, drive, rims, angle):
             inertia_on(problem, drive, rims, angle),
             coupling_on(problem, drive, rims, angle),
         )
-        shares = np.stack([np.sin(angle), np.cos(angle)])
+        # Next to no lever takes next to any momentum.
+        shares = np.maximum([np.sin(angle), np.cos(angle)], 1e-12)
         held = (own / shares + np.abs(other) / shares[::-1]) * problem.requirement.rate_change
         worst = np.minimum(worst, (2.0 * spin * drive.top / held).min(axis=0))
     return worst

@@ -42,9 +42,9 @@ def test_the_document_and_the_folder_say_the_same(written):
 
 
 def test_a_point_s_specification_makes_that_very_device(written):
-    """At both ends; the one between them is sized below."""
+    """At one end; the one in the middle is sized below."""
     result, folder = written
-    for point in result.document["points"][::2]:
+    for point in result.document["points"][:1]:
         again = lightest_device(read_task(read_specification(folder / point["file"])))
         assert vars(again) == point["device"]
 

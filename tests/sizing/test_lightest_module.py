@@ -45,7 +45,7 @@ def with_web(limits, share):
     return replace(limits, height_min=height, web=share * height)
 
 
-@pytest.mark.parametrize("web", [0.0, 0.3, 0.9])
+@pytest.mark.parametrize("web", [0.0, 0.3, pytest.param(0.9, marks=pytest.mark.exhaustive)])
 def test_never_heavier_than_on_a_grid(web):
     rng = np.random.default_rng(3)
     gaps = []

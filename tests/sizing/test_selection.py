@@ -29,8 +29,7 @@ MASS_DIGITS = 2e-5
 
 POSSIBLE = (
     *(0, 21),
-    pytest.param(3, marks=pytest.mark.slow),
-    *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (9, 12, 17, 20, 22)),
+    *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (3, 9, 12, 17, 20, 22)),
 )
 """Problems that have devices: direct and geared, some of which can only just be."""
 

@@ -147,6 +147,7 @@ def test_a_change_of_rate_binds_as_in_the_closed_form():
     assert abs(co_design(asked).gain) < 3e-4
 
 
+@pytest.mark.exhaustive
 def test_one_axis_without_products_of_inertia_gains_nothing():
     """There the closed form is exact, and both are searched for to well below 0.1 %."""
     turn = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-np.pi, duration=1.2, incidence=0)
@@ -178,6 +179,7 @@ def test_where_ipopt_gives_up_the_selection_stands(monkeypatch):
     assert adopted(asked, found) is asked.selected
 
 
+@pytest.mark.exhaustive
 def test_where_only_the_finer_mesh_fails_the_coarse_one_counts(monkeypatch):
     calls = iter([200, 2])
     monkeypatch.setattr(

@@ -15,7 +15,6 @@ from naive_device import Drive, device_mass, fits, holds, margin
 from naive_inertia import coupling_on, inertia_on
 from naive_search import Device, refine, search
 from naive_wheel import Rims
-from sampled import every
 from selections import lopsided, random_problem
 
 from ocs_design.exceptions import Infeasible
@@ -95,7 +94,9 @@ def test_nothing_lighter_is_on_a_grid(seed):
     check_nothing_lighter(draw(seed).problem)
 
 
-@pytest.mark.parametrize("seed", [LOPSIDED[0], pytest.param(LOPSIDED[1], marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "seed", [LOPSIDED[0], pytest.param(LOPSIDED[1], marks=pytest.mark.exhaustive)]
+)
 def test_a_lopsided_robots_device_is_what_it_says(seed):
     """Its worst maneuver is just in time, which it would not be without the coupling."""
     problem = lopsided(random_problem(seed), seed)
@@ -128,7 +129,8 @@ def test_nothing_lighter_is_on_more_grids(seed):
     check_nothing_lighter(draw(seed).problem)
 
 
-@pytest.mark.parametrize("seed", every(3, ON_THE_EDGE))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", ON_THE_EDGE)
 def test_nothing_is_missed_on_the_edge_of_the_possible(seed):
     """There a grid may miss what the selection finds, but never the other way round."""
     check_nothing_lighter(draw(seed).problem, exact=False)

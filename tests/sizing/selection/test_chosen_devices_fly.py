@@ -13,7 +13,7 @@ from ocs_design.sizing.selection.select import select
 POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 11)
 
 
-@pytest.mark.parametrize("seed", every(5, POSSIBLE))
+@pytest.mark.parametrize("seed", every(10, POSSIBLE))
 def test_a_chosen_device_passes_with_its_motors_limits(seed):
     drawn = draw(seed)
     problem, requirement = drawn.problem, drawn.problem.requirement
