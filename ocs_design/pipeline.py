@@ -35,6 +35,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.run_files import write_runs
 from ocs_design.simulation.poses import POSE_RATE
 from ocs_design.simulation.scenario import Run, run_scenarios
+from ocs_design.simulation.trotting import require_trot
 from ocs_design.sizing.rim_program import load_solver
 from ocs_design.sizing.selection.infeasible import Refused
 
@@ -156,6 +157,7 @@ def _sized_or_advised(
 def _size(specification: Specification, robot: Robot, *, strict: bool) -> _Sized:
     """What was asked for, the device that does it, and its place on the robot."""
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    require_trot(resolved.requirement.maneuvers, robot)
     designed = design_device(specification, robot, resolved, advise=False)
     device = designed.device
     device_warnings(device, robot.mass_properties, strict=strict)

@@ -4,6 +4,7 @@ Nothing places the feet by what the trunk does: what calms a robot that is shove
 stand apart, and the device.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -68,6 +69,16 @@ def waiting(maneuver: Maneuver, robot: Robot, weight: float, settling: float) ->
     duration = shoved_at(maneuver.stride, TROTTED * settling)
     trot = Trot(maneuver.stride, settling, duration + settling, weight)
     return Waiting(duration, trot.references(robot))
+
+
+def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
+    """Refuse what the robot cannot do before anything else is done for it.
+
+    Raises:
+        SpecificationError: one of them has it trot, and it cannot.
+    """
+    if any(isinstance(maneuver, Shove) and maneuver.stride for maneuver in maneuvers):
+        _pairs(robot, leg_geometries(robot.tree, robot.trunk, robot.legs))
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """The trot's references against MuJoCo's own kinematics and statics, and what comes of them."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.trotting import STEP_HEIGHT, Trot, shoved_at
+from ocs_design.simulation.trotting import STEP_HEIGHT, Trot, require_trot, shoved_at
 from ocs_design.simulation.world import WorldBuilder
 
 STRIDE = 0.4
@@ -114,8 +116,9 @@ def test_its_feet_leave_the_floor(solo12, world):
     assert np.all(np.ptp(height, axis=0) > 0.7 * STEP_HEIGHT)
 
 
-def test_a_biped_is_told_that_it_cannot():
+def test_a_biped_is_told_that_it_cannot_before_it_is_sized():
     bolt = read_robot(ROBOTS / "bolt_description" / "robots" / "bolt.urdf")
     with pytest.raises(SpecificationError, match="bolt cannot trot: it has no foot before") as told:
-        Trot(STRIDE, start=0.5, duration=1.0, weight=13.0).references(bolt)
+        require_trot([SHOVE], bolt)
     assert "`stride`" in told.value.hint
+    require_trot([replace(SHOVE, stride=0.0)], bolt)

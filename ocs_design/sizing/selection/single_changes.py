@@ -10,7 +10,8 @@ from ocs_design.sizing.selection.possibility import Field
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 PRECISION = 0.03
-"""Of the changes, relative: no motor can do it with less by more than that."""
+"""Of the changes, relative: with less by more than that none of the drives that `Field.possible`
+tries can do it."""
 
 # A limit changed more than this is another project...
 MOST_CHANGE = 10.0

@@ -5,6 +5,7 @@ import pytest
 from selections import has_device, random_problem, with_radius
 
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
+from ocs_design.sizing.selection import possibility
 from ocs_design.sizing.selection.changed_limits import limits_of, with_limit
 from ocs_design.sizing.selection.possibility import Field
 from ocs_design.sizing.selection.search import search
@@ -41,6 +42,25 @@ def test_what_is_kept_from_a_like_problem_is_what_is_found_anew(limit):
     assert kept.drives.gear.tolist() == anew.drives.gear.tolist()
     assert kept.needed == pytest.approx(anew.needed, rel=1e-14)
     assert kept.drives.stall_torque == pytest.approx(anew.drives.stall_torque, rel=1e-14)
+
+
+def test_after_so_many_of_the_most_promising_the_answer_is_no(monkeypatch):
+    """However many are left."""
+    tried = []
+
+    def none_settles(problem, lot, outset):
+        tried.append(len(lot.drives))
+        return False
+
+    field = Field.of(random_problem(9))
+    assert field.possible
+    monkeypatch.setattr(possibility, "any_settles", none_settles)
+    assert not field.possible
+    everything = sum(tried)
+    tried.clear()
+    monkeypatch.setattr(possibility, "_MOST_SETTLED", 3)
+    assert not field.possible
+    assert 3 <= sum(tried) < everything
 
 
 @pytest.mark.exhaustive
