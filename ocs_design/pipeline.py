@@ -13,11 +13,12 @@ from ocs_design.device_warnings import device_warnings
 from ocs_design.export.folder import DESIGN_FILE, check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.export.naming import require_no_device, safe_name
-from ocs_design.flight_control import control_of, flight_options, jump_plans, trajectories
 from ocs_design.inspection import posture_lines
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.mounting import Mounting, mounting_of, placement_warnings
-from ocs_design.recording import record_design
+from ocs_design.recording.control import control_of, flight_options, jump_plans, trajectories
+from ocs_design.recording.design import record_design
+from ocs_design.recording.runs import write_runs
 from ocs_design.report.charts.files import write_svgs
 from ocs_design.report.console import Steps
 from ocs_design.report.figures.figures import FOLDER, all_charts
@@ -32,7 +33,6 @@ from ocs_design.requirement.stated_robot import read_stated_robot
 from ocs_design.robot.bounds import size
 from ocs_design.robot.obstacles.obstacles import forget_obstacles
 from ocs_design.robot.robot import Robot
-from ocs_design.run_files import write_runs
 from ocs_design.simulation.poses import POSE_RATE
 from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.simulation.trotting import require_trot

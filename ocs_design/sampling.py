@@ -11,7 +11,6 @@ from ocs_design import __version__
 from ocs_design.exceptions import OcsError, UsageError
 from ocs_design.export.folder import output_error
 from ocs_design.export.staging import clear_leftovers, staging_beside
-from ocs_design.flight_control import flight_options
 from ocs_design.monte_carlo.blocks import blocks_of
 from ocs_design.monte_carlo.campaign import Campaign, make_campaign
 from ocs_design.monte_carlo.cases import Case, case_of, read_case, write_case
@@ -21,6 +20,7 @@ from ocs_design.monte_carlo.running import Workers, run_campaign
 from ocs_design.monte_carlo.storage import RESULT_FILE, Identity, Storage
 from ocs_design.monte_carlo.summary import MonteCarloRecord, summarised
 from ocs_design.monte_carlo.tables import write_tables
+from ocs_design.recording.control import flight_options
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.scenario import Run, refusal
 from ocs_design.validating import SCHEMA_VERSION, Task

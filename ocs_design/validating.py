@@ -17,19 +17,20 @@ from ocs_design.design_file import (
 )
 from ocs_design.exceptions import OcsError
 from ocs_design.export.folder import DESIGN_FILE, file_hashes, staged_folder
-from ocs_design.flight_control import (
+from ocs_design.jumping.jump import JumpPlans
+from ocs_design.monte_carlo.reality import NAMES
+from ocs_design.monte_carlo.sample import Sample
+from ocs_design.monte_carlo.summary import MonteCarloRecord
+from ocs_design.recording.control import (
     control_of,
     flight_options,
     jump_plans,
     overridden,
     trajectories,
 )
-from ocs_design.jumping.jump import JumpPlans
-from ocs_design.monte_carlo.reality import NAMES
-from ocs_design.monte_carlo.sample import Sample
-from ocs_design.monte_carlo.summary import MonteCarloRecord
-from ocs_design.recorded import device_of, maneuver_of
-from ocs_design.recorded_robot import Whereabouts, read_recorded_robot
+from ocs_design.recording.restored import device_of, maneuver_of
+from ocs_design.recording.robot import Whereabouts, read_recorded_robot
+from ocs_design.recording.runs import record_run, write_runs
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.reality import RealitySection, reality_of_texts
@@ -39,7 +40,6 @@ from ocs_design.requirement.specification import (
     merge_section,
 )
 from ocs_design.robot.robot import Robot
-from ocs_design.run_files import record_run, write_runs
 from ocs_design.simulation.engine import Progress
 from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.sizing.trajectory import Trajectory

@@ -17,7 +17,7 @@ from ocs_design.exceptions import OcsError
 from ocs_design.export.folder import recorded_hashes
 from ocs_design.export.naming import safe_name
 from ocs_design.inspection import inspect_robot, inspection_to_json
-from ocs_design.recorded import device_of, robot_of, seat_of
+from ocs_design.recording.restored import device_of, robot_of, seat_of
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import RobotSection, Specification

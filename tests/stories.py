@@ -7,7 +7,7 @@ import numpy as np
 from designed import MOTOR, designed
 
 from ocs_design.design_file import ValidationRecord
-from ocs_design.recording import record_design
+from ocs_design.recording.design import record_design
 from ocs_design.report.flight import Flight
 from ocs_design.report.story import Story
 

@@ -9,7 +9,7 @@ import pytest
 from ocs_design.design_file import read_design
 from ocs_design.device_checks import check_device
 from ocs_design.exceptions import OcsError
-from ocs_design.recorded import device_of
+from ocs_design.recording.restored import device_of
 
 DESIGN = read_design(Path(__file__).parent / "data" / "design_0_1_0.json")
 DEVICE = device_of(DESIGN.ocs)

@@ -1,4 +1,4 @@
-"""From the records of `design.json` back to live values: the inverse of `recording`."""
+"""From the records of `design.json` back to live values: the inverse of `design`."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from designed import designed
 
-from ocs_design.margin_recording import record_margins
+from ocs_design.recording.margins import record_margins
 from ocs_design.simulation.metrics import Metrics, Series
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.optimal_control.reference import Reference

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from designed import MOTOR, designed
 
-from ocs_design.recording import HOUSING_ASSUMED, record_design
+from ocs_design.recording.design import HOUSING_ASSUMED, record_design
 
 
 @pytest.fixture(scope="module", params=["none", MOTOR])

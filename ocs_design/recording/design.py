@@ -29,15 +29,15 @@ from ocs_design.designing import Designed
 from ocs_design.device_warnings import device_warnings
 from ocs_design.export.fitting import fitting_remarks
 from ocs_design.export.footing import footing_remarks
-from ocs_design.margin_recording import record_margins
 from ocs_design.mounting import Clearance, Mounting
+from ocs_design.recording.margins import record_margins
+from ocs_design.recording.runs import record_run
+from ocs_design.recording.selection import record_selection
 from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.robot_record import RobotRecord
-from ocs_design.run_files import record_run
-from ocs_design.selection_recording import record_selection
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.housing import CLEARANCE, WALL
 from ocs_design.sizing.incidence import Criterion, heading_drift

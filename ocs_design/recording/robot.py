@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ocs_design.exceptions import RobotError
-from ocs_design.recorded import robot_of
+from ocs_design.recording.restored import robot_of
 from ocs_design.robot.files.source import STANDARD_INPUT, read_source
 from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot_record import RobotRecord

@@ -3,7 +3,7 @@
 import pytest
 from designed import MOTOR, designed
 
-from ocs_design.selection_recording import record_selection
+from ocs_design.recording.selection import record_selection
 
 
 @pytest.fixture(scope="module")

@@ -11,8 +11,8 @@ from robots import ROBOTS
 
 from ocs_design.design_file import design_to_json, read_design
 from ocs_design.exceptions import RobotError
-from ocs_design.recorded import device_of, robot_of, seat_of
-from ocs_design.recording import record_design
+from ocs_design.recording.design import record_design
+from ocs_design.recording.restored import device_of, robot_of, seat_of
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot_record import RobotRecord

@@ -1,0 +1,1 @@
+"""From live values to the records of `design.json`, and from the records back to live values."""
