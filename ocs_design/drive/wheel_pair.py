@@ -174,13 +174,15 @@ def pair_slew_time(
 
     Args:
         task: its duration is not used.
-        spin_inertia: h of each wheel [kg m^2], below 1 / kappa, shape (...); 0 or inf: no wheel.
+        spin_inertia: h of each wheel [kg m^2], shape (...); 0 or inf: no wheel. Wheels of more
+            than 1 / (2 kappa) would carry most of the inertia that they turn, and count as that.
         line: of the drive at the wheel, shape (...).
         armature: I_m - h [kg m^2], shape (...).
     """
     load, asked_of = task.load(), np.asarray(spin_inertia, dtype=np.float64)
     there = (asked_of > 0.0) & np.isfinite(asked_of)
-    h = np.where(there, asked_of, 1.0 / (2.0 * load.coupling))
+    half = 1.0 / (2.0 * load.coupling)
+    h = np.where(there, np.minimum(asked_of, half), half)
     time = slew_time(load.angle(h), load.reduced_inertia(h, armature), line, load.final_speed(h))
     return np.where(there | (load.excess + load.held == 0.0), time, np.inf)
 

@@ -53,6 +53,8 @@ _CUT_SETTLING = 9
 _MOST_BENT = 0.5
 # Limits that meet in one point stay compatible when their figures are rounded.
 _ROUNDING = 1e-12
+# Of R^2 - r^2 over R^2.
+_NO_WALL = 1e-9
 # Of the largest bore over the least one, beyond what either is known to.
 _ROOMY = 1e-6
 
@@ -180,9 +182,10 @@ def _rim_height(
     """k of the rim alone before it is cut [m^5], and its height [m], by R and r^2."""
     cut = limits.cuts.spread(np.sqrt(bore), outer)
     of_rim = 2.0 * inertia / (np.pi * limits.density) + cut - limits.web * bore**2
-    # A rim without any wall is none: of it, this is nothing over nothing.
     square = outer**2
-    return of_rim, of_rim / (square**2 - bore**2)
+    height = of_rim / (square**2 - bore**2)
+    # A rim without any wall is none: of it, this is nothing over nothing, or what rounding left.
+    return of_rim, np.where(square - bore > _NO_WALL * square, height, np.nan)
 
 
 def _best_bore(

@@ -169,6 +169,14 @@ def test_robots_by_hand(folder, mass, inertia, options, drive):
     ),
     drive=DRIVES,
 )
+# Light as foam: the largest wheel that has room would have more inertia than the robot.
+@example(
+    moments=[1.0, 1.0, 1.0],
+    size=-1.0,
+    density=0.0,
+    options={},
+    drive=("--motor=EC 90 flat 90 W 323772", "--gear=direct", "--material=brass-c360"),
+)
 def test_robots_that_can_exist_of_any_size(folder, moments, size, density, options, drive):
     """From a grain of dust to a mountain, with limits from a hair's breadth to the moon's way."""
     mass = 10.0 ** (density + 3.0 * size)

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
-from rims import random_problem, rim_problems
+from rims import random_problem, rim_problems, scaled_problem
 
 from ocs_design.sizing.lightest_module import (
     lightest_module,
@@ -130,7 +130,14 @@ def test_what_is_cut_off_is_made_up_for(web, holes):
     assert np.median(gaps) < 2e-3
 
 
+WITHOUT_A_WALL = scaled_problem(
+    size=0.0234375, slim=0.5, fill=1.0, bore=0.0, flat=0.5, wall=0.0, mass=np.inf, stress=100.0
+)
+"""Nothing but its least height keeps the widest of its wheels from being all web."""
+
+
 @given(rim_problems(), st.sampled_from([0.0, 0.5]))
+@example(WITHOUT_A_WALL, 0.5)
 def test_more_spin_inertia_is_no_lighter(problem, web):
     inertia = problem.spin_inertia * np.geomspace(0.05, 1.0, 40)
     mass = lightest_module(inertia, with_web(problem.limits, web), SHELL).mass
