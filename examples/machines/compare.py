@@ -85,7 +85,7 @@ MACHINES = (
         motor="MN6007 KV160",
         motor_mass=0.180,
         incidence=0.0,
-        momentum=0.1833,
+        momentum=0.2014,
     ),
     Built(
         title="Aalborg Cubli, catch from 9.7 deg",

@@ -92,7 +92,7 @@ def wheelbot() -> Standing:
         inertia=wheel * low**2 + chassis * middle**2 + flywheel * high**2 + own,
         gravity_moment=GRAVITY * (wheel * low + chassis * middle + flywheel * high),
         tilt=36.0 * pi / 180.0,
-        torque=SHARE * 1.3,
+        torque=SHARE * 1.2,
     )
 
 

@@ -1,6 +1,7 @@
 """The motors' figures against what their data sheets print elsewhere."""
 
 import math
+import re
 from dataclasses import fields
 
 import pytest
@@ -61,10 +62,18 @@ def test_there_is_something_to_choose_from_for_small_and_for_large_robots():
     assert len(complete) >= 140
 
 
+def test_every_source_can_be_looked_up():
+    """A repository with a path in it, or another address with one."""
+    for found in motors().values():
+        assert re.search(
+            r"\b(github\.com/[\w.-]+/[\w.-]+ \S+|\w[\w.-]*\.\w{2,3}/\S+)", found.source
+        ), f"{found.name}: {found.source}"
+
+
 def test_what_a_source_does_not_give_stays_empty():
-    incomplete = motor("EC 60 flat 100 W 411678")
-    assert incomplete.mass is incomplete.peak_torque is None
-    assert set(missing_figures(incomplete, DIRECT)) == {"mass", "peak torque or current"}
+    incomplete = motor("EC 45 flat 30 W 200142")
+    assert incomplete.mass is incomplete.resistance is None
+    assert {"mass", "resistance"} <= set(missing_figures(incomplete, DIRECT))
 
 
 def test_a_field_oriented_constant_is_converted():

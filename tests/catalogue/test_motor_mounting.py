@@ -97,7 +97,7 @@ def test_the_edges_of_what_can_be_made_pass(load):
 def test_how_many_rows_know_what():
     known = [found.mounting for found in motors().values() if found.mounting is not None]
     assert sum(found.shaft_diameter is not None for found in known) == 71
-    assert sum(found.rotor is not None for found in known) == 5
+    assert sum(found.rotor is not None for found in known) == 9
     assert sum(found.stator is not None for found in known) == 9
 
 
