@@ -62,6 +62,9 @@ def test_there_is_something_to_choose_from_for_small_and_for_large_robots():
     assert len(complete) >= 140
 
 
+ADDRESS = re.compile(r"\b(github\.com/[\w.-]+/[\w.-]+ \S+|\w[\w.-]*\.\w{2,3}/\S+)")
+
+
 def test_every_source_can_be_looked_up():
     """A repository with a path in it, or another address with one."""
     for found in motors().values():
