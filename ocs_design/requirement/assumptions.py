@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 
 from ocs_design.catalogue.materials import Material
-from ocs_design.drive.line import RESERVE
+from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.line import RESERVE, missing_figures
 from ocs_design.requirement.envelope import LIMIT_OF_KEY, Envelope
 from ocs_design.requirement.froude import (
     BUS_VOLTAGES,
@@ -97,7 +98,9 @@ def _choosing(
         which = "up to" if choice.bus_voltage == BUS_VOLTAGES[0] else "above"
         yield f"Bus: {choice.bus_voltage:g} V, as robots {which} {LIGHT_ROBOT:g} kg have."
     if stated.name in {None, AUTO}:
-        yield f"Motor: the lightest device of {len(choice.motors)} motors in the catalogue."
+        # A gear asks for more figures than that, never for less.
+        known = sum(not missing_figures(motor, DIRECT) for motor in choice.motors)
+        yield f"Motor: the lightest device of the {known} in the catalogue whose figures suffice."
     if stated.gear in {None, AUTO}:
         yield f"Gear: none, or one of {len(choice.gears) - 1} stages in the catalogue."
     if specification.flywheel.web is None:

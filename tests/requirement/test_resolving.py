@@ -7,6 +7,8 @@ import pytest
 
 from ocs_design.catalogue.gears import gears, stages
 from ocs_design.catalogue.motors import motors
+from ocs_design.drive.gear import DIRECT
+from ocs_design.drive.line import missing_figures
 from ocs_design.exceptions import SpecificationError
 from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
@@ -29,10 +31,12 @@ def test_nothing_stated_is_everything_assumed(solo12):
     resolved = resolve(Specification(), solo12, SIZE)
     assert resolved.envelope == default_envelope(solo12)
     told = "\n".join(resolved.assumptions)
+    usable = [found for found in motors().values() if not missing_figures(found, DIRECT)]
+    assert len(usable) < len(motors())
     for words in (
         "the paper's three",
         "Bus: 24 V, as robots up to 20 kg have.",
-        f"lightest device of {len(motors())} motors",
+        f"lightest device of the {len(usable)} in the catalogue whose figures suffice",
         f"none, or one of {len(stages(gears().values()))} stages",
         "Material: one of",
         "at least 2.",

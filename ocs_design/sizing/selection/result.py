@@ -185,7 +185,8 @@ class Selection:
         ranking: the ten lightest that differ in motor, gear or material, and the lightest of each
             of the five best motors, lightest first.
         rejections: one for each motor that has no place in it, in the order of the problem.
-        candidates: combinations of motor, gear, material and 5 deg of incidence that were decided.
+        candidates: combinations of motor, gear, material and 5 deg of incidence that were decided;
+            without those whose figures do not suffice.
     """
 
     ranking: tuple[Candidate, ...]

@@ -40,7 +40,7 @@ def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
     return Selection(
         ranking=ranking,
         rejections=rejections(found, fallen),
-        candidates=found.least.size * len(problem.materials) * angles,
+        candidates=int(found.known.sum()) * len(problem.materials) * angles,
     )
 
 
