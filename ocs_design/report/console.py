@@ -4,17 +4,19 @@ import os
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from datetime import timedelta
 
 from rich.console import Console
 from rich.panel import Panel
 from rich.progress import (
     BarColumn,
     Progress,
+    ProgressColumn,
     SpinnerColumn,
+    Task,
     TaskID,
     TextColumn,
     TimeElapsedColumn,
-    TimeRemainingColumn,
 )
 from rich.text import Text
 
@@ -90,14 +92,22 @@ class Step:
             self._progress.update(self._task, total=1.0, completed=fraction)
 
 
+class _Left(ProgressColumn):
+    """The time that is left, once it is known how far a step is."""
+
+    def render(self, task: Task) -> Text:
+        left = task.time_remaining
+        known = left is not None and not task.finished
+        return Text(f"{timedelta(seconds=int(left or 0))} left" if known else "", style="dim")
+
+
 def _bar(console: Console) -> Progress:
     return Progress(
         SpinnerColumn(),
         TextColumn("{task.description}", markup=False),
         BarColumn(bar_width=24),
         TimeElapsedColumn(),
-        TextColumn("[dim]left[/dim]"),
-        TimeRemainingColumn(elapsed_when_finished=True),
+        _Left(),
         console=console,
         transient=True,
     )

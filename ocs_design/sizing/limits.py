@@ -1,6 +1,6 @@
 """The limits of the specification by name, and the smallest change of one that mends a design."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import isfinite, log10, pi
@@ -89,6 +89,12 @@ LIMITS: Mapping[str, Limit] = {
     limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, TIME, DEVICE_MASS)
 }
 """By name."""
+
+
+def told_changes(texts: Sequence[str]) -> str:
+    """Single changes that would do, at least one, as a sentence."""
+    which = "Any one of these" if len(texts) > 1 else "This"
+    return f"{which} alone would do: {'; '.join(texts)}."
 
 
 def smallest_changes(

@@ -11,6 +11,7 @@ from ocs_design.sizing.limits import (
     RIM_LIMITS,
     Limit,
     smallest_changes,
+    told_changes,
 )
 from ocs_design.sizing.rim_closed_form import lightest_rim, smallest_spin_inertia
 from ocs_design.sizing.rim_problem import RimProblem
@@ -146,7 +147,7 @@ def advice(problem: RimProblem, changes: Mapping[Limit, float]) -> str:
             "loosen several, or ask for less."
         )
     texts = [_change_text(problem, limit, value) for limit, value in changes.items()]
-    return f"Any one of these alone would do: {'; '.join(texts)}."
+    return told_changes(texts)
 
 
 def _change_text(problem: RimProblem, limit: Limit, value: float) -> str:

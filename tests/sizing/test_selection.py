@@ -230,7 +230,7 @@ def test_infeasible_says_what_would_do():
         select(narrow)
     error = caught.value
     assert error.message.startswith(f"Motor {motor.name} cannot do it at {problem.bus_voltage:g} V")
-    assert "Any one of these alone would do" in error.hint
+    assert "alone would do: " in error.hint
     assert "time" in error.relaxations
     told = re.search(r"([\w-]+) (height|duration|takeoff_velocity|settling) ", error.hint)
     assert told is not None

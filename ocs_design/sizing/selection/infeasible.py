@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from ocs_design.exceptions import Infeasible
 from ocs_design.requirement.slower import told_change
-from ocs_design.sizing.limits import TIME, Limit
+from ocs_design.sizing.limits import TIME, Limit, told_changes
 from ocs_design.sizing.selection.attempt import largest_wheel
 from ocs_design.sizing.selection.possibility import Field
 from ocs_design.sizing.selection.problem import SelectionProblem
@@ -99,8 +99,7 @@ def _told(field: Field, limit: Limit, value: float) -> str:
 def _advice(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iterator[str]:
     """What would do, in sentences."""
     if changes:
-        texts = [_told(field, limit, value) for limit, value in changes.items()]
-        yield f"Any one of these alone would do: {'; '.join(texts)}."
+        yield told_changes([_told(field, limit, value) for limit, value in changes.items()])
     free = replace(field.problem, incidence=None)
     if field.problem.incidence is not None and field.changed(free).possible:
         yield (
