@@ -82,7 +82,7 @@ def _limits(design: OcsDesign) -> str:
     """What binds, and what is used up or nearly so."""
     binding = [f"{name} binds" for name in design.sizing.binding]
     tight = [
-        f"{margin.name} {margin.factor:.2f}{_by(margin)}"
+        f"{margin.name}, {1.0 / margin.factor:.0%} used{_by(margin)}"
         for margin in recorded_margins(design)
         if margin.factor is not None and margin.factor < TIGHT
     ]
