@@ -98,9 +98,9 @@ def _choosing(
         which = "up to" if choice.bus_voltage == BUS_VOLTAGES[0] else "above"
         yield f"Bus: {choice.bus_voltage:g} V, as robots {which} {LIGHT_ROBOT:g} kg have."
     if stated.name in {None, AUTO}:
-        # A gear asks for more figures than that, never for less.
+        # Those whose figures suffice; a gear asks for more of them, never for less.
         known = sum(not missing_figures(motor, DIRECT) for motor in choice.motors)
-        yield f"Motor: the lightest device of the {known} in the catalogue whose figures suffice."
+        yield f"Motor: the lightest device of {known} motors in the catalogue."
     if stated.gear in {None, AUTO}:
         yield f"Gear: none, or one of {len(choice.gears) - 1} stages in the catalogue."
     if specification.flywheel.web is None:

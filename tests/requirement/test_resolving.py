@@ -36,7 +36,7 @@ def test_nothing_stated_is_everything_assumed(solo12):
     for words in (
         "the paper's three",
         "Bus: 24 V, as robots up to 20 kg have.",
-        f"lightest device of the {len(usable)} in the catalogue whose figures suffice",
+        f"lightest device of {len(usable)} motors in the catalogue",
         f"none, or one of {len(stages(gears().values()))} stages",
         "Material: one of",
         "at least 2.",
