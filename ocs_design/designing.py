@@ -69,7 +69,8 @@ def design_device(
         advise: see `select`.
 
     Raises:
-        Infeasible: there is none. UsageError: nothing is asked for, or a limit is no DEVICE_MASS.
+        Infeasible: there is none.
+        UsageError: nothing is asked for, or a limit is no positive number.
     """
     designed = _lightest(specification, robot, resolved, advise=advise)
     if specification.ocs.mass_max is not None:

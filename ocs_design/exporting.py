@@ -10,9 +10,9 @@ import msgspec
 from ocs_design.design_file import OcsDesign, design_to_json, read_design
 from ocs_design.export.folder import DESIGN_FILE, file_hashes, recorded_hashes, staged_folder
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS, Format, Subject, export_formats
-from ocs_design.export.naming import safe_name
 from ocs_design.recording.restored import device_of, seat_of
 from ocs_design.recording.robot import Whereabouts, read_recorded_robot
+from ocs_design.text_files import safe_name
 
 SCHEMA_VERSION = 1
 

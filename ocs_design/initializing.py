@@ -8,7 +8,6 @@ from pathlib import Path
 import msgspec
 
 from ocs_design.design_file import SCHEMA_VERSION
-from ocs_design.export.naming import safe_name
 from ocs_design.export.single_file import write_whole
 from ocs_design.requirement.commented import commented_toml
 from ocs_design.requirement.defaults import default_specification
@@ -20,6 +19,7 @@ from ocs_design.requirement.writing import with_files_from
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.world import wheel_gains
+from ocs_design.text_files import safe_name
 
 SOLO12_MASS = 2.5
 """[kg], as in the paper."""

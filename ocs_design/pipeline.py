@@ -12,7 +12,7 @@ from ocs_design.designing import Designed, design_device
 from ocs_design.device_warnings import device_warnings
 from ocs_design.export.folder import DESIGN_FILE, check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
-from ocs_design.export.naming import require_no_device, safe_name
+from ocs_design.export.naming import require_no_device
 from ocs_design.inspection import posture_lines
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.mounting import Mounting, mounting_of, placement_warnings
@@ -38,6 +38,7 @@ from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.simulation.trotting import require_trot
 from ocs_design.sizing.rim_program import load_solver
 from ocs_design.sizing.selection.infeasible import Refused
+from ocs_design.text_files import safe_name
 
 if TYPE_CHECKING:
     from ocs_design.sizing.optimal_control.reference import Reference

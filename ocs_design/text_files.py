@@ -1,11 +1,18 @@
 """Text files of users, TOML above all: of a bounded size, with the place of what is wrong."""
 
+import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ocs_design.exceptions import SpecificationError
+
+
+def safe_name(name: str) -> str:
+    """The name of a robot or a maneuver as a file name."""
+    return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
+
 
 _UNITS = ((1 << 20, "MiB"), (1 << 10, "KiB"))
 

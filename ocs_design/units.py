@@ -224,6 +224,16 @@ def _normalised(unit: str) -> str:
     return re.sub(r"\s*[*·⋅]\s*|\s+", " ", unit).strip()
 
 
+def floored(value: float, digits: int) -> str:
+    """Never more than it is, but for what rounding took off a whole number of the last digit."""
+    return f"{math.floor(round(value * 10**digits, 6)) / 10**digits:.{digits}f}"
+
+
+def ceiled(value: float, digits: int) -> str:
+    """Never less than it is, likewise."""
+    return f"{math.ceil(round(value * 10**digits, 6)) / 10**digits:.{digits}f}"
+
+
 def _finite(value: float | Fraction, text: str, where: str) -> float:
     try:
         number = float(value)

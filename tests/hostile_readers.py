@@ -15,7 +15,6 @@ from ocs_design.catalogue.motors import load_motors
 from ocs_design.design_file import design_to_json, read_design
 from ocs_design.exceptions import OcsError
 from ocs_design.export.folder import recorded_hashes
-from ocs_design.export.naming import safe_name
 from ocs_design.inspection import inspect_robot, inspection_to_json
 from ocs_design.recording.restored import device_of, robot_of, seat_of
 from ocs_design.requirement.reading import read_specification
@@ -27,6 +26,7 @@ from ocs_design.robot.files.srdf import read_group_states
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.spec.model import build_spec
+from ocs_design.text_files import safe_name
 
 GEARS = b"""[[gear]]
 name = "one to five"

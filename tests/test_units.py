@@ -10,6 +10,8 @@ from ocs_design.exceptions import QuantityError
 from ocs_design.units import (
     UNITS,
     Dimension,
+    ceiled,
+    floored,
     format_quantity,
     parse_quantity,
     si_unit,
@@ -146,3 +148,18 @@ def test_no_text_does_worse_than_a_quantity_error(text):
     except QuantityError:
         return
     assert math.isfinite(number)
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "below", "above"),
+    [
+        (0.996, 2, "0.99", "1.00"),
+        (1.0 - 1e-12, 2, "1.00", "1.00"),
+        (99.99, 1, "99.9", "100.0"),
+        (100.0 / 0.996, 0, "100", "101"),
+        (-0.05, 1, "-0.1", "0.0"),
+    ],
+)
+def test_rounded_to_one_side(value, digits, below, above):
+    """What is nearly used up is not told as free, nor nearly all as all."""
+    assert (floored(value, digits), ceiled(value, digits)) == (below, above)

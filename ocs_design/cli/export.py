@@ -58,7 +58,7 @@ def export(
     from ocs_design.report.export import print_export
     from ocs_design.report.on_request import ON_DESIGN, finishing
 
-    names = [name for text in formats or () for name in text.split(",")]
+    names = [name.strip() for text in formats or () for name in text.split(",")]
     chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
     console = make_console(color=not output.no_color)
     steps = Steps(console, quiet=output.quiet or output.as_json)

@@ -79,7 +79,11 @@ WheelSpeedMax: TypeAlias = Annotated[
 ]
 TorqueMax: TypeAlias = Annotated[
     Text,
-    typer.Option("--torque-max", metavar="TORQUE", help="Torque of a wheel. Default: not limited."),
+    typer.Option(
+        "--torque-max",
+        metavar="TORQUE",
+        help="Torque of a wheel. Default: the motor's; not limited without a motor.",
+    ),
 ]
 Alpha: TypeAlias = Annotated[
     Text, typer.Option("--alpha", metavar="ANGLE", help="Incidence angle, e.g. 40deg.")

@@ -69,6 +69,7 @@ def _options(parameters: Mapping[str, object]) -> Mapping[str, object]:
         # What repeats comes as a tuple, empty where nothing is said; a flag is then false.
         if isinstance(value, tuple):
             value = list(value)
-        if value not in (None, False, []):
+        # Zero equals False, and is a seed.
+        if value is not None and value is not False and value != []:
             stated[path] = value
     return stated

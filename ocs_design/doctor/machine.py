@@ -1,6 +1,5 @@
 """What the machine has: Python, processors, a folder to write to, OpenGL, a film maker."""
 
-import os
 import platform
 import shutil
 import subprocess
@@ -17,6 +16,7 @@ from ocs_design.doctor.finding import Finding, State
 from ocs_design.doctor.packages import DISTRIBUTION
 from ocs_design.export.ffmpeg import FFMPEG_HINT, ffmpeg_program
 from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of
+from ocs_design.processors import processors as usable
 
 _TRIAL = "ocs_design.export.drawing_trial"
 
@@ -63,12 +63,11 @@ def working_folder(folder: Path) -> Finding:
 
 def processors() -> Finding:
     """That this process may use."""
-    count = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return Finding(
         name="processors",
         state=State.WORKS,
         required=False,
-        found=str(count or 1),
+        found=str(usable()),
         purpose="flights, several at once",
     )
 

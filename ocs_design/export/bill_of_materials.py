@@ -174,7 +174,7 @@ def controller_rating(motor: Motor) -> str:
         return ""
     current = limit / (motor.gear_ratio * motor.gear_efficiency * k_t)
     saturates = motor.saturation_torque is not None and limit > motor.saturation_torque
-    return f"{'more than ' if saturates else ''}{current:.0f} A at {supply:g} V"
+    return f"{'more than ' if saturates else ''}{math.ceil(_rounded(current))} A at {supply:g} V"
 
 
 def _controllers(motor: Motor) -> Iterator[BillRow]:
@@ -219,6 +219,6 @@ def _mm(length: float) -> str:
     return f"{1e3 * length:.2f}"
 
 
-def _rounded(millimetres: float) -> float:
-    """To the nanometre: what is a whole number but for rounding is whole."""
-    return round(millimetres, 6)
+def _rounded(figure: float) -> float:
+    """To six places: what is a whole number but for rounding is whole."""
+    return round(figure, 6)

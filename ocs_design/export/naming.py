@@ -1,6 +1,5 @@
 """Names of the device's parts in every exported file, and the check that they are free."""
 
-import re
 from collections.abc import Iterable
 
 from ocs_design.design import SIDES, Device, Module
@@ -9,11 +8,6 @@ from ocs_design.exceptions import RobotError
 PREFIX = "ocs_"
 IMU = f"{PREFIX}imu"
 """Site in MJCF, at the base frame B."""
-
-
-def safe_name(name: str) -> str:
-    """A robot's name as a file name."""
-    return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
 
 
 def flywheel_name(module: Module) -> str:

@@ -1,5 +1,6 @@
 """Fills the texts in `templates/` with numbers and names."""
 
+import re
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -44,7 +45,7 @@ def quoted(text: str) -> str:
 
 def in_comment(text: str) -> str:
     """Text for an XML comment, in which two hyphens may not stand together."""
-    return text.replace("--", "- -").removesuffix("-")
+    return re.sub("-(?=-)", "- ", text).removesuffix("-")
 
 
 def numbers(values: ArrayLike) -> str:

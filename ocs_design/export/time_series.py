@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.export.naming import safe_name
+from ocs_design.text_files import safe_name
 
 
 def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:

@@ -112,7 +112,7 @@ class FreeRobot:
             y, v: pose and joints, and their rates, at lift-off.
             legs: how the joints move.
             load: see `floating_base.Load.values`.
-                duration: of the flight [s], no shorter than that of `legs`.
+            duration: of the flight [s], no shorter than that of `legs`.
         """
         steps = int(np.ceil(legs.duration / _STEP))
         h = legs.duration / steps

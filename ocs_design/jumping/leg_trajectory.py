@@ -11,8 +11,8 @@ class LegTrajectory:
 
     Attributes:
         joints: names, n of them.
-        time: from the start of the push-off [s], shape (k,), increasing, from 0; the last values
-            but one's speed and torque hold after it.
+        time: from the start of the push-off [s], shape (k,), increasing, from 0; after the last
+            the joints are held there.
         position: [rad or m], shape (k, n).
         velocity: [rad/s or m/s], shape (k, n).
         torque: of the drives [N m or N], shape (k, n).

@@ -23,7 +23,7 @@ _SWING = 1.5
 wherever they are."""
 
 _LATEST = 0.7
-"""Share of the flight after which the legs must be back."""
+"""Largest share of the flight that their swing back takes."""
 
 _LEVEL = np.radians(0.5)
 """A trunk that comes down off level by less needs no correction [rad]."""

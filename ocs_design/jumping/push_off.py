@@ -13,6 +13,7 @@ from ocs_design.jumping.mesh import NODES, SHARES
 from ocs_design.jumping.node import END_ROWS, FRICTION, Layout, Limit, limit_or_inf, node
 from ocs_design.jumping.program import Bounds, Found, Program
 from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.tree import JointKind
 
 _LEAST_LOAD = 0.2
 """Of its share of the weight that every foot bears until lift-off: less could let it slip."""
@@ -147,11 +148,13 @@ def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
     if found.excess[Limit.TORQUE] > _OVERDRAWN:
         limits = [limit_or_inf(joint.effort) for joint in body.joints]
         sentences.append(
-            _Asked("torque", "N m", found.torque, np.array(limits)).worst(body, duration)
+            _Asked("torque", ("N m", "N"), found.torque, np.array(limits)).worst(body, duration)
         )
     if found.excess[Limit.SPEED] > _OVERDRAWN:
         limits = [limit_or_inf(joint.velocity) for joint in body.joints]
-        sentences.append(_Asked("speed", "rad/s", speed, np.array(limits)).worst(body, duration))
+        sentences.append(
+            _Asked("speed", ("rad/s", "m/s"), speed, np.array(limits)).worst(body, duration)
+        )
     if found.excess[Limit.FRICTION] > _OVERDRAWN:
         sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")
     if not sentences and not found.solved:
@@ -161,10 +164,13 @@ def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Asked:
-    """What a push-off asks of the joints: values of shape (n, nodes), limits of shape (n,)."""
+    """What a push-off asks of the joints: values of shape (n, nodes), limits of shape (n,).
+
+    Its units are those of hinges and of slides.
+    """
 
     quantity: str
-    unit: str
+    units: tuple[str, str]
     values: FloatArray
     limits: FloatArray
 
@@ -173,7 +179,8 @@ class _Asked:
         share = np.abs(self.values) / self.limits[:, None]
         joint, instant = np.unravel_index(np.argmax(share), share.shape)
         needed, time = abs(self.values[joint, instant]), duration * float(SHARES[instant])
+        unit = self.units[body.joints[joint].kind is JointKind.PRISMATIC]
         return (
             f"the {self.quantity} of joint '{body.joints[joint].name}' would be {needed:.3g} "
-            f"{self.unit} at {time:.3g} s, more than its {self.limits[joint]:.3g} {self.unit}"
+            f"{unit} at {time:.3g} s, more than its {self.limits[joint]:.3g} {unit}"
         )

@@ -8,13 +8,12 @@ import msgspec
 import numpy as np
 
 from ocs_design.exceptions import OcsError
-from ocs_design.export.naming import safe_name
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
 from ocs_design.monte_carlo.reality import NAMES
 from ocs_design.monte_carlo.sample import Sample
 from ocs_design.simulation.metrics import Metrics
-from ocs_design.text_files import TextKind
+from ocs_design.text_files import TextKind, safe_name
 
 SCHEMA_VERSION = 1
 
@@ -94,7 +93,7 @@ def read_case(path: Path) -> Case:
     """
     try:
         case = msgspec.json.decode(_KIND.read(path), type=Case)
-    except msgspec.DecodeError as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: not a case: {error}", hint=_KIND.path_hint) from error
     missing = [name for name in NAMES if name not in case.values]
     if missing:

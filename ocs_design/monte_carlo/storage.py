@@ -131,5 +131,5 @@ def _identity_in(folder: Path) -> Identity | None:
     """Of the campaign that the folder holds; None if it holds none that can be read."""
     try:
         return msgspec.json.decode((folder / CAMPAIGN_FILE).read_bytes(), type=Identity)
-    except (OSError, msgspec.DecodeError):
+    except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return None

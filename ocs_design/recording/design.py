@@ -35,6 +35,7 @@ from ocs_design.recording.runs import record_run
 from ocs_design.recording.selection import record_selection
 from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver_table import kind_of
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.robot_record import RobotRecord
@@ -105,7 +106,7 @@ def _maneuver(maneuver: Maneuver) -> ManeuverRecord:
     common = {field.name for field in fields(Maneuver)}
     own = {name: value for name, value in asdict(maneuver).items() if name not in common}
     return ManeuverRecord(
-        kind=type(maneuver).__name__.lower(),
+        kind=kind_of(maneuver)[0],
         name=maneuver.name,
         gravity=maneuver.gravity,
         incidence=maneuver.incidence,

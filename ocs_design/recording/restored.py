@@ -1,8 +1,9 @@
 """From the records of `design.json` back to live values: the inverse of `design`."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,12 +14,16 @@ from ocs_design.device_checks import check_device
 from ocs_design.exceptions import OcsError, RobotError
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
+from ocs_design.requirement.values import Quantities, Value
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Format, Mount, Robot
 from ocs_design.robot.stance.base_frame import BASE_FRAME
 from ocs_design.robot.tree import Placement
 from ocs_design.robot_record import MountRecord, RobotRecord
+
+# Figures of a maneuver that its record has by themselves.
+_APART = {"name", "gravity", "incidence"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,15 +57,24 @@ def maneuver_of(record: ManeuverRecord) -> Maneuver:
     Raises:
         OcsError: it is of no known kind, or not with these figures.
     """
-    kind = MANEUVER_KINDS.get(record.kind)
-    if kind is None or not set(record.parameters) <= set(kind.values):
+    kind, stated = MANEUVER_KINDS.get(record.kind), set(record.parameters)
+    if kind is None or not set(kind.required) - _APART <= stated <= set(kind.values) - _APART:
         raise OcsError(f"maneuver {record.name!r}: no {record.kind} with these figures is known")
+    for name, value in record.parameters.items():
+        _check_figure(record, kind.values[name], name, value)
     return kind.maneuver(
         name=record.name,
         gravity=record.gravity,
         incidence=record.incidence,
         **record.parameters,
     )
+
+
+def _check_figure(record: ManeuverRecord, read: Value[Any], name: str, value: object) -> None:
+    """That it is one figure or as many as it must be."""
+    count = len(value) if isinstance(value, Sequence) else None
+    if count not in (read.counts if isinstance(read, Quantities) else (None,)):
+        raise OcsError(f"maneuver {record.name!r}: {name} of a {record.kind} is not {value!r}")
 
 
 def robot_of(record: RobotRecord, path: Path | str, package_paths: Mapping[str, Path]) -> Robot:

@@ -9,6 +9,7 @@ from rich.text import Text
 from ocs_design.report.layout import columns, heading, items, show
 from ocs_design.report.quantities import degrees, grams, megapascals, millimetres, rpm
 from ocs_design.sizing.margins.margin import Margin
+from ocs_design.units import floored
 
 COLUMNS = ("quantity", "demand", "capacity", "factor", "set by")
 
@@ -40,7 +41,7 @@ def margin_cells(margin: Margin) -> tuple[str, str, str, str, str]:
         margin.name,
         quantity(margin.demand, margin.unit),
         "-" if margin.capacity is None else quantity(margin.capacity, margin.unit),
-        "-" if factor is None else f"{factor:.2f}",
+        "-" if factor is None else floored(factor, 2),
         margin.maneuver,
     )
 

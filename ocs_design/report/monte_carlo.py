@@ -10,6 +10,7 @@ from ocs_design.monte_carlo.interval import Share
 from ocs_design.monte_carlo.severity import Cause
 from ocs_design.monte_carlo.summary import MonteCarloRecord, ScenarioSummary, Spread
 from ocs_design.report.layout import columns, fits, heading, items, note, show
+from ocs_design.units import ceiled, floored
 
 _BARS = " ▁▂▃▄▅▆▇█"
 _UNITS = (
@@ -48,11 +49,11 @@ def _print_success(console: Console, record: MonteCarloRecord) -> None:
 
 
 def share_cells(share: Share) -> tuple[str, str, str]:
-    """How many, their part of all, and the interval of that."""
+    """How many, their part of all, and the interval of that: all is said of nothing less."""
     return (
         f"{share.passed:,}",
-        f"{100.0 * share.estimate:.1f} %",
-        f"{100.0 * share.low:.1f} .. {100.0 * share.high:.1f} %",
+        f"{floored(100.0 * share.estimate, 1)} %",
+        f"{floored(100.0 * share.low, 1)} .. {ceiled(100.0 * share.high, 1)} %",
     )
 
 

@@ -1,5 +1,6 @@
 """A front in the terminal: table, plot, and why some points have no device."""
 
+import shlex
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -141,11 +142,12 @@ def print_written(
     items(console, remarks, style="yellow")
     names = ", ".join(sorted(path.name for path in folder.glob("front.*")))
     chosen = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
+    command = shlex.join(["ocs-design", "size", "--spec", str(folder / chosen.file)])
     facts(
         console,
         [
             ("front", f"{folder}/: {names}"),
-            (_value(front, chosen.value), f"ocs-design size --spec {folder / chosen.file}"),
+            (_value(front, chosen.value), command),
         ],
     )
 

@@ -8,12 +8,12 @@ import msgspec
 
 from ocs_design.design_file import OcsDesign
 from ocs_design.exceptions import OcsError
-from ocs_design.export.naming import safe_name
 from ocs_design.inspection import PostureLine
 from ocs_design.monte_carlo.storage import RESULT_FILE
 from ocs_design.monte_carlo.summary import MonteCarloRecord
 from ocs_design.report.flight import Flight, first_file, recorded_flight
 from ocs_design.report.viewer.bodies import ShownBody, read_bodies
+from ocs_design.text_files import safe_name
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,5 +75,5 @@ def read_campaign(folders: Sequence[Path]) -> MonteCarloRecord | None:
         return None
     try:
         return msgspec.json.decode(path.read_bytes(), type=MonteCarloRecord)
-    except msgspec.DecodeError as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: {error}", hint="fly the samples again") from error

@@ -19,6 +19,7 @@ from ocs_design.report.tilt_plot import off_level, tilt_plots
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.margins.margin import Margin
+from ocs_design.units import ceiled
 
 ROBOT_FACTS = ("mass", "posture", "locked inertia")
 DEVICE_FACTS = (
@@ -82,7 +83,7 @@ def _limits(design: OcsDesign) -> str:
     """What binds, and what is used up or nearly so."""
     binding = [f"{name} binds" for name in design.sizing.binding]
     tight = [
-        f"{margin.name}, {1.0 / margin.factor:.0%} used{_by(margin)}"
+        f"{margin.name}, {ceiled(100.0 / margin.factor, 0)}% used{_by(margin)}"
         for margin in recorded_margins(design)
         if margin.factor is not None and margin.factor < TIGHT
     ]

@@ -27,11 +27,6 @@ class Distribution(ABC):
     def written(self, quantity: Callable[[float], str] = repr) -> str:
         """As `normal(0.0, 0.01)`, each number as `quantity` writes it."""
 
-    @property
-    def is_certain(self) -> bool:
-        """Whether nothing is drawn."""
-        return self.at(0.0) == self.at(1.0)
-
 
 @dataclass(frozen=True)
 class Constant(Distribution):

@@ -23,7 +23,8 @@ def specification_from_options(options: Mapping[str, object]) -> Specification:
         section, name = path.split(".")
         key = all_keys()[path]
         if raw is not None:
-            option = f"--{key.option or name.replace('_', '-')}"
+            named = f"--{key.option or name.replace('_', '-')}"
+            option = "ROBOT" if path == "robot.file" else named
             sections[section][name] = faults.read(key.value, raw, option)
     if faults:
         raise UsageError("\n".join(faults))

@@ -1,7 +1,7 @@
 """Reads specification files, strictly: all faults at once, each with its key's path."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from reprlib import repr as shortened
@@ -13,7 +13,7 @@ from ocs_design.requirement.faults import Faults
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
 from ocs_design.requirement.maneuver_table import MANEUVER_KINDS, ManeuverKind
 from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
-from ocs_design.text_files import TextKind
+from ocs_design.text_files import TextKind, safe_name
 
 # A specification takes a few thousand bytes.
 _FILE = TextKind(
@@ -96,9 +96,22 @@ def _maneuvers(raw: object, gravity: float, faults: Faults) -> tuple[Maneuver, .
         _maneuver(faults.table(entry, f"maneuver[{index}]"), index, gravity, faults)
         for index, entry in enumerate(raw)
     ]
-    names = Counter(maneuver.name for maneuver in found if maneuver is not None)
-    faults.extend(f"maneuver: two are named {name!r}" for name, n in names.items() if n > 1)
-    return tuple(maneuver for maneuver in found if maneuver is not None)
+    known = tuple(maneuver for maneuver in found if maneuver is not None)
+    faults.extend(_same_files([maneuver.name for maneuver in known]))
+    return known
+
+
+def _same_files(names: Sequence[str]) -> Iterator[str]:
+    """Names that differ by less than their files' names."""
+    # Some disks do not tell capitals apart.
+    files = [safe_name(name).casefold() for name in names]
+    for file, count in Counter(files).items():
+        same = dict.fromkeys(name for name, its in zip(names, files, strict=True) if its == file)
+        if len(same) > 1:
+            told = ", ".join(map(repr, same))
+            yield f"maneuver: {told} would have the same files, give each a name of its own"
+        elif count > 1:
+            yield f"maneuver: {count if count > 2 else 'two'} are named {next(iter(same))!r}"
 
 
 def _maneuver(

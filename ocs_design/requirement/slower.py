@@ -16,7 +16,7 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
     """The same turn in `factor` times the time: a higher fall, a longer turn, a higher jump.
 
     Args:
-        maneuver: as it is. factor: above 1.
+        maneuver: as it is. factor: positive; below 1: less time.
         standing_height: of the trunk over the ground [m].
     """
     match maneuver:

@@ -15,7 +15,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.maneuver_table import kind_of
 from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
 from ocs_design.requirement.spread import Spread
-from ocs_design.requirement.values import Quantities, Quantity, Value
+from ocs_design.requirement.values import ONE_TURN, Quantities, Quantity, Value
 from ocs_design.units import Dimension, format_quantity, parse_quantity, si_unit
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
@@ -143,10 +143,15 @@ def _plain(value: object) -> str:
             # NumPy's own floats are floats too, and call themselves by their type.
             return repr(float(value))
         case Mapping():
-            pairs = ", ".join(f"{_text(name)} = {_plain(entry)}" for name, entry in value.items())
+            pairs = ", ".join(f"{_text(name)} = {_joint(entry)}" for name, entry in value.items())
             return f"{{ {pairs} }}"
         case _:
             return repr(value)
+
+
+def _joint(value: float) -> str:
+    """A bare number beyond a turn would be taken for degrees, and refused."""
+    return _plain(value) if abs(value) <= ONE_TURN else _text(f"{float(value)!r} rad")
 
 
 def _text(text: str) -> str:

@@ -5,7 +5,6 @@ computes its law while the other has the processors for its physics, and neither
 control step for threads to wake up, which took as long as the physics of a few worlds.
 """
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -17,6 +16,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from ocs_design.processors import processors
 from ocs_design.simulation.batch import Batch
 from ocs_design.simulation.recording import Recording, joined
 from ocs_design.simulation.scene import STEP
@@ -51,7 +51,7 @@ def simulate(
     done = 0.0
     for group, work in groups:
         step = worlds[group[0]].model.opt.timestep
-        dealt = _dealt(worlds, group, threads or len(os.sched_getaffinity(0)))
+        dealt = _dealt(worlds, group, threads or processors())
         batches = [
             Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate)
             for share in dealt.shares

@@ -7,8 +7,9 @@ import mujoco
 import numpy as np
 
 from ocs_design.arrays import FloatArray
-from ocs_design.design import Device
+from ocs_design.design import SIDES, Device
 from ocs_design.export.attach import attach_device
+from ocs_design.export.naming import PREFIX
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.model import build_spec, trunk_body
 from ocs_design.simulation.drives import HELD, add_drives, hold_other_joints
@@ -22,8 +23,8 @@ JUMP_STEP = 5e-4
 """Time step where legs push off [s]. As they brake after lift-off they turn at 10 to 30 rad/s, and
 Runge-Kutta at 1 ms loses up to 4e-6 of the angular momentum; at half of that, twenty times less."""
 
-WHEEL_JOINTS = ("ocs_left", "ocs_right")
-FLYWHEELS = ("ocs_left_flywheel", "ocs_right_flywheel")
+WHEEL_JOINTS = tuple(f"{PREFIX}{side}" for side in SIDES)
+FLYWHEELS = tuple(f"{joint}_flywheel" for joint in WHEEL_JOINTS)
 
 
 class Wheels(StrEnum):

@@ -31,6 +31,16 @@ def test_options_are_keys_by_their_names():
     assert specification.robot.joints == {"knee": pytest.approx(1.5707963267948966)}
 
 
+def test_zero_is_something_that_is_stated():
+    assert stated(seed=0).validation.seed == 0
+    assert stated(seed=None).validation.seed is None
+
+
+def test_a_robot_without_a_name_is_told_as_the_argument_that_it_is():
+    with pytest.raises(UsageError, match=r"^ROBOT: "):
+        stated(robot="")
+
+
 def test_what_is_declined_is_false():
     assert stated(no_validate=True).validation.enabled is False
     assert stated(no_validate=False).validation.enabled is None

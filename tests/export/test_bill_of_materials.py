@@ -109,7 +109,7 @@ def test_any_name_stays_in_its_cell_and_on_its_line(tmp_path):
 
 
 def test_motor_controllers_are_listed_without_a_mass(tmp_path):
-    """1.0 N m behind a gear of 4 with an efficiency of 0.8 and k_t of 0.025: 12.5 A."""
+    """1.0 N m behind a gear of 4 with an efficiency of 0.8 and k_t of 0.025: 12.5 A, no less."""
     drive = replace(
         EC45, torque_constant=0.025, bus_voltage=24.0, torque_limit=1.0, gear_ratio=4.0,
         gear_efficiency=0.8,
@@ -118,6 +118,6 @@ def test_motor_controllers_are_listed_without_a_mass(tmp_path):
     *parts, total = rows_of(export_bill_of_materials(device, tmp_path / "bill.csv"))
     (row,) = (part for part in parts if part["part"] == "motor controller")
     assert (row["quantity"], row["mass [g]"]) == ("2", "")
-    assert "for 12 A at 24 V" in row["source"]
+    assert "for 13 A at 24 V" in row["source"]
     weighed = sum(float(part["mass [g]"] or 0.0) for part in parts)
     assert float(total["mass [g]"]) == pytest.approx(weighed, abs=3e-3)

@@ -9,10 +9,10 @@ from designed import MOTOR, designed
 from exported import LEGGED, LEGGED_PATHS
 from robots import ROBOTS
 
-from ocs_design.design_file import design_to_json, read_design
-from ocs_design.exceptions import RobotError
+from ocs_design.design_file import ManeuverRecord, design_to_json, read_design
+from ocs_design.exceptions import OcsError, RobotError
 from ocs_design.recording.design import record_design
-from ocs_design.recording.restored import device_of, robot_of, seat_of
+from ocs_design.recording.restored import device_of, maneuver_of, robot_of, seat_of
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot_record import RobotRecord
@@ -112,3 +112,36 @@ def test_folders_of_packages_are_kept(tmp_path):
     record = through_json(RobotRecord.of(robot, {"parts": tmp_path}))
     assert record.package_paths == {"parts": str(tmp_path)}
     assert "package_paths" in json.loads(msgspec.json.encode(record))
+
+
+DROP = {"height": 1.0, "roll": 0.0, "pitch": 0.5}
+
+
+def recorded(kind, figures):
+    return ManeuverRecord(kind=kind, name="it", gravity=9.81, incidence=None, parameters=figures)
+
+
+def drop(**changes):
+    figures = (DROP | changes).items()
+    return recorded("drop", {key: value for key, value in figures if value is not None})
+
+
+def test_a_maneuver_comes_back():
+    found = maneuver_of(drop())
+    assert (found.name, found.height, found.pitch) == ("it", 1.0, 0.5)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"height": None}, {"gravity": 9.81}, {"speed": 1.0}, {"pitch": (1.0, 2.0)}],
+    ids=["missing", "twice", "unknown", "several"],
+)
+def test_a_maneuver_with_other_figures_is_refused(changes):
+    with pytest.raises(OcsError, match=r"maneuver 'it': .*drop"):
+        maneuver_of(drop(**changes))
+
+
+def test_a_row_of_the_wrong_length_is_refused():
+    figures = {"takeoff_velocity": (0.5, 2.4), "torque": (0.2, 0.8), "onset": 0.1, "duration": 0.05}
+    with pytest.raises(OcsError, match="torque of a disturbance is not"):
+        maneuver_of(recorded("disturbance", figures))

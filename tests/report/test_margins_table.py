@@ -2,9 +2,10 @@
 
 import io
 
+import pytest
 from rich.console import Console
 
-from ocs_design.report.margins import print_margins, quantity
+from ocs_design.report.margins import margin_cells, print_margins, quantity
 from ocs_design.sizing.margins.margin import Margin
 
 MARGINS = (
@@ -30,3 +31,11 @@ def test_units_of_the_bench():
     assert quantity(2.15e8, "Pa") == "215.0 MPa"
     assert quantity(0.873, "") == "87%"
     assert quantity(0.0123, "N m") == "0.0123 N m"
+
+
+@pytest.mark.parametrize(
+    ("factor", "shown"), [(0.996, "0.99"), (1.0 - 1e-9, "1.00"), (1.029, "1.02")]
+)
+def test_a_limit_that_is_exceeded_is_not_told_as_kept(factor, shown):
+    margin = Margin("torque", 1.0, factor, "N m", "", "drop")
+    assert margin_cells(margin)[3] == shown

@@ -141,6 +141,11 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ("[robot]\nfile='a'\nmass=3\ninertia=[1,1,1]", "not both"),
         (f"[requirement]\nmaneuvers='none'\n{DROP}", "contradicts"),
         (DROP + DROP, "two are named 'fall'"),
+        (
+            DROP.replace("fall", "fall 1") + DROP.replace("fall", "Fall_1"),
+            "'fall 1', 'Fall_1' would have the same files",
+        ),
+        (DROP.replace("fall", "跳") + DROP.replace("fall", "翻"), "would have the same files"),
         (FLIP.replace("duration=0.9", "duration='1.1s'"), "its turn ends 1.1 s .* lasts 0.903 s"),
         (PUSH.replace("2.4", "0.4"), "torque starts 0.1 s .* lasts 0.0815 s"),
         (PUSH.replace("2.4", "-2.4"), "lasts 0 s"),

@@ -25,6 +25,12 @@ def test_everything_that_can_be_stated_is_read_back():
     assert same(parse_specification(specification_to_toml(FULL), "written"), FULL)
 
 
+def test_a_joint_beyond_a_turn_is_read_back():
+    """A bare number so large would be taken for degrees."""
+    stated = Specification(robot=RobotSection(joints={"wheel": 4.0 * np.pi, "knee": 1.5}))
+    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
+
+
 def test_the_full_specification_states_every_key_but_the_ones_that_exclude_others():
     excluded = {"mass", "inertia", "maneuvers"}
     for name, section in SECTIONS.items():

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ocs_design.export.naming import safe_name
 from ocs_design.monte_carlo.summary import MonteCarloRecord, ScenarioSummary, Spread
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.marks import Area, Ink, Line, Mark, Rule
 from ocs_design.report.charts.scales import Axis
 from ocs_design.report.figures.amounts import in_unit
 from ocs_design.simulation.verdict import LANDING_TOLERANCE
+from ocs_design.text_files import safe_name
 
 _HEIGHT = 200.0
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 
-from ocs_design.export.naming import safe_name
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.figures.bound import bound_charts
 from ocs_design.report.figures.distributions import distribution_charts
@@ -11,6 +10,7 @@ from ocs_design.report.figures.time_series import time_charts
 from ocs_design.report.figures.top_view import ellipsoid_chart, momentum_chart
 from ocs_design.report.figures.torque_speed import torque_speed_chart
 from ocs_design.report.story import Story
+from ocs_design.text_files import safe_name
 
 FOLDER = "figures"
 """Of an output folder."""

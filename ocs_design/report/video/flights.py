@@ -7,7 +7,6 @@ import numpy as np
 
 from ocs_design.design import Device
 from ocs_design.export.film import Frames, Take, film_model, render_takes
-from ocs_design.export.naming import safe_name
 from ocs_design.report.quantities import degrees, rpm
 from ocs_design.report.video.captions import Caption, captioned
 from ocs_design.report.video.encoding import encode
@@ -15,6 +14,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.poses import Poses
 from ocs_design.simulation.scenario import Run
+from ocs_design.text_files import safe_name
 
 STRIDE = 2
 """Poses from one frame to the next: 33 frames a second of 67 poses."""

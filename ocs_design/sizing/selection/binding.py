@@ -12,7 +12,6 @@ HOUSING = "housing"
 """Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
 foot are heavier."""
 
-# Relative; a hundredth of what can be turned.
 HUB, WEB = "hub", "web"
 """Stand for the bore and the height where the hub and the web ask for more than was specified."""
 
@@ -22,6 +21,7 @@ CUT_WALL, CUT_HEIGHT = "wall for edges and holes", "height for edges and holes"
 MOUNT = "mount"
 """Stands for the radius where the motor's mount asks for a larger housing."""
 
+# Relative; a hundredth of what can be turned.
 _TOUCHING = 1e-5
 
 
