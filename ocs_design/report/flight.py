@@ -54,7 +54,9 @@ class Flight:
     @property
     def flies(self) -> bool:
         """Whether it was in the air at all; who is pushed as they stand touch down at once."""
-        return self.touchdown is None or self.touchdown > (self.lift_off or 0.0)
+        if self.lift_off is None:
+            return False
+        return self.touchdown is None or self.touchdown > self.lift_off
 
 
 def flights_of(runs: Sequence[Run]) -> tuple[Flight, ...]:
@@ -86,5 +88,7 @@ def recorded_flight(folders: Sequence[Path], record: ValidationRecord) -> Flight
         heading, *rows = csv.reader(file)
     values = np.array(rows, dtype=np.float64)
     columns = dict(zip(heading, values.T, strict=True))
-    lift_off, touchdown = (record.metrics.get(f"{name}_time") for name in ("lift_off", "touchdown"))
+    # Older versions say nothing of it, and all of theirs start in the air.
+    lift_off = record.metrics.get("lift_off_time", 0.0 if record.metrics else None)
+    touchdown = record.metrics.get("touchdown_time")
     return Flight(record.scenario, record.ocs, columns, lift_off, touchdown, None)

@@ -63,9 +63,13 @@ def run_story(run: ValidationRecord, *, with_note: bool = True) -> str:
 
 
 def flies(metrics: Mapping[str, float | bool | None]) -> bool:
-    """Whether the robot was in the air; who is shoved as they stand touch down at once."""
-    touchdown, lift_off = (metrics.get(f"{name}_time") for name in ("touchdown", "lift_off"))
-    return touchdown is None or lift_off is None or touchdown > lift_off
+    """Whether the robot was in the air; who is shoved as they stand touch down at once.
+
+    A jump whose feet never left the ground has no lift-off.
+    """
+    # Records of older versions say nothing of it, and all of theirs start in the air.
+    lift_off, touchdown = metrics.get("lift_off_time", 0.0), metrics.get("touchdown_time")
+    return lift_off is not None and (touchdown is None or touchdown > lift_off)
 
 
 def _tilt(metrics: Mapping[str, float | bool | None], when: str) -> str:

@@ -6,7 +6,7 @@ import pytest
 from rich.console import Console
 
 from ocs_design.design_file import ValidationRecord
-from ocs_design.report.flights import print_runs
+from ocs_design.report.flights import flies, print_runs
 
 METRICS = {
     "touchdown_pitch": -0.2154, "touchdown_roll": -0.117, "final_pitch": 2.718, "final_roll": 0.0,
@@ -28,3 +28,18 @@ def test_no_line_of_a_flight_is_broken(width):
     rows = [" ".join(row.split()) for row in file.getvalue().splitlines()]
     assert "disturbance pass -12.3 -6.7 155.7 0.0 -360.1 20,160 0.438" in rows
     assert rows.count("without fails -12.3 -6.7 155.7 0.0 -360.1 - -") == 2
+
+
+@pytest.mark.parametrize(
+    ("times", "flown"),
+    [
+        ({"lift_off_time": 0.1, "touchdown_time": 0.5}, True),
+        ({"lift_off_time": 0.1, "touchdown_time": None}, True),
+        ({"lift_off_time": 0.1, "touchdown_time": 0.1}, False),
+        ({"lift_off_time": None, "touchdown_time": None}, False),
+        ({"touchdown_time": 0.5}, True),
+    ],
+    ids=["jumps", "stays up", "is shoved", "never leaves the ground", "of an older version"],
+)
+def test_who_flies(times, flown):
+    assert flies(times) is flown
