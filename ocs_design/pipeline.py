@@ -152,6 +152,9 @@ def _sized_or_advised(
             return sized
     with steps.step("look for the smallest changes that would do") as step:
         advised = refused.advised(step.update)
+    if robot.warnings:
+        odd = "`ocs-design inspect` warns of what is odd in the robot's file, which may be why."
+        advised.hint = f"{odd} {advised.hint}"
     raise advised
 
 

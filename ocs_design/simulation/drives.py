@@ -20,6 +20,7 @@ from ocs_design.arrays import FloatArray
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Joint
+from ocs_design.simulation.plain import plain_actuator
 
 DRIVE = "ocs_drive_"
 """Prefix of the names of the joint drives."""
@@ -64,6 +65,7 @@ def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
             gaintype=mujoco.mjtGain.mjGAIN_FIXED,
             biastype=mujoco.mjtBias.mjBIAS_AFFINE,
         )
+        plain_actuator(drive)
         if np.isfinite(limit):
             drive.forcelimited = 1
             drive.forcerange = [-limit, limit]

@@ -13,13 +13,21 @@ _Geom = mujoco.mjtGeom
 def add_floor(spec: mujoco.MjSpec) -> None:
     """A plane at z = 0 that meets every geom of the robot, while these do not meet each other.
 
-    Neighbouring links overlap in most robot files; only contact with the floor is of interest here.
+    Neighbouring links overlap in most robot files; only contact with the floor is of interest here,
+    and it begins where they meet, not a margin before.
     """
     for geom in spec.geoms:
+        geom.margin = geom.gap = 0.0
         geom.conaffinity = int(bool(geom.contype or geom.conaffinity))
         geom.contype = 0
     spec.worldbody.add_geom(
-        name=FLOOR, type=_Geom.mjGEOM_PLANE, size=[0, 0, 1], contype=1, conaffinity=0
+        name=FLOOR,
+        type=_Geom.mjGEOM_PLANE,
+        size=[0, 0, 1],
+        contype=1,
+        conaffinity=0,
+        margin=0.0,
+        gap=0.0,
     )
 
 

@@ -14,6 +14,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.spec.model import build_spec, trunk_body
 from ocs_design.simulation.drives import HELD, add_drives, hold_other_joints
 from ocs_design.simulation.ground import FLOOR, add_floor
+from ocs_design.simulation.plain import plain_options
 from ocs_design.sizing.carrier import Carrier
 
 STEP = 1e-3
@@ -57,6 +58,7 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     add_drives(spec, robot)
     hold_other_joints(spec, robot)
     _add_sensors(spec, robot)
+    plain_options(spec)
     spec.option.timestep = STEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE

@@ -151,3 +151,13 @@ def test_a_voltage_without_a_unit_is_in_volt(folder):
             "size", *BY_HAND, *ONE_DRIVE, "--bus-voltage", voltage, "-o", voltage, "--json"
         )
         assert result.document["selection"]["bus_voltage"] == 24.0
+
+
+def test_a_refusal_points_to_what_is_odd_in_the_robots_file(folder):
+    """Here limits of a joint that leave it no room."""
+    text = re.sub('upper="[^"]*"', 'upper="-99"', SOLO12.read_text(), count=1)
+    (folder / "odd.urdf").write_text(text)
+    weak = ("--motor", "Antigravity 4004 KV300", "--json")
+    hint = run("size", "odd.urdf", *weak).document["error"]["hint"]
+    assert hint.startswith("`ocs-design inspect` warns of what is odd")
+    assert "odd" not in run("size", SOLO12, *weak).document["error"]["hint"]

@@ -17,6 +17,13 @@ _ANGLES = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
 _MOST_DECADES = 6
 
 
+_BEYOND_MEASURE = 1e100
+"""What a run that breaks down ends with, NaN and infinity included, stretches no axis."""
+
+_FAR = 1e3
+"""Lengths of an axis beyond its ends, where lines leave the chart for good."""
+
+
 @dataclass(frozen=True)
 class Axis:
     """One direction of a chart.
@@ -36,8 +43,8 @@ class Axis:
     def around(
         cls, label: str, unit: str, values: Iterable[float], *, room: float = 0.06
     ) -> "Axis":
-        """From the least to the largest of the finite values, with room at both ends."""
-        found = np.array([value for value in values if np.isfinite(value)])
+        """From the least to the largest of the values that can be drawn, with room at both ends."""
+        found = np.array([value for value in values if abs(value) < _BEYOND_MEASURE])
         low, high = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
         span = (high - low) or abs(high) or 1.0
         return cls(label, unit, low - room * span, high + room * span)
@@ -53,7 +60,8 @@ class Axis:
             low, high = log10(self.low), log10(self.high)
             positive = np.where(np.asarray(values) > 0.0, values, self.low * 1e-3)
             return np.asarray((np.log10(positive) - low) / (high - low))
-        return np.asarray((np.asarray(values) - self.low) / (self.high - self.low))
+        parts = (np.asarray(values) - self.low) / (self.high - self.low)
+        return np.asarray(np.clip(parts, -_FAR, _FAR))
 
     def ticks(self, most: int = 7) -> list[float]:
         """Round values between the ends."""

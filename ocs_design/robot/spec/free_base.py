@@ -27,11 +27,20 @@ def free_base(spec: mujoco.MjSpec, base: str, remarks: Remarks) -> None:
     for body in strangers:
         remarks.add("bodies beside the robot, left out", body.name)
         spec.delete(body)
+    _look_away(spec)
     if not is_free:
         for joint in held:
             _delete_joint(spec, joint)
         spec.body(base).add_freejoint()
     put_keyframes(spec, keyframes)
+
+
+def _look_away(spec: mujoco.MjSpec) -> None:
+    """Fix cameras and lights that follow what was left out, with which nothing could compile."""
+    there = {body.name for body in spec.bodies}
+    for each in [*spec.cameras, *spec.lights]:
+        if each.targetbody and each.targetbody not in there:
+            each.targetbody, each.mode = "", mujoco.mjtCamLight.mjCAMLIGHT_FIXED
 
 
 def _delete_joint(spec: mujoco.MjSpec, joint: mujoco.MjsJoint) -> None:

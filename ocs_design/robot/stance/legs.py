@@ -1,6 +1,6 @@
 """Finds the legs of any legged robot from its kinematic tree."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,7 @@ _SHARE_BELOW_TRUNK = 0.6
 _SHARE_AT_REST = 0.2
 _LARGEST_HEIGHT = 3.0
 _LARGEST_DEVIATION = 0.2
+_TWINS = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +51,9 @@ def find_legs(tree: Tree) -> tuple[Leg, ...]:
     * can lift the robot off the ground: stretched downwards within their limits they reach below
       the centre of mass of the robot, of the trunk, and of each body that carries the trunk, by
       60 % of their reach, and the robot's is not higher above their tips than thrice their reach;
-    * reach equally deep, to 20 %.
+    * reach equally deep, to 20 %;
+    * are all of their kind: no other limb of the same trunk has as many joints and the same length.
+      With a wrong direction for up, two legs of a quadruped may hang by chance.
 
     If several sets qualify, the one that reaches deepest wins: a humanoid's arms lose to its legs.
     Arms on a torso or a wheeled base, fingers on a palm and the one arm below a drone fail one of
@@ -99,6 +102,8 @@ def _legs_along(
         hanging = [limb for limb in limbs if limb is not None]
         carriers = [masses[i] for i in _ancestors(tree, trunk) if masses[i].mass > 0.0]
         legs = _standing(hanging, robot, carriers, up)
+        if _leave_twins(tree, ends, {leg.last for leg in legs}):
+            continue
         if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
             best = legs
     found = tuple(_leg(limb, up) for limb in best)
@@ -117,6 +122,25 @@ def _alike(tree: Tree) -> Iterator[tuple[int, list[tuple[int, int]]]]:
     for (trunk, hinges), limbs in sets.items():
         if hinges >= 2 and len(limbs) >= 2:
             yield trunk, limbs
+
+
+def _leave_twins(tree: Tree, limbs: Sequence[tuple[int, int]], chosen: Collection[int]) -> bool:
+    """Whether a limb that was not chosen is as long as one that was; each is first and last."""
+    lengths = {last: _length(tree, first, last) for first, last in limbs}
+    return any(
+        abs(lengths[one] - lengths[other]) < _TWINS * lengths[one]
+        for one in chosen
+        for other in lengths.keys() - chosen
+    )
+
+
+def _length(tree: Tree, first: int, last: int) -> float:
+    """Of a limb along its frames [m]."""
+    body, length = last, float(np.linalg.norm(farthest_frame(tree.bodies[last])))
+    while body != first:
+        length += float(np.linalg.norm(tree.bodies[body].placement.position))
+        body = tree.bodies[body].parent
+    return length
 
 
 def _far_ends(tree: Tree) -> list[int]:
