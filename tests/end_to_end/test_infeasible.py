@@ -1,6 +1,7 @@
 """What no device can do: which limits are in the way, and changes that really would do."""
 
 import re
+from pathlib import Path
 
 import pytest
 from commands import BY_HAND, SOLO12, everything_in, run
@@ -155,7 +156,7 @@ def test_a_voltage_without_a_unit_is_in_volt(folder):
 
 def test_a_refusal_points_to_what_is_odd_in_the_robots_file(folder):
     """Here limits of a joint that leave it no room."""
-    text = re.sub('upper="[^"]*"', 'upper="-99"', SOLO12.read_text(), count=1)
+    text = re.sub('upper="[^"]*"', 'upper="-99"', Path(SOLO12).read_text(), count=1)
     (folder / "odd.urdf").write_text(text)
     weak = ("--motor", "Antigravity 4004 KV300", "--json")
     hint = run("size", "odd.urdf", *weak).document["error"]["hint"]
