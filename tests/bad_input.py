@@ -42,6 +42,18 @@ CASES = {
         EXIT_3,
         "x.urdf: line 2, column .* mismatched tag in '<link></robot>'|every tag is closed",
     ),
+    "XML below a blank line": (
+        {"x.urdf": b'\n<?xml version="1.0"?><robot/>'},
+        "size x.urdf",
+        EXIT_3,
+        "x.urdf: line 2, .*declaration not at start|remove what stands before",
+    ),
+    "a zero byte": (
+        {"x.urdf": b"<robot/>\0"},
+        "size x.urdf",
+        EXIT_3,
+        "x.urdf: line 1, .*not well-formed|remove the bytes that are zero",
+    ),
     "no robot": ({"x.xml": b"<html/>"}, "size x.xml", EXIT_3, "x.xml: .*no robot.*<html>|URDF"),
     "SDF": (
         {"x.sdf": b"<sdf/>"},

@@ -8,14 +8,11 @@ import numpy as np
 from ocs_design.arrays import FloatArray
 from ocs_design.exceptions import RobotError
 from ocs_design.robot.robot import Leg, Mount
-from ocs_design.robot.stance.leg_geometry import leg_geometries, up_axis
+from ocs_design.robot.stance.leg_geometry import SIDEWAYS, axis_name, leg_geometries, up_axis
 from ocs_design.robot.tree import Placement, Tree
 
 BASE_FRAME = "ocs_base"
 """Name of the link that is fixed to the trunk where no link of the file has such a frame."""
-
-_SIDEWAYS = 0.9
-"""Smallest product of a knee's axis with the x axis of a frame whose x points sideways."""
 
 
 def with_base_frame(
@@ -43,7 +40,8 @@ def with_base_frame(
     mount = Mount(trunk, Placement(rotation, np.zeros(3)))
     told = (
         f"the frame of the trunk '{trunk}' has not x forward and z up: forward is its "
-        f"{_name(rotation[:, 0])} axis and up its {_name(rotation[:, 2])} axis, as the legs tell; "
+        f"{axis_name(rotation[:, 0])} axis and up its {axis_name(rotation[:, 2])} axis, "
+        f"as the legs tell; "
         f"the base frame '{BASE_FRAME}' is fixed to it accordingly"
     )
     return _with_link(tree, mount), mount, (told,)
@@ -53,7 +51,7 @@ def _base_rotation(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
     """B in the trunk's frame: a turn by right angles."""
     up = up_axis(tree, trunk, legs)
     knees = [geometry.plane.axis for geometry in leg_geometries(tree, trunk, legs)]
-    if up[2] == 1.0 and not all(abs(axis[0]) > _SIDEWAYS for axis in knees):
+    if up[2] == 1.0 and not all(abs(axis[0]) > SIDEWAYS for axis in knees):
         return np.eye(3)
     sideways = np.sum(np.abs(knees), axis=0) * (up == 0.0)
     left = np.eye(3)[int(np.argmax(sideways))]
@@ -70,8 +68,3 @@ def _with_link(tree: Tree, mount: Mount) -> Tree:
         link_masses={**body.link_masses, BASE_FRAME: 0.0},
     )
     return replace(tree, bodies=(*tree.bodies[:index], carrier, *tree.bodies[index + 1 :]))
-
-
-def _name(direction: FloatArray) -> str:
-    axis = int(np.argmax(np.abs(direction)))
-    return f"{'-' if direction[axis] < 0.0 else '+'}{'xyz'[axis]}"

@@ -12,6 +12,9 @@ from ocs_design.robot.stance.leg_plane import LegPlane, leg_plane
 from ocs_design.robot.stance.legs import leg_chain, trunk_body
 from ocs_design.robot.tree import Placement, Tree
 
+SIDEWAYS = 0.9
+"""Smallest product of a knee's axis with the x axis of a frame whose x points sideways."""
+
 
 @dataclass(frozen=True, eq=False)
 class LegGeometry:
@@ -82,10 +85,10 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
     if up[2] < 1.0:
         return [
             f"the legs do not hang along -z of the trunk frame '{trunk}' but along "
-            f"{_axis_name(-up)}, so roll and pitch are not what they seem: {cure}"
+            f"{axis_name(-up)}, so roll and pitch are not what they seem: {cure}"
         ]
     axes = [geometry.plane.axis for geometry in leg_geometries(tree, trunk, legs)]
-    if all(abs(axis[0]) > 0.9 for axis in axes):
+    if all(abs(axis[0]) > SIDEWAYS for axis in axes):
         return [
             f"the knees turn about the x axis of the trunk frame '{trunk}', so x seems to point "
             f"sideways, and roll and pitch are swapped: {cure}"
@@ -93,7 +96,8 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
     return []
 
 
-def _axis_name(direction: FloatArray) -> str:
+def axis_name(direction: FloatArray) -> str:
+    """As in `+x`: the axis that it is nearest to."""
     axis = int(np.argmax(np.abs(direction)))
     return f"{'-' if direction[axis] < 0.0 else '+'}{'xyz'[axis]}"
 

@@ -111,8 +111,16 @@ def _explained(content: bytes, error: ET.ParseError) -> RobotError:
         )
     return RobotError(
         f"line {line}, column {column + 1}: the XML is broken: {reason}{_excerpt(content, line)}",
-        hint="check that the file is complete and that every tag is closed",
+        hint=_cure(content),
     )
+
+
+def _cure(content: bytes) -> str:
+    if b"\0" in content and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return "remove the bytes that are zero; many editors do not show them"
+    if content.lstrip().startswith(b"<?xml") and not content.startswith(b"<?xml"):
+        return "remove what stands before `<?xml`: nothing may, not even a blank line"
+    return "check that the file is complete and that every tag is closed"
 
 
 def _excerpt(content: bytes, line: int) -> str:
