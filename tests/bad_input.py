@@ -258,11 +258,11 @@ CASES = {
     "a motor whose figures are missing": (
         {
             "s.toml": b"robot.mass = 2.5\nrobot.inertia = [0.032, 0.055, 0.07]\n"
-            b"motor.name = 'EC 20 flat 5 W 351005'"
+            b"motor.name = 'ILM70x10'"
         },
         "size --spec s.toml",
         INFEASIBLE,
-        "EC 20 flat 5 W 351005 cannot do it at 24 V|"
+        "ILM70x10 cannot do it at 24 V|"
         "gives no torque constant, resistance, peak torque or current|Choose another motor|"
         "--motors",
     ),
