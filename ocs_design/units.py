@@ -225,13 +225,13 @@ def _normalised(unit: str) -> str:
 
 
 def floored(value: float, digits: int) -> str:
-    """Never more than it is, but for what rounding took off a whole number of the last digit."""
-    return f"{math.floor(round(value * 10**digits, 6)) / 10**digits:.{digits}f}"
+    """Never more than it is, but for what is missing of the last digit by a thousandth of it."""
+    return f"{math.floor(round(value * 10**digits, 3)) / 10**digits:.{digits}f}"
 
 
 def ceiled(value: float, digits: int) -> str:
     """Never less than it is, likewise."""
-    return f"{math.ceil(round(value * 10**digits, 6)) / 10**digits:.{digits}f}"
+    return f"{math.ceil(round(value * 10**digits, 3)) / 10**digits:.{digits}f}"
 
 
 def _finite(value: float | Fraction, text: str, where: str) -> float:
