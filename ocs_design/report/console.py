@@ -96,6 +96,7 @@ class _Left(ProgressColumn):
     """The time that is left, once it is known how far a step is."""
 
     def render(self, task: Task) -> Text:
+        """Of one step, empty while nothing is known."""
         left = task.time_remaining
         known = left is not None and not task.finished
         return Text(f"{timedelta(seconds=int(left or 0))} left" if known else "", style="dim")

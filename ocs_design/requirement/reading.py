@@ -1,6 +1,5 @@
 """Reads specification files, strictly: all faults at once, each with its key's path."""
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -102,16 +101,17 @@ def _maneuvers(raw: object, gravity: float, faults: Faults) -> tuple[Maneuver, .
 
 
 def _same_files(names: Sequence[str]) -> Iterator[str]:
-    """Names that differ by less than their files' names."""
-    # Some disks do not tell capitals apart.
-    files = [safe_name(name).casefold() for name in names]
-    for file, count in Counter(files).items():
-        same = dict.fromkeys(name for name, its in zip(names, files, strict=True) if its == file)
-        if len(same) > 1:
+    """Faults of maneuvers whose figures would be written to the same files."""
+    of_file: dict[str, list[str]] = {}
+    for name in names:
+        # Some disks do not tell capitals apart.
+        of_file.setdefault(safe_name(name).casefold(), []).append(name)
+    for same in of_file.values():
+        if len(set(same)) > 1:
             told = ", ".join(map(repr, same))
             yield f"maneuver: {told} would have the same files, give each a name of its own"
-        elif count > 1:
-            yield f"maneuver: {count if count > 2 else 'two'} are named {next(iter(same))!r}"
+        elif len(same) > 1:
+            yield f"maneuver: two are named {same[0]!r}"
 
 
 def _maneuver(
