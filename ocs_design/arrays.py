@@ -1,10 +1,16 @@
-"""The array type of the package, and arrays that cannot be written to."""
+"""The array type of the package, read-only arrays, and tables of equal-length columns."""
 
-from collections.abc import Sequence
-from typing import TypeAlias, TypeVar
+from collections.abc import Callable, Sequence
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+else:
+    DataclassInstance = object
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
@@ -40,3 +46,44 @@ def put_rows(
     copy = values.copy()
     copy[rows] = others
     return copy
+
+
+class Table(DataclassInstance):
+    """Equal-length columns: the base of frozen dataclasses whose arrays have one row per entry.
+
+    A column is an array with the rows along its first axis, or a table itself. Every other field,
+    a number or a sequence that all rows share, is carried along unchanged.
+    """
+
+    def take(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Self:
+        """Table of the rows with these indices, or of those where a mask holds."""
+        return self._each(lambda column: column[rows], lambda table: table.take(rows))
+
+    def repeat(self, times: int) -> Self:
+        """Table with every row `times` times in a row, shape (n * times,)."""
+        return self._each(
+            lambda column: np.repeat(column, times, axis=0), lambda table: table.repeat(times)
+        )
+
+    def put(self, rows: NDArray[np.intp], others: Self) -> Self:
+        """Copy of the table with the rows of another one in place of these."""
+        columns: dict[str, Any] = {}
+        for field in fields(self):
+            own, other = getattr(self, field.name), getattr(others, field.name)
+            if isinstance(own, Table):
+                columns[field.name] = own.put(rows, other)
+            elif isinstance(own, np.ndarray):
+                columns[field.name] = put_rows(own, rows, other)
+        return replace(self, **columns)
+
+    def _each(
+        self, array: Callable[[NDArray[Any]], NDArray[Any]], table: Callable[["Table"], "Table"]
+    ) -> Self:
+        columns: dict[str, Any] = {}
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, Table):
+                columns[field.name] = table(value)
+            elif isinstance(value, np.ndarray):
+                columns[field.name] = array(value)
+        return replace(self, **columns)
