@@ -1,10 +1,8 @@
 """What `bound` answers: the lower bound by hand, and its curve."""
 
-from dataclasses import dataclass
-
-import msgspec
 import numpy as np
 
+from ocs_design.answers import BoundAnswer
 from ocs_design.design_file import SCHEMA_VERSION
 from ocs_design.exceptions import UsageError
 from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
@@ -12,34 +10,6 @@ from ocs_design.units import Dimension, parse_quantity
 
 CURVE_POINTS = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Rate changes and wheel speeds of the curve, over those asked for."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class BoundAnswer:
-    """A bound and where it lies on its curve; SI.
-
-    Attributes:
-        axis: "roll" or "pitch".
-        inertia: of the robot about it. rate_change, wheel_speed_max, incidence: as asked.
-        paper: inertia of the one-wheel model as the paper prints it.
-        required: the same with the paper's sign put right; the tool sizes by this one.
-        spin_inertia: of each of two wheels at the incidence, from `required`.
-        rate_changes, wheel_speeds: of the curve.
-        curve: required over robot's inertia, a row for each wheel speed.
-    """
-
-    schema_version: int
-    axis: str
-    inertia: float
-    rate_change: float
-    wheel_speed_max: float
-    incidence: float
-    paper: float
-    required: float
-    spin_inertia: float
-    rate_changes: tuple[float, ...]
-    wheel_speeds: tuple[float, ...]
-    curve: tuple[tuple[float, ...], ...]
 
 
 def bound_by_hand(
@@ -81,11 +51,6 @@ def bound_by_hand(
         wheel_speeds=speeds,
         curve=tuple(tuple(map(float, row)) for row in bound_curve(rates, speeds)),
     )
-
-
-def bound_to_json(answer: BoundAnswer) -> bytes:
-    """As indented UTF-8 JSON; what is infinite is null."""
-    return msgspec.json.format(msgspec.json.encode(answer), indent=2) + b"\n"
 
 
 def _positive(text: str, dimension: Dimension, option: str) -> float:

@@ -5,8 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import msgspec
-
+from ocs_design.answers import Exported
 from ocs_design.design_file import OcsDesign, design_to_json, read_design
 from ocs_design.export.folder import DESIGN_FILE, file_hashes, recorded_hashes, staged_folder
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS, Format, Subject, export_formats
@@ -46,24 +45,6 @@ class Order:
 
 Finish = Callable[[Order, Path], tuple[str, ...]]
 """Writes into a folder; gives what is to be told of it, one sentence each."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Exported:
-    """What was written.
-
-    Attributes:
-        folder: that it was written to.
-        files: SHA-256 of each file that was made, by its path in the folder.
-        warnings: about the robot or what was not drawn, one sentence each.
-        notes: what else is to be known of the files.
-    """
-
-    schema_version: int
-    folder: str
-    files: Mapping[str, str]
-    warnings: tuple[str, ...]
-    notes: tuple[str, ...] = ()
 
 
 def read_order(
@@ -136,11 +117,6 @@ def export_order(
 
 def _formats(order: Order, *, needs_robot: bool) -> tuple[Format, ...]:
     return tuple(each for each in order.formats if each.needs_robot is needs_robot)
-
-
-def exported_to_json(exported: Exported) -> bytes:
-    """What was written, as indented JSON."""
-    return msgspec.json.format(msgspec.json.encode(exported), indent=2) + b"\n"
 
 
 def _keep(order: Order, staging: Path) -> None:

@@ -5,8 +5,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import msgspec
-
+from ocs_design.answers import Initialized
 from ocs_design.design_file import SCHEMA_VERSION
 from ocs_design.export.single_file import write_whole
 from ocs_design.requirement.commented import commented_toml
@@ -45,22 +44,6 @@ class Start:
     def default_file(self) -> Path:
         """Named after the robot, in the working directory."""
         return Path("ocs.toml" if self.robot is None else f"{safe_name(self.robot.name)}.toml")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Initialized:
-    """What was written.
-
-    Attributes:
-        file: the specification.
-        robot: its name; None: none was given.
-        next: the command that designs by it.
-    """
-
-    schema_version: int
-    file: str
-    robot: str | None
-    next: str
 
 
 def read_start(
@@ -124,11 +107,6 @@ def write_start(
         robot=None if start.robot is None else start.robot.name,
         next=command,
     )
-
-
-def initialized_to_json(initialized: Initialized) -> bytes:
-    """As indented UTF-8 JSON."""
-    return msgspec.json.format(msgspec.json.encode(initialized), indent=2) + b"\n"
 
 
 def _solo12() -> Robot:

@@ -1,12 +1,11 @@
 """What `inspect` shows: the robot, its incidence angles, and how they move with its posture."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
-import msgspec
 import numpy as np
 
+from ocs_design.answers import Inspection, PostureLine
 from ocs_design.arrays import vector
 from ocs_design.design_file import SCHEMA_VERSION
 from ocs_design.requirement.specification import Specification
@@ -15,28 +14,6 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance.sensitivity import PostureRow, posture_sensitivity
 from ocs_design.robot_record import RobotRecord
 from ocs_design.sizing.incidence import Criterion, heading_drift, incidence_by_criterion
-
-
-@dataclass(frozen=True, kw_only=True)
-class PostureLine:
-    """The robot in one posture: diagonal of its locked inertia, and alpha* (equal-rate)."""
-
-    posture: str
-    inertia_diagonal: tuple[float, float, float]
-    incidence: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class Inspection:
-    """Everything that is known of a robot without a device."""
-
-    schema_version: int
-    robot: RobotRecord
-    joints: int
-    links: int
-    incidence_by_criterion: Mapping[str, float]
-    heading_drift: tuple[float, float]
-    incidence_by_posture: tuple[PostureLine, ...]
 
 
 def inspect_robot(
@@ -63,11 +40,6 @@ def inspect_robot(
         heading_drift=(float(roll), float(pitch)),
         incidence_by_posture=posture_lines(robot),
     )
-
-
-def inspection_to_json(inspection: Inspection) -> bytes:
-    """As indented UTF-8 JSON."""
-    return msgspec.json.format(msgspec.json.encode(inspection), indent=2) + b"\n"
 
 
 def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:

@@ -5,12 +5,11 @@ the front, so that `ocs-design size --spec points/NN.toml` makes that very devic
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-import msgspec
 import numpy as np
 
+from ocs_design.answers import Front, FrontDevice, FrontPoint
 from ocs_design.design_file import SCHEMA_VERSION
 from ocs_design.exceptions import Infeasible, SpecificationError, UsageError
 from ocs_design.requirement.specification import Specification
@@ -24,89 +23,6 @@ from ocs_design.units import format_quantity, parse_quantity, si_unit
 
 FEWEST, MOST = 2, 200
 """Points of a front."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class FrontDevice:
-    """The lightest device of a point; SI.
-
-    Attributes:
-        mass: of both modules: rims, motors, gears and housings. share: of the robot's.
-        motor, gear, material: names in the catalogue.
-        incidence: of the wheel axes.
-        outer_radius, inner_radius, height, rim_mass: of one rim.
-        spin_inertia: of one wheel, rotor included.
-    """
-
-    mass: float
-    share: float
-    motor: str
-    gear: str
-    material: str
-    incidence: float
-    outer_radius: float
-    inner_radius: float
-    height: float
-    rim_mass: float
-    spin_inertia: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class FrontPoint:
-    """One value of the figure that is varied.
-
-    Attributes:
-        value: [SI].
-        file: of its specification, below the output folder. specification: its text.
-        device: None: there is none.
-        reason: why there is none; empty if there is one.
-    """
-
-    value: float
-    file: str
-    specification: str
-    device: FrontDevice | None
-    reason: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Front:
-    """The whole answer; SI.
-
-    Attributes:
-        robot: its name. against: what is varied, by its name and for people.
-        unit: in which people read the values. si_unit: in which they are.
-        own_value: the specification's.
-        remarks: what moves with it, and what does not.
-        assumptions: of the specification as it stands.
-        points: by rising value.
-    """
-
-    schema_version: int
-    robot: str
-    against: str
-    label: str
-    unit: str
-    si_unit: str
-    own_value: float
-    remarks: tuple[str, ...]
-    assumptions: tuple[str, ...]
-    points: tuple[FrontPoint, ...]
-
-    @property
-    def spans_own_value(self) -> bool:
-        """Whether the specification's own value lies among the points."""
-        return self.points[0].value <= self.own_value <= self.points[-1].value
-
-    @property
-    def feasible(self) -> tuple[FrontPoint, ...]:
-        """Points that have a device."""
-        return tuple(point for point in self.points if point.device is not None)
-
-    @property
-    def exit_code(self) -> int:
-        """0, or 4 if no point has a device."""
-        return 0 if self.feasible else Infeasible.exit_code
 
 
 Choose = Callable[[Task], FrontDevice]
@@ -216,11 +132,6 @@ def draw_front(
         assumptions=task.resolved.assumptions,
         points=tuple(points),
     )
-
-
-def front_to_json(front: Front) -> bytes:
-    """As indented UTF-8 JSON."""
-    return msgspec.json.format(msgspec.json.encode(front), indent=2) + b"\n"
 
 
 def _point(index: int, value: float, task: Task, sweep: Sweep, choose: Choose) -> FrontPoint:

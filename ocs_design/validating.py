@@ -5,22 +5,17 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 
-import msgspec
-
 from ocs_design.design import Device
 from ocs_design.design_file import (
     ControlRecord,
     OcsDesign,
-    ValidationRecord,
     design_to_json,
     read_design,
 )
 from ocs_design.exceptions import OcsError
 from ocs_design.export.folder import DESIGN_FILE, file_hashes, staged_folder
 from ocs_design.jumping.jump import JumpPlans
-from ocs_design.monte_carlo.reality import NAMES
-from ocs_design.monte_carlo.sample import Sample
-from ocs_design.monte_carlo.summary import MonteCarloRecord
+from ocs_design.monte_carlo.summary import Validated
 from ocs_design.recording.control import (
     control_of,
     flight_options,
@@ -72,42 +67,6 @@ class Task:
     references: Mapping[str, Trajectory]
     jumps: Mapping[str, JumpPlans]
     warnings: tuple[str, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Drawn:
-    """The one sample that was flown: its values by name, SI."""
-
-    seed: int
-    index: int
-    values: Mapping[str, float]
-
-    @classmethod
-    def of(cls, sample: Sample) -> "Drawn":
-        """The record of a sample."""
-        values = dict(zip(NAMES, sample.values.tolist(), strict=True))
-        return cls(seed=sample.seed, index=sample.index, values=values)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Validated:
-    """What came of it.
-
-    `validation` has the flights as designed, or those of `sample` if that is given.
-    """
-
-    schema_version: int
-    design: str
-    robot: str
-    warnings: tuple[str, ...]
-    validation: tuple[ValidationRecord, ...]
-    sample: Drawn | None = None
-    monte_carlo: MonteCarloRecord | None = None
-
-    @property
-    def exit_code(self) -> int:
-        """0, or 1 if a scenario does not pass with the device."""
-        return 1 if any(run.ocs and run.passed is not True for run in self.validation) else 0
 
 
 def read_task(
@@ -184,11 +143,6 @@ def validated(task: Task, runs: tuple[Run, ...]) -> Validated:
         warnings=task.warnings,
         validation=tuple(map(record_run, runs)),
     )
-
-
-def validated_to_json(found: Validated) -> bytes:
-    """What came of it, as indented JSON; numbers that are not finite are null."""
-    return msgspec.json.format(msgspec.json.encode(found), indent=2) + b"\n"
 
 
 def write_flights(

@@ -12,20 +12,13 @@ from ocs_design.export.watching import check_display, watch_takes
 from ocs_design.monte_carlo.cluster import Cluster
 from ocs_design.monte_carlo.replay import replayed
 from ocs_design.monte_carlo.running import ThisMachine, Workers
+from ocs_design.monte_carlo.summary import Drawn, Validated
 from ocs_design.report.console import Steps
 from ocs_design.requirement.specification import Specification
 from ocs_design.sampling import Order, campaign_of, case_for, fly_order
 from ocs_design.simulation.poses import POSE_RATE
 from ocs_design.simulation.scenario import Run
-from ocs_design.validating import (
-    Drawn,
-    Task,
-    Validated,
-    fly_again,
-    read_task,
-    validated,
-    write_flights,
-)
+from ocs_design.validating import Task, fly_again, read_task, validated, write_flights
 
 
 @dataclass(frozen=True, kw_only=True)

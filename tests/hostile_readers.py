@@ -10,12 +10,13 @@ from commands import BOUND, ROOT, run
 from exported import MJCF
 from urdf_text import LIMIT, inertial, joint, link, robot
 
+from ocs_design.answers import to_json
 from ocs_design.catalogue.gears import load_gears
 from ocs_design.catalogue.motors import load_motors
 from ocs_design.design_file import design_to_json, read_design
 from ocs_design.exceptions import OcsError
 from ocs_design.export.folder import recorded_hashes
-from ocs_design.inspection import inspect_robot, inspection_to_json
+from ocs_design.inspection import inspect_robot
 from ocs_design.recording.restored import device_of, robot_of, seat_of
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve
@@ -142,7 +143,7 @@ class Reader:
 
 def read_and_inspect(path: Path) -> object:
     """As `ocs-design inspect` does."""
-    return inspection_to_json(inspect_robot(Specification(robot=RobotSection(file=str(path)))))
+    return to_json(inspect_robot(Specification(robot=RobotSection(file=str(path)))))
 
 
 def read_and_build(path: Path) -> object:

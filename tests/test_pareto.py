@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from fronts import by_hand, infeasible, made_up, make_front
 
+from ocs_design.answers import to_json
 from ocs_design.exceptions import Infeasible, QuantityError, SpecificationError, UsageError
-from ocs_design.pareto import draw_front, front_to_json, front_values, read_task
+from ocs_design.pareto import draw_front, front_values, read_task
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.specification import RequirementSection, Specification
 from ocs_design.requirement.sweeps import SWEEPS
@@ -114,7 +115,7 @@ def test_other_errors_are_not_taken_for_an_answer(task):
 
 def test_the_document_holds_everything(task):
     front = make_front(task)
-    document = json.loads(front_to_json(front))
+    document = json.loads(to_json(front))
     assert document["against"] == "time"
     assert document["si_unit"] == "s"
     assert document["own_value"] == front.own_value

@@ -133,7 +133,8 @@ def inspect(
     no_color: opt.NoColor = False,
 ) -> None:
     """Show what is read from a robot: mass, inertia, posture, incidence angles, warnings."""
-    from ocs_design.inspection import inspect_robot, inspection_to_json
+    from ocs_design.answers import to_json
+    from ocs_design.inspection import inspect_robot
     from ocs_design.report.console import make_console
     from ocs_design.report.inspection import print_inspection
 
@@ -143,7 +144,7 @@ def inspect(
         strict=strict,
     )
     if as_json:
-        sys.stdout.buffer.write(inspection_to_json(inspection))
+        sys.stdout.buffer.write(to_json(inspection))
     else:
         print_inspection(make_console(color=not no_color), inspection, verbose=verbose)
 
@@ -168,7 +169,8 @@ def bound(
     no_color: opt.NoColor = False,
 ) -> None:
     """The paper's lower bound on the wheels' inertia by hand, and its curve."""
-    from ocs_design.bounding import bound_by_hand, bound_to_json
+    from ocs_design.answers import to_json
+    from ocs_design.bounding import bound_by_hand
     from ocs_design.report.bound import print_bound
     from ocs_design.report.console import make_console
 
@@ -180,7 +182,7 @@ def bound(
         axis=axis,
     )
     if as_json:
-        sys.stdout.buffer.write(bound_to_json(answer))
+        sys.stdout.buffer.write(to_json(answer))
     else:
         print_bound(make_console(color=not no_color), answer)
 

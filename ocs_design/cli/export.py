@@ -52,8 +52,9 @@ def export(
     the robot's own file as it was, and its meshes. In the design's own folder, with --force, only
     what is made anew is replaced.
     """
+    from ocs_design.answers import to_json
     from ocs_design.export.formats import formats_named
-    from ocs_design.exporting import export_order, exported_to_json, read_order
+    from ocs_design.exporting import export_order, read_order
     from ocs_design.report.console import Steps, make_console
     from ocs_design.report.export import print_export
     from ocs_design.report.on_request import ON_DESIGN, finishing
@@ -76,6 +77,6 @@ def export(
             order, out or order.default_folder, force=output.force, finish=finish
         )
     if output.as_json:
-        sys.stdout.buffer.write(exported_to_json(exported))
+        sys.stdout.buffer.write(to_json(exported))
     elif not output.quiet:
         print_export(console, exported)

@@ -54,8 +54,9 @@ def init(
     On a terminal it asks for the robot, what it shall do, the room and the battery; an empty answer
     takes the default. Options are written as stated. With a robot, defaults are scaled to it.
     """
+    from ocs_design.answers import to_json
     from ocs_design.export.single_file import check_file_target
-    from ocs_design.initializing import initialized_to_json, read_start, write_start
+    from ocs_design.initializing import read_start, write_start
     from ocs_design.report.console import make_console
     from ocs_design.report.initialized import print_initialized
 
@@ -75,7 +76,7 @@ def init(
         start, chosen = _ask_task(start)
     written = write_start(start, file, chosen=chosen, package_paths=packages, force=force)
     if as_json:
-        sys.stdout.buffer.write(initialized_to_json(written))
+        sys.stdout.buffer.write(to_json(written))
     elif not quiet:
         print_initialized(make_console(color=not no_color), written)
 

@@ -65,14 +65,9 @@ def pareto(
     Every value is a design of its own, without its proof by simulation: `ocs-design size --spec
     DIR/points/NN.toml` makes, exports and flies it. Exit code 4: no value has a device.
     """
+    from ocs_design.answers import to_json
     from ocs_design.export.folder import check_target
-    from ocs_design.pareto import (
-        draw_front,
-        front_to_json,
-        front_values,
-        lightest_device,
-        read_task,
-    )
+    from ocs_design.pareto import draw_front, front_values, lightest_device, read_task
     from ocs_design.report.console import Steps, make_console
     from ocs_design.report.front_files import write_front
     from ocs_design.report.pareto import print_front, print_written
@@ -92,7 +87,7 @@ def pareto(
         front = draw_front(task, sweep, values, lightest_device, step.update)
     remarks = () if out is None else write_front(front, out, force=output.force)
     if output.as_json:
-        sys.stdout.buffer.write(front_to_json(front))
+        sys.stdout.buffer.write(to_json(front))
     elif not output.quiet:
         print_front(console, front)
         print_written(console, front, out, remarks)

@@ -83,8 +83,8 @@ def validate(
     console = make_console(color=not output.no_color)
     steps = Steps(console, quiet=output.quiet or output.as_json)
     with steps.step("load the simulator"):
+        from ocs_design.answers import to_json
         from ocs_design.report.validation import print_validated
-        from ocs_design.validating import validated_to_json
         from ocs_design.validation import Request, validate_design, watch
     request = Request(
         design=design,
@@ -103,7 +103,7 @@ def validate(
     )
     answer = validate_design(request, steps)
     if output.as_json:
-        sys.stdout.buffer.write(validated_to_json(answer.found))
+        sys.stdout.buffer.write(to_json(answer.found))
     elif not output.quiet:
         print_validated(console, answer.found, answer.folder, answer.files)
     if view:

@@ -2,41 +2,16 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from importlib import metadata
 
-from ocs_design.doctor.finding import Finding
+from ocs_design.doctor.finding import Examination
 from ocs_design.doctor.machine import machine_findings
 from ocs_design.doctor.packages import DISTRIBUTION, package_findings, wanted_packages
 from ocs_design.exceptions import MissingToolError
 
 SCHEMA_VERSION = 1
 """Of the document; that of `design_file` cannot be had where a package is missing."""
-
-
-@dataclass(frozen=True)
-class Examination:
-    """What was found.
-
-    Attributes:
-        version: of this program.
-        machine, packages: findings of each.
-    """
-
-    version: str
-    machine: tuple[Finding, ...]
-    packages: tuple[Finding, ...]
-
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        """All of them."""
-        return (*self.machine, *self.packages)
-
-    @property
-    def exit_code(self) -> int:
-        """0, or that of a missing tool if nothing works before something is mended."""
-        broken = any(finding.stands_in_the_way for finding in self.findings)
-        return MissingToolError.exit_code if broken else 0
 
 
 def examine() -> Examination:

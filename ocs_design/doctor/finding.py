@@ -1,7 +1,9 @@
-"""What was found of one thing that the program uses."""
+"""What was found of the machine and of each thing that the program uses."""
 
 from dataclasses import dataclass
 from enum import StrEnum
+
+from ocs_design.exceptions import MissingToolError
 
 
 class State(StrEnum):
@@ -41,3 +43,28 @@ class Finding:
     def stands_in_the_way(self) -> bool:
         """Whether nothing works before it is mended."""
         return self.required and self.state is not State.WORKS
+
+
+@dataclass(frozen=True)
+class Examination:
+    """What was found.
+
+    Attributes:
+        version: of this program.
+        machine, packages: findings of each.
+    """
+
+    version: str
+    machine: tuple[Finding, ...]
+    packages: tuple[Finding, ...]
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """All of them."""
+        return (*self.machine, *self.packages)
+
+    @property
+    def exit_code(self) -> int:
+        """0, or that of a missing tool if nothing works before something is mended."""
+        broken = any(finding.stands_in_the_way for finding in self.findings)
+        return MissingToolError.exit_code if broken else 0

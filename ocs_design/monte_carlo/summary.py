@@ -6,10 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.arrays import FloatArray
+from ocs_design.design_file import ValidationRecord
 from ocs_design.monte_carlo.advice import advice
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.interval import CONFIDENCE, Share, share
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
+from ocs_design.monte_carlo.reality import NAMES
+from ocs_design.monte_carlo.sample import Sample
 from ocs_design.monte_carlo.severity import Cause, attitude_error, causes, order
 
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
@@ -128,3 +131,39 @@ def _spread(values: FloatArray) -> Spread | None:
     return Spread(
         quantiles=tuple(np.quantile(finite, QUANTILES).tolist()), counts=tuple(counts.tolist())
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawn:
+    """The one sample that was flown: its values by name, SI."""
+
+    seed: int
+    index: int
+    values: Mapping[str, float]
+
+    @classmethod
+    def of(cls, sample: Sample) -> "Drawn":
+        """The record of a sample."""
+        values = dict(zip(NAMES, sample.values.tolist(), strict=True))
+        return cls(seed=sample.seed, index=sample.index, values=values)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Validated:
+    """What came of it.
+
+    `validation` has the flights as designed, or those of `sample` if that is given.
+    """
+
+    schema_version: int
+    design: str
+    robot: str
+    warnings: tuple[str, ...]
+    validation: tuple[ValidationRecord, ...]
+    sample: Drawn | None = None
+    monte_carlo: MonteCarloRecord | None = None
+
+    @property
+    def exit_code(self) -> int:
+        """0, or 1 if a scenario does not pass with the device."""
+        return 1 if any(run.ocs and run.passed is not True for run in self.validation) else 0

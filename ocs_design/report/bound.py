@@ -3,7 +3,7 @@
 import numpy as np
 from rich.console import Console
 
-from ocs_design.bounding import BoundAnswer
+from ocs_design.answers import BoundAnswer
 from ocs_design.report.layout import columns, facts, heading, note, show
 from ocs_design.report.quantities import degrees, inertia, rpm
 

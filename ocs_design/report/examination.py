@@ -5,8 +5,7 @@ from collections.abc import Iterable
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.doctor.examination import Examination
-from ocs_design.doctor.finding import Finding, State
+from ocs_design.doctor.finding import Examination, Finding, State
 from ocs_design.report.layout import columns, heading, items, show
 
 _STYLES = {

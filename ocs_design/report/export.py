@@ -2,7 +2,7 @@
 
 from rich.console import Console
 
-from ocs_design.exporting import Exported
+from ocs_design.answers import Exported
 from ocs_design.report.flights import print_files
 from ocs_design.report.layout import note, print_warnings
 

@@ -6,8 +6,8 @@ from dataclasses import asdict
 from io import StringIO
 from pathlib import Path
 
+from ocs_design.answers import Front, to_json
 from ocs_design.export.folder import FRONT_FILE, staged_folder
-from ocs_design.pareto import Front, front_to_json
 from ocs_design.report.charts.files import write_charts
 from ocs_design.report.figures.front import front_chart
 
@@ -42,7 +42,7 @@ def write_front(front: Front, folder: Path, *, force: bool = False) -> tuple[str
             (staging / point.file).write_text(point.specification, encoding="utf-8")
         (staging / "front.csv").write_text(front_csv(front), encoding="utf-8", newline="")
         remarks = write_charts([front_chart(front)], staging)
-        (staging / FRONT_FILE).write_bytes(front_to_json(front))
+        (staging / FRONT_FILE).write_bytes(to_json(front))
     return remarks
 
 

@@ -2,7 +2,7 @@
 
 from rich.console import Console
 
-from ocs_design.initializing import Initialized
+from ocs_design.answers import Initialized
 from ocs_design.report.layout import facts
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.inspection import Inspection
+from ocs_design.answers import Inspection
 from ocs_design.report.layout import columns, heading, note, show
 from ocs_design.report.quantities import signed
 from ocs_design.report.terminal import print_joints, print_robot

@@ -11,7 +11,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from ocs_design.pareto import Front, FrontDevice, FrontPoint
+from ocs_design.answers import Front, FrontDevice, FrontPoint
 from ocs_design.report.braille import Canvas, Scale, frame
 from ocs_design.report.layout import INDENT, columns, facts, heading, items, note, show
 from ocs_design.report.quantities import grams, tenths

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import msgspec
 
+from ocs_design.answers import PostureLine
 from ocs_design.design_file import OcsDesign
 from ocs_design.exceptions import OcsError
-from ocs_design.inspection import PostureLine
 from ocs_design.monte_carlo.storage import RESULT_FILE
 from ocs_design.monte_carlo.summary import MonteCarloRecord
 from ocs_design.report.flight import Flight, first_file, recorded_flight

@@ -6,12 +6,12 @@ from pathlib import Path
 from rich.console import Console
 
 from ocs_design.monte_carlo.reality import key_of
+from ocs_design.monte_carlo.summary import Drawn, Validated
 from ocs_design.report.flights import print_files, print_runs, print_verdicts
 from ocs_design.report.layout import facts, heading, print_warnings
 from ocs_design.report.monte_carlo import print_monte_carlo
 from ocs_design.requirement.reality import spreads
 from ocs_design.units import format_quantity
-from ocs_design.validating import Drawn, Validated
 
 
 def print_validated(

@@ -11,8 +11,8 @@ from loading import HEAVY, modules_loaded_by
 from rich.console import Console
 
 from ocs_design.doctor import packages
-from ocs_design.doctor.examination import Examination, examination_to_json, examine
-from ocs_design.doctor.finding import Finding, State
+from ocs_design.doctor.examination import examination_to_json, examine
+from ocs_design.doctor.finding import Examination, Finding, State
 from ocs_design.exceptions import MissingToolError
 from ocs_design.report.examination import print_examination
 

@@ -11,8 +11,8 @@ import pytest
 from fronts import by_hand, infeasible, make_front
 from rich.console import Console
 
+from ocs_design.answers import to_json
 from ocs_design.exceptions import OutputError
-from ocs_design.pareto import front_to_json
 from ocs_design.report.charts.marks import Points
 from ocs_design.report.charts.png import png_chart
 from ocs_design.report.charts.svg import svg_file
@@ -120,7 +120,7 @@ def test_the_folder_is_complete(front, tmp_path):
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.*"))
     points = [f"points/{index:02d}.toml" for index in range(1, 10)]
     assert names == ["front.csv", "front.json", "front.png", "front.svg", *points]
-    assert (folder / "front.json").read_bytes() == front_to_json(front)
+    assert (folder / "front.json").read_bytes() == to_json(front)
     assert (folder / "points" / "03.toml").read_text() == front.points[2].specification
     assert [path.name for path in tmp_path.iterdir()] == ["front"]
 

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ocs_design.answers import Front, FrontPoint
 from ocs_design.arrays import FloatArray
-from ocs_design.pareto import Front, FrontPoint
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.marks import SERIES, Ink, Line, Mark, Points, Rule
 from ocs_design.report.charts.scales import Axis

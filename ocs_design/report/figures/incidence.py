@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ocs_design.answers import PostureLine
 from ocs_design.design_file import OcsDesign
-from ocs_design.inspection import PostureLine
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.marks import Ink, Mark, Points, Rule
 from ocs_design.report.charts.scales import Axis

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from stories import TOUCHDOWN, design, flight, story
 
-from ocs_design.inspection import PostureLine
+from ocs_design.answers import PostureLine
 from ocs_design.report.charts.files import write_svgs
 from ocs_design.report.charts.marks import Ink, Line, Points
 from ocs_design.report.figures.bound import bound_charts
