@@ -13,13 +13,14 @@ import mujoco
 import numpy as np
 from mujoco.rollout import Rollout
 
-from ocs_design.design import Device, Flywheel, Module, Motor
+from ocs_design.actuation.drive import Drive
+from ocs_design.device.device import Device, Flywheel, Module
+from ocs_design.device.layout import module_axes
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder, start_states
-from ocs_design.sizing.incidence import module_axes
 
 SECONDS = 0.2
 WORLDS = 256
@@ -34,7 +35,7 @@ def paper_device() -> Device:
     axes = module_axes(np.radians(40.0))
     left = Module("left", axes[:, 0], np.array([0.0, 0.04, 0.05]))
     right = Module("right", axes[:, 1], np.array([0.0, -0.04, 0.05]))
-    motor = Motor("unlimited", 0.0, None, np.inf, None, 0.0, "benchmark")
+    motor = Drive("unlimited", 0.0, None, np.inf, None, 0.0, "benchmark")
     return Device(np.radians(40.0), (left, right), wheel, motor)
 
 

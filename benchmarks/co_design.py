@@ -16,17 +16,15 @@ from math import degrees, radians
 
 from legged_robots import ROBOTS
 
-from ocs_design.exceptions import Infeasible
+from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Drop, Flip
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import RobotSection, Specification
-from ocs_design.robot.bounds import size
+from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.co_design.problem import CoDesignProblem
-from ocs_design.sizing.co_design.solving import co_design
-from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.problem import SelectionProblem, selection_problem
 from ocs_design.sizing.selection.select import select
-from ocs_design.sizing.selection.stated import selection_problem
+from ocs_design.sizing.trajectory.co_design import co_design
 
 FILES = {
     "Solo12": "solo_description/robots/solo12.urdf",
@@ -85,11 +83,11 @@ def row(problem: SelectionProblem) -> str:
         chosen = select(problem, advise=False).best
     except Infeasible:
         return " | ".join(["none", *["–"] * 8])
-    found = co_design(CoDesignProblem(problem, chosen))
+    found = co_design(problem, chosen)
     return (
         f"{chosen.motor.name}, {chosen.gear.name} | {1e3 * found.selected_mass:.1f} g "
-        f"| {1e3 * found.mass:.1f} g | {found.gain:+.2%} "
-        f"| {degrees(chosen.incidence):.1f}° to {degrees(found.shape.incidence):.1f}° "
+        f"| {1e3 * found.device.mass:.1f} g | {found.gain:+.2%} "
+        f"| {degrees(chosen.incidence):.1f}° to {degrees(found.device.incidence):.1f}° "
         f"| {found.status} | {found.iterations} | {found.fine_violation:.0e} "
         f"| {found.seconds:.1f} s"
     )

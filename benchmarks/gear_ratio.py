@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 from co_design import FILES, robot_problem
 
-from ocs_design.drive.gear import DIRECT, Gear
-from ocs_design.exceptions import Infeasible
+from ocs_design.actuation.motor import DIRECT, Gear
+from ocs_design.common.errors import Infeasible
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import select

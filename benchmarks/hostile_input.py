@@ -34,7 +34,7 @@ def run_reader(name, seed, count):
     """Read `count` mutated files in this process; prints a line for each that does it harm."""
     from hostile_readers import READERS, SLOW_READERS
 
-    from ocs_design.exceptions import OcsError
+    from ocs_design.common.errors import OcsError
 
     reader, draw = (READERS | SLOW_READERS)[name], random.Random(seed)
     hang = LONG_HANG if name in SLOW_READERS else HANG
@@ -109,7 +109,7 @@ def guided(name, seconds):
     with atheris.instrument_imports(include=["ocs_design"]):
         from hostile_readers import READERS
 
-        from ocs_design.exceptions import OcsError
+        from ocs_design.common.errors import OcsError
     reader = READERS[name]
     folder = tempfile.mkdtemp()
     os.chdir(folder)

@@ -19,7 +19,7 @@ import mujoco
 import numpy as np
 from batch import paper_device
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.jump import JumpPlan, jump_of
 from ocs_design.jumping.legged_body import LeggedBody
 from ocs_design.jumping.planning import JumpPlanner
@@ -27,8 +27,8 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.legs import LegReferences
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.schedule import LegReferences
 from ocs_design.simulation.world import World, WorldBuilder
 
 ROBOTS = Path(sysconfig.get_paths()["purelib"]) / "cmeel.prefix/share/example-robot-data/robots"
@@ -168,7 +168,7 @@ def planned(planner: JumpPlanner, body: LeggedBody, maneuver: Maneuver) -> tuple
     jump = jump_of(maneuver)
     assert jump is not None
     before = time.process_time()
-    plan = planner.plan(jump, body.trunk)
+    plan = planner.plan(jump, body.trunk).plan
     return plan, time.process_time() - before
 
 

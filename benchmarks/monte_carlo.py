@@ -1,4 +1,4 @@
-"""What reality costs: Monte Carlo against open-loop `rollout`, threads and Dask workers, memory.
+"""Cost of uncertainty: Monte Carlo against open-loop `rollout`, threads, Dask workers, memory.
 
 Ratios of one process on one machine, each case once a round so that other load meets all alike:
 
@@ -21,13 +21,12 @@ from pathlib import Path
 from batch import interleaved, open_loop_rate, paper_device, spread
 from distributed import LocalCluster
 
-from ocs_design.monte_carlo.blocks import blocks_of
 from ocs_design.monte_carlo.campaign import make_campaign
-from ocs_design.monte_carlo.cluster import Cluster
-from ocs_design.monte_carlo.reality import Reality
-from ocs_design.monte_carlo.running import ThisMachine, run_campaign
+from ocs_design.monte_carlo.outcomes import blocks_of
+from ocs_design.monte_carlo.running import Cluster, ThisMachine, run_campaign
+from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.reality import RealitySection
+from ocs_design.requirement.uncertainty import UncertaintySection
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Options
@@ -50,7 +49,7 @@ def drops(until=None):
         references={},
         jumps={},
         can_stand=[True],
-        reality=Reality.of(RealitySection(), robot, device),
+        uncertainty=Uncertainty.of(UncertaintySection(), robot, device),
         seed=0,
     )
     (flight,) = campaign.flights
@@ -73,7 +72,7 @@ def speed():
         {
             "open loop": lambda: open_loop_rate(worlds, 2),
             "law alone": lambda: closed(plain),
-            "with reality": lambda: closed(worlds),
+            "with uncertainty": lambda: closed(worlds),
         }
     )
     print(f"{WORLDS} worlds, 2 threads")

@@ -13,9 +13,8 @@ import time
 import numpy as np
 from legged_robots import LEGGED, ROBOTS
 
-from ocs_design.designing import design_device
-from ocs_design.exceptions import OcsError
-from ocs_design.mounting import Clearance, mounting_of
+from ocs_design.common.errors import OcsError
+from ocs_design.device.records import Clearance
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import (
     NO_MOTOR,
@@ -23,10 +22,12 @@ from ocs_design.requirement.specification import (
     RobotSection,
     Specification,
 )
-from ocs_design.robot.bounds import size
-from ocs_design.robot.obstacles.obstacles import obstacles_of
+from ocs_design.robot.collision import collision_model
+from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.free_place import Sizes, place_free
+from ocs_design.sizing.design import design_device
+from ocs_design.sizing.mounting import mounting_of
+from ocs_design.sizing.placement import Sizes, place_free
 
 
 def main() -> None:
@@ -45,7 +46,7 @@ def row(name: str) -> str:
     robot = read_robot(path)
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
     start = time.perf_counter()
-    obstacles_of(robot)
+    collision_model(robot)
     found = place_free(robot, resolved.envelope)
     seconds = time.perf_counter() - start
     center = found.place.left_of_reach(Sizes.of(resolved.envelope).largest)

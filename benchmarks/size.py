@@ -17,11 +17,11 @@ import mujoco
 import numpy as np
 from paired import alternate, print_pairs, run_process
 
-from ocs_design.pipeline import design_ocs
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.specification import MotorSection, RobotSection, Specification
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import World, WorldBuilder
+from ocs_design.workflows.size import design_ocs
 
 LIMITS = {"auto": 1.5, "none": 1.2}
 """By what is said of the motor."""

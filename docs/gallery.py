@@ -21,9 +21,9 @@ import mujoco
 import numpy as np
 from PIL import Image
 
-from ocs_design.design_file import OcsDesign, read_design
-from ocs_design.drive.gear import DIRECT
-from ocs_design.export.camera_views import shown_box
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.device.records import OcsDesign, read_design
+from ocs_design.export.offscreen import shown_box
 from ocs_design.report.quantities import grams, tenths
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.specification import RobotSection, Specification

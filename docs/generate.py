@@ -31,7 +31,7 @@ from blocks import table
 from typer.core import TyperCommand, TyperGroup
 
 from ocs_design.cli.app import app
-from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
+from ocs_design.requirement.maneuver import MANEUVER_KINDS
 from ocs_design.requirement.specification import SECTIONS, keys_of
 from ocs_design.requirement.values import Choice, Value
 

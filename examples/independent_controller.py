@@ -24,6 +24,8 @@ STABLE = 0.5  # share of what an explicit step bears
 
 def main() -> None:
     """Fly and compare."""
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
     folder = Path(sys.argv[1])
     design = json.loads((folder / "design.json").read_text())
     # With limited motors drops and flips follow trajectories that ocs-design plans each time anew.

@@ -13,13 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.assembly import assemble_driven
+from ocs_design.actuation.drive import missing_figures
+from ocs_design.actuation.motor import DIRECT, Motor
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motors
-from ocs_design.design import Device
-from ocs_design.drive.gear import DIRECT
-from ocs_design.drive.line import missing_figures
-from ocs_design.drive.motor import Motor
+from ocs_design.device.device import Device
+from ocs_design.parts.module import drive_moments
+from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.reader import read_robot
@@ -29,10 +29,9 @@ from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world import WorldBuilder
-from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.margins.driven_wheel import DrivenWheel
+from ocs_design.sizing.assembly import assemble_driven
+from ocs_design.sizing.motion import DrivenWheel
 from ocs_design.sizing.placement import place_on_top
-from ocs_design.sizing.standing import drive_moments
 
 ROBOT = Path(__file__).with_name("solo12.urdf")
 INNER_RADIUS, OUTER_RADIUS, HEIGHT = 0.022, 0.03, 0.01  # m

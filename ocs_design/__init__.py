@@ -7,15 +7,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ocs_design.design import Device
-    from ocs_design.design_file import OcsDesign, read_design
-    from ocs_design.exceptions import Infeasible, OcsError
-    from ocs_design.pipeline import Outcome, design_ocs
+    from ocs_design.common.errors import Infeasible, OcsError
+    from ocs_design.device.device import Device
+    from ocs_design.device.records import OcsDesign, read_design
     from ocs_design.requirement.reading import read_specification
     from ocs_design.requirement.specification import Specification
     from ocs_design.robot.manual import robot_by_hand
     from ocs_design.robot.reader import read_robot
     from ocs_design.robot.robot import Robot
+    from ocs_design.workflows.size import Outcome, design_ocs
 
 __version__ = "0.1.0"
 
@@ -35,15 +35,15 @@ __all__ = [
 ]
 
 _MODULES = {
-    "Device": "design",
-    "Infeasible": "exceptions",
-    "OcsDesign": "design_file",
-    "OcsError": "exceptions",
-    "Outcome": "pipeline",
+    "Device": "device.device",
+    "Infeasible": "common.errors",
+    "OcsDesign": "device.records",
+    "OcsError": "common.errors",
+    "Outcome": "workflows.size",
     "Robot": "robot.robot",
     "Specification": "requirement.specification",
-    "design_ocs": "pipeline",
-    "read_design": "design_file",
+    "design_ocs": "workflows.size",
+    "read_design": "device.records",
     "read_robot": "robot.reader",
     "read_specification": "requirement.reading",
     "robot_by_hand": "robot.manual",

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from types import FrameType
 
-from ocs_design.exceptions import INTERRUPTED
+from ocs_design.common.errors import INTERRUPTED
 
 # Seconds; impatient people press twice, and what is being tidied up is not to be left half done.
 _SAME_INTERRUPT = 1.0

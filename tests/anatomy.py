@@ -4,10 +4,10 @@ from functools import cache
 
 from robots import ROBOTS
 
-from ocs_design.robot.files.loader import load
+from ocs_design.robot.legs import find_legs
+from ocs_design.robot.reader import load
 from ocs_design.robot.robot import Leg
-from ocs_design.robot.stance.legs import find_legs
-from ocs_design.robot.stance.stand import Stand, stand
+from ocs_design.robot.stance import Stand, stand
 from ocs_design.robot.tree import Tree
 
 ANATOMY = {

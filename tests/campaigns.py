@@ -5,15 +5,14 @@ from dataclasses import replace
 from wheels import driven_device
 
 from ocs_design.monte_carlo.campaign import make_campaign
-from ocs_design.monte_carlo.reality import Reality
-from ocs_design.requirement.distributions import Constant
+from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.reality import RealitySection
+from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.scenario import Options
 
 NOTHING = {
     name: Constant(1.0 if name == "contact_friction" else 0.0)
-    for name in RealitySection.__dataclass_fields__
+    for name in UncertaintySection.__dataclass_fields__
 }
 """A world that is as designed."""
 
@@ -29,7 +28,7 @@ def short_campaign(robot, stated=None, *, device=None, seed=7, until=0.6, drop_o
         references={},
         jumps={},
         can_stand=[True] if drop_only else [True, True],
-        reality=Reality.of(stated or RealitySection(), robot, device),
+        uncertainty=Uncertainty.of(stated or UncertaintySection(), robot, device),
         seed=seed,
     )
     flights = [

@@ -4,12 +4,12 @@ from functools import cache
 
 from fronts import by_hand
 
-from ocs_design.designing import design_device
 from ocs_design.requirement.specification import (
     MotorSection,
     OcsSection,
     Specification,
 )
+from ocs_design.sizing.design import design_device
 
 MOTOR = "EC 45 flat 70 W 411812"
 

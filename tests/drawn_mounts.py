@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ocs_design.drive.gear import GearRoom
-from ocs_design.drive.mounting import BoltCircle, Face, Mounting
+from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 
 
 def with_mounts(problem, seed):

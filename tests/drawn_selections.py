@@ -13,16 +13,14 @@ import numpy as np
 from drawn_mounts import with_mounts
 from rims import PAPER_STEEL, STEEL
 
+from ocs_design.actuation.motor import DIRECT, Gear, Motor
 from ocs_design.catalogue.materials import Material
-from ocs_design.drive.gear import DIRECT, Gear
-from ocs_design.drive.motor import Motor
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.requirement.requirement import Requirement
+from ocs_design.parts.rim import NO_CUTS, RimCuts
+from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.placement import place_on_top
-from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 ALUMINIUM = Material("aluminium", 2700.0, 250e6, 300e6, 0.33, "for tests")

@@ -5,9 +5,9 @@ import math
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from ocs_design.drawing.sheet import Circle, Line, Text
-from ocs_design.drawing.wheel import WheelDrawing
-from ocs_design.exceptions import PartError
+from ocs_design.common.errors import PartError
+from ocs_design.export.drawing.sheet import Circle, Line, Text
+from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
 
 MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e", "tool": "ocs-design 0.1.0"}

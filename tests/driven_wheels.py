@@ -1,9 +1,8 @@
 """Motors, gears and wheels for tests; figures of no real product but where said."""
 
+from ocs_design.actuation.motor import DIRECT, Gear, Motor
 from ocs_design.catalogue.materials import Material
-from ocs_design.drive.gear import DIRECT, Gear
-from ocs_design.drive.motor import Motor
-from ocs_design.sizing.margins.driven_wheel import DrivenWheel
+from ocs_design.sizing.motion import DrivenWheel
 
 STEEL = Material("steel", 8000.0, 215e6, 505e6, 0.29, "test")
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.simulation.legs import LegReferences
-from ocs_design.simulation.recording import Recording
+from ocs_design.common.arrays import FloatArray
+from ocs_design.simulation.batch import Recording
+from ocs_design.simulation.schedule import LegReferences
 from ocs_design.simulation.world import World
 
 

@@ -1,11 +1,11 @@
 """Fronts of made-up devices, for what is printed and written of them."""
 
-from ocs_design.answers import FrontDevice
-from ocs_design.exceptions import Infeasible
-from ocs_design.pareto import draw_front, front_values, read_task
+from ocs_design.common.errors import Infeasible
+from ocs_design.device.answers import FrontDevice
 from ocs_design.requirement.froude import SOLO12
 from ocs_design.requirement.specification import RobotSection, Specification
-from ocs_design.requirement.sweeps import sweep_of
+from ocs_design.requirement.sweep import sweep_of
+from ocs_design.workflows.pareto import draw_front, front_values, read_task
 
 
 def by_hand():

@@ -1,12 +1,17 @@
 """The worked example of the theory's optimal control problems, and bodies like it."""
 
+from dataclasses import dataclass, replace
+
+import casadi as ca
 import numpy as np
 
-from ocs_design.drive.line import DriveLine
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.device.layout import module_axes
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.sizing.gyrostat import Gyrostat
-from ocs_design.sizing.incidence import module_axes
-from ocs_design.sizing.optimal_control.boundary import boundary
+from ocs_design.sizing.trajectory.boundary import boundary
+from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.program import Dimensions, Plant, Solution, Turn, solve
 
 DIAGONAL = np.diag([0.030, 0.0535, 0.068])
 FULL = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])
@@ -35,3 +40,43 @@ def drop(pitch, roll=0.0):
 
 def asked(maneuver):
     return boundary(maneuver, STANDING)
+
+
+@dataclass(frozen=True)
+class SmallestWheels:
+    """The program's answer, and the gyrostat with the wheels that it found, flown."""
+
+    gyrostat: Gyrostat
+    incidence: float
+    solution: Solution
+    fine: FineGrid
+    trajectory: Trajectory
+
+
+def smallest_wheels(guess, asked, *, free_incidence=False, start=None, passes=(16, 48)):
+    """The least spin inertia, and the incidence of a pair if it is free, with all else as guessed.
+
+    The inertia of the whole with its wheels braked stays as it is.
+    """
+    incidence = float(np.arctan2(guess.axes[0, 0], guess.axes[1, 0]))
+    low, high = (1e-3, np.pi / 2.0 - 1e-3) if free_incidence else (incidence, incidence)
+
+    def plant(dimensions):
+        factor, angle = dimensions[0], dimensions[1]
+        fixed = Plant.of(guess)
+        axes = fixed.axes
+        if free_incidence:
+            sine, cosine = ca.sin(angle), ca.cos(angle)
+            axes = ca.vertcat(ca.horzcat(sine, -sine), ca.horzcat(cosine, cosine), ca.MX(1, 2))
+        return fixed._replace(spin_inertia=factor * guess.spin_inertia, axes=axes)
+
+    turn = Turn(asked, guess, plant, start)
+    lower, upper = np.array([1e-2, low]), np.array([1e2, high])
+    free = Dimensions(np.array([1.0, incidence]), lower, upper, lambda dimensions: dimensions[0])
+    solution = solve([turn], EC_45_FLAT, passes, free)
+    factor, incidence = solution.dimensions
+    axes = module_axes(incidence) if free_incidence else guess.axes
+    found = replace(guess, spin_inertia=guess.spin_inertia * factor, axes=axes)
+    flown = replace(turn, gyrostat=found)
+    flight = fly(found, EC_45_FLAT, asked, flown.outline, solution.motions[0])
+    return SmallestWheels(found, incidence, solution, flight.fine, flight.trajectory)

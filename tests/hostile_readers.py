@@ -10,24 +10,22 @@ from commands import BOUND, ROOT, run
 from exported import MJCF
 from urdf_text import LIMIT, inertial, joint, link, robot
 
-from ocs_design.answers import to_json
 from ocs_design.catalogue.gears import load_gears
 from ocs_design.catalogue.motors import load_motors
-from ocs_design.design_file import design_to_json, read_design
-from ocs_design.exceptions import OcsError
+from ocs_design.common.errors import OcsError
+from ocs_design.common.files import safe_name
+from ocs_design.device.answers import to_json
+from ocs_design.device.records import design_to_json, read_design
 from ocs_design.export.folder import recorded_hashes
-from ocs_design.inspection import inspect_robot
-from ocs_design.recording.restored import device_of, robot_of, seat_of
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import RobotSection, Specification
-from ocs_design.robot.bounds import size
-from ocs_design.robot.files.mesh_bounds import mesh_bounds
-from ocs_design.robot.files.srdf import read_group_states
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.model import build_spec
-from ocs_design.text_files import safe_name
+from ocs_design.robot.meshes import mesh_bounds, size
+from ocs_design.robot.mujoco_model import build_spec
+from ocs_design.robot.reader import read_group_states, read_robot
+from ocs_design.workflows.inspect import inspect_robot
+from ocs_design.workflows.restoring import device_of, robot_of, seat_of
 
 GEARS = b"""[[gear]]
 name = "one to five"

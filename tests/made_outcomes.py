@@ -3,7 +3,7 @@
 import numpy as np
 
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
-from ocs_design.monte_carlo.reality import NAMES
+from ocs_design.monte_carlo.uncertainty import NAMES
 
 
 def made_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):

@@ -2,20 +2,17 @@
 
 import numpy as np
 
-from ocs_design.drive.mounting import BoltCircle
-from ocs_design.fasteners import screw
-from ocs_design.parts.cage import cage_part
+from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.motor import BoltCircle
+from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
-from ocs_design.parts.mount import Mount
-from ocs_design.parts.outline import arc_slot, circle, rectangle, ring_of_points
 from ocs_design.parts.part import Part
+from ocs_design.parts.printed import MountHoles
+from ocs_design.parts.shapes import ArcSlot, Disc, Rectangle
 from ocs_design.parts.solids import Prism, hollow_cylinder
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
-from ocs_design.parts.wheel_parts import wheel_parts
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
 from ocs_design.robot.tree import Placement
-from ocs_design.sizing.cage import Cage
-from ocs_design.sizing.mount import MountHoles
 
 STEEL, ALUMINIUM = 7860.0, 2700.0
 
@@ -45,14 +42,14 @@ SLOTTED = Part(
     "slotted",
     1270.0,
     (
-        Prism(circle(0.03), 0.0, 0.004),
-        Prism(rectangle(-0.01, 0.01, 0.004, 0.03), -0.002, 0.002, ACROSS),
+        Prism(Disc(0.03), 0.0, 0.004),
+        Prism(Rectangle(-0.01, 0.01, 0.004, 0.03), -0.002, 0.002, ACROSS),
     ),
     (
-        Prism(arc_slot(0.024, 0.0034, 0.3, 0.3 + np.pi / 2), 0.0, 0.004),
-        Prism(arc_slot(0.024, 0.0034, 3.4, 3.4 + np.pi / 2), 0.0, 0.004),
-        *(Prism(circle(0.0012, c), 0.002, 0.004) for c in ring_of_points(0.016, 5).tolist()),
-        Prism(circle(0.004, (0.0, 0.02)), -0.002, 0.002, ACROSS),
+        Prism(ArcSlot(0.024, 0.0034, 0.3, 0.3 + np.pi / 2), 0.0, 0.004),
+        Prism(ArcSlot(0.024, 0.0034, 3.4, 3.4 + np.pi / 2), 0.0, 0.004),
+        Prism(Disc(0.0012, (0.0, -0.016)), 0.002, 0.004, count=5),
+        Prism(Disc(0.004, (0.0, 0.02)), -0.002, 0.002, ACROSS),
     ),
 )
 """A base with a plate on it: arcs, blind holes and a solid across the rest."""
@@ -62,7 +59,7 @@ TUBE = Part("tube", 1000.0, (hollow_cylinder(0.01, 0.02, -0.01, 0.03),))
 HOUSING = Housing(
     0.03,
     0.01,
-    Mount(0.004, (HoleRing(0.0095, 3, 0.0017), HoleRing(0.016, 1, 0.003))),
+    MountHoles(0.004, BoltCircle(0.0346, 3, "M3")),
     screw("M2"),
 )
 FOOT = Foot(HOUSING)

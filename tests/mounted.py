@@ -7,10 +7,8 @@ import mujoco
 import pytest
 from robots import ROBOTS
 
-from ocs_design.designing import design_device
+from ocs_design.device.naming import flywheel_names
 from ocs_design.export.attach import attach_device
-from ocs_design.export.naming import flywheel_names
-from ocs_design.mounting import mounting_of
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import (
     NO_MOTOR,
@@ -18,14 +16,14 @@ from ocs_design.requirement.specification import (
     RobotSection,
     Specification,
 )
-from ocs_design.robot.bounds import size
+from ocs_design.robot.meshes import size
+from ocs_design.robot.mujoco_model import build_spec, posture_qpos
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.contacts import posture_qpos
-from ocs_design.robot.spec.model import build_spec
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.trunk import TrunkChain
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world import TrunkChain, WorldBuilder
+from ocs_design.sizing.design import design_device
+from ocs_design.sizing.mounting import mounting_of
 
 MEASURED = [
     "solo_description/robots/solo12",

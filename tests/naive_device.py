@@ -24,9 +24,8 @@ from naive_module import (
 from naive_wheel import hub_body
 from standing_parts import driving_parts
 
+from ocs_design.parts.rim import LIGAMENT, SEAT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.sizing.rim_cuts import LIGAMENT
-from ocs_design.sizing.web import SEAT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
 
 USABLE = 0.95
 """Of voltage and current."""

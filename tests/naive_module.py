@@ -6,20 +6,18 @@ over the mass, about the wheel's centre: X across the axis, Y along it away from
 up.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 from math import pi
 
 import numpy as np
+from naive_outline import green
 
-from ocs_design.fasteners import screw
-from ocs_design.parts import foot as made_foot
-from ocs_design.parts import housing as made_housing
-from ocs_design.parts.foot import Foot
+from ocs_design.actuation.fasteners import screw
+from ocs_design.parts import motor_mount
+from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot
 from ocs_design.parts.housing import Housing
-from ocs_design.parts.mount import Mount, made_mount
-from ocs_design.sizing import motor_mount
-from ocs_design.sizing.foot import BASE_THICKNESS, PLATE_THICKNESS
-from ocs_design.sizing.housing import CLEARANCE, DENSITY, LID_SCREW, WALL
+from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, WALL, MountHoles
 
 GAP = CLEARANCE + WALL
 MARKS = ((24, 2.5e-3), (12, 4.0e-3))
@@ -120,38 +118,39 @@ def per_value(figures, values):
 
 @lru_cache(maxsize=100_000)
 def _housing_outline(outer):
-    found = made_housing._outline(Housing(outer, 0.01, Mount(), LID_SCREW)).moments()
-    return found.area, np.trace(found.second)
+    area, _, second = green(Housing(outer, 0.01, MountHoles(), LID_SCREW).band.outline())
+    return area, np.trace(second)
 
 
 @lru_cache(maxsize=100_000)
 def _slots(height):
-    foot = Foot(Housing(1.0, height, Mount(), LID_SCREW))
-    found = [slot.outline.moments() for slot in made_foot._slots(foot)]
-    second = sum(each.second for each in found)
-    return sum(each.area for each in found), second[0, 0], second[1, 1]
+    slot = Foot(Housing(1.0, height, MountHoles(), LID_SCREW)).slot.outline()
+    found = [green(slot), green(slot.turned(pi))]
+    second = sum(each[2] for each in found)
+    return sum(each[0] for each in found), second[0, 0], second[1, 1]
 
 
 @lru_cache(maxsize=100_000)
 def _plate(outer, mount):
-    """About the wheel's axis; the outline stands on the base, and its second axis points down."""
+    """About the wheel's axis; the outline is about the underside, its second axis down."""
     foot = Foot(Housing(outer, 0.01, mount, LID_SCREW))
-    up = foot.wheel_height - BASE_THICKNESS
-    found = made_foot._plate(foot).moments().shifted(np.array([0.0, up]))
-    return found.area, -found.first[1], found.second[0, 0], found.second[1, 1]
+    drawn, up = foot.plate.outline(), np.array([0.0, foot.wheel_height])
+    area, first, second = green(replace(drawn, points=drawn.points + up))
+    return area, -first[1], second[0, 0], second[1, 1]
 
 
 @lru_cache(maxsize=1000)
 def _mount_outline(mount):
     """Of screw circles of three and more; the first axis is as good as the other."""
-    found = [hole.outline.moments() for hole in mount.holes(0.0, 1.0)]
-    second = sum((each.second for each in found), np.zeros((2, 2)))
-    return sum(each.area for each in found), (second[0, 0], second[1, 1])
+    holes = [one for hole in mount.prisms(0.0, 1.0) for one in hole.each()]
+    found = [green(hole.outline) for hole in holes]
+    second = sum((each[2] for each in found), np.zeros((2, 2)))
+    return sum(each[0] for each in found), (second[0, 0], second[1, 1])
 
 
 def mount_of(motor, gear):
     """The holes of floor and plate."""
-    return made_mount(motor_mount.mount_of(motor, gear.room).holes)
+    return motor_mount.mount_of(motor, gear.room).holes
 
 
 def screws_around(outer, height):

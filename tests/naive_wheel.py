@@ -5,7 +5,7 @@ from math import pi
 
 import numpy as np
 
-from ocs_design.sizing.web import WEB_DENSITY, WEB_THICKNESS
+from ocs_design.parts.rim import WEB_DENSITY, WEB_THICKNESS
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from hypothesis import strategies as st
 from numpy import pi
 
 from ocs_design.catalogue.materials import Material
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.sizing.rim_problem import RimProblem
+from ocs_design.requirement.froude import Envelope
+from ocs_design.sizing.bound.rim_problem import RimProblem
 
 PAPER_STEEL = Material("stainless-paper", 7860.0, None, None, None, "Roscia 2023, Table 2")
 STEEL = Material("steel", 7850.0, 250e6, 400e6, 0.3, "for tests")

@@ -3,7 +3,22 @@
 import sysconfig
 from pathlib import Path
 
+import pytest
+
 SITE_PACKAGES = Path(sysconfig.get_paths()["purelib"])
 ROBOTS = SITE_PACKAGES / "cmeel.prefix" / "share" / "example-robot-data" / "robots"
 SOLO12 = ROBOTS / "solo_description" / "robots" / "solo12.urdf"
 ALL_URDFS = sorted(ROBOTS.rglob("*.urdf"))
+
+
+def one_of_each(robots):
+    """Paths or names of robots as parameters: of each maker's folder the first, the rest slow."""
+    seen, marked = set(), []
+    for robot in robots:
+        name = str(robot.relative_to(ROBOTS)) if isinstance(robot, Path) else robot
+        family = name.partition("/")[0]
+        marked.append(
+            pytest.param(robot, id=name, marks=[pytest.mark.slow] if family in seen else [])
+        )
+        seen.add(family)
+    return marked

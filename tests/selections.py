@@ -6,13 +6,11 @@ import numpy as np
 from drawn_mounts import with_mounts
 from rims import STEEL
 
+from ocs_design.actuation.motor import DIRECT, Gear, Motor
 from ocs_design.catalogue.materials import Material
-from ocs_design.drive.gear import DIRECT, Gear
-from ocs_design.drive.motor import Motor
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.requirement.requirement import Requirement
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.placement import Place
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.search import search

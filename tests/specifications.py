@@ -3,9 +3,7 @@
 from dataclasses import fields, replace
 from math import pi, radians
 
-from ocs_design.requirement.distributions import Uniform
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
-from ocs_design.requirement.reality import RealitySection
 from ocs_design.requirement.specification import (
     FlywheelSection,
     MotorSection,
@@ -15,6 +13,7 @@ from ocs_design.requirement.specification import (
     Specification,
     ValidationSection,
 )
+from ocs_design.requirement.uncertainty import UncertaintySection, Uniform
 
 MANEUVERS = (
     Disturbance(
@@ -77,7 +76,9 @@ FULL = Specification(
         desaturate=True,
         video=True,
     ),
-    reality=RealitySection(**{item.name: Uniform(0.01, 1 / 30) for item in fields(RealitySection)}),
+    reality=UncertaintySection(
+        **{item.name: Uniform(0.01, 1 / 30) for item in fields(UncertaintySection)}
+    ),
     maneuvers=MANEUVERS,
 )
 

@@ -7,17 +7,14 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from ocs_design.drive.mounting import Face
-from ocs_design.fasteners import screw
-from ocs_design.parts.cage import cage_part
-from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.motor import Face
+from ocs_design.parts.cage import FLOOR, FRONT_GAP, cage_part
+from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
-from ocs_design.parts.mount import made_mount
-from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.cage import FLOOR, FRONT_GAP
-from ocs_design.sizing.foot import BASE_THICKNESS, PLATE_THICKNESS
-from ocs_design.sizing.housing import LID_SCREW, WALL
-from ocs_design.sizing.motor_mount import mount_of
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.printed import LID_SCREW, WALL
+from ocs_design.robot.mass import MassProperties
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """From the frame of the left wheel, its y axis down, to that of its module."""
@@ -25,8 +22,7 @@ UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 
 def made_foot(motor, gear, outer, height):
     """With the housing that it carries."""
-    mount = made_mount(mount_of(motor, gear.room).holes)
-    return Foot(Housing(outer, height, mount, LID_SCREW))
+    return Foot(Housing(outer, height, mount_of(motor, gear.room).holes, LID_SCREW))
 
 
 def standing_parts(motor, gear, outer, height):

@@ -6,10 +6,9 @@ from functools import cache
 import numpy as np
 from designed import MOTOR, designed
 
-from ocs_design.design_file import ValidationRecord
-from ocs_design.recording.design import record_design
-from ocs_design.report.flight import Flight
-from ocs_design.report.story import Story
+from ocs_design.device.records import ValidationRecord
+from ocs_design.report.story import Flight, Story
+from ocs_design.workflows.recording import record_design
 
 TOUCHDOWN = 0.4
 """[s]"""

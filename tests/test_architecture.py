@@ -1,5 +1,6 @@
 """What the shape of the package promises: imports in one direction, and a quick start."""
 
+import ast
 import tomllib
 from pathlib import Path
 
@@ -20,39 +21,76 @@ def test_the_check_for_heavy_modules_sees_them():
 
 
 def test_reading_a_robot_needs_no_simulator_and_no_solver():
-    loaded = modules_loaded_by("import ocs_design.robot.urdf.reading")
+    loaded = modules_loaded_by("import ocs_design.robot.urdf")
     assert loaded.isdisjoint({"mujoco", "cvxpy", "trimesh", "casadi"})
 
 
 def test_a_part_needs_no_cad_kernel_until_it_is_written():
-    loaded = modules_loaded_by("import ocs_design.parts.foot, ocs_design.parts.step")
+    loaded = modules_loaded_by("import ocs_design.parts.foot, ocs_design.export.formats")
     assert loaded.isdisjoint({"OCP", "manifold3d", "trimesh", "mujoco", "cvxpy"})
 
 
-def test_every_module_stands_in_the_layers():
+def test_every_folder_stands_in_the_layers():
     """`exhaustive` would catch it too, but only where import-linter is installed."""
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"][
         "contracts"
     ]
     layers = next(contract["layers"] for contract in contracts if contract["type"] == "layers")
-    named = {name.strip(" ()") for layer in layers for name in layer.replace("|", ":").split(":")}
+    named = {name.strip() for layer in layers for name in layer.split("|")}
     present = {path.stem for path in PACKAGE.iterdir() if path.suffix == ".py" or is_package(path)}
-    assert present - {"__init__"} <= named
+    assert present - {"__init__"} == named
 
 
 def is_package(path):
     return (path / "__init__.py").exists()
 
 
-def test_files_stay_readable():
-    """One purpose a file: at most 300 lines."""
-    too_long = {
-        str(path.relative_to(ROOT)): lines
-        for folder in (PACKAGE, ROOT / "tests")
-        for path in folder.rglob("*.py")
-        if (lines := len(path.read_text().splitlines())) > 300
+DEEPEST = 30
+"""Modules in the longest chain of imports."""
+
+
+def test_the_chain_of_imports_is_short():
+    chain = longest_chain(imports_of(PACKAGE))
+    assert len(chain) <= DEEPEST, " -> ".join(chain)
+
+
+def test_the_longest_chain_is_found():
+    imports = {"a": {"b", "c"}, "b": {"c"}, "c": {"d"}, "d": set(), "e": {"d"}}
+    assert longest_chain(imports) == ("a", "b", "c", "d")
+
+
+def imports_of(package):
+    """Modules that each module of the package imports, wherever it does."""
+    trees = {name_of(path, package): ast.parse(path.read_text()) for path in package.rglob("*.py")}
+    return {
+        name: {
+            source
+            for node in ast.walk(tree)
+            if isinstance(node, ast.ImportFrom)
+            for source in (f"{node.module}.{alias.name}" for alias in node.names)
+            for source in ((source if source in trees else node.module),)
+            if source in trees and source not in (name, package.name)
+        }
+        for name, tree in trees.items()
     }
-    assert not too_long
+
+
+def name_of(path, package):
+    parts = path.relative_to(package.parent).with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
+
+
+def longest_chain(imports):
+    chains = {}
+
+    def chain(name):
+        if name not in chains:
+            chains[name] = ()
+            below = max((chain(other) for other in imports[name]), key=len, default=())
+            chains[name] = (name, *below)
+        return chains[name]
+
+    return max(map(chain, sorted(imports)), key=len)
 
 
 def test_types_are_shipped():

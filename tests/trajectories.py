@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.reference import Turn
-from ocs_design.sizing.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory import Trajectory
+from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 
 def from_rest(body: Gyrostat, turn: Turn, *, samples: int = 4001) -> Trajectory:

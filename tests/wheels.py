@@ -5,13 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.design import Device, Flywheel, Module, Motor
+from ocs_design.actuation.drive import Drive
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Device, Flywheel, Module
+from ocs_design.device.layout import module_axes
+from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.froude import Scale
-from ocs_design.robot.mass_properties import MassProperties, combine
+from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.incidence import module_axes
 
 # Table 2 of the paper; its h of 10.2 mm contradicts its own mass and inertia.
 PAPER_WHEEL = Flywheel(
@@ -37,8 +38,8 @@ def motor(
     no_load_speed: float = np.inf,
     stall_torque: float | None = None,
     torque_limit: float | None = None,
-) -> Motor:
-    return Motor("test", 0.0, stall_torque, no_load_speed, torque_limit, 0.0, "made up")
+) -> Drive:
+    return Drive("test", 0.0, stall_torque, no_load_speed, torque_limit, 0.0, "made up")
 
 
 # docs/theory.md, What a motor can do: maxon's EC 45 flat 70 W at 24 V, its drive limited to 1 N m.
@@ -48,7 +49,7 @@ EC45 = replace(
 EC45_BODY = Carrier(mass=0.15, axial_inertia=3.5e-5, transverse_inertia=2.5e-5)
 
 
-def paper_device(incidence: float = np.radians(40.0), drive: Motor | None = None) -> Device:
+def paper_device(incidence: float = np.radians(40.0), drive: Drive | None = None) -> Device:
     axes = module_axes(incidence)
     return Device(
         incidence,
@@ -62,7 +63,7 @@ def paper_device(incidence: float = np.radians(40.0), drive: Motor | None = None
 
 
 def driven_device(
-    incidence: float = np.radians(40.0), drive: Motor = EC45, carrier: Carrier = EC45_BODY
+    incidence: float = np.radians(40.0), drive: Drive = EC45, carrier: Carrier = EC45_BODY
 ) -> Device:
     """The paper's rim on a real motor."""
     spin_inertia = PAPER_WHEEL.spin_inertia + drive.rotor_inertia
@@ -70,7 +71,7 @@ def driven_device(
     return replace(paper_device(incidence, drive), flywheel=wheel, carrier=carrier)
 
 
-def geared(ratio: float, *, reverses: bool = False, inertia: float = 2e-6) -> Motor:
+def geared(ratio: float, *, reverses: bool = False, inertia: float = 2e-6) -> Drive:
     """That motor behind a gear (docs/theory.md): s N J_r of its rotor adds to the momentum."""
     sense = -1.0 if reverses else 1.0
     rotor = EC45.rotor_inertia

@@ -11,12 +11,11 @@ from dataclasses import dataclass, replace
 from math import degrees, pi, radians, sqrt
 from pathlib import Path
 
-from ocs_design.requirement.motor_choice import motor_choice
+from ocs_design.requirement.choices import motor_choice
 from ocs_design.requirement.reading import read_specification
-from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.resolving import read_stated_robot, resolve
 from ocs_design.requirement.specification import AUTO, MotorSection, Specification
-from ocs_design.requirement.stated_robot import read_stated_robot
-from ocs_design.robot.bounds import size
+from ocs_design.robot.meshes import size
 from ocs_design.sizing.placement import place_at, place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate

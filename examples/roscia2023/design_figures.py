@@ -8,17 +8,17 @@ import numpy as np
 from scipy.optimize import brentq
 from statements import Statement, number, taken
 
-from ocs_design.requirement.bound import corrected_bound, elroy_beanie_bound
-from ocs_design.requirement.specification import Specification
-from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.robot.reader import read_robot
-from ocs_design.robot.robot import Robot
-from ocs_design.sizing.cylinder import (
+from ocs_design.device.layout import Criterion, incidence_by_criterion
+from ocs_design.parts.rim import (
     cylinder_mass,
     cylinder_spin_inertia,
     cylinder_transverse_inertia,
 )
-from ocs_design.sizing.incidence import Criterion, incidence_by_criterion
+from ocs_design.requirement.bound import corrected_bound, elroy_beanie_bound
+from ocs_design.requirement.specification import Specification
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.robot import Robot
 
 INNER_RADIUS, OUTER_RADIUS, DENSITY = 0.022, 0.030, 7860.0
 PRINTED_HEIGHT, HEIGHT = 0.0102, 0.0100

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 
-from ocs_design.drive.tilt_inertia import TiltInertia
+from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.requirement.bound import bound_curve
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.robot.robot import Robot

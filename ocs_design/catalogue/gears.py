@@ -1,19 +1,306 @@
-"""Gears that can stand between a motor and its wheel, each with where its figures come from."""
+"""Gears that can stand between a motor and its wheel, belts among them, each with its source.
 
-from collections.abc import Iterable, Mapping
+Nothing here is measured. Pulleys are solid discs of the pitch diameter, a flange's thickness
+wider than the belt on either side; the belt is the shortest that clears them. Webbed pulleys are
+lighter.
+"""
+
+import itertools
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
 from functools import cache
 from pathlib import Path
+from typing import Annotated
 
 import msgspec
 
-from ocs_design.catalogue.cells import read_cells
-from ocs_design.catalogue.entries import extended, load_entries, packaged
-from ocs_design.catalogue.gear_sheet import GEAR_COLUMNS, GearSheet
-from ocs_design.catalogue.names import entry
-from ocs_design.catalogue.table import Row
-from ocs_design.drive.gear import Gear
+from ocs_design.actuation.motor import Gear, GearRoom
+from ocs_design.catalogue.rows import entry, extended, fraction, load_entries, packaged
 
-REQUIRED_COLUMNS = frozenset({"name", "maker", "kind", "source"})
+FLANGE = 1e-3
+"""Thickness of one of a pulley's two flanges [m]."""
+
+CLEARANCE = 5e-3
+"""Least distance between the pitch circles of the two pulleys [m]."""
+
+TEETH_IN_MESH = 6
+"""On the smaller pulley, below which a fifth of the working tension is lost per tooth
+(SDP/SI, Handbook of timing belts, section 13.3)."""
+
+LOSS_PER_TOOTH = 0.2
+
+
+@dataclass(frozen=True)
+class BeltStage:
+    """A belt and its two pulleys.
+
+    Attributes:
+        motor_teeth, wheel_teeth: of the pulleys on the motor and on the wheel.
+        pitch: of the teeth [m].
+        width: of the belt [m].
+        belt_density: mass of the belt per length [kg/m].
+        pulley_density: of the pulleys' material [kg/m^3].
+        working_tension: that the belt stands for good, at its width [N].
+    """
+
+    motor_teeth: int
+    wheel_teeth: int
+    pitch: float
+    width: float
+    belt_density: float
+    pulley_density: float
+    working_tension: float
+
+    @property
+    def ratio(self) -> float:
+        """N, motor speed over wheel speed."""
+        return self.wheel_teeth / self.motor_teeth
+
+    @property
+    def motor_radius(self) -> float:
+        """Pitch radius of the motor's pulley [m]."""
+        return self.pitch * self.motor_teeth / (2.0 * math.pi)
+
+    @property
+    def wheel_radius(self) -> float:
+        """Pitch radius of the wheel's pulley [m]."""
+        return self.pitch * self.wheel_teeth / (2.0 * math.pi)
+
+    @property
+    def mass(self) -> float:
+        """Mass of belt and pulleys [kg]."""
+        pulleys = self._pulley_mass(self.motor_radius) + self._pulley_mass(self.wheel_radius)
+        return pulleys + self.belt_mass
+
+    @property
+    def belt_mass(self) -> float:
+        """Mass of the shortest belt with whole teeth that clears the pulleys [kg]."""
+        teeth = math.ceil(self._least_length() / self.pitch)
+        return teeth * self.pitch * self.belt_density
+
+    @property
+    def inertia(self) -> float:
+        """Inertia of pulleys and belt, seen at the wheel [kg m^2].
+
+        The motor's pulley turns N times as fast; the belt runs at the wheel's speed times its
+        pulley's radius.
+        """
+        motor = self._pulley_mass(self.motor_radius) * self.motor_radius**2 / 2.0
+        wheel = self._pulley_mass(self.wheel_radius) * self.wheel_radius**2 / 2.0
+        return wheel + self.ratio**2 * motor + self.belt_mass * self.wheel_radius**2
+
+    @property
+    def torque_max(self) -> float:
+        """Largest torque at the wheel, by the working tension and the teeth that mesh [N m]."""
+        missing = max(0, TEETH_IN_MESH - self.teeth_in_mesh)
+        share = max(0.0, 1.0 - LOSS_PER_TOOTH * missing)
+        return share * self.working_tension * self.wheel_radius
+
+    @property
+    def teeth_in_mesh(self) -> int:
+        """Whole teeth of the smaller pulley that the belt wraps."""
+        wrap = math.pi - 2.0 * self._slope()
+        return int(min(self.motor_teeth, self.wheel_teeth) * wrap / (2.0 * math.pi))
+
+    def wheel_speed_max(self, belt_speed_max: float) -> float:
+        """Wheel speed at which the belt runs at `belt_speed_max` [rad/s]."""
+        return belt_speed_max / self.wheel_radius
+
+    @property
+    def room(self) -> GearRoom:
+        """Room that the stage takes, the motor's axis beside the wheel's; no axle, no bearings.
+
+        The pulleys are where they are as wide as their flanges, with no gap on either side.
+        """
+        motor = self._pulley_mass(self.motor_radius)
+        moment = motor * self._least_distance() + self.belt_mass * self._least_distance() / 2.0
+        return GearRoom(
+            depth=self.width + 2.0 * FLANGE,
+            offset=self._least_distance(),
+            wheel_radius=self.wheel_radius,
+            motor_radius=self.motor_radius,
+            center=moment / self.mass,
+        )
+
+    def _pulley_mass(self, radius: float) -> float:
+        return self.pulley_density * math.pi * radius**2 * (self.width + 2.0 * FLANGE)
+
+    def _least_distance(self) -> float:
+        return self.motor_radius + self.wheel_radius + CLEARANCE
+
+    def _slope(self) -> float:
+        """Angle of the free spans to the line between the axes [rad]."""
+        return math.asin(abs(self.wheel_radius - self.motor_radius) / self._least_distance())
+
+    def _least_length(self) -> float:
+        """Length of the belt about the pitch circles at their least distance [m].
+
+        `2 C cos s + pi (R + r) + 2 s (R - r)`, `sin s = (R - r) / C`.
+        """
+        slope, sum_of_radii = self._slope(), self.motor_radius + self.wheel_radius
+        difference = abs(self.wheel_radius - self.motor_radius)
+        free = 2.0 * self._least_distance() * math.cos(slope)
+        return free + math.pi * sum_of_radii + 2.0 * slope * difference
+
+
+class GearKind(StrEnum):
+    """What turns the wheel."""
+
+    BELT = "belt"
+    """A timing belt: any two of the pulleys in `teeth`."""
+    FIXED = "fixed"
+    """Toothed wheels with the ratios in `ratios`: a planetary gearhead, a spur pair."""
+
+
+class InertiaAt(StrEnum):
+    """Shaft at which the stated inertia is seen."""
+
+    MOTOR = "motor"
+    WHEEL = "wheel"
+
+
+@dataclass(frozen=True)
+class GearSheet:
+    """What a source says of a gear; a field is a column, its unit at the end of its name.
+
+    A column is read as its type asks (`catalogue.rows.columns_of`).
+
+    None is what the source does not give.
+
+    Attributes:
+        name: unique. maker: of the gear. kind: decides which columns count.
+        efficiency: of the torque, 0..1.
+        reverses: whether the wheel turns against the motor.
+        ratios: motor speed over wheel speed, of each stage on offer (fixed).
+        mass_kg: of the whole stage; of a belt's what its pulleys need besides: axle and bearings.
+        inertia_kg_m2: of the turning parts, seen at `inertia_at` (fixed).
+        torque_max_nm: at the output, short-term (fixed).
+        motor_speed_max_rpm: of the input.
+        teeth: of the pulleys on offer (belt).
+        pitch_m, width_m, belt_mass_kg_per_m: of the belt; the mass is that of its whole width.
+        working_tension_n: that the belt stands, at its width (belt).
+        belt_speed_max_m_s: of the belt.
+        pulley_density_kg_m3: of the pulleys' material (belt).
+        source: where the figures come from. confidence: good, second-hand, computed, ...
+        remark: what a reader of the figures must know.
+    """
+
+    name: str
+    maker: str
+    kind: GearKind
+    source: str
+    confidence: str = ""
+    efficiency: Annotated[float | None, fraction] = None
+    reverses: bool = False
+    ratios: tuple[float, ...] = ()
+    mass_kg: float | None = None
+    inertia_kg_m2: float | None = None
+    inertia_at: InertiaAt | None = None
+    torque_max_nm: float | None = None
+    motor_speed_max_rpm: float | None = None
+    teeth: tuple[int, ...] = ()
+    pitch_m: float | None = None
+    width_m: float | None = None
+    belt_mass_kg_per_m: float | None = None
+    working_tension_n: float | None = None
+    belt_speed_max_m_s: float | None = None
+    pulley_density_kg_m3: float | None = None
+    remark: str = ""
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """Columns that its stages need and that are empty."""
+        needed = _NEEDED[self.kind]
+        return tuple(column for column in needed if getattr(self, column) in (None, ()))
+
+    def stages(self) -> tuple[Gear, ...]:
+        """Every stage on offer, by rising ratio; none if figures are missing."""
+        if self.missing:
+            return ()
+        found = self._belts() if self.kind is GearKind.BELT else self._fixed()
+        return tuple(sorted(found, key=lambda gear: (gear.ratio, gear.name)))
+
+    def _fixed(self) -> Iterator[Gear]:
+        """Stage of each ratio."""
+        for ratio in self.ratios:
+            # Seen at the wheel, what turns with the motor counts with the square of the ratio.
+            scale = ratio**2 if self.inertia_at is InertiaAt.MOTOR else 1.0
+            yield Gear(
+                name=f"{self.name} {ratio:g}:1",
+                ratio=ratio,
+                efficiency=_stated(self.efficiency),
+                mass=_stated(self.mass_kg),
+                inertia=scale * _stated(self.inertia_kg_m2),
+                motor_speed_max=_speed(self.motor_speed_max_rpm),
+                wheel_speed_max=math.inf,
+                torque_max=_stated(self.torque_max_nm),
+                reverses=self.reverses,
+                source=self.source,
+            )
+
+    def _belts(self) -> Iterator[Gear]:
+        """Stage of every two different pulleys; two of a size would only add mass."""
+        for motor_teeth, wheel_teeth in itertools.permutations(self.teeth, 2):
+            belt = BeltStage(
+                motor_teeth=motor_teeth,
+                wheel_teeth=wheel_teeth,
+                pitch=_stated(self.pitch_m),
+                width=_stated(self.width_m),
+                belt_density=_stated(self.belt_mass_kg_per_m),
+                pulley_density=_stated(self.pulley_density_kg_m3),
+                working_tension=_stated(self.working_tension_n),
+            )
+            mass = _stated(self.mass_kg) + belt.mass
+            yield Gear(
+                name=f"{self.name} {motor_teeth}:{wheel_teeth}",
+                ratio=belt.ratio,
+                efficiency=_stated(self.efficiency),
+                mass=mass,
+                inertia=belt.inertia,
+                motor_speed_max=_speed(self.motor_speed_max_rpm),
+                wheel_speed_max=belt.wheel_speed_max(_stated(self.belt_speed_max_m_s)),
+                torque_max=belt.torque_max,
+                reverses=self.reverses,
+                source=self.source,
+                room=replace(belt.room, center=belt.room.center * belt.mass / mass),
+            )
+
+
+def _stated(figure: float | None) -> float:
+    """A figure that `missing` has found to be there."""
+    assert figure is not None
+    return figure
+
+
+def _speed(speed_rpm: float | None) -> float:
+    """[rad/s]; inf: not limited."""
+    return math.inf if speed_rpm is None else speed_rpm * math.pi / 30.0
+
+
+_NEEDED: Mapping[GearKind, tuple[str, ...]] = {
+    GearKind.FIXED: (
+        "ratios",
+        "efficiency",
+        "mass_kg",
+        "inertia_kg_m2",
+        "inertia_at",
+        "torque_max_nm",
+        "motor_speed_max_rpm",
+    ),
+    GearKind.BELT: (
+        "teeth",
+        "efficiency",
+        "mass_kg",
+        "pitch_m",
+        "width_m",
+        "belt_mass_kg_per_m",
+        "working_tension_n",
+        "belt_speed_max_m_s",
+        "pulley_density_kg_m3",
+    ),
+}
 
 
 @cache
@@ -57,17 +344,12 @@ def load_gears(path: Path) -> Mapping[str, GearSheet]:
     Raises:
         SpecificationError: see `load_entries`.
     """
-    return load_entries(path, "gear", _sheet)
+    return load_entries(path, "gear", GearSheet)
 
 
 def stages(sheets: Iterable[GearSheet]) -> tuple[Gear, ...]:
-    """Every stage that these gears offer; direct drive (`drive.gear.DIRECT`) is none of them."""
+    """Every stage that these gears offer, without direct drive (`actuation.motor.DIRECT`)."""
     return tuple(stage for sheet in sheets for stage in sheet.stages())
-
-
-def _sheet(row: Row, faults: list[str]) -> GearSheet | None:
-    values = read_cells(row, GEAR_COLUMNS, REQUIRED_COLUMNS, faults)
-    return None if values is None else GearSheet(**values)
 
 
 def gears_to_json(found: Iterable[GearSheet]) -> bytes:

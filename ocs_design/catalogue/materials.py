@@ -10,8 +10,8 @@ from types import MappingProxyType
 
 import msgspec
 
-from ocs_design.catalogue.names import entry
-from ocs_design.exceptions import OcsError
+from ocs_design.catalogue.rows import entry
+from ocs_design.common.errors import OcsError
 
 DEFAULT_MATERIAL = "stainless-304"
 """Dense, cheap, does not rust, sold as tube."""
@@ -37,20 +37,21 @@ class Material:
     source: str
 
     def __post_init__(self) -> None:
-        defect = self._defect()
+        figures = (self.density, self.yield_strength, self.ultimate_strength)
+        defect = ""
+        if not all(figure is None or 0.0 < figure < math.inf for figure in figures):
+            defect = "density and strengths must be positive and finite"
+        elif self.poisson_ratio is not None and not -1.0 < self.poisson_ratio < 0.5:
+            defect = "Poisson's ratio must lie between -1 and 0.5"
+        elif (self.yield_strength or 0.0) > (self.ultimate_strength or math.inf):
+            defect = "it cannot yield above its ultimate strength"
+        elif not self.source:
+            defect = "it has no source"
         if defect:
             raise OcsError(f"material {self.name!r}: {defect}")
 
-    def _defect(self) -> str:
-        """Why these figures cannot be right; empty if they can."""
-        figures = (self.density, self.yield_strength, self.ultimate_strength)
-        if not all(figure is None or 0.0 < figure < math.inf for figure in figures):
-            return "density and strengths must be positive and finite"
-        if self.poisson_ratio is not None and not -1.0 < self.poisson_ratio < 0.5:
-            return "Poisson's ratio must lie between -1 and 0.5"
-        if (self.yield_strength or 0.0) > (self.ultimate_strength or math.inf):
-            return "it cannot yield above its ultimate strength"
-        return "" if self.source else "it has no source"
+
+_FIGURES = ("density_kg_m3", "yield_strength_pa", "ultimate_strength_pa", "poisson_ratio")
 
 
 @cache
@@ -58,7 +59,18 @@ def materials() -> Mapping[str, Material]:
     """Every material of the catalogue by name, sorted; read and checked on the first call."""
     text = files("ocs_design.catalogue").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = sorted(csv.DictReader(text.splitlines()), key=lambda row: row["name"])
-    found = {row["name"]: _material(row) for row in rows}
+    found: dict[str, Material] = {}
+    for row in rows:
+        # An empty cell: the source does not give the figure.
+        figures = {column: float(row[column]) for column in _FIGURES if row[column]}
+        found[row["name"]] = Material(
+            name=row["name"],
+            density=figures["density_kg_m3"],
+            yield_strength=figures.get("yield_strength_pa"),
+            ultimate_strength=figures.get("ultimate_strength_pa"),
+            poisson_ratio=figures.get("poisson_ratio"),
+            source=row["source"],
+        )
     if len(found) < len(rows):
         raise OcsError("materials.csv names a material twice")
     return MappingProxyType(found)
@@ -71,21 +83,6 @@ def material(name: str) -> Material:
         SpecificationError: there is none; the hint names the closest.
     """
     return entry(materials(), name, "material")
-
-
-def _material(row: Mapping[str, str]) -> Material:
-    def figure(column: str) -> float | None:
-        """None where the source gives none."""
-        return float(row[column]) if row[column] else None
-
-    return Material(
-        name=row["name"],
-        density=float(row["density_kg_m3"]),
-        yield_strength=figure("yield_strength_pa"),
-        ultimate_strength=figure("ultimate_strength_pa"),
-        poisson_ratio=figure("poisson_ratio"),
-        source=row["source"],
-    )
 
 
 def materials_to_json() -> bytes:

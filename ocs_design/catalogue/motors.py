@@ -1,24 +1,316 @@
-"""Motors that can be chosen, each with where its figures come from."""
+"""Motors that can be chosen: their rows, each with its source and checked against itself."""
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache
+from math import inf
 from pathlib import Path
 from types import MappingProxyType
 
 import msgspec
 
-from ocs_design.catalogue.cells import read_cells
-from ocs_design.catalogue.entries import extended, load_entries, packaged
-from ocs_design.catalogue.motor_checks import contradictions, incomplete
-from ocs_design.catalogue.motor_sheet import MOTOR_COLUMNS, MotorSheet
-from ocs_design.catalogue.mounting_checks import mounting_faults
-from ocs_design.catalogue.names import entry
-from ocs_design.catalogue.table import Row
-from ocs_design.drive.gear import DIRECT
-from ocs_design.drive.line import missing_figures
-from ocs_design.drive.motor import Motor
+from ocs_design.actuation.drive import missing_figures
+from ocs_design.actuation.fasteners import SCREW_NAMES
+from ocs_design.actuation.motor import (
+    DIRECT,
+    BoltCircle,
+    Face,
+    Motor,
+    Mounting,
+    ResistanceConvention,
+    TorqueConstantConvention,
+    line_to_line_resistance,
+    six_step_current,
+    six_step_torque_constant,
+)
+from ocs_design.catalogue.rows import entry, extended, load_entries, packaged
 
-REQUIRED_COLUMNS = frozenset({"name", "maker", "source"})
+
+@dataclass(frozen=True)
+class MotorSheet:
+    """What a source says of a motor; a field is a column, its unit at the end of its name.
+
+    A column is read as its type asks (`catalogue.rows.columns_of`).
+
+    None is what the source does not give.
+
+    Attributes:
+        name: unique. maker: of the motor.
+        mass_kg: of the whole motor. diameter_m, length_m: of its body.
+        kt_nm_per_a: torque constant, in the convention `kt_convention`.
+        kv_rpm_per_v: speed constant, no-load speed per voltage of the supply.
+        resistance_ohm: of the winding, measured between `resistance_between`.
+        rated_voltage_v: at which the figures hold, or the highest of the maker's range.
+        no_load_speed_rpm, no_load_current_a: stated, at the rated voltage.
+        stall_torque_nm, stall_current_a: at rest and at the rated voltage.
+        speed_max_rpm: highest that the maker allows.
+        peak_torque_nm, peak_current_a: highest that the maker allows for a short time.
+        continuous_torque_nm: that the winding stands for good.
+        saturation_torque_nm: above which k_t falls off.
+        rotor_inertia_kg_m2: of the rotor.
+        shaft_diameter_m: where it comes out of the motor on the wheel's side.
+        shaft_length_m: by which it stands out there, from the face that the motor is mounted by.
+        rotor_bolt_circle_m, rotor_bolts, rotor_thread: threads in what turns, on the wheel's side:
+            diameter of their circle, number, and size such as M3.
+        stator_bolt_circle_m, stator_bolts, stator_thread: the same in what stands still, on its
+            `stator_face`.
+        source: where the figures come from. confidence: good, second-hand, ...
+        remark: why figures that seem to contradict each other stand as they do.
+    """
+
+    name: str
+    maker: str
+    source: str
+    confidence: str = ""
+    mass_kg: float | None = None
+    diameter_m: float | None = None
+    length_m: float | None = None
+    kt_nm_per_a: float | None = None
+    kt_convention: TorqueConstantConvention | None = None
+    kv_rpm_per_v: float | None = None
+    resistance_ohm: float | None = None
+    resistance_between: ResistanceConvention | None = None
+    rated_voltage_v: float | None = None
+    no_load_speed_rpm: float | None = None
+    no_load_current_a: float | None = None
+    stall_torque_nm: float | None = None
+    stall_current_a: float | None = None
+    speed_max_rpm: float | None = None
+    peak_torque_nm: float | None = None
+    peak_current_a: float | None = None
+    continuous_torque_nm: float | None = None
+    rotor_inertia_kg_m2: float | None = None
+    shaft_diameter_m: float | None = None
+    shaft_length_m: float | None = None
+    rotor_bolt_circle_m: float | None = None
+    rotor_bolts: int | None = None
+    rotor_thread: str | None = None
+    stator_bolt_circle_m: float | None = None
+    stator_bolts: int | None = None
+    stator_thread: str | None = None
+    stator_face: Face | None = None
+    remark: str = ""
+    saturation_torque_nm: float | None = None
+
+    @property
+    def torque_constant(self) -> float | None:
+        """k_t between two lines [N m/A]; from the speed constant if it is not stated itself."""
+        if self.kt_nm_per_a is not None and self.kt_convention is not None:
+            return six_step_torque_constant(self.kt_nm_per_a, self.kt_convention)
+        if self.kv_rpm_per_v is not None:
+            return 1.0 / rad_s(self.kv_rpm_per_v)
+        return None
+
+    @property
+    def resistance(self) -> float | None:
+        """Between two lines [ohm]."""
+        if self.resistance_ohm is None or self.resistance_between is None:
+            return None
+        return line_to_line_resistance(self.resistance_ohm, self.resistance_between)
+
+    @property
+    def rotor(self) -> BoltCircle | None:
+        """Threads in what turns; None unless all of their figures are stated."""
+        return _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
+
+    @property
+    def stator(self) -> BoltCircle | None:
+        """Threads in what stands still; None unless all of their figures are stated."""
+        return _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
+
+    @property
+    def mounting(self) -> Mounting | None:
+        """None if nothing of it is stated."""
+        found = Mounting(
+            self.shaft_diameter_m, self.rotor, self.stator, self.stator_face, self.shaft_length_m
+        )
+        return None if found == Mounting() else found
+
+    def motor(self) -> Motor:
+        """The motor in SI and in the one convention of `Motor`."""
+        torque, basis = self._peak_torque()
+        return Motor(
+            name=self.name,
+            maker=self.maker,
+            mass=self.mass_kg,
+            diameter=self.diameter_m,
+            length=self.length_m,
+            torque_constant=self.torque_constant,
+            resistance=self.resistance,
+            rated_voltage=self.rated_voltage_v,
+            no_load_speed=_speed(self.no_load_speed_rpm),
+            speed_max=_speed(self.speed_max_rpm),
+            peak_torque=torque,
+            peak_current=self._peak_current(),
+            continuous_torque=self.continuous_torque_nm,
+            rotor_inertia=self.rotor_inertia_kg_m2,
+            source=self.source,
+            confidence=self.confidence,
+            peak_basis=basis,
+            remark=self.remark,
+            mounting=self.mounting,
+            no_load_current=self.no_load_current_a,
+            saturation_torque=self.saturation_torque_nm,
+        )
+
+    def _peak_torque(self) -> tuple[float | None, str]:
+        """Highest short-term torque [N m] and what it rests on.
+
+        The maker's peak torque; else k_t times its peak current; else the stall torque of its data
+        sheet, which the motor gives while it starts.
+        """
+        if self.peak_torque_nm is not None:
+            return self.peak_torque_nm, "peak torque"
+        current = self._peak_current()
+        if current is not None and self.torque_constant is not None:
+            return current * self.torque_constant, "peak current"
+        return self.stall_torque_nm, "stall torque" if self.stall_torque_nm else ""
+
+    def _peak_current(self) -> float | None:
+        """Peak current in the convention of `Motor`: the one that gives the same torque [A]."""
+        if self.peak_current_a is None or self.kt_convention is None:
+            return self.peak_current_a
+        return six_step_current(self.peak_current_a, self.kt_convention)
+
+
+def rad_s(speed_rpm: float) -> float:
+    """Angular speed [rad/s]."""
+    return speed_rpm * math.pi / 30.0
+
+
+def _circle(diameter: float | None, bolts: int | None, thread: str | None) -> BoltCircle | None:
+    if diameter is None or bolts is None or thread is None:
+        return None
+    return BoltCircle(diameter, bolts, thread)
+
+
+def _speed(speed_rpm: float | None) -> float | None:
+    return None if speed_rpm is None else rad_s(speed_rpm)
+
+
+SPEED_CONSTANT_TOLERANCE = 0.05
+"""Of k_t times Kv: Kv is printed in round numbers, and 3.8 % occur."""
+
+NO_LOAD_TOLERANCE = 0.05
+"""Of the no-load speed: friction and iron losses take up to 3.6 %."""
+
+STALL_TOLERANCE = 0.03
+"""Of stall torque and stall current: data sheets compute them, and 2.1 % occur."""
+
+PEAK_TOLERANCE = 0.05
+"""By which a peak torque may exceed k_t times the peak current: 2.0 % occur."""
+
+
+def _contradictions(sheet: MotorSheet) -> Iterator[str]:
+    """Figures that cannot both be right within the tolerances, one line each."""
+    voltage, resistance, k_t = sheet.rated_voltage_v, sheet.resistance, sheet.torque_constant
+
+    # k_t = 30 / (pi Kv) in the six-step convention; `actuation.motor` has the others.
+    stated, convention, kv = sheet.kt_nm_per_a, sheet.kt_convention, sheet.kv_rpm_per_v
+    if stated is not None and convention is not None and kv is not None and k_t is not None:
+        product = k_t * rad_s(kv)
+        if not _close(product, 1.0, SPEED_CONSTANT_TOLERANCE):
+            yield (
+                f"k_t Kv is {stated * kv:.2f} N m/A rpm/V, which is not "
+                f"{convention}{_fitting(sheet)}"
+            )
+
+    # No-load speed is (V - R I_0) / k_t; without I_0, V / k_t.
+    no_load = sheet.no_load_speed_rpm
+    if no_load is not None and voltage is not None and k_t is not None:
+        drop = (resistance or 0.0) * (sheet.no_load_current_a or 0.0)
+        expected = (voltage - drop) / k_t
+        if not _close(rad_s(no_load), expected, NO_LOAD_TOLERANCE):
+            yield (
+                f"no-load speed is {no_load:.0f} rpm, but V, R and k_t make it "
+                f"{expected / rad_s(1.0):.0f} rpm"
+            )
+
+    # Stall current is V / R, stall torque k_t times it.
+    if voltage is not None and resistance is not None:
+        current, given = voltage / resistance, sheet.stall_current_a
+        if given is not None and not _close(given, current, STALL_TOLERANCE):
+            yield f"stall current is {given:g} A, but V / R is {current:.4g} A"
+        torque, given = current * (k_t or 0.0), sheet.stall_torque_nm
+        if k_t is not None and given is not None and not _close(given, torque, STALL_TOLERANCE):
+            yield f"stall torque is {given:g} N m, but V k_t / R is {torque:.4g} N m"
+
+    # Saturation takes from k_t times the peak current; nothing adds to it.
+    peak, current_max = sheet.peak_torque_nm, sheet.peak_current_a
+    per_ampere = sheet.kt_nm_per_a or k_t
+    if peak is not None and current_max is not None and per_ampere is not None:
+        most = per_ampere * current_max
+        if peak > most * (1.0 + PEAK_TOLERANCE):
+            yield f"peak torque is {peak:g} N m, above k_t times the peak current, {most:.4g} N m"
+    short_term = peak or sheet.stall_torque_nm
+    if short_term is not None and (sheet.continuous_torque_nm or 0.0) > short_term:
+        yield f"continuous torque is above the short-term {short_term:g} N m"
+
+
+def _fitting(sheet: MotorSheet) -> str:
+    """Text of the conventions in which k_t agrees with Kv."""
+    k_t, kv = sheet.kt_nm_per_a, sheet.kv_rpm_per_v
+    if k_t is None or kv is None:
+        return f": one of {', '.join(TorqueConstantConvention)}"
+    fitting = [
+        convention
+        for convention in TorqueConstantConvention
+        if _close(
+            six_step_torque_constant(k_t, convention) * rad_s(kv), 1.0, SPEED_CONSTANT_TOLERANCE
+        )
+    ]
+    return f"; it fits {' or '.join(fitting)}" if fitting else "; it fits no convention"
+
+
+def _close(stated: float, expected: float, tolerance: float) -> bool:
+    """Whether a figure is the expected one but for a relative tolerance."""
+    return abs(stated / expected - 1.0) <= tolerance
+
+
+LEAST_BOLTS = {"rotor": 3, "stator": 2}
+"""With two holes a wheel's inertia is not the same about every axis across it."""
+
+LIGAMENT = 1.0e-3
+"""Of material between the screws' holes and the shaft, and between each other, at least [m]."""
+
+
+def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None) -> Iterator[str]:
+    """Faults of the threads on one side, `rotor` or `stator`, one line each."""
+    columns = [f"{side}_{end}" for end in ("bolt_circle_m", "bolts", "thread")]
+    if circle is None:
+        missing = [column for column in columns if getattr(sheet, column) is None]
+        if len(missing) < len(columns):
+            yield f"{', '.join(columns)} belong together: no {', '.join(missing)}"
+        return
+    where = f"{columns[0]} is {circle.diameter:g}"
+    if circle.bolts < LEAST_BOLTS[side]:
+        yield f"{columns[1]} is {circle.bolts}; it must be {LEAST_BOLTS[side]} or more"
+    elif circle.thread not in SCREW_NAMES:
+        yield f"{columns[2]} is {circle.thread!r}, which is none of {', '.join(SCREW_NAMES)}"
+    elif circle.diameter >= (sheet.diameter_m or inf):
+        yield f"{where}, but the motor is only {sheet.diameter_m:g} m wide"
+    elif circle.inside < (sheet.shaft_diameter_m or 0.0) / 2.0 + LIGAMENT:
+        yield f"{where}: holes for {circle.thread} leave less than 1 mm to the shaft"
+    elif circle.spacing < LIGAMENT:
+        yield f"{where}: {circle.bolts} holes for {circle.thread} leave less than 1 mm between them"
+
+
+def _faults(sheet: MotorSheet) -> Iterator[str]:
+    """What is wrong with a row, one line each; a remark explains contradictions alone."""
+    if sheet.kt_nm_per_a is not None and sheet.kt_convention is None:
+        yield f"kt_nm_per_a needs its kt_convention{_fitting(sheet)}"
+    if sheet.resistance_ohm is not None and sheet.resistance_between is None:
+        yield "resistance_ohm needs its resistance_between"
+    shaft, body = sheet.shaft_diameter_m, sheet.diameter_m
+    if shaft is not None and body is not None and shaft >= body:
+        yield f"shaft_diameter_m is {shaft:g}, but the motor is only {body:g} m wide"
+    yield from _bolt_circle_faults(sheet, "rotor", sheet.rotor)
+    yield from _bolt_circle_faults(sheet, "stator", sheet.stator)
+    if (sheet.stator is None) != (sheet.stator_face is None):
+        yield "stator_face and the stator's bolt circle say nothing without each other"
+    if not sheet.remark:
+        yield from (f"{doubt}; explain it in `remark`" for doubt in _contradictions(sheet))
 
 
 @cache
@@ -51,30 +343,8 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
     Raises:
         SpecificationError: see `load_entries`.
     """
-    sheets = load_motor_sheets(path)
-    return MappingProxyType({name: sheets[name].motor() for name in sheets})
-
-
-def load_motor_sheets(path: Path) -> Mapping[str, MotorSheet]:
-    """The same as stated, in the units and conventions of the file.
-
-    Raises:
-        SpecificationError: see `load_entries`.
-    """
-    return load_entries(path, "motor", _sheet)
-
-
-def _sheet(row: Row, faults: list[str]) -> MotorSheet | None:
-    """The row's figures; None, with its faults kept, if they cannot be right."""
-    values = read_cells(row, MOTOR_COLUMNS, REQUIRED_COLUMNS, faults)
-    if values is None:
-        return None
-    sheet = MotorSheet(**values)
-    found = [*incomplete(sheet), *mounting_faults(sheet)]
-    if not sheet.remark:
-        found += [f"{doubt}; explain it in `remark`" for doubt in contradictions(sheet)]
-    faults.extend(f"{row.where} ({sheet.name}): {fault}" for fault in found)
-    return sheet
+    sheets = load_entries(path, "motor", MotorSheet, _faults)
+    return MappingProxyType({name: sheet.motor() for name, sheet in sheets.items()})
 
 
 def motors_to_json(found: Iterable[Motor]) -> bytes:

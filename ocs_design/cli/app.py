@@ -14,13 +14,13 @@ import typer
 
 from ocs_design.cli import errors
 from ocs_design.cli import options as opt
-from ocs_design.cli.doctor import doctor
-from ocs_design.cli.export import export
-from ocs_design.cli.init import init
-from ocs_design.cli.pareto import pareto
-from ocs_design.cli.signatures import with_options
-from ocs_design.cli.stated import stated_package_paths, stated_specification, typed_command
-from ocs_design.cli.validate import validate
+from ocs_design.cli.commands import doctor, export, init, pareto, validate
+from ocs_design.cli.options import (
+    stated_package_paths,
+    stated_specification,
+    typed_command,
+    with_options,
+)
 
 app = typer.Typer(
     name="ocs-design",
@@ -88,17 +88,16 @@ def size(
     scenario fails, 2 wrong usage, 3 the input cannot be read, 4 no design meets the specification,
     5 an optional tool is missing.
     """
-    from ocs_design.report.console import Steps, make_console
+    from ocs_design.report.text.console import Steps, make_console
 
     specification = stated_specification(context)
     console = make_console(color=not no_color)
     steps = Steps(console, quiet=quiet or as_json)
     with steps.step("load the solver and the simulator"), _quick_imports():
-        from ocs_design.design_file import design_to_json
-        from ocs_design.pipeline import design_ocs, load_solvers
-        from ocs_design.report.flights import print_outcome
-        from ocs_design.report.summary import print_summary
-        from ocs_design.report.terminal import print_design, print_solution
+        from ocs_design.device.records import design_to_json
+        from ocs_design.report.text.size import print_design, print_outcome, print_solution
+        from ocs_design.report.text.summary import print_summary
+        from ocs_design.workflows.size import design_ocs, load_solvers
 
         load_solvers(specification)
     outcome = design_ocs(
@@ -133,10 +132,10 @@ def inspect(
     no_color: opt.NoColor = False,
 ) -> None:
     """Show what is read from a robot: mass, inertia, posture, incidence angles, warnings."""
-    from ocs_design.answers import to_json
-    from ocs_design.inspection import inspect_robot
-    from ocs_design.report.console import make_console
-    from ocs_design.report.inspection import print_inspection
+    from ocs_design.device.answers import to_json
+    from ocs_design.report.text.console import make_console
+    from ocs_design.report.text.robot import print_inspection
+    from ocs_design.workflows.inspect import inspect_robot
 
     inspection = inspect_robot(
         stated_specification(context),
@@ -169,10 +168,10 @@ def bound(
     no_color: opt.NoColor = False,
 ) -> None:
     """The paper's lower bound on the wheels' inertia by hand, and its curve."""
-    from ocs_design.answers import to_json
-    from ocs_design.bounding import bound_by_hand
-    from ocs_design.report.bound import print_bound
-    from ocs_design.report.console import make_console
+    from ocs_design.device.answers import to_json
+    from ocs_design.report.text.answers import print_bound
+    from ocs_design.report.text.console import make_console
+    from ocs_design.workflows.bound import bound_by_hand
 
     answer = bound_by_hand(
         inertia=inertia,
@@ -206,8 +205,8 @@ def catalogue(
     no_color: opt.NoColor = False,
 ) -> None:
     """What can be chosen, with sources."""
-    from ocs_design.report.catalogue import listing
-    from ocs_design.report.console import make_console
+    from ocs_design.report.text.catalogue import listing
+    from ocs_design.report.text.console import make_console
 
     listed = listing(what, {"motors": motors, "gears": gears})
     if as_json:

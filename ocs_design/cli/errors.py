@@ -9,7 +9,12 @@ from typing import TextIO
 
 import typer
 
-from ocs_design.exceptions import INTERRUPTED, OcsError, OutputError, SpecificationError
+from ocs_design.common.errors import (
+    INTERRUPTED,
+    OcsError,
+    OutputError,
+    SpecificationError,
+)
 
 SCHEMA_VERSION = 1
 BROKEN_PIPE = 141
@@ -17,11 +22,16 @@ BROKEN_PIPE = 141
 
 def run(app: typer.Typer, arguments: Sequence[str]) -> int:
     """Run the command line and return its exit code; only bugs escape as exceptions."""
-    _never_fail_on_encoding()
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
     as_json, color = "--json" in arguments, "--no-color" not in arguments
     command = typer.main.get_command(app)
     try:
-        _check_names([*arguments, str(Path.cwd())])
+        # File names are bytes to the system, but text in what is written: one that is none fails
+        # now rather than in an hour.
+        for name in (*arguments, str(Path.cwd())):
+            name.encode()
         result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
         sys.stdout.flush()
     except (typer.Abort, KeyboardInterrupt):
@@ -30,63 +40,41 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         # Typer and rich make a plain exit of the first.
         if not isinstance(error.__context__ or error, BrokenPipeError):
             raise
-        return _fall_silent()
+        # The reader left, as `head` does.
+        _write_nowhere(sys.stdout, sys.stderr)
+        return BROKEN_PIPE
     except (OcsError, typer.TyperException, OSError, UnicodeEncodeError) as error:
-        if _was_interrupted(error):
-            return INTERRUPTED
-        return _tell(error, as_json=as_json, color=color)
+        # A terminal that closes interrupts, and then nothing more can be printed on it.
+        cause: BaseException | None = error
+        while cause is not None and not isinstance(cause, KeyboardInterrupt):
+            cause = cause.__context__
+        return INTERRUPTED if cause else _report_any(error, as_json=as_json, color=color)
     return result if isinstance(result, int) else 0
 
 
-def _was_interrupted(error: BaseException | None) -> bool:
-    """A terminal that closes interrupts, and then nothing more can be printed on it."""
-    while error is not None and not isinstance(error, KeyboardInterrupt):
-        error = error.__context__
-    return error is not None
-
-
-def _tell(
+def _report_any(
     error: OcsError | typer.TyperException | OSError | UnicodeEncodeError,
     *,
     as_json: bool,
     color: bool,
 ) -> int:
+    """Print what went wrong, in words of its own kind; the exit code."""
     if isinstance(error, OSError):
         return _report_system(error, as_json=as_json, color=color)
     if isinstance(error, UnicodeEncodeError):
-        return _report(_no_text(error), as_json=as_json, color=color)
+        error = OcsError(
+            f"{error.object[:200]!a}: that name is no text in the encoding {error.encoding}",
+            hint="rename the file or folder, or set PYTHONUTF8=1 if the name is UTF-8",
+        )
     if isinstance(error, OcsError):
         return _report(error, as_json=as_json, color=color)
-    return _report_usage(error, as_json=as_json, color=color)
-
-
-def _never_fail_on_encoding() -> None:
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="replace")
-
-
-def _check_names(names: Sequence[str]) -> None:
-    """File names are bytes to the system, but text in what is written; better now than in an hour.
-
-    Raises:
-        UnicodeEncodeError: one is none.
-    """
-    for name in names:
-        name.encode()
-
-
-def _no_text(error: UnicodeEncodeError) -> OcsError:
-    return OcsError(
-        f"{error.object[:200]!a}: that name is no text in the encoding {error.encoding}",
-        hint="rename the file or folder, or set PYTHONUTF8=1 if the name is UTF-8",
-    )
-
-
-def _fall_silent() -> int:
-    """The reader left, as `head` does."""
-    _write_nowhere(sys.stdout, sys.stderr)
-    return BROKEN_PIPE
+    context = getattr(error, "ctx", None)
+    hint = f"see `{context.command_path} --help`" if context else ""
+    if as_json:
+        _print_json("usage", error.format_message(), hint, {})
+    else:
+        _print_panel([error.format_message()], hint, color=color)
+    return 2
 
 
 def _report_system(error: OSError, *, as_json: bool, color: bool) -> int:
@@ -127,16 +115,6 @@ def _report(error: OcsError, *, as_json: bool, color: bool) -> int:
     return error.exit_code
 
 
-def _report_usage(error: typer.TyperException, *, as_json: bool, color: bool) -> int:
-    context = getattr(error, "ctx", None)
-    hint = f"see `{context.command_path} --help`" if context else ""
-    if as_json:
-        _print_json("usage", error.format_message(), hint, {})
-    else:
-        _print_panel([error.format_message()], hint, color=color)
-    return 2
-
-
 def _print_json(kind: str, message: str, hint: str, data: object) -> None:
     fields = dict(data) if isinstance(data, dict) else {}
     document = {"kind": kind, "message": message, "hint": hint, **fields}
@@ -144,6 +122,6 @@ def _print_json(kind: str, message: str, hint: str, data: object) -> None:
 
 
 def _print_panel(lines: Sequence[str], hint: str, *, color: bool) -> None:
-    from ocs_design.report.console import error_panel
+    from ocs_design.report.text.console import error_panel
 
     error_panel(lines, hint, color=color)

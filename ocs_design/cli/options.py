@@ -1,15 +1,57 @@
-"""Options that commands share, each declared once; texts are read by the specification's table."""
+"""Options that commands share, each declared once, and from options to a specification."""
 
 import functools
 import inspect
-from collections.abc import Mapping
+import shlex
+import sys
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
-from ocs_design.cli.signatures import Command, parameters, redeclare
+if TYPE_CHECKING:
+    from ocs_design.requirement.specification import Specification
+
+Command: TypeAlias = Callable[..., None]
+
+
+def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
+    """Declare these options on a command too, before its own and each left out by default.
+
+    They are not handed on: `cli_stated` reads them from the command's context, its first parameter.
+    """
+
+    def declared(command: Command) -> Command:
+        """The command with the signature that Typer makes options from."""
+
+        @functools.wraps(command)
+        def run(**given: object) -> None:
+            """What is handed on is the context and the command's own options."""
+            command(**{name: value for name, value in given.items() if name not in shared})
+
+        context, *own = inspect.signature(command).parameters.values()
+        redeclare(run, [context, *parameters(shared, default=None), *own])
+        return run
+
+    return declared
+
+
+def parameters(options: Mapping[str, object], *, default: object) -> list[inspect.Parameter]:
+    """Parameters of a command, one for each option."""
+    kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+    return [
+        inspect.Parameter(name, kind, default=default, annotation=option)
+        for name, option in options.items()
+    ]
+
+
+def redeclare(command: Command, parameters: list[inspect.Parameter]) -> None:
+    """What Typer makes options from."""
+    command.__dict__["__signature__"] = inspect.Signature(parameters)
+    command.__annotations__ = {each.name: each.annotation for each in parameters}
+
 
 Text: TypeAlias = str | None
 
@@ -285,3 +327,69 @@ def with_output(command: Command) -> Command:
     own = [each for each in inspect.signature(command).parameters.values() if each.name != "output"]
     redeclare(run, [*own, *parameters(OUTPUT_OPTIONS, default=False)])
     return run
+
+
+def stated_specification(context: typer.Context) -> "Specification":
+    """The file given with `--spec`, and over it every option of the command that is a key.
+
+    Raises:
+        OcsError: the file or an option cannot be read.
+    """
+    # Not for `--help`: reading specifications needs NumPy.
+    from ocs_design.requirement.reading import read_specification
+    from ocs_design.requirement.specification import (
+        Specification,
+        merge,
+        specification_from_options,
+    )
+
+    file = context.params["spec"]
+    base = Specification() if file is None else read_specification(Path(file))
+    return merge(base, specification_from_options(_options(context.params)))
+
+
+def typed_command() -> str:
+    """What was typed, as a shell takes it."""
+    return shlex.join(["ocs-design", *sys.argv[1:]])
+
+
+def stated_package_paths(context: typer.Context) -> Mapping[str, Path]:
+    """`NAME=DIR` pairs of `--package-path`.
+
+    Raises:
+        UsageError: a text is no such pair.
+    """
+    from ocs_design.common.errors import UsageError
+
+    found = {}
+    for text in context.params["package_path"] or ():
+        name, separator, folder = text.partition("=")
+        if not (name and separator and folder):
+            raise UsageError(
+                f"--package-path {text}: is not NAME=DIR",
+                hint="as in --package-path my_robot=/opt/my_robot",
+            )
+        found[name] = Path(folder)
+    return found
+
+
+def _options(parameters: Mapping[str, object]) -> Mapping[str, object]:
+    """What each option says by the path of its key, as in `flywheel.r_max`."""
+    from ocs_design.requirement.specification import all_keys
+
+    stated: dict[str, object] = {}
+    for path, key in all_keys().items():
+        option = key.option or path.partition(".")[2]
+        # A robot's file is no option but the command's argument.
+        parameter = "robot" if path == "robot.file" else option.replace("-", "_")
+        if parameters.get(f"no_{parameter}"):
+            stated[path] = False
+            continue
+        value = parameters.get(parameter)
+        # What repeats comes as a tuple, empty where nothing is said; a flag is then false.
+        if isinstance(value, tuple):
+            value = list(value)
+        # Zero equals False, and is a seed.
+        if value is not None and value is not False and value != []:
+            stated[path] = value
+    return stated

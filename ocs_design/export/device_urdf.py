@@ -1,24 +1,41 @@
-"""The device as links and joints of a URDF."""
+"""Device as links, joints and ros2_control elements of a URDF."""
 
-from ocs_design.design import Device, Flywheel, Module
-from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
-from ocs_design.export.motor import highest_speed, largest_torque
-from ocs_design.export.naming import carrier_name, flywheel_name, joint_name
-from ocs_design.export.standing import plain_standing_visuals, standing_visuals
-from ocs_design.export.standing_text import visuals_urdf
+from collections.abc import Iterable
+
+import numpy as np
+
+from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.naming import carrier_name, flywheel_name, joint_name
+from ocs_design.export.formats import Seat
+from ocs_design.export.module_bodies import (
+    carrier_inertial,
+    flywheel_inertial,
+    highest_speed,
+    largest_torque,
+    wheel_rpy,
+)
 from ocs_design.export.templates import fill, numbers, quoted
-from ocs_design.export.wheel_frame import wheel_rpy
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.export.visuals import Visual, carrier_visuals, plain_carrier_visuals
+from ocs_design.robot.leg_geometry import BASE_FRAME
+from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Mount
 from ocs_design.robot.rotations import rpy_from_rotation
-from ocs_design.robot.stance.base_frame import BASE_FRAME
+from ocs_design.robot.tree import ShapeKind
 
 UNLIMITED = 1e6
-"""Where URDF asks for a limit of torque or speed and there is none [SI]."""
+"""Limit of torque or speed where URDF asks for one and there is none [SI]."""
+
+MOCK_PLUGIN = "mock_components/GenericSystem"
+"""Hardware of ros2_control's own that moves nothing."""
+
+
+def trunk_link(seat: Seat) -> str:
+    """Name of the robot's own link that carries the device."""
+    return seat.trunk if seat.mount is None else seat.mount.link
 
 
 def mount_urdf(mount: Mount) -> str:
-    """The base frame as a link fixed to the robot's own, where it has none with x forward, z up."""
+    """Base frame as a link fixed to the robot's own, where it has none with x forward, z up."""
     return fill(
         "base_frame.urdf",
         {
@@ -31,44 +48,71 @@ def mount_urdf(mount: Mount) -> str:
 
 
 def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
-    """Both flywheels and what carries them as URDF elements, indented by two spaces.
+    """Flywheels and their carriers as URDF elements, indented by two spaces.
 
     Args:
         device: to write.
         parent: link that carries it; its frame is the base frame B.
-        mesh: reference to the wheel's mesh in metres, with those of `standing_meshes` beside it;
+        mesh: reference to the wheel's mesh in metres, with those of `carrier_meshes` beside it;
             without one all looks like cylinders and boxes.
     """
-    return "".join(_module_urdf(device, module, parent, mesh) for module in device.modules)
-
-
-def _module_urdf(device: Device, module: Module, parent: str, mesh: str | None) -> str:
-    look = plain_standing_visuals if mesh is None else standing_visuals
-    place = {
-        "parent": quoted(parent),
-        "position": numbers(module.position),
-        "rpy": numbers(wheel_rpy(module.axis)),
-    }
-    wheel = fill(
-        "flywheel.urdf",
-        {
+    look = plain_carrier_visuals if mesh is None else carrier_visuals
+    solid = cylinder_urdf(device.flywheel)
+    elements = []
+    for module in device.modules:
+        place = {
+            "parent": quoted(parent),
+            "position": numbers(module.position),
+            "rpy": numbers(wheel_rpy(module.axis)),
+        }
+        wheel = {
             **place,
             **inertial_values(flywheel_inertial(device)),
             "link": flywheel_name(module),
             "joint": joint_name(module),
             "limit": limit_urdf(device),
-            "visual": cylinder_urdf(device.flywheel)
-            if mesh is None
-            else f'<mesh filename="{quoted(mesh)}"/>',
-            "collision": cylinder_urdf(device.flywheel),
-        },
-    )
-    visuals = visuals_urdf(look(device, module))
-    carrier = carrier_inertial(device, module)
-    if carrier is None:
-        return wheel
-    values = {**place, **inertial_values(carrier), "link": carrier_name(module)}
-    return wheel + fill("carrier.urdf", {**values, "visuals": visuals})
+            "visual": solid if mesh is None else f'<mesh filename="{quoted(mesh)}"/>',
+            "collision": solid,
+        }
+        elements.append(fill("flywheel.urdf", wheel))
+        inertial = carrier_inertial(device, module)
+        if inertial is not None:
+            carrier = {
+                **place,
+                **inertial_values(inertial),
+                "link": carrier_name(module),
+                "visuals": visuals_urdf(look(device, module)),
+            }
+            elements.append(fill("carrier.urdf", carrier))
+    return "".join(elements)
+
+
+def visuals_urdf(visuals: Iterable[Visual]) -> str:
+    """Visual elements of a link."""
+    elements = []
+    for visual in visuals:
+        match visual.kind:
+            case ShapeKind.BOX:
+                geometry = f'<box size="{numbers(2.0 * np.array(visual.size))}"/>'
+            case ShapeKind.CYLINDER:
+                radius, half = visual.size
+                length = numbers(2.0 * half)
+                geometry = f'<cylinder radius="{numbers(radius)}" length="{length}"/>'
+            case _:
+                geometry = f'<mesh filename="{visual.mesh}"/>'
+        elements.append(fill("visual.urdf", {**visual_values(visual), "geometry": geometry}))
+    return "".join(elements)
+
+
+def visual_values(visual: Visual) -> dict[str, str]:
+    """Name, place and colour of a visual shape, for templates."""
+    place = visual.place
+    return {
+        "name": visual.name,
+        "position": numbers(place.position),
+        "rpy": numbers(rpy_from_rotation(place.rotation)),
+        "color": numbers(visual.color),
+    }
 
 
 def inertial_values(body: MassProperties) -> dict[str, str]:
@@ -83,13 +127,13 @@ def inertial_values(body: MassProperties) -> dict[str, str]:
 
 
 def cylinder_urdf(flywheel: Flywheel) -> str:
-    """The wheel's outline."""
+    """Cylinder around the wheel."""
     radius, length = numbers(flywheel.outer_radius), numbers(flywheel.height)
     return f'<cylinder radius="{radius}" length="{length}"/>'
 
 
 def limit_urdf(device: Device) -> str:
-    """What the motor can do; URDF has no limit of speed without one of torque, and no armature."""
+    """Limits of the motor; URDF has none of speed without one of torque, and no armature."""
     motor, torque = device.motor, largest_torque(device.motor)
     velocity = numbers(min(highest_speed(motor), UNLIMITED))
     limit = (
@@ -100,3 +144,29 @@ def limit_urdf(device: Device) -> str:
     if motor.armature == 0.0:
         return limit
     return f"{limit}\n    <!-- armature {numbers(motor.armature)} kg m^2, which URDF cannot say -->"
+
+
+def ros2_control_urdf(
+    device: Device, joints: Iterable[str], *, name: str = "ocs", plugin: str = MOCK_PLUGIN
+) -> str:
+    """Motors for ros2_control, indented by two spaces: torque in; angle, speed and torque out.
+
+    See control.ros.org, "ros2_control hardware interface types".
+
+    Args:
+        device: whose motors limit the command.
+        joints: names of the wheels' joints, ready to stand in XML.
+        name: of the system, ready to stand in XML. plugin: its hardware, likewise.
+    """
+    limit = largest_torque(device.motor)
+    command = '<command_interface name="effort"/>'
+    if limit is not None:
+        inside = "".join(
+            f'<param name="{end}">{numbers(bound)}</param>'
+            for end, bound in (("min", -limit), ("max", limit))
+        )
+        command = f'<command_interface name="effort">{inside}</command_interface>'
+    elements = [
+        fill("ros2_control_joint.urdf", {"joint": joint, "command": command}) for joint in joints
+    ]
+    return fill("ros2_control.urdf", {"name": name, "plugin": plugin, "joints": "".join(elements)})

@@ -1,4 +1,4 @@
-"""Where the program is that makes films."""
+"""Search for ffmpeg, which encodes videos."""
 
 import shutil
 from importlib.util import find_spec
@@ -7,7 +7,7 @@ FFMPEG_HINT = "pip install 'ocs-design[video]', or on Debian: apt install ffmpeg
 
 
 def ffmpeg_program() -> str | None:
-    """The system's, else that of imageio-ffmpeg; None if there is neither."""
+    """Path of the system's ffmpeg, else of that of imageio-ffmpeg; None if there is neither."""
     found = shutil.which("ffmpeg")
     if found is not None or find_spec("imageio_ffmpeg") is None:
         return found

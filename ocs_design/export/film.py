@@ -1,42 +1,89 @@
-"""Frames of a robot that moves over a floor, with its device or without."""
+"""Frames of a robot that moves over a floor, with its device or without.
+
+Poses of MuJoCo models are drawn by `offscreen`, in a process of its own.
+"""
 
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.design import Device
-from ocs_design.export.backdrop import add_floor, add_white_sky
-from ocs_design.export.naming import carrier_names, flywheel_names
-from ocs_design.export.rendering import draw
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Device
+from ocs_design.device.naming import carrier_names, flywheel_names
+from ocs_design.export.opengl import draw
 from ocs_design.export.robot_model import robot_model
-from ocs_design.robot.mjcf.spec import compiled
+from ocs_design.robot.mjcf_spec import compiled
+from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.spec.bodies import HIDDEN_GROUP
 
-Frames = NDArray[np.uint8]
+Frames: TypeAlias = NDArray[np.uint8]
+
+OFFSCREEN = "ocs_design.export.offscreen"
+"""Module that draws in a process of its own."""
+
+CHEQUERS = 4.0
+"""Number of pairs of the floor's tiles in the extent of a robot."""
 
 
 @dataclass(frozen=True, eq=False)
 class Take:
-    """What is filmed.
+    """A model and the poses in which it is drawn.
 
     Attributes:
-        model: see `film_model`.
-        qpos: joint positions of each frame, shape (n, nq).
+        model: compiled.
+        qpos: joint positions of each pose, shape (n, nq).
     """
 
     model: mujoco.MjModel
     qpos: FloatArray
 
 
+def add_white_sky(spec: mujoco.MjSpec) -> None:
+    """Add a white background, which shows through what one can look into."""
+    spec.add_texture(
+        name="ocs_sky",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT,
+        rgb1=(1.0, 1.0, 1.0),
+        width=16,
+        height=16,
+    )
+
+
+def add_floor(spec: mujoco.MjSpec, extent: float) -> None:
+    """Add a chequered plane at z = 0 in sunlight, for a robot of that extent [m]."""
+    name = "ocs_floor"
+    spec.add_texture(
+        name=name,
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=(0.90, 0.91, 0.92),
+        rgb2=(0.80, 0.81, 0.83),
+        width=64,
+        height=64,
+    )
+    material = spec.add_material(name=name, texuniform=True)
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
+    material.texrepeat = [CHEQUERS / extent] * 2
+    spec.worldbody.add_light(
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        dir=(0.3, 0.4, -1.0),
+        diffuse=(0.5, 0.5, 0.5),
+        castshadow=False,
+    )
+    spec.worldbody.add_geom(
+        name=name, type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0.0, 0.0, 1.0), material=name
+    )
+
+
 def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
-    """Robot and device on a floor.
+    """Model of robot and device on a floor.
 
     Args:
         robot: that carries the device.
@@ -65,13 +112,12 @@ def render_takes(takes: Sequence[Take]) -> list[Frames]:
             (*written_take(take, Path(folder) / f"{i}"), Path(folder) / f"{i}.frames.npy")
             for i, take in enumerate(takes)
         ]
-        program = "ocs_design.export.film_frames"
-        draw(program, [str(path) for three in paths for path in three], "video")
+        draw(OFFSCREEN, ["frames", *(str(path) for three in paths for path in three)], "video")
         return [np.load(frames) for _, _, frames in paths]
 
 
 def written_take(take: Take, stem: Path) -> tuple[Path, Path]:
-    """Model and joint positions for the other process."""
+    """Write model and joint positions for the other process; gives both paths."""
     model, qpos = stem.with_suffix(".mjb"), stem.with_suffix(".npy")
     mujoco.mj_saveModel(take.model, str(model))
     np.save(qpos, take.qpos)

@@ -1,19 +1,26 @@
-"""An output folder that appears complete or not at all."""
+"""Output folders and files that appear complete or not at all."""
 
 import errno
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
+import shutil
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from ocs_design.exceptions import OutputError
-from ocs_design.export.exchange import exchange
+from ocs_design.common.errors import OutputError
 from ocs_design.export.staging import NEW, OLD, clear_leftovers, staging_beside
 
 DESIGN_FILE = "design.json"
 FRONT_FILE = "front.json"
 REPORT_FILE = "report.html"
+
+_AT_FDCWD = -100
+_RENAME_EXCHANGE = 2
+"""Constants of Linux' `fcntl.h` and `fs.h`, which Python has no names for."""
+
+_CANNOT_EXCHANGE = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP}
+"""Answers of file systems without it, and of containers that do not let it through."""
 
 CURES = {
     errno.ENOSPC: "free some space, or choose another folder with -o",
@@ -27,13 +34,13 @@ CURES = {
     errno.ENOTDIR: "a part of the path is a file; choose another folder with -o",
     errno.ENAMETOOLONG: "choose a shorter name with -o",
 }
-"""What to do about an error of the operating system, by its number."""
+"""Remedy for an error of the operating system, by its number."""
 
 
 def check_target(target: Path, *, force: bool) -> None:
     """Fail before any work is done if `target` could not be written in the end.
 
-    What killed runs left beside it is cleared up.
+    Leftovers of killed runs beside it are removed.
 
     Raises:
         OutputError: it exists and `force` is not set, it is no output folder of ours, or its parent
@@ -78,13 +85,26 @@ def staged_folder(target: Path, *, force: bool) -> Iterator[Path]:
             new = staging / NEW
             new.mkdir()
             yield new
-            _take_place(staging, target, force=force)
+            # Another run may have been quicker.
+            check_target(target, force=force)
+            if not target.exists():
+                new.rename(target)
+            # At no moment is the target half of the new folder and half of the old one.
+            elif not exchange(new, target):
+                # `clear_leftovers` mends what is cut short.
+                try:
+                    target.rename(staging / OLD)
+                    new.rename(target)
+                except BaseException:
+                    if not target.exists():
+                        (staging / OLD).rename(target)
+                    raise
     except OSError as error:
         raise output_error(error, target) from error
 
 
 def output_error(error: OSError, place: Path) -> OutputError:
-    """What the operating system said of writing to `place`, with the cure."""
+    """Error for what the operating system said of writing to `place`, with the remedy."""
     reason = error.strerror or str(error)
     return OutputError(f"{error.filename or place}: {reason}", hint=CURES.get(error.errno or 0, ""))
 
@@ -99,27 +119,92 @@ def file_hashes(folder: Path) -> Mapping[str, str]:
 
 
 def recorded_hashes(folder: Path) -> Mapping[str, str]:
-    """What a design says of its files: not of those that hold the design, these hashes and all."""
+    """Hashes that a design records: of all files but those that contain the design itself."""
     found = file_hashes(folder)
     return {name: found[name] for name in found if name not in (DESIGN_FILE, REPORT_FILE)}
 
 
-def _take_place(staging: Path, target: Path, *, force: bool) -> None:
-    """At no moment is `target` half of one and half of the other."""
-    # Another run may have been quicker.
-    check_target(target, force=force)
-    if not target.exists():
-        (staging / NEW).rename(target)
-    elif not exchange(staging / NEW, target):
-        _step_aside(staging, target)
+def exchange(one: Path, other: Path) -> bool:
+    """Let two folders change places in one step; False where system or file system cannot.
 
+    Raises:
+        OSError: it could, but not with these two.
+    """
+    # It takes a while to import, and only replacing needs it.
+    import ctypes  # noqa: PLC0415
 
-def _step_aside(staging: Path, target: Path) -> None:
-    """Where two cannot change places; `clear_leftovers` mends what is cut short."""
     try:
-        target.rename(staging / OLD)
-        (staging / NEW).rename(target)
-    except BaseException:
-        if not target.exists():
-            (staging / OLD).rename(target)
-        raise
+        rename = ctypes.CDLL(None, use_errno=True).renameat2
+    except (AttributeError, OSError, TypeError):
+        # Not Linux, or a C library that does not have it.
+        return False
+    names = (os.fsencode(one), os.fsencode(other))
+    if rename(_AT_FDCWD, names[0], _AT_FDCWD, names[1], _RENAME_EXCHANGE) == 0:
+        return True
+    fault = ctypes.get_errno()
+    if fault in _CANNOT_EXCHANGE:
+        return False
+    raise OSError(fault, os.strerror(fault), str(other))
+
+
+def keep_others(source: Path, target: Path, *, without: Collection[str]) -> None:
+    """Copy files of a design's folder that `target` lacks, but for the design itself.
+
+    Args:
+        source, target: folders.
+        without: relative paths of files that stay behind.
+    """
+    for path in sorted(source.rglob("*")):
+        place = path.relative_to(source)
+        copied = target / place
+        left = place.name == DESIGN_FILE or place.as_posix() in without
+        if path.is_file() and not left:
+            copied.parent.mkdir(parents=True, exist_ok=True)
+            if not copied.exists():
+                shutil.copy2(path, copied, follow_symlinks=False)
+
+
+def check_file_target(target: Path, *, force: bool) -> None:
+    """Fail before any work is done if `target` could not be written in the end.
+
+    Raises:
+        OutputError: it exists and `force` is not set, or is no file; or its folder does not exist.
+    """
+    if not target.absolute().parent.is_dir():
+        raise OutputError(f"{target.absolute().parent}: no such folder", hint=CURES[errno.ENOENT])
+    if not os.path.lexists(target):
+        return
+    if not target.is_file():
+        raise OutputError(f"{target}: is not a file", hint="choose another name with -o")
+    if not force:
+        raise OutputError(
+            f"{target}: exists already",
+            hint="choose another name with -o, or replace it with --force",
+        )
+
+
+def write_whole(target: Path, text: str, *, force: bool) -> None:
+    """Write all of `text` as UTF-8 or leave everything as it was.
+
+    Raises:
+        OutputError: see `check_file_target`; or writing failed.
+    """
+    check_file_target(target, force=force)
+    try:
+        with whole_file(target) as complete:
+            complete.write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise output_error(error, target) from error
+
+
+@contextmanager
+def whole_file(target: Path) -> Iterator[Path]:
+    """File to write, which takes the place of `target` when the block ends well.
+
+    Raises:
+        OSError: it cannot be written; `target` is then as it was.
+    """
+    clear_leftovers(target)
+    with staging_beside(target) as folder:
+        yield folder / target.name
+        (folder / target.name).replace(target)

@@ -1,35 +1,48 @@
-"""All formats that a device is written in, each by its name."""
+"""Registry of the formats that a device is written in.
 
-from collections.abc import Callable, Collection
+A further format is a module here with a function `write(subject, folder)` and a row in `FORMATS`;
+the command line, its help and `--formats all` follow. Importing this loads no writer.
+"""
+
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from ocs_design.design import Device
-from ocs_design.exceptions import MissingToolError, UsageError
-from ocs_design.export.bill_of_materials import export_bill_of_materials
-from ocs_design.export.made_wheel import made_wheel
-from ocs_design.export.seat import Seat
-from ocs_design.export.urdf import export_robot_urdf, urdf_remarks
-from ocs_design.export.workshop import (
-    export_pieces_3mf,
-    export_pieces_stl,
-    export_printed,
-    export_step,
-)
-from ocs_design.robot.robot import Robot
+from ocs_design.common.errors import MissingToolError, UsageError
 
 if TYPE_CHECKING:
+    from ocs_design.device.device import Device
     from ocs_design.export.robot_model import RobotModel
+    from ocs_design.robot.robot import Mount, Robot
 
-# MuJoCo takes a third of a second to import, and half of the formats do without.
-# ruff: noqa: PLC0415
+Notes: TypeAlias = tuple[str, ...]
+"""Remarks on the files for the user, one sentence each."""
+
+
+class Seat(Protocol):
+    """Place of the device on a robot, or on as much of one as was kept of it.
+
+    Attributes:
+        trunk: link that carries the device; its frame is the base frame B.
+        mount: how B is fixed to the robot's own link; None if `trunk` is one.
+    """
+
+    @property
+    def trunk(self) -> str:
+        """Link that carries the device."""
+
+    @property
+    def mount(self) -> "Mount | None":
+        """Fixture of B on the robot's own link."""
 
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """What is written.
+    """The device to write, and the robot that carries it.
 
     Attributes:
         name: of the robot, fit for the names of files.
@@ -39,27 +52,35 @@ class Subject:
     """
 
     name: str
-    device: Device
+    device: "Device"
     seat: Seat
-    robot: Robot | None
+    robot: "Robot | None"
 
     @classmethod
-    def of(cls, robot: Robot, device: Device, name: str) -> "Subject":
-        """A device on a robot that was read."""
+    def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
+        """Device on a robot that was read."""
         return cls(name, device, robot, robot)
 
     @cached_property
     def model(self) -> "RobotModel":
         """Robot and device in MuJoCo, made when the first format asks for it."""
-        from ocs_design.export.robot_model import robot_model
+        # MuJoCo takes a third of a second to import, and half of the formats do without.
+        from ocs_design.export.robot_model import robot_model  # noqa: PLC0415
 
         return robot_model(self.carrier, self.device)
 
     @property
-    def carrier(self) -> Robot:
-        """The robot, for the formats that need it."""
+    def carrier(self) -> "Robot":
+        """Robot of the formats that need one."""
         assert self.robot is not None, "formats that need a robot are refused without one"
         return self.robot
+
+
+class _Writer(Protocol):
+    """Module of a format."""
+
+    def write(self, subject: Subject, folder: Path) -> Notes:
+        """Write the subject's files into a folder."""
 
 
 @dataclass(frozen=True)
@@ -67,124 +88,82 @@ class Format:
     """One kind of file.
 
     Attributes:
-        name: as users say it.
-        folder: that its files go into.
+        name: that users type.
+        content: of its files, for people.
+        folder: of its files in the output folder.
+        module: that writes it, below `ocs_design.export`.
         needs_robot: whether the robot's own file has to be there.
         on_request: whether it is written only if it is named.
-        write: into that folder; gives what is to be told of it, one sentence each.
+        library: module of an optional dependency that it needs; empty: none.
+        extra: of ours that installs the library.
     """
 
     name: str
+    content: str
     folder: str
-    needs_robot: bool
-    write: Callable[[Subject, Path], tuple[str, ...]]
+    module: str
+    needs_robot: bool = False
     on_request: bool = False
+    library: str = ""
+    extra: str = ""
 
+    def write(self, subject: Subject, folder: Path) -> Notes:
+        """Write the subject's files into `folder`.
 
-def _stl(subject: Subject, folder: Path) -> tuple[str, ...]:
-    export_pieces_stl(subject.device, folder)
-    return ()
+        Raises:
+            MissingToolError: the library is not installed, or cannot be loaded.
+        """
+        if self.library and find_spec(self.library) is None:
+            raise self._missing("is not installed")
+        try:
+            writer: _Writer = import_module(f"ocs_design.export.{self.module}")
+        except ImportError as error:
+            if not self.library:
+                raise
+            raise self._missing(f"cannot be loaded: {error}") from error
+        return writer.write(subject, folder)
 
-
-def _3mf(subject: Subject, folder: Path) -> tuple[str, ...]:
-    export_pieces_3mf(subject.device, folder)
-    return ()
-
-
-def _step(subject: Subject, folder: Path) -> tuple[str, ...]:
-    export_step(subject.device, folder)
-    return ()
-
-
-def _printed(subject: Subject, folder: Path) -> tuple[str, ...]:
-    return (export_printed(subject.device, folder),)
-
-
-def _drawing(subject: Subject, folder: Path) -> tuple[str, ...]:
-    from ocs_design.export.wheel_drawing import export_wheel_drawing, wheel_drawing
-
-    wheel = made_wheel(subject.device.flywheel)
-    export_wheel_drawing(wheel_drawing(subject.device, wheel, subject.name), folder)
-    return ()
-
-
-def _pictures(subject: Subject, folder: Path) -> tuple[str, ...]:
-    """Where OpenGL does not work, what is in the way: never a reason to fail."""
-    from ocs_design.export.pictures import draw_pictures
-
-    wheel = made_wheel(subject.device.flywheel)
-    try:
-        pictures = draw_pictures(subject.device, wheel, subject.carrier, subject.model)
-    except MissingToolError as error:
-        return (f"{error}; {error.hint}" if error.hint else str(error),)
-    for name, content in pictures.items():
-        (folder / f"{name}.png").write_bytes(content)
-    return ()
-
-
-def _bill(subject: Subject, folder: Path) -> tuple[str, ...]:
-    export_bill_of_materials(subject.device, folder / "bill_of_materials.csv")
-    return ()
-
-
-def _urdf(subject: Subject, folder: Path) -> tuple[str, ...]:
-    export_robot_urdf(subject.carrier, subject.device, folder / f"{subject.name}_ocs.urdf")
-    return urdf_remarks(subject.carrier)
-
-
-def _mjcf(subject: Subject, folder: Path) -> tuple[str, ...]:
-    from ocs_design.export.mjcf import export_robot_mjcf
-
-    export_robot_mjcf(subject.model, folder / f"{subject.name}_ocs.xml")
-    return subject.model.warnings
-
-
-def _glb(subject: Subject, folder: Path) -> tuple[str, ...]:
-    from ocs_design.export.glb import export_robot_glb
-
-    posture = subject.carrier.posture
-    export_robot_glb(subject.model.compiled, posture, folder / f"{subject.name}_ocs.glb")
-    return subject.model.warnings
-
-
-def _snippets(subject: Subject, folder: Path) -> tuple[str, ...]:
-    from ocs_design.export.snippets import export_snippets
-
-    export_snippets(subject.device, subject.seat, folder)
-    return ()
+    def _missing(self, why: str) -> MissingToolError:
+        return MissingToolError(
+            f"no {self.name.upper()} file can be written: {self.library} {why}",
+            hint=f"pip install 'ocs-design[{self.extra}]'",
+        )
 
 
 FORMATS = (
-    Format("stl", "cad", needs_robot=False, write=_stl),
-    Format("bom", "cad", needs_robot=False, write=_bill),
-    Format("drawing", "cad", needs_robot=False, write=_drawing),
-    Format("3mf", "cad", needs_robot=False, write=_3mf, on_request=True),
-    Format("step", "cad", needs_robot=False, write=_step, on_request=True),
-    Format("printed", "cad", needs_robot=False, write=_printed, on_request=True),
-    Format("urdf", "robot", needs_robot=True, write=_urdf),
-    Format("mjcf", "robot", needs_robot=True, write=_mjcf),
-    Format("glb", "robot", needs_robot=True, write=_glb),
-    Format("snippets", "snippets", needs_robot=False, write=_snippets),
-    Format("pictures", "pictures", needs_robot=True, write=_pictures, on_request=True),
+    Format("stl", "wheel as meshes", "cad", "stl"),
+    Format("bom", "parts list with stock and masses", "cad", "bill_of_materials"),
+    Format("drawing", "technical drawing of the wheel", "cad", "drawing.wheel_sheet"),
+    Format("3mf", "wheel for slicers", "cad", "threemf", on_request=True),
+    Format("step", "exact parts", "cad", "step", on_request=True, library="OCP", extra="step"),
+    Format(
+        "dxf", "wheel in the plane", "cad", "dxf", on_request=True, library="ezdxf", extra="dxf"
+    ),
+    Format("printed", "housing and foot for printing", "cad", "printed", on_request=True),
+    Format("urdf", "whole robot", "robot", "urdf", needs_robot=True),
+    Format("mjcf", "whole robot", "robot", "mjcf", needs_robot=True),
+    Format("glb", "whole robot to look at", "robot", "glb", needs_robot=True),
+    Format("snippets", "device alone as URDF, xacro, MJCF and SDF", "snippets", "snippets"),
+    Format("pictures", "views as PNG", "pictures", "pictures", needs_robot=True, on_request=True),
 )
-"""In the order that they are written in."""
+"""All formats in the order of writing."""
 
 USUAL_FORMATS = tuple(each for each in FORMATS if not each.on_request)
-"""That are written if nothing is said."""
+"""Formats that are written if none is named."""
 
 ALL = "all"
-"""Stands for every format."""
+"""Name that stands for every format."""
 
 
 def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple[Format, ...]:
-    """The formats of these names; the usual ones if there are none.
+    """Formats of these names; the usual ones if there are none.
 
     Args:
-        names: as users say them.
+        names: that users typed.
         others: names of what is written too, but is no format of a device; they are passed over.
 
     Raises:
-        UsageError: a name is none of a format.
+        UsageError: there is no format of that name.
     """
     if not names:
         return USUAL_FORMATS
@@ -196,15 +175,11 @@ def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple
     return tuple(each for each in FORMATS if ALL in names or each.name in names)
 
 
-def export_formats(subject: Subject, formats: Collection[Format], folder: Path) -> tuple[str, ...]:
-    """Write a device in these formats into their folders below `folder`.
-
-    Returns:
-        What is to be told of the files, one sentence each.
-    """
-    told: list[str] = []
+def export_formats(subject: Subject, formats: Collection[Format], folder: Path) -> Notes:
+    """Write a device in these formats into their folders below `folder`."""
+    notes: list[str] = []
     for each in formats:
         target = folder / each.folder
         target.mkdir(exist_ok=True)
-        told += each.write(subject, target)
-    return tuple(dict.fromkeys(told))
+        notes += each.write(subject, target)
+    return tuple(dict.fromkeys(notes))

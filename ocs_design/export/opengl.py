@@ -1,6 +1,6 @@
-"""OpenGL without a screen: which ways there are, and a process of its own to try each in.
+"""OpenGL without a screen, in a process of its own, which it may end where it does not work.
 
-Where OpenGL does not work, it may end the process. Nothing here needs MuJoCo.
+Nothing here needs MuJoCo.
 """
 
 import os
@@ -8,8 +8,10 @@ import subprocess
 import sys
 from collections.abc import Sequence
 
+from ocs_design.common.errors import MissingToolError
+
 TIME_LIMIT = 120.0
-"""For all that one process draws [s]; a graphics driver may hang."""
+"""Time limit of one process that draws [s]; a graphics driver may hang."""
 
 OPENGL_HINT = (
     "install OpenGL without a screen, on Debian: apt install libegl1 libgl1-mesa-dri libosmesa6"
@@ -17,7 +19,7 @@ OPENGL_HINT = (
 
 
 def backends() -> tuple[str, ...]:
-    """Values of MUJOCO_GL to try: what the user chose, or what needs no screen."""
+    """Values of MUJOCO_GL to try: the user's choice, or those that need no screen."""
     chosen = os.environ.get("MUJOCO_GL")
     # The command line disables it for its own process, which draws nothing.
     if chosen == "disabled":
@@ -28,7 +30,7 @@ def backends() -> tuple[str, ...]:
 
 
 def failure_of(module: str, arguments: Sequence[str], backend: str) -> str | None:
-    """Run a module that draws in another process; what went wrong, or None."""
+    """Run a module that draws in another process; gives the reason of a failure, or None."""
     environment = dict(os.environ)
     if backend:
         environment["MUJOCO_GL"] = environment["PYOPENGL_PLATFORM"] = backend
@@ -47,3 +49,23 @@ def failure_of(module: str, arguments: Sequence[str], backend: str) -> str | Non
         return None
     said = done.stderr.decode(errors="replace").strip().splitlines()
     return f"{backend or 'OpenGL'}: {said[-1] if said else f'exit code {done.returncode}'}"
+
+
+def draw(program: str, arguments: Sequence[str], what: str) -> None:
+    """Run a program that draws, with the first backend of OpenGL that works.
+
+    Args:
+        program: module to run in a process of its own.
+        arguments: of the program.
+        what: it draws, for the message.
+
+    Raises:
+        MissingToolError: OpenGL does not work here; the message says why.
+    """
+    failures = []
+    for backend in backends():
+        failure = failure_of(program, arguments, backend)
+        if failure is None:
+            return
+        failures.append(failure)
+    raise MissingToolError(f"no {what}, because {'; '.join(failures)}", hint=OPENGL_HINT)

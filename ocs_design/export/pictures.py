@@ -1,24 +1,26 @@
-"""What a design looks like: the wheel, a module, and the robot with both."""
+"""Pictures of a design as PNG: the wheel, a module, and the robot with its device."""
 
-from collections.abc import Iterator, Sequence
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import mujoco
 import numpy as np
 
-from ocs_design.design import Device
-from ocs_design.drive_solids import drive_solids, motor_mount
-from ocs_design.export.backdrop import add_white_sky
-from ocs_design.export.rendering import Scene, render_views
+from ocs_design.common.errors import MissingToolError
+from ocs_design.device.device import Device
+from ocs_design.device.solids import drive_solids, motor_mount
+from ocs_design.export.device_parts import printed_foot, printed_parts
+from ocs_design.export.film import OFFSCREEN, Take, add_white_sky, written_take
+from ocs_design.export.formats import Notes, Subject
+from ocs_design.export.meshes import Mesh, part_mesh, solid_mesh
+from ocs_design.export.opengl import draw
 from ocs_design.export.robot_model import RobotModel
-from ocs_design.export.standing import GEAR, MOTOR, PRINT, SHELL, Color, cage_placement
-from ocs_design.export.workshop import printed_foot, printed_parts
+from ocs_design.export.stl import wheel_meshes
+from ocs_design.export.visuals import GEAR, MOTOR, PRINT, SHELL, Color, cage_placement
 from ocs_design.parts.cage import cage_part
-from ocs_design.parts.foot import Foot
-from ocs_design.parts.mesh import Mesh, part_mesh, solid_mesh
 from ocs_design.parts.solids import hollow_cylinder
-from ocs_design.parts.wheel import Wheel
-from ocs_design.parts.wheel_parts import wheel_parts
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Placement
 
@@ -31,33 +33,64 @@ _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """A mesh in its color, in the module's frame."""
+    """Mesh in its colour, in the module's frame."""
 
     mesh: Mesh
     color: Color
 
 
-def draw_pictures(
-    device: Device, wheel: Wheel, robot: Robot, model: RobotModel
-) -> dict[str, bytes]:
+def write(subject: Subject, folder: Path) -> Notes:
+    """Write `wheel.png`, `module.png` and `robot.png`; a note where OpenGL does not work."""
+    try:
+        pictures = draw_pictures(subject.device, subject.carrier, subject.model)
+    except MissingToolError as error:
+        return (f"{error}; {error.hint}" if error.hint else str(error),)
+    for name, content in pictures.items():
+        (folder / f"{name}.png").write_bytes(content)
+    return ()
+
+
+def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, bytes]:
     """PNG by name: `wheel`, `module` where there is more than the wheel, and `robot`.
 
     Args:
-        device: to draw. wheel: each of its two, as it is made.
-        robot: that carries it, for its posture. model: of both.
+        device: to draw.
+        robot: that carries it, for its posture.
+        model: of both.
 
     Raises:
         MissingToolError: OpenGL does not work here.
     """
-    turning, carrier = _wheel(wheel), _carrier(device)
-    scenes = {"wheel": shown_scene(turning)}
-    if carrier:
-        scenes["module"] = shown_scene([*turning, *carrier])
-    scenes["robot"] = robot_scene(robot, model)
-    return render_views(scenes)
+    # The rim, and in a colour of its own what carries it.
+    pieces = wheel_meshes(device.flywheel).values()
+    turning = [Shown(mesh, color) for mesh, color in zip(pieces, (STEEL, ALUMINIUM), strict=False)]
+    takes = {"wheel": parts_take(turning)}
+    if device.carrier.mass > 0.0:
+        takes["module"] = parts_take([*turning, *_carrier(device)])
+    qpos = np.array(model.compiled.qpos0)
+    for joint, value in robot.posture.items():
+        qpos[model.compiled.joint(joint).qposadr[0]] = value
+    takes["robot"] = Take(model.compiled, qpos[None])
+    return render_views(takes)
 
 
-def shown_scene(shown: Sequence[Shown]) -> Scene:
+def render_views(takes: Mapping[str, Take]) -> dict[str, bytes]:
+    """PNG of each take's first pose, from the front, the side, above and in perspective.
+
+    Raises:
+        MissingToolError: OpenGL does not work here; the message says why.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        stems = [Path(folder) / f"{i}" for i in range(len(takes))]
+        paths = [
+            (*written_take(take, stem), stem.with_suffix(".png"))
+            for take, stem in zip(takes.values(), stems, strict=True)
+        ]
+        draw(OFFSCREEN, ["views", *(str(path) for three in paths for path in three)], "pictures")
+        return {name: three[2].read_bytes() for name, three in zip(takes, paths, strict=True)}
+
+
+def parts_take(shown: Sequence[Shown]) -> Take:
     """Parts alone, as they stand on the robot at no incidence."""
     spec = mujoco.MjSpec()
     add_white_sky(spec)
@@ -71,51 +104,23 @@ def shown_scene(shown: Sequence[Shown]) -> Scene:
         )
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, rgba=part.color)
     model = spec.compile()
-    return Scene(model, model.qpos0)
+    return Take(model, model.qpos0[None])
 
 
-def robot_scene(robot: Robot, model: RobotModel) -> Scene:
-    """In the nominal posture."""
-    qpos = np.array(model.compiled.qpos0)
-    for joint, value in robot.posture.items():
-        qpos[model.compiled.joint(joint).qposadr[0]] = value
-    return Scene(model.compiled, qpos)
-
-
-def _wheel(wheel: Wheel) -> list[Shown]:
-    """The rim, and in a color of its own what carries it."""
-    return [
-        Shown(part_mesh(part), color)
-        for part, color in zip(wheel_parts(wheel), (STEEL, ALUMINIUM), strict=False)
-    ]
-
-
-def _carrier(device: Device) -> list[Shown]:
+def _carrier(device: Device) -> Iterator[Shown]:
     """Motor and gear, where their sizes are known, and what is printed around them."""
-    if device.carrier.mass == 0.0:
-        return []
     foot, (drum, lid, base, *_) = printed_foot(device), printed_parts(device)
-    return [
-        *_drive(device),
-        Shown(_placed(part_mesh(base), foot.placement), PRINT),
-        *_cage(device, foot),
-        *(Shown(part_mesh(part), SHELL) for part in (drum, lid)),
-    ]
-
-
-def _drive(device: Device) -> Iterator[Shown]:
     colors = {"motor": MOTOR, "gear": GEAR}
     for solid in drive_solids(device):
         if solid.name in colors:
             mesh = solid_mesh(hollow_cylinder(0.0, solid.radius, solid.low, solid.high))
             above = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
             yield Shown(_placed(mesh, above), colors[solid.name])
-
-
-def _cage(device: Device, foot: Foot) -> Iterator[Shown]:
+    yield Shown(_placed(part_mesh(base), foot.placement), PRINT)
     cage = motor_mount(device).cage
     if cage is not None:
         yield Shown(_placed(part_mesh(cage_part(cage)), cage_placement(foot, cage)), PRINT)
+    yield from (Shown(part_mesh(part), SHELL) for part in (drum, lid))
 
 
 def _placed(mesh: Mesh, place: Placement) -> Mesh:

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _SUB = b"\1"
-"""Each row as differences to the pixel on the left: even faces become runs of zeros."""
+"""Filter of PNG: rows are differences to the pixel on the left, zeros on even faces."""
 
 
 def png_bytes(image: NDArray[np.uint8]) -> bytes:
-    """An image, shape (height, width, 3), as PNG (ISO/IEC 15948): 8 bits of red, green and blue."""
+    """PNG (ISO/IEC 15948) of an image, shape (height, width, 3): red, green and blue, 8 bits."""
     height, width, _ = image.shape
     left = np.zeros_like(image)
     left[:, 1:] = image[:, :-1]

@@ -1,23 +1,12 @@
-"""The device alone, to paste, include or attach."""
+"""Device alone, to paste, include or attach: URDF, xacro, ros2_control, MJCF and SDF."""
 
-from collections.abc import Iterator
 from pathlib import Path
 from textwrap import indent
 
 import numpy as np
 
-from ocs_design.design import Device, Module
-from ocs_design.export.attach import WHEEL_CONTACT_BIT
-from ocs_design.export.device_urdf import (
-    cylinder_urdf,
-    device_urdf,
-    inertial_values,
-    limit_urdf,
-    mount_urdf,
-)
-from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
-from ocs_design.export.motor import largest_torque
-from ocs_design.export.naming import (
+from ocs_design.device.device import Device, Module
+from ocs_design.device.naming import (
     IMU,
     PREFIX,
     carrier_name,
@@ -28,15 +17,30 @@ from ocs_design.export.naming import (
     torque_sensor,
     velocity_sensor,
 )
-from ocs_design.export.ros2_control import MOCK_PLUGIN, ros2_control_urdf
-from ocs_design.export.seat import Seat, trunk_link
-from ocs_design.export.snippet_sdf import export_snippet_sdf
-from ocs_design.export.standing import Visual, plain_standing_visuals
-from ocs_design.export.standing_text import visuals_urdf
+from ocs_design.export.device_urdf import (
+    MOCK_PLUGIN,
+    cylinder_urdf,
+    device_urdf,
+    inertial_values,
+    limit_urdf,
+    mount_urdf,
+    ros2_control_urdf,
+    trunk_link,
+    visuals_urdf,
+)
+from ocs_design.export.formats import Notes, Seat, Subject
+from ocs_design.export.module_bodies import (
+    WHEEL_CONTACT_BIT,
+    carrier_inertial,
+    flywheel_inertial,
+    largest_torque,
+    wheel_placement,
+)
+from ocs_design.export.sdf import export_snippet_sdf
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
-from ocs_design.export.wheel_frame import wheel_placement
+from ocs_design.export.visuals import plain_carrier_visuals
+from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.rotations import rpy_from_rotation
-from ocs_design.robot.spec.frames import quaternion
 
 _MACRO_PLACE = {
     "link": "${prefix}ocs_${side}_motor",
@@ -44,11 +48,17 @@ _MACRO_PLACE = {
     "position": "${position}",
     "rpy": "${-pi/2} 0 ${yaw}",
 }
-"""Of what stands still, in terms of the xacro macro's arguments."""
+"""Place of the carrier in terms of the xacro macro's arguments."""
+
+
+def write(subject: Subject, folder: Path) -> Notes:
+    """Write all snippets."""
+    export_snippets(subject.device, subject.seat, folder)
+    return ()
 
 
 def export_snippets(device: Device, seat: Seat, folder: Path) -> None:
-    """Write all of them.
+    """Write all snippets.
 
     Args:
         device: to write.
@@ -78,6 +88,8 @@ def export_snippet_urdf(device: Device, seat: Seat, path: Path) -> Path:
 def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
     """Write a xacro macro `ocs`; arguments as in `export_snippet_urdf`."""
     left, right = device.modules
+    joints = [f"${{prefix}}{joint}" for joint in joint_names(device)]
+    control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
     values = {
         **_names(seat),
@@ -90,13 +102,13 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
         "limit": limit_urdf(device),
         "carrier": indent(_macro_carrier(device), "  "),
         "plugin": MOCK_PLUGIN,
-        "ros2_control": indent(_macro_ros2_control(device), "    "),
+        "ros2_control": indent(control, "    "),
     }
     return _write(path, fill("ocs.urdf.xacro", values))
 
 
 def _macro_carrier(device: Device) -> str:
-    """What stands still, with what differs between the sides left to the macro's argument."""
+    """Carrier, with what differs between the sides left to the macro's argument."""
     left, right = (carrier_inertial(device, module) for module in device.modules)
     if left is None or right is None:
         return ""
@@ -105,24 +117,13 @@ def _macro_carrier(device: Device) -> str:
         name: f"${{'{own[name]}' if side == 'left' else '{other[name]}'}}"
         for name in ("com", "iyz")
     }
-    values = {**_MACRO_PLACE, **own, **sided, "visuals": _macro_visuals(device)}
-    return fill("carrier.urdf", values)
-
-
-def _macro_visuals(device: Device) -> str:
-    """Of the side that the macro's argument names."""
-    left, right = (visuals_urdf(plain_standing_visuals(device, each)) for each in device.modules)
+    one, two = (visuals_urdf(plain_carrier_visuals(device, each)) for each in device.modules)
     is_left = "value=\"${side == 'left'}\""
-    return (
-        f"    <xacro:if {is_left}>\n{left}    </xacro:if>\n"
-        f"    <xacro:unless {is_left}>\n{right}    </xacro:unless>\n"
+    visuals = (
+        f"    <xacro:if {is_left}>\n{one}    </xacro:if>\n"
+        f"    <xacro:unless {is_left}>\n{two}    </xacro:unless>\n"
     )
-
-
-def _macro_ros2_control(device: Device) -> str:
-    """In terms of the macro's arguments."""
-    joints = [f"${{prefix}}{joint}" for joint in joint_names(device)]
-    return ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
+    return fill("carrier.urdf", {**_MACRO_PLACE, **own, **sided, "visuals": visuals})
 
 
 def export_snippet_ros2_control(device: Device, path: Path) -> Path:
@@ -133,16 +134,29 @@ def export_snippet_ros2_control(device: Device, path: Path) -> Path:
 
 def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
     """Write a model to attach to a MJCF robot; arguments as in `export_snippet_urdf`."""
-    modules = "".join(_module_mjcf(device, module) for module in device.modules)
-    motors = "".join(f"    {_motor_mjcf(device, module)}\n" for module in device.modules)
+    limit = largest_torque(device.motor)
+    limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
+    # Attaching puts the prefix in front of the names.
+    imu, attitude, rate = (name.removeprefix(PREFIX) for name in (IMU, *imu_sensors()))
+    motors, sensors = [], []
+    for module in device.modules:
+        joint = joint_name(module).removeprefix(PREFIX)
+        speed, torque = (
+            name(module).removeprefix(PREFIX) for name in (velocity_sensor, torque_sensor)
+        )
+        motors.append(f'<motor name="{joint}" joint="{joint}"{limits}/>')
+        sensors.append(f'<jointvel name="{speed}" joint="{joint}"/>')
+        sensors.append(f'<jointactuatorfrc name="{torque}" joint="{joint}"/>')
+    sensors.append(f'<framequat name="{attitude}" objtype="site" objname="{imu}"/>')
+    sensors.append(f'<gyro name="{rate}" site="{imu}"/>')
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
     values = {
         **_names(seat),
         "base_quaternion": numbers(quaternion(rotation)),
-        "modules": modules,
-        "motors": motors,
-        "imu": IMU.removeprefix(PREFIX),
-        "sensors": "".join(f"    {sensor}\n" for sensor in _sensors_mjcf(device)),
+        "modules": "".join(_module_mjcf(device, module) for module in device.modules),
+        "motors": "".join(f"    {motor}\n" for motor in motors),
+        "imu": imu,
+        "sensors": "".join(f"    {sensor}\n" for sensor in sensors),
     }
     return _write(path, fill("ocs.xml", values))
 
@@ -169,43 +183,21 @@ def _module_mjcf(device: Device, module: Module) -> str:
     if carrier is None:
         return turning
     name = carrier_name(module).removeprefix(PREFIX)
-    geoms = "".join(_geom_mjcf(visual) for visual in plain_standing_visuals(device, module))
+    geoms = "".join(
+        fill(
+            "visual.xml",
+            {
+                "type": visual.kind.value,
+                "position": numbers(visual.place.position),
+                "quaternion": numbers(quaternion(visual.place.rotation)),
+                "size": numbers(visual.size),
+                "color": numbers(visual.color),
+            },
+        )
+        for visual in plain_carrier_visuals(device, module)
+    )
     values = {**place, **inertial_values(carrier), "body": name, "geoms": geoms}
     return turning + fill("carrier.xml", values)
-
-
-def _geom_mjcf(visual: Visual) -> str:
-    return fill(
-        "visual.xml",
-        {
-            "type": visual.kind.value,
-            "position": numbers(visual.place.position),
-            "quaternion": numbers(quaternion(visual.place.rotation)),
-            "size": numbers(visual.size),
-            "color": numbers(visual.color),
-        },
-    )
-
-
-def _motor_mjcf(device: Device, module: Module) -> str:
-    name, limit = joint_name(module).removeprefix(PREFIX), largest_torque(device.motor)
-    limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
-    return f'<motor name="{name}" joint="{name}"{limits}/>'
-
-
-def _sensors_mjcf(device: Device) -> Iterator[str]:
-    """As `sensors.add_sensors` does it; attaching puts the prefix in front of the names."""
-    for module in device.modules:
-        joint = joint_name(module).removeprefix(PREFIX)
-        for tag, name in (
-            ("jointvel", velocity_sensor(module)),
-            ("jointactuatorfrc", torque_sensor(module)),
-        ):
-            yield f'<{tag} name="{name.removeprefix(PREFIX)}" joint="{joint}"/>'
-    attitude, rate = (name.removeprefix(PREFIX) for name in imu_sensors())
-    site = IMU.removeprefix(PREFIX)
-    yield f'<framequat name="{attitude}" objtype="site" objname="{site}"/>'
-    yield f'<gyro name="{rate}" site="{site}"/>'
 
 
 def _names(seat: Seat) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Hidden folders in which a result is made whole, and what became of those whose run was killed.
+"""Hidden folders in which a result is completed, and the removal of those of killed runs.
 
 A run holds a lock on its folder for as long as it lives, and the system takes that from it however
 it ends. So a later run can tell what is left over from what another one is writing just now.
@@ -15,18 +15,18 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 NEW, OLD = "new", "old"
-"""In such a folder: what is made, and what it takes the place of."""
+"""Names in such a folder of the new result, and of the old one that it replaces."""
 
 _MARK = "ocs-design"
-"""In their names, so that nobody's own hidden folders are taken for them."""
+"""Part of the folders' names, so that a user's own hidden folders are not taken for them."""
 
 _unfinished: dict[Path, Path] = {}
-"""Those of this process and their targets, from before they are made until they are gone."""
+"""Folders of this process and their targets, from before they are made until they are gone."""
 
 
 @contextmanager
 def staging_beside(target: Path) -> Iterator[Path]:
-    """A folder of our own beside `target`, on the same disk, which is gone after the block.
+    """Hidden folder beside `target`, on the same disk, which is gone after the block.
 
     Raises:
         OSError: none can be made there.
@@ -42,7 +42,7 @@ def staging_beside(target: Path) -> Iterator[Path]:
 
 
 def remove_unfinished() -> None:
-    """What is left of blocks that were interrupted where no `finally` holds yet, or holds no more.
+    """Remove folders of blocks that were interrupted outside their `finally`.
 
     To be called when nothing interrupts any longer.
     """
@@ -56,12 +56,18 @@ def clear_leftovers(target: Path) -> None:
     pattern = re.compile(rf"\.{re.escape(target.name)}\.{_MARK}-[a-z0-9_]{{8}}")
     with suppress(OSError):
         for folder in sorted(target.absolute().parent.iterdir()):
-            if pattern.fullmatch(folder.name) and not folder.is_symlink():
-                _clear(folder, target)
+            if not pattern.fullmatch(folder.name) or folder.is_symlink():
+                continue
+            with suppress(OSError):
+                handle = _lock(folder)
+                try:
+                    _undo(folder, target)
+                finally:
+                    os.close(handle)
 
 
 def _locked_folder(target: Path) -> tuple[Path, int | None]:
-    """Its path, and the handle that bears the lock; None where there are no locks."""
+    """Path of a new folder, and the handle that bears its lock; None where there are no locks."""
     while True:
         folder = _new_folder(target)
         try:
@@ -79,7 +85,7 @@ def _locked_folder(target: Path) -> tuple[Path, int | None]:
 
 
 def _new_folder(target: Path) -> Path:
-    """Its name is known before it is there, which `tempfile` tells only afterwards."""
+    """New folder whose name is known before it is made, unlike that of `tempfile`."""
     while True:
         name = f".{target.name}.{_MARK}-{secrets.token_hex(4)}"
         folder = target.absolute().parent / name
@@ -94,15 +100,6 @@ def _new_folder(target: Path) -> Path:
             return folder
 
 
-def _clear(folder: Path, target: Path) -> None:
-    with suppress(OSError):
-        handle = _lock(folder)
-        try:
-            _undo(folder, target)
-        finally:
-            os.close(handle)
-
-
 def _undo(folder: Path, target: Path) -> None:
     if (folder / OLD).exists() and not os.path.lexists(target):
         (folder / OLD).rename(target)
@@ -110,7 +107,7 @@ def _undo(folder: Path, target: Path) -> None:
 
 
 def _lock(folder: Path) -> int:
-    """The handle that bears the lock, until it is closed or the process ends in whatever way.
+    """Handle that bears the lock until it is closed or the process ends.
 
     Raises:
         BlockingIOError: another run has it.

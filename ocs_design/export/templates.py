@@ -1,4 +1,4 @@
-"""Fills the texts in `templates/` with numbers and names."""
+"""Templates of exported text files, to be filled with numbers and names."""
 
 import re
 from importlib.resources import files
@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike
 
 
 class _AtTemplate(Template):
-    """`@name` is replaced: dollars and braces belong to xacro."""
+    """Template whose places are `@name`: dollars and braces belong to xacro."""
 
     delimiter = "@"
 
 
 def fill(template: str, values: dict[str, str]) -> str:
-    """The text of `templates/<template>` with each `@name` replaced.
+    """Text of `templates/<template>` with each `@name` replaced.
 
     Args:
         template: file name.
@@ -28,14 +28,15 @@ def fill(template: str, values: dict[str, str]) -> str:
 
 
 def template_text(template: str) -> str:
-    """The text of `templates/<template>` as it stands."""
-    return (_folder() / template).read_text(encoding="utf-8")
+    """Text of `templates/<template>` as it stands."""
+    return template_file(template).read_text(encoding="utf-8")
 
 
-def _folder() -> Traversable:
-    """Inside the package when installed from a wheel, else at the top of the repository."""
+def template_file(name: str) -> Traversable:
+    """File `templates/<name>`: in the package when installed, else beside it in the sources."""
     installed = files("ocs_design") / "templates"
-    return installed if installed.is_dir() else Path(__file__).parents[2] / "templates"
+    folder = installed if installed.is_dir() else Path(__file__).parents[2] / "templates"
+    return folder / name
 
 
 def quoted(text: str) -> str:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.text_files import safe_name
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.files import safe_name
 
 
 def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:
@@ -23,5 +23,5 @@ def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:
 
 
 def series_file(scenario: str, *, ocs: bool) -> str:
-    """Name of the CSV of a run, with the device or without."""
+    """Name of the CSV file of a run, with the device or without."""
     return f"{safe_name(scenario)}_{'with' if ocs else 'without'}_ocs.csv"

@@ -1,14 +1,28 @@
-"""Runs to be looked at in MuJoCo's viewer, where a display exists."""
+"""MuJoCo's viewer on robots that move as recorded, one window after the other.
+
+The windows are opened by a process of its own: without a display GLFW ends it, and with one it may
+crash as it ends. So this module is a program, too:
+
+    python -m ocs_design.export.watching SECONDS_PER_POSE MODEL.mjb QPOS.npy ...
+"""
 
 import os
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from ocs_design.exceptions import MissingToolError
+import mujoco
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import MissingToolError
 from ocs_design.export.film import Take, written_take
+
+PAUSE = 1.0
+"""Time between the end of a run and its next beginning [s]."""
 
 DISPLAY_HINT = (
     "run it where there is a screen, or film the flights by `ocs-design size ROBOT --video`; a "
@@ -17,7 +31,7 @@ DISPLAY_HINT = (
 
 
 def watch_takes(takes: Sequence[Take], seconds: float) -> None:
-    """A window for each take, one after the other as they are closed.
+    """Show each take in a window, one after the other as they are closed.
 
     Args:
         takes: to be shown.
@@ -30,7 +44,7 @@ def watch_takes(takes: Sequence[Take], seconds: float) -> None:
     with tempfile.TemporaryDirectory() as folder:
         paths = [written_take(take, Path(folder) / f"{i}") for i, take in enumerate(takes)]
         files = [str(path) for pair in paths for path in pair]
-        command = [sys.executable, "-m", "ocs_design.export.watch_frames", str(seconds), *files]
+        command = [sys.executable, "-m", "ocs_design.export.watching", str(seconds), *files]
         # The command line disables OpenGL for its own process.
         environment = {**os.environ, "MUJOCO_GL": "glfw"}
         done = subprocess.run(
@@ -43,7 +57,7 @@ def watch_takes(takes: Sequence[Take], seconds: float) -> None:
 
 
 def check_display() -> None:
-    """Refuse early what would be refused after all the work.
+    """Refuse early, before all the work, where no window can be opened.
 
     Raises:
         MissingToolError: X11 and Wayland are not there.
@@ -51,3 +65,48 @@ def check_display() -> None:
     displays = map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY"))
     if sys.platform == "linux" and not any(displays):
         raise MissingToolError("--view needs a display, and there is none", hint=DISPLAY_HINT)
+
+
+def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float, parent: int) -> None:
+    """Play a run in real time, again and again, until the window is closed.
+
+    It closes, too, when the command that asked for it ends, which no user would do by hand.
+
+    Args:
+        model: see `film_model`.
+        qpos: of each pose, shape (n, nq).
+        seconds: from one pose to the next [s].
+        parent: process that asked for it.
+    """
+    # It loads a window system.
+    import mujoco.viewer  # noqa: PLC0415
+
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    quiet = {"show_left_ui": False, "show_right_ui": False}
+    with mujoco.viewer.launch_passive(model, data, **quiet) as viewer:
+        viewer.cam.type = mujoco.mjtCamera.mjCAMERA_TRACKING
+        viewer.cam.trackbodyid = 1
+        start, whole = time.monotonic(), len(qpos) * seconds + PAUSE
+        while viewer.is_running() and os.getppid() == parent:
+            pose = int((time.monotonic() - start) % whole / seconds)
+            with viewer.lock():
+                data.qpos[:] = qpos[min(pose, len(qpos) - 1)]
+                data.time = pose * seconds
+                mujoco.mj_forward(model, data)
+            viewer.sync()
+            time.sleep(seconds)
+
+
+def main(arguments: list[str]) -> None:
+    """Open one window for every two paths: model and joint positions."""
+    (seconds, *paths), parent = arguments, os.getppid()
+    for model, qpos in zip(*(iter(paths),) * 2, strict=True):
+        watch(mujoco.MjModel.from_binary_path(model), np.load(qpos), float(seconds), parent)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
+    sys.stdout.flush()
+    # The viewer's own thread may still hold the display: nothing is left to tidy up.
+    os._exit(0)

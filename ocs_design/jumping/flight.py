@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.floating_base import POSE, FloatingBase
 
 _STEP = 4e-3
-"""Of the integration [s]."""
+"""Step of the integration [s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,11 +35,11 @@ class LegReturn:
 
     @property
     def duration(self) -> float:
-        """[s]."""
+        """Duration of both parts [s]."""
         return self.brake + self.swing
 
     def at(self, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Positions, velocities and accelerations at times since lift-off, shape (k, n) each."""
+        """Positions, velocities and accelerations, shape (k, n), at times since lift-off [s]."""
         t = time[:, None]
         braking = np.minimum(t, self.brake)
         s = np.clip((t - self.brake) / self.swing, 0.0, 1.0)
@@ -65,7 +65,7 @@ class LegReturn:
 
 @dataclass(frozen=True, eq=False)
 class LegFlight:
-    """What comes of a `LegReturn`.
+    """Flight during a `LegReturn`.
 
     Attributes:
         time: since lift-off [s], shape (k,).
@@ -81,7 +81,7 @@ class LegFlight:
 
 
 class FreeRobot:
-    """The robot in the air, its joints moved as told."""
+    """The robot in the air, its joints moved as given."""
 
     def __init__(self, base: FloatingBase) -> None:
         unknown, known = base.a[:POSE], base.a[POSE:]
@@ -93,20 +93,22 @@ class FreeRobot:
         slope = ca.jacobian(ca.vertcat(base.imbalance, base.torque), unknown)
         pose = ca.solve(slope[:POSE, :], -still[:POSE])
         torque = still[POSE:] + slope[POSE:, :] @ pose
-        inputs = [base.y, base.v, known, base.load.packed()]
-        self._respond = ca.Function("respond", inputs, [pose, torque])
+        self._step = _runge_kutta(base, ca.vertcat(pose, torque), known)
         # Angular momentum is linear in the rates, which at a level trunk are those of its angles.
         locked = ca.jacobian(base.spin, base.v[3:POSE])
         self._locked = ca.Function("locked", [base.y, base.load.packed()], [locked])
 
     def inertia(self, y: FloatArray, load: FloatArray) -> FloatArray:
-        """Of the whole with its joints locked, about its centre of mass, level [kg m^2], (3, 3)."""
+        """Inertia of the whole with its joints locked, about its centre of mass, level [kg m^2].
+
+        Shape (3, 3).
+        """
         return np.asarray(self._locked(y, load))
 
     def fly(
         self, y: FloatArray, v: FloatArray, legs: LegReturn, load: FloatArray, duration: float
     ) -> LegFlight:
-        """From lift-off until touchdown, by classical Runge-Kutta steps.
+        """The flight from lift-off until touchdown, by classical Runge-Kutta steps.
 
         Args:
             y, v: pose and joints, and their rates, at lift-off.
@@ -115,38 +117,37 @@ class FreeRobot:
             duration: of the flight [s], no shorter than that of `legs`.
         """
         steps = int(np.ceil(legs.duration / _STEP))
-        h = legs.duration / steps
-        half = legs.at(np.linspace(0.0, legs.duration, 2 * steps + 1))
-        pose, rate = y[:POSE].copy(), v[:POSE].copy()
-        torque = np.empty((steps + 1, len(legs.posture)))
-        for k in range(steps + 1):
-            first = self._rates(pose, rate, half, 2 * k, load)
-            torque[k] = first[1]
-            if k == steps:
-                break
-            second = self._rates(
-                pose + h / 2 * rate, rate + h / 2 * first[0], half, 2 * k + 1, load
-            )
-            middle = rate + h / 2 * second[0]
-            third = self._rates(pose + h / 2 * middle, middle, half, 2 * k + 1, load)
-            last = rate + h * third[0]
-            fourth = self._rates(pose + h * last, last, half, 2 * k + 2, load)
-            pose = pose + h * rate + h**2 / 6 * (first[0] + second[0] + third[0])
-            rate = rate + h / 6 * (first[0] + 2 * second[0] + 2 * third[0] + fourth[0])
+        halves = legs.at(np.linspace(0.0, legs.duration, 2 * steps + 1))
+        given = np.hstack(halves)
+        # One step more than there is: it gives the torque at the end.
+        given = np.vstack([given, given[-1:], given[-1:]]).T
+        run = self._step.mapaccum("flight", steps + 1)
+        start = np.append(y[:POSE], v[:POSE])
+        instants = [given[:, first : first + 2 * steps + 1 : 2] for first in range(3)]
+        found, torque = run(start, *instants, legs.duration / steps, load)
+        _, tilt, _, turning = np.split(np.asarray(found)[:, steps - 1], 4)
         time = np.linspace(0.0, legs.duration, steps + 1)
         # From then on nothing moves in the robot, and what is left of its spin stays.
-        tilt = pose[3:] + rate[3:] * (duration - legs.duration)
-        return LegFlight(time, half[0][::2], half[1][::2], torque, tilt)
+        tilt = tilt + turning * (duration - legs.duration)
+        return LegFlight(time, halves[0][::2], halves[1][::2], np.asarray(torque).T, tilt)
 
-    def _rates(
-        self,
-        pose: FloatArray,
-        rate: FloatArray,
-        legs: tuple[FloatArray, FloatArray, FloatArray],
-        k: int,
-        load: FloatArray,
-    ) -> tuple[FloatArray, FloatArray]:
-        position, velocity, acceleration = (each[k] for each in legs)
-        y, v = np.append(pose, position), np.append(rate, velocity)
-        found, torque = self._respond(y, v, acceleration, load)
-        return np.asarray(found).ravel(), np.asarray(torque).ravel()
+
+def _runge_kutta(base: FloatingBase, response: ca.SX, known: ca.SX) -> ca.Function:
+    """One step of the pose and its rate, and the torques at its start.
+
+    It takes both, the joints' positions, velocities and accelerations at the start, in the middle
+    and at the end of the step, its length and the load.
+    """
+    given = ca.vertcat(base.y[POSE:], base.v[POSE:], known)
+    state = ca.vertcat(base.y[:POSE], base.v[:POSE])
+    inputs = [state, given, base.load.packed()]
+    change = ca.vertcat(base.v[:POSE], response[:POSE])
+    rates = ca.Function("rates", inputs, [change, response[POSE:]])
+    now, load, h = ca.MX.sym("now", 2 * POSE), ca.MX.sym("load", inputs[2].numel()), ca.MX.sym("h")
+    start, middle, end = (ca.MX.sym(name, given.numel()) for name in ("start", "middle", "end"))
+    first, torque = rates(now, start, load)
+    second, _ = rates(now + h / 2.0 * first, middle, load)
+    third, _ = rates(now + h / 2.0 * second, middle, load)
+    fourth, _ = rates(now + h * third, end, load)
+    ahead = now + h / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
+    return ca.Function("step", [now, start, middle, end, h, load], [ahead, torque])

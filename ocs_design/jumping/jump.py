@@ -1,10 +1,10 @@
-"""A jump as it is asked for, and what became of it."""
+"""A jump as it is asked for, and what the legs track to make it; no solver is needed to read it."""
 
 from dataclasses import dataclass
 from math import sqrt
 from typing import NamedTuple
 
-from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
 
 
@@ -23,8 +23,30 @@ class Jump:
 
     @property
     def flight_time(self) -> float:
-        """Until the centre of mass is as high again as at lift-off [s]."""
+        """Time until the centre of mass is as high again as at lift-off [s]."""
         return 2.0 * self.upward / self.gravity
+
+
+@dataclass(frozen=True, eq=False)
+class LegTrajectory:
+    """Joint references from the nominal stance to the touchdown posture; between samples linear.
+
+    Attributes:
+        joints: names, n of them.
+        time: from the start of the push-off [s], shape (k,), increasing, from 0; after the last
+            the joints are held there.
+        position: [rad or m], shape (k, n).
+        velocity: [rad/s or m/s], shape (k, n).
+        torque: of the drives [N m or N], shape (k, n).
+        lift_off: when the feet are to leave the ground [s].
+    """
+
+    joints: tuple[str, ...]
+    time: FloatArray
+    position: FloatArray
+    velocity: FloatArray
+    torque: FloatArray
+    lift_off: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,22 +1,21 @@
 """A robot as a trunk with legs: everything that is in no leg is held, and part of the trunk."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.robot.mass_properties import MassProperties, combine
-from ocs_design.robot.robot import Robot
-from ocs_design.robot.stance.chain import Chain
-from ocs_design.robot.stance.feet import is_wheel
-from ocs_design.robot.stance.leg_geometry import (
+from ocs_design.common.arrays import FloatArray
+from ocs_design.robot.chain import Chain
+from ocs_design.robot.leg_geometry import (
     LegGeometry,
     leg_geometries,
-    placements_in_base,
     up_axis,
 )
-from ocs_design.robot.tree import Joint, Tree
+from ocs_design.robot.legs import is_wheel
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.tree import Joint
 
 _FEWEST_JOINTS = 3
 """A leg that holds its foot still while the trunk moves in six directions."""
@@ -64,10 +63,21 @@ class LeggedBody:
 
     @classmethod
     def of(cls, robot: Robot) -> "LeggedBody":
-        """Of a robot that `obstacle_to_jumping` has nothing against."""
+        """Trunk and legs of a robot for which `obstacle_to_jumping` is empty."""
         geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
-        masses = _lumped(robot, geometries)
-        legs = tuple(_leg(robot.tree, each, masses) for each in geometries)
+        masses = _merged_masses(robot, geometries)
+        index = {body.name: i for i, body in enumerate(robot.tree.bodies)}
+        legs = tuple(
+            JumpingLeg(
+                chain=each.chain,
+                bodies=tuple(masses[index[body.name]] for body in each.chain.bodies),
+                foot=each.leg.foot,
+                foot_radius=each.leg.foot_radius,
+                hip=each.chain.driven[each.plane.pitch[0]],
+                length=each.leg.length,
+            )
+            for each in geometries
+        )
         joints = tuple(joint for leg in legs for joint in leg.chain.joints)
         assert robot.standing_height is not None
         return cls(
@@ -80,12 +90,12 @@ class LeggedBody:
 
     @property
     def length(self) -> float:
-        """Of the legs, stretched, in the mean [m]."""
+        """Mean length of the stretched legs [m]."""
         return float(np.mean([leg.length for leg in self.legs]))
 
     @property
     def leg_mass(self) -> float:
-        """Of all legs [kg]."""
+        """Mass of all legs [kg]."""
         return float(sum(body.mass for leg in self.legs for body in leg.bodies))
 
     @property
@@ -99,7 +109,7 @@ class LeggedBody:
 
 
 def obstacle_to_jumping(robot: Robot) -> str:
-    """Why no push-off can be planned for a robot, as half a sentence; empty if one can."""
+    """Reason why no push-off can be planned for a robot, as half a sentence; empty if one can."""
     if not robot.legs:
         return "the robot has no legs"
     if up_axis(robot.tree, robot.trunk, robot.legs)[2] != 1.0:
@@ -121,25 +131,12 @@ def _obstacle_of_leg(each: LegGeometry) -> str:
     return ""
 
 
-def _leg(tree: Tree, each: LegGeometry, masses: Mapping[int, MassProperties]) -> JumpingLeg:
-    chain = each.chain
-    index = {body.name: i for i, body in enumerate(tree.bodies)}
-    return JumpingLeg(
-        chain=chain,
-        bodies=tuple(masses[index[body.name]] for body in chain.bodies),
-        foot=each.leg.foot,
-        foot_radius=each.leg.foot_radius,
-        hip=chain.driven[each.plane.pitch[0]],
-        length=each.leg.length,
-    )
-
-
-def _lumped(robot: Robot, geometries: tuple[LegGeometry, ...]) -> dict[int, MassProperties]:
+def _merged_masses(robot: Robot, geometries: tuple[LegGeometry, ...]) -> dict[int, MassProperties]:
     """Mass properties by index of the body that carries them; -1 is the trunk, in B."""
     tree = robot.tree
     names = {body.name for each in geometries for body in each.chain.bodies}
     in_chain = {i for i, body in enumerate(tree.bodies) if body.name in names}
-    placements = placements_in_base(tree, robot.trunk, robot.posture)
+    placements = tree.placements_from(robot.trunk, robot.posture)
     carried: dict[int, list[MassProperties]] = {-1: []}
     for i, body in enumerate(tree.bodies):
         carrier = i

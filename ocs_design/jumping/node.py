@@ -1,4 +1,8 @@
-"""One instant of a push-off: its unknowns, what it costs, and what it must keep to.
+"""One instant of a push-off: when it is, its unknowns, what it costs, and what it must keep to.
+
+The nodes lie closer towards the end, where the legs are quickest. Between them the second
+derivatives are linear in time: the coordinates are cubic splines (de Boor, A Practical Guide to
+Splines, chapter IV).
 
 The unknowns of a node are the coordinates y, their first two derivatives by the share of the time
 that has passed, the forces on the feet in units of the weight, and the duration. Every node has
@@ -11,11 +15,24 @@ from enum import IntEnum
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.jumping.floating_base import POSE, FloatingBase
 from ocs_design.jumping.legged_body import LeggedBody
+
+NODES = 17
+
+_LAST = 0.25
+"""Length of the last interval over that of the first."""
+
+STEPS = frozen(np.linspace(1.0, _LAST, NODES - 1) / np.linspace(1.0, _LAST, NODES - 1).sum())
+"""Lengths of the intervals, as shares of the duration, shape (NODES - 1,)."""
+
+SHARES = frozen(np.append(0.0, np.cumsum(STEPS)))
+"""Share of the duration that has passed at each node, shape (NODES,)."""
+
+WEIGHTS = frozen((np.append(0.0, STEPS) + np.append(STEPS, 0.0)) / 2.0)
+"""Weights of the nodes in an integral over the shares, by trapezoids, shape (NODES,)."""
 
 FRICTION = 0.6
 """Coefficient that a plan relies on: rubber on most dry floors has more."""
@@ -23,11 +40,9 @@ FRICTION = 0.6
 REACH = (0.40, 0.95)
 """Length of a leg over that of the stretched one: it folds no further, and keeps its knee bent."""
 
-_Indices = NDArray[np.int64]
-
 
 class Limit(IntEnum):
-    """What a jump may ask too much of."""
+    """Limits that a jump may overdraw."""
 
     TORQUE = 0
     SPEED = 1
@@ -47,7 +62,7 @@ class Layout:
 
     @property
     def coordinates(self) -> int:
-        """Of trunk and joints."""
+        """Number of coordinates of trunk and joints."""
         return POSE + self.joints
 
     @property
@@ -57,12 +72,12 @@ class Layout:
 
     @property
     def v(self) -> slice:
-        """Their first derivatives."""
+        """First derivatives of the coordinates."""
         return slice(self.coordinates, 2 * self.coordinates)
 
     @property
     def a(self) -> slice:
-        """Their second derivatives."""
+        """Second derivatives of the coordinates."""
         return slice(2 * self.coordinates, 3 * self.coordinates)
 
     @property
@@ -72,97 +87,136 @@ class Layout:
 
     @property
     def duration(self) -> int:
-        """Of the push-off [s]."""
+        """Duration of the push-off [s]."""
         return 3 * self.coordinates + 3 * self.legs
 
     @property
     def size(self) -> int:
-        """Of the column."""
+        """Number of unknowns per node."""
         return self.duration + 1
 
 
 @dataclass(frozen=True, eq=False)
+class Block:
+    """Constraints of one kind: lower <= fold @ values <= upper.
+
+    Attributes:
+        values: quantities without unit, shape (k, 1).
+        fold: which of them make which row, and with which sign, shape (m, k).
+        lower, upper: bounds of every row.
+        limit: which `Limit` may be overdrawn to keep the rows; -1: none.
+        first, stop: nodes from and before which the rows hold.
+    """
+
+    values: ca.SX
+    fold: ca.DM
+    lower: float
+    upper: float
+    limit: int = -1
+    first: int = 0
+    stop: int = NODES
+
+
+@dataclass(frozen=True, eq=False)
 class Node:
-    """Rows of one node in symbols.
+    """One node in symbols.
 
     Attributes:
         unknowns: one column, see `Layout`. load: parameters, see `floating_base.Load`.
-        cost: per share of the time.
-        rows: of all constraints, shape (m, 1), those of `END_ROWS` last.
-        lower, upper: of the rows; those of the end are set by the jump, shape (m,).
-        limit: which `Limit` may be overdrawn to keep each row; -1: none, shape (m,).
-        feet, ground: of the rows that keep feet in place, and forces inside the cone.
+        residuals: the cost per share of the time is the sum of the squares of both columns.
+        blocks: all constraints but those of `end`.
+        end: velocity of the centre of mass and angular momentum, as numbers without unit: what the
+            last node has to reach, shape (6, 1).
         torque: of the joints [N m or N], shape (n, 1).
         layout: of the unknowns.
     """
 
     unknowns: ca.SX
     load: ca.SX
-    cost: ca.SX
-    rows: ca.SX
-    lower: FloatArray
-    upper: FloatArray
-    limit: _Indices
-    feet: _Indices
-    ground: _Indices
+    residuals: tuple[ca.SX, ca.SX]
+    blocks: tuple[Block, ...]
+    end: ca.SX
     torque: ca.SX
     layout: Layout
 
+    @classmethod
+    def of(cls, body: LeggedBody, base: FloatingBase) -> "Node":
+        """The node of a robot; what differs between its jumps stays a symbol."""
+        layout = Layout(len(body.joints), len(body.legs))
+        z, units = ca.SX.sym("z", layout.size), _Units.of(body, base)
+        duration = z[layout.duration]
+        # A node's unknowns in place of coordinates, rates and forces.
+        symbols = ca.vertcat(base.y, base.v, base.a, base.f)
+        unknown = ca.vertcat(
+            z[layout.y],
+            z[layout.v] / duration,
+            z[layout.a] / duration**2,
+            z[layout.f] * units.force,
+        )
+        balance, slips, torque, speed, force, reach, minor, end = ca.substitute(
+            [
+                # Nothing but the ground pushes the trunk.
+                ca.vertcat(base.imbalance[:3] / units.force, base.imbalance[3:] / units.moment),
+                _slips(body, base) / body.length,
+                base.torque,
+                base.v[POSE:],
+                base.f / units.force,
+                base.reach / ca.DM([leg.length for leg in body.legs]) ** 2,
+                _minor_residuals(body, base, units),
+                ca.vertcat(
+                    base.momentum / (units.force / base.load.gravity * units.speed),
+                    base.spin / (units.moment * units.time),
+                ),
+            ],
+            [symbols],
+            [unknown],
+        )
+        efforts, velocities = (
+            _both_ways([getattr(joint, name) for joint in body.joints])
+            for name in ("effort", "velocity")
+        )
+        root = ca.sqrt(duration / units.time)
+        return cls(
+            unknowns=z,
+            load=base.load.packed(),
+            residuals=(root * torque / units.torque, root * minor),
+            blocks=(
+                Block(balance, ca.DM.eye(POSE), 0.0, 0.0),
+                # At the start all coordinates are given.
+                Block(slips, ca.DM.eye(slips.numel()), 0.0, 0.0, first=1),
+                Block(torque, efforts, -np.inf, 1.0, Limit.TORQUE),
+                Block(speed, velocities, -np.inf, 1.0, Limit.SPEED),
+                # At the end the feet let go.
+                Block(force, _pyramids(layout.legs), -np.inf, 0.0, Limit.FRICTION, stop=NODES - 1),
+                Block(reach, ca.DM.eye(layout.legs), REACH[0] ** 2, REACH[1] ** 2),
+            ),
+            end=end,
+            torque=torque,
+            layout=layout,
+        )
 
-END_ROWS = 6
-"""Velocity of the centre of mass and angular momentum, both as numbers without unit."""
 
+def spline_slopes(values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """First and second derivatives, by the share, of the spline through `values` at the nodes.
 
-def node(body: LeggedBody) -> Node:
-    """The rows of a robot; what differs between its jumps stays a symbol."""
-    base = FloatingBase.of(body)
-    layout = Layout(len(body.joints), len(body.legs))
-    z = ca.SX.sym("z", layout.size)
-    units = _Units.of(body, base)
-    blocks = [
-        _Block(_balance(base, units), 0.0, 0.0),
-        _Block(_feet(body, base) / body.length, 0.0, 0.0),
-        *_joint_limits(body, base),
-        _Block(_friction(base, units), -np.inf, 0.0, Limit.FRICTION),
-        _reach(body, base),
-        _Block(_end(base, units), 0.0, 0.0),
-    ]
-    rows, cost, torque = _in_unknowns(
-        base, units, layout, z, [_stacked(blocks), _cost(body, base, units), base.torque]
-    )
-    firsts = np.cumsum([0, *(block.rows.numel() for block in blocks)])
-    return Node(
-        unknowns=z,
-        load=base.load.packed(),
-        cost=cost,
-        rows=rows,
-        lower=np.concatenate([block.bound(block.lower) for block in blocks]),
-        upper=np.concatenate([block.bound(block.upper) for block in blocks]),
-        limit=np.concatenate([np.full(block.rows.numel(), int(block.limit)) for block in blocks]),
-        feet=np.arange(firsts[1], firsts[2]),
-        ground=np.arange(firsts[-4], firsts[-3]),
-        torque=torque,
-        layout=layout,
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class _Block:
-    """Rows of one kind."""
-
-    rows: ca.SX
-    lower: FloatArray | float
-    upper: FloatArray | float
-    limit: Limit | int = -1
-
-    def bound(self, value: FloatArray | float) -> FloatArray:
-        """One value for each row, shape (m,)."""
-        return np.array(np.broadcast_to(value, self.rows.numel()), dtype=np.float64)
+    It starts at rest, and its end is natural; all of shape (m, NODES).
+    """
+    rise = np.diff(values, axis=1) / STEPS
+    matrix, right = np.eye(NODES), np.zeros_like(values)
+    matrix[0, :2], right[:, 0] = (2.0 * STEPS[0], STEPS[0]), 6.0 * rise[:, 0]
+    for k in range(1, NODES - 1):
+        before, after = STEPS[k - 1], STEPS[k]
+        matrix[k, k - 1 : k + 2] = before, 2.0 * (before + after), after
+        right[:, k] = 6.0 * (rise[:, k] - rise[:, k - 1])
+    second = np.linalg.solve(matrix, right.T).T
+    gained = np.cumsum(0.5 * STEPS * (second[:, 1:] + second[:, :-1]), axis=1)
+    first = np.hstack([np.zeros((len(values), 1)), gained])
+    return first, np.asarray(second, dtype=np.float64)
 
 
 @dataclass(frozen=True, eq=False)
 class _Units:
-    """Of force [N], moment [N m], one leg's joint torque [N m], speed [m/s] and time [s]."""
+    """Units of force [N], moment [N m], one leg's joint torque [N m], speed [m/s] and time [s]."""
 
     force: ca.SX
     moment: ca.SX
@@ -172,7 +226,7 @@ class _Units:
 
     @classmethod
     def of(cls, body: LeggedBody, base: FloatingBase) -> "_Units":
-        """Weight and leg length of the robot make all of them."""
+        """Units made of the robot's weight and the length of its legs."""
         mass, gravity = base.load.trunk.mass + body.leg_mass, base.load.gravity
         force, length = mass * gravity, body.length
         return cls(
@@ -184,17 +238,8 @@ class _Units:
         )
 
 
-def _stacked(blocks: Sequence[_Block]) -> ca.SX:
-    return ca.vertcat(*(block.rows for block in blocks))
-
-
-def _balance(base: FloatingBase, units: _Units) -> ca.SX:
-    """Nothing but the ground pushes the trunk."""
-    return ca.vertcat(base.imbalance[:3] / units.force, base.imbalance[3:] / units.moment)
-
-
-def _feet(body: LeggedBody, base: FloatingBase) -> ca.SX:
-    """How far each foot has slid from where it stood; a ball rolls as its shank turns [m].
+def _slips(body: LeggedBody, base: FloatingBase) -> ca.SX:
+    """Slip of each foot from where it stood [m]; a ball rolls as its shank turns.
 
     A ball of radius r that turns by phi about y and chi about x rolls to (r phi, -r chi): exact as
     long as it turns about one axis, and these balls nearly do.
@@ -212,75 +257,37 @@ def _feet(body: LeggedBody, base: FloatingBase) -> ca.SX:
     return ca.vertcat(*rows)
 
 
-def _joint_limits(body: LeggedBody, base: FloatingBase) -> Sequence[_Block]:
-    """Torque and speed of each joint over its limit, both ways, where it has one."""
-    torques, speeds = [], []
-    for i, joint in enumerate(body.joints):
-        if np.isfinite(effort := limit_or_inf(joint.effort)):
-            torques += [base.torque[i] / effort, -base.torque[i] / effort]
-        if np.isfinite(speed := limit_or_inf(joint.velocity)):
-            speeds += [base.v[POSE + i] / speed, -base.v[POSE + i] / speed]
-    return (
-        _Block(ca.vertcat(ca.SX(0, 1), *torques), -np.inf, 1.0, Limit.TORQUE),
-        _Block(ca.vertcat(ca.SX(0, 1), *speeds), -np.inf, 1.0, Limit.SPEED),
-    )
+def _both_ways(values: Sequence[float]) -> ca.DM:
+    """Values of the joints over their limits, both ways, where they have one, shape (m, n)."""
+    limits = np.array([limit_or_inf(value) for value in values])
+    return _sparse(np.kron(np.diag(1.0 / limits)[np.isfinite(limits)], [[1.0], [-1.0]]))
 
 
-def limit_or_inf(stated: float) -> float:
-    """Of a joint; files write 0 where the author left it open."""
-    return stated if stated > 0.0 else np.inf
+def limit_or_inf(value: float) -> float:
+    """Limit of a joint; files write 0 where the author left it open."""
+    return value if value > 0.0 else np.inf
 
 
-def _friction(base: FloatingBase, units: _Units) -> ca.SX:
-    """Forces outside the pyramid that is inscribed into the friction cone, in units of weight."""
+def _pyramids(legs: int) -> ca.DM:
+    """Forces beyond the pyramid inscribed into the friction cone, shape (4 legs, 3 legs)."""
     side = FRICTION / np.sqrt(2.0)
-    rows: list[ca.SX] = []
-    for i in range(base.f.numel() // 3):
-        x, y, z = (base.f[3 * i + k] / units.force for k in range(3))
-        rows += [x - side * z, -x - side * z, y - side * z, -y - side * z]
-    return ca.vertcat(*rows)
+    sides = [[1.0, 0.0, -side], [-1.0, 0.0, -side], [0.0, 1.0, -side], [0.0, -1.0, -side]]
+    return _sparse(np.kron(np.eye(legs), sides))
 
 
-def _reach(body: LeggedBody, base: FloatingBase) -> _Block:
-    lengths = ca.DM([leg.length for leg in body.legs])
-    shortest, longest = REACH
-    return _Block(base.reach / lengths**2, shortest**2, longest**2)
+def _sparse(matrix: FloatArray) -> ca.DM:
+    return ca.sparsify(ca.DM(matrix))
 
 
-def _end(base: FloatingBase, units: _Units) -> ca.SX:
-    """See `END_ROWS`."""
-    return ca.vertcat(
-        base.momentum / (units.force / base.load.gravity * units.speed),
-        base.spin / (units.moment * units.time),
-    )
-
-
-def _cost(body: LeggedBody, base: FloatingBase, units: _Units) -> ca.SX:
-    """Joint torques above all; the rest is small and settles what they leave open."""
+def _minor_residuals(body: LeggedBody, base: FloatingBase, units: _Units) -> ca.SX:
+    """Terms of the cost besides the torques: small ones, which decide what these leave open."""
     shared = base.f / units.force * len(body.legs)
-    sideways = ca.vertcat(shared[0::3], shared[1::3])
-    swing = base.a[POSE:] * units.time**2
-    sway = base.y[:2] / body.length
-    cost: ca.SX = (
-        ca.sumsqr(base.torque / units.torque)
-        + 0.01 * ca.sumsqr(shared)
-        + 0.3 * ca.sumsqr(sideways)
-        + 0.001 * ca.sumsqr(swing)
-        + 0.01 * ca.sumsqr(base.a[3:POSE] * units.time**2)
-        + 0.1 * ca.sumsqr(sway)
-        + 1.0 * ca.sumsqr(base.y[3:POSE])
+    swing = base.a * units.time**2
+    return ca.vertcat(
+        np.sqrt(0.01) * shared,
+        np.sqrt(0.3) * ca.vertcat(shared[0::3], shared[1::3]),
+        np.sqrt(0.001) * swing[POSE:],
+        np.sqrt(0.01) * swing[3:POSE],
+        np.sqrt(0.1) * base.y[:2] / body.length,
+        base.y[3:POSE],
     )
-    return cost
-
-
-def _in_unknowns(
-    base: FloatingBase, units: _Units, layout: Layout, z: ca.SX, found: Sequence[ca.SX]
-) -> Sequence[ca.SX]:
-    """The same, with a node's unknowns in place of coordinates, rates and forces."""
-    duration = z[layout.duration]
-    stated = ca.vertcat(base.y, base.v, base.a, base.f)
-    meant = ca.vertcat(
-        z[layout.y], z[layout.v] / duration, z[layout.a] / duration**2, z[layout.f] * units.force
-    )
-    rows, cost, torque = ca.substitute(list(found), [stated], [meant])
-    return rows, cost * duration / units.time, torque

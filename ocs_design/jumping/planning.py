@@ -1,21 +1,23 @@
-"""From a jump that is asked for to what the legs track, or why they cannot make it."""
+"""Plans of jumps: what the legs track, or why they cannot make it."""
 
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from os import cpu_count
+from typing import NamedTuple
 
 import numpy as np
 
-from ocs_design.design import Device
+from ocs_design.device.device import Device
 from ocs_design.jumping.flight import FreeRobot, LegFlight, LegReturn
 from ocs_design.jumping.floating_base import POSE, FloatingBase, Load
-from ocs_design.jumping.jump import Jump, JumpPlan, JumpPlans, jump_of
-from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.jumping.jump import Jump, JumpPlan, JumpPlans, LegTrajectory, jump_of
 from ocs_design.jumping.legged_body import LeggedBody, obstacle_to_jumping
 from ocs_design.jumping.push_off import PushOff, PushOffs
+from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.selection.candidate import braked
+from ocs_design.sizing.selection.device import braked
 
 _BRAKE = 0.15
 _SWING = 1.5
@@ -32,6 +34,12 @@ _SAMPLE = 1e-3
 """[s], between two samples of the references."""
 
 
+_FALLBACK = "starts at lift-off"
+"""What a run does whose push-off cannot be planned."""
+
+_BARE_LEGS = "bare robot's legs"
+
+
 def plan_jumps(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver]
 ) -> Mapping[str, JumpPlans]:
@@ -40,36 +48,73 @@ def plan_jumps(
     A drop has no push-off and is left out. Where the legs cannot make a jump with the device, the
     bare robot starts in flight as well, and the other way round: what is compared must be alike.
     """
-    asked = {each.name: jump_of(each) for each in maneuvers}
-    jumps = {name: jump for name, jump in asked.items() if jump is not None}
-    if not jumps:
-        return {}
-    obstacle = obstacle_to_jumping(robot)
-    if obstacle:
-        return {name: _both(f"{_FALLBACK}: {obstacle}") for name in jumps}
-    body = LeggedBody.of(robot)
-    planner = JumpPlanner(body)
-    flown = {each.name: device.as_flown(each) for each in maneuvers}
-    return {
-        name: _alike(
-            planner.plan(jump, with_device(body.trunk, flown[name])), planner.plan(jump, body.trunk)
-        )
-        for name, jump in jumps.items()
-    }
+    planning = JumpPlanning(robot, maneuvers)
+    planning.carry(device)
+    return planning.plans()
 
 
-_FALLBACK = "starts at lift-off"
+class JumpPlanning:
+    """Jumps that are planned in threads, beside other work: IPOPT runs without Python's lock.
 
+    The bare robot's plans begin at once. Those of the robot with its device begin as soon as it is
+    known; each search starts from the bare robot's push-off, which takes a third of the time.
+    """
 
-def _alike(carrying: JumpPlan, bare: JumpPlan) -> JumpPlans:
-    if carrying.legs is not None and bare.legs is not None:
-        return JumpPlans(carrying, bare)
-    if carrying.legs is None:
-        return _both(f"{_FALLBACK}, for the legs cannot make this jump: {carrying.note}")
-    return _both(f"{_FALLBACK}, for the bare robot's legs cannot make this jump: {bare.note}")
+    def __init__(self, robot: Robot, maneuvers: Sequence[Maneuver]) -> None:
+        asked = [(each, jump_of(each)) for each in maneuvers]
+        self._jumps = [(each, jump) for each, jump in asked if jump is not None]
+        self._obstacle = obstacle_to_jumping(robot) if self._jumps else ""
+        self._bare: dict[Jump, Future[Planned]] = {}
+        self._carrying: dict[str, Future[Planned]] = {}
+        different = {jump for _, jump in self._jumps}
+        self._threads = ThreadPoolExecutor(min(max(len(different), 1), cpu_count() or 1))
+        if self._jumps and not self._obstacle:
+            self._body = LeggedBody.of(robot)
+            self._planner = self._threads.submit(JumpPlanner, self._body)
+            for jump in dict.fromkeys(jump for _, jump in self._jumps):
+                self._bare[jump] = self._threads.submit(self._plan, jump, self._body.trunk)
+
+    def carry(self, device: Device) -> None:
+        """Begin with the plans of the robot that carries a device."""
+        if self._bare:
+            for maneuver, jump in self._jumps:
+                trunk = with_device(self._body.trunk, device.as_flown(maneuver))
+                similar = self._bare[jump]
+                self._carrying[maneuver.name] = self._threads.submit(
+                    self._plan, jump, trunk, similar
+                )
+
+    def plans(self) -> Mapping[str, JumpPlans]:
+        """All plans, by the names of their maneuvers, as soon as they are done."""
+        found: dict[str, JumpPlans] = {}
+        for each, jump in self._jumps:
+            if self._obstacle:
+                found[each.name] = _both(f"{_FALLBACK}: {self._obstacle}")
+                continue
+            carrying, bare = self._carrying[each.name].result().plan, self._bare[jump].result().plan
+            if carrying.legs is not None and bare.legs is not None:
+                found[each.name] = JumpPlans(carrying, bare)
+                continue
+            whose, failed = ("legs", carrying) if carrying.legs is None else (_BARE_LEGS, bare)
+            note = f"{_FALLBACK}, for the {whose} cannot make this jump: {failed.note}"
+            found[each.name] = _both(note)
+        self._threads.shutdown()
+        return found
+
+    def cancel(self) -> None:
+        """Begin no further plan."""
+        self._threads.shutdown(wait=False, cancel_futures=True)
+
+    def _plan(
+        self, jump: Jump, trunk: MassProperties, similar: "Future[Planned] | None" = None
+    ) -> "Planned":
+        # Threads take their work in order, so what is waited for here has begun.
+        known = None if similar is None else similar.result().push_off
+        return self._planner.result().plan(jump, trunk, similar=known)
 
 
 def _both(note: str) -> JumpPlans:
+    """Robots with and without the device that start in flight, for one reason."""
     return JumpPlans(JumpPlan(None, note), JumpPlan(None, note))
 
 
@@ -85,25 +130,33 @@ def with_device(trunk: MassProperties, device: Device) -> MassProperties:
     return braked(trunk, (free, device.carrier), centers, device.incidence)
 
 
+class Planned(NamedTuple):
+    """A jump's plan, and the push-off to begin the search for a similar one at."""
+
+    plan: JumpPlan
+    push_off: PushOff
+
+
 class JumpPlanner:
     """Plans the jumps of one robot; what does not depend on the jump is made once."""
 
     def __init__(self, body: LeggedBody) -> None:
+        base = FloatingBase.of(body)
         self._body = body
-        self._push_offs = PushOffs(body)
-        self._free = FreeRobot(FloatingBase.of(body))
-        self._known: dict[Jump, PushOff] = {}
+        self._push_offs = PushOffs(body, base)
+        self._free = FreeRobot(base)
 
-    def plan(self, jump: Jump, trunk: MassProperties) -> JumpPlan:
+    def plan(self, jump: Jump, trunk: MassProperties, similar: PushOff | None = None) -> Planned:
         """A push-off from which the robot comes down level by itself.
 
         Args:
             jump: see `Jump`.
             trunk: of `LeggedBody`, with what it carries.
+            similar: a push-off of this jump with another trunk, to begin the search at.
         """
-        push_off = self._push_offs.find(jump, trunk, similar=self._known.get(jump))
+        push_off = self._push_offs.find(jump, trunk, similar=similar)
         if push_off.forbidden:
-            return JumpPlan(None, push_off.forbidden)
+            return Planned(JumpPlan(None, push_off.forbidden), push_off)
         flight = self._fly(push_off, jump, trunk)
         if np.abs(flight.tilt).max() > _LEVEL:
             # The legs turn the trunk as they go back: a spin at lift-off turns it as far again.
@@ -112,9 +165,8 @@ class JumpPlanner:
             push_off = self._push_offs.find(jump, trunk, spin=spin, similar=push_off)
             flight = self._fly(push_off, jump, trunk)
         if push_off.forbidden:
-            return JumpPlan(None, push_off.forbidden)
-        self._known[jump] = push_off
-        return JumpPlan(_joined(self._body, push_off, flight), "")
+            return Planned(JumpPlan(None, push_off.forbidden), push_off)
+        return Planned(JumpPlan(_joined(self._body, push_off, flight), ""), push_off)
 
     def _fly(self, push_off: PushOff, jump: Jump, trunk: MassProperties) -> LegFlight:
         body, y, v = self._body, push_off.y[-1], push_off.v[-1]

@@ -11,18 +11,21 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.jumping.mesh import NODES, STEPS, WEIGHTS
-from ocs_design.jumping.node import Limit, Node
-from ocs_design.sizing.optimal_control.nonlinear_program import IPOPT_OPTIONS
+from ocs_design.common.arrays import FloatArray
+from ocs_design.jumping.node import NODES, STEPS, WEIGHTS, Layout, Limit, Node
+from ocs_design.sizing.trajectory.program import IPOPT_OPTIONS
 
 _TOLERANCE = 1e-6
 _ITERATIONS_MAX = 120
 
 _EXCESS = len(Limit)
 _PENALTY = 1000.0
-"""On overdrawing a limit: far above what any jump gains by it, so that none is unless it must."""
+"""Price of overdrawing a limit, far above what any jump gains by it: none is unless it must."""
 
+
+_MUMPS: dict[str, Any] = {"ipopt.mumps_pivot_order": 5, "ipopt.mumps_permuting_scaling": 0}
+"""Elimination in the order of METIS, no permutation for the sake of scaling: all is of order one.
+Fewer matrices seem singular, which halves the time and spares a third of the iterations."""
 
 _WARM: dict[str, Any] = {
     "ipopt.warm_start_init_point": "yes",
@@ -30,9 +33,9 @@ _WARM: dict[str, Any] = {
     "ipopt.warm_start_mult_bound_push": 1e-6,
     "ipopt.warm_start_slack_bound_push": 1e-6,
     "ipopt.mu_strategy": "monotone",
-    "ipopt.mu_init": 1e-4,
+    "ipopt.mu_init": 1e-6,
 }
-"""From the answer for a similar jump IPOPT needs a third of the steps."""
+"""Options of a search that starts from a similar jump: it takes a quarter of the steps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,13 +43,11 @@ class Bounds:
     """What one jump may do.
 
     Attributes:
-        start: where the search begins, shape (size, nodes), or the answer for a similar jump.
         lower, upper: of the nodes' unknowns, shape (size, nodes).
-        end: what the last rows of the last node must be, shape (END_ROWS,).
-        load: of the trunk, see `floating_base.Load.values`.
+        end: what `Node.end` must be, shape (6,).
+        load: gravity and trunk, see `floating_base.Load.values`.
     """
 
-    start: "FloatArray | Found"
     lower: FloatArray
     upper: FloatArray
     end: FloatArray
@@ -59,15 +60,13 @@ class Found:
 
     Attributes:
         nodes: unknowns, shape (size, nodes).
-        rows: of every node, whether kept to or not, shape (m, nodes).
         torque: of the joints [N m or N], shape (n, nodes).
         excess: share by which each `Limit` had to be overdrawn, shape (3,).
         x, on_bounds, on_rows: the whole answer and its multipliers, to begin a similar search at.
-        solved: whether it is a local optimum. iterations: taken. status: IPOPT's word.
+        solved: whether it is a local optimum. iterations: taken.
     """
 
     nodes: FloatArray
-    rows: FloatArray
     torque: FloatArray
     excess: FloatArray
     x: FloatArray
@@ -75,135 +74,186 @@ class Found:
     on_rows: FloatArray
     solved: bool
     iterations: int
-    status: str
 
 
 class Program:
-    """Made once for a robot, solved for each of its jumps."""
+    """The push-off of a robot: made once, solved for each of its jumps."""
 
     def __init__(self, node: Node) -> None:
-        self._node = node
-        self._kept = _kept(node)
-        flat = ca.MX.sym("x", node.layout.size * NODES + _EXCESS)
-        z = ca.reshape(flat[:-_EXCESS], node.layout.size, NODES)
-        load = ca.MX.sym("load", node.load.numel())
-        pieces = _Pieces.of(node, self._kept)
-        self._evaluated = pieces.value.map(NODES)
-        nlp, options = _posed(flat, z, load, pieces)
-        self._cold = ca.nlpsol("push_off", "ipopt", nlp, options)
-        self._warm = ca.nlpsol("similar_push_off", "ipopt", nlp, options | _WARM)
-        self._defects = pieces.defects.size1()
+        self._rows = _Rows.of(node)
+        self._torque = ca.Function("torque", [node.unknowns, node.load], [node.torque]).map(NODES)
+        self._nlp, self._options = _posed(node, self._rows)
 
-    def solve(self, bounds: Bounds) -> Found:
-        """Search from where the bounds say."""
-        node, tight = self._node, np.zeros(self._defects)
-        lower, upper = (
-            np.repeat(each[:, None], NODES, axis=1) for each in (node.lower, node.upper)
-        )
-        lower[-len(bounds.end) :, -1] = upper[-len(bounds.end) :, -1] = bounds.end
-        start = bounds.start
-        solver = self._warm if isinstance(start, Found) else self._cold
+    def solve(self, start: FloatArray | Found, bounds: Bounds) -> Found:
+        """The push-off of least cost; several threads may search at once.
+
+        Args:
+            start: unknowns to begin at, shape (size, nodes), or the answer for a similar jump.
+            bounds: of the jump.
+        """
+        rows, options = self._rows, self._options
         if isinstance(start, Found):
+            options = options | _WARM
             begin = {"x0": start.x, "lam_x0": start.on_bounds, "lam_g0": start.on_rows}
         else:
             begin = {"x0": np.append(start.ravel("F"), np.full(_EXCESS, 0.5))}
+        # A solver keeps the statistics of one call: each call has its own.
+        solver = ca.nlpsol("push_off", "ipopt", self._nlp, options)
         found = solver(
             **begin,
             lbx=np.append(bounds.lower.ravel("F"), np.zeros(_EXCESS)),
             ubx=np.append(bounds.upper.ravel("F"), np.full(_EXCESS, np.inf)),
-            lbg=np.append(tight, lower.ravel("F")[self._kept]),
-            ubg=np.append(tight, upper.ravel("F")[self._kept]),
+            lbg=np.concatenate([rows.lower, bounds.end]),
+            ubg=np.concatenate([rows.upper, bounds.end]),
             p=bounds.load,
         )
         stats, x = solver.stats(), np.asarray(found["x"]).ravel()
         nodes = x[:-_EXCESS].reshape(bounds.lower.shape, order="F")
-        rows, _, torque = self._evaluated(nodes, np.tile(bounds.load[:, None], NODES))
         return Found(
             nodes=nodes,
-            rows=np.asarray(rows),
-            torque=np.asarray(torque),
+            torque=np.asarray(self._torque(nodes, bounds.load)),
             excess=x[-_EXCESS:],
             x=x,
             on_bounds=np.asarray(found["lam_x"]).ravel(),
             on_rows=np.asarray(found["lam_g"]).ravel(),
             solved=bool(stats["success"]),
             iterations=int(stats["iter_count"]),
-            status=str(stats["return_status"]),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Constraints of the program: the splines' first, then the nodes', without those of the end.
+
+    Attributes:
+        defects: matrix of what the spline's nodes have to do with each other.
+        selection: from the rows of all nodes to those that hold at them.
+        overdrawn: what each `Limit`'s excess takes off these.
+        lower, upper: of all rows.
+    """
+
+    defects: ca.DM
+    selection: ca.DM
+    overdrawn: ca.DM
+    lower: FloatArray
+    upper: FloatArray
+
+    @classmethod
+    def of(cls, node: Node) -> "_Rows":
+        """Rows of all nodes."""
+        counts = [block.fold.size1() for block in node.blocks]
+        holds = np.zeros((NODES, sum(counts)), dtype=bool)
+        for block, last in zip(node.blocks, np.cumsum(counts), strict=True):
+            holds[block.first : block.stop, last - block.fold.size1() : last] = True
+        kept = np.flatnonzero(holds)
+        lower, upper, limit = (
+            np.tile(np.repeat([getattr(b, name) for b in node.blocks], counts), NODES)[kept]
+            for name in ("lower", "upper", "limit")
+        )
+        charged, defects = np.flatnonzero(limit >= 0), _defects(node.layout)
+        tight = np.zeros(defects.size1())
+        return cls(
+            defects,
+            selection=_ones(np.arange(len(kept)), kept, (len(kept), holds.size)),
+            overdrawn=-_ones(charged, limit[charged], (len(kept), _EXCESS)),
+            lower=np.append(tight, lower),
+            upper=np.append(tight, upper),
         )
 
 
 @dataclass(frozen=True, eq=False)
 class _Pieces:
-    """Functions of one node, and what joins the nodes.
+    """Functions of one node's unknowns and the load.
 
     Attributes:
-        value: rows, cost and torque of a node's unknowns and the load.
-        cost_slope: cost and its gradient.
-        slope: rows, cost and the Jacobian of both, one below the other.
-        curvature: upper triangle of the Hessian, of rows and cost weighed by multipliers.
-        selection: from the rows of all nodes, and their costs, to those that are kept to.
-        overdrawn: what each `Limit`'s excess takes off these.
-        defects: matrix of what the spline's nodes have to do with each other.
-        weights: of the nodes' costs, shape (NODES,).
+        rows, slope: constraints of any node, and their Jacobian.
+        cost, cost_slope: per share of the time, and its gradient.
+        curvature: upper triangle of the Hessian of rows and cost, weighed by multipliers.
+        end, end_slope, end_curvature: likewise of the rows that only the last node has.
     """
 
-    value: ca.Function
-    cost_slope: ca.Function
+    rows: ca.Function
     slope: ca.Function
+    cost: ca.Function
+    cost_slope: ca.Function
     curvature: ca.Function
-    selection: ca.DM
-    overdrawn: ca.DM
-    defects: ca.DM
-    weights: ca.DM
+    end: ca.Function
+    end_slope: ca.Function
+    end_curvature: ca.Function
 
     @classmethod
-    def of(cls, node: Node, kept: NDArray[np.intp]) -> "_Pieces":
-        """Differentiate one node; `kept` as `_kept` gives it."""
-        z, load = node.unknowns, node.load
-        both = ca.vertcat(node.rows, node.cost)
-        count = both.numel()
-        multipliers = ca.SX.sym("multipliers", count)
-        hessian, _ = ca.hessian(ca.dot(multipliers, both), z)
-        place, row = np.divmod(kept, count - 1)
-        limit = node.limit[row]
-        charged = np.flatnonzero(limit >= 0)
-        return cls(
-            value=ca.Function("value", [z, load], [node.rows, node.cost, node.torque]),
-            cost_slope=ca.Function("cost", [z, load], [node.cost, ca.gradient(node.cost, z)]),
-            slope=ca.Function("slope", [z, load], [both, ca.jacobian(both, z)]),
-            curvature=ca.Function("curvature", [z, load, multipliers], [ca.triu(hessian)]),
-            selection=_ones(np.arange(len(kept)), place * count + row, (len(kept), count * NODES)),
-            overdrawn=-_ones(charged, limit[charged], (len(kept), _EXCESS)),
-            defects=_defects(node),
-            weights=ca.DM(np.array(WEIGHTS)),
-        )
+    def of(cls, node: Node) -> "_Pieces":
+        """Differentiate one node.
+
+        Of a sum of squares r^2 the Hessian is 2 J^T J and that of 2 r as multipliers: a third of
+        the operations that differentiating the sum twice takes. CasADi chooses between forward and
+        reverse mode by the shape of a Jacobian, so each block has its own.
+        """
+        z, given = node.unknowns, [node.unknowns, node.load]
+        rows = [block.fold @ block.values for block in node.blocks]
+        slopes = [block.fold @ ca.jacobian(block.values, z) for block in node.blocks]
+        residuals = ca.vertcat(*node.residuals)
+        steep = ca.vertcat(*(ca.jacobian(each, z) for each in node.residuals))
+        cost = ca.sumsqr(residuals)
+        on_rows = [ca.SX.sym("on_rows", block.fold.size1()) for block in node.blocks]
+        on_residuals, on_cost = ca.SX.sym("on_residuals", residuals.numel()), ca.SX.sym("on_cost")
+        linear = ca.dot(on_residuals, residuals)
+        for block, on in zip(node.blocks, on_rows, strict=True):
+            linear += ca.dot(block.fold.T @ on, block.values)
+        bent = ca.substitute(ca.hessian(linear, z)[0], on_residuals, 2.0 * on_cost * residuals)
+        on_end = ca.SX.sym("on_end", node.end.numel())
+        end_bent = ca.hessian(ca.dot(on_end, node.end), z)[0]
+        functions = {
+            "rows": (given, ca.vertcat(*rows)),
+            "slope": (given, ca.vertcat(*slopes)),
+            "cost": (given, cost),
+            "cost_slope": (given, ca.gradient(cost, z)),
+            "curvature": (
+                [*given, ca.vertcat(*on_rows), on_cost],
+                ca.triu(bent + 2.0 * on_cost * (steep.T @ steep)),
+            ),
+            "end": (given, node.end),
+            "end_slope": (given, ca.jacobian(node.end, z)),
+            "end_curvature": ([*given, on_end], ca.triu(end_bent)),
+        }
+        return cls(**{name: ca.Function(name, i, [o]) for name, (i, o) in functions.items()})
 
 
-def _posed(
-    flat: ca.MX, z: ca.MX, load: ca.MX, pieces: _Pieces
-) -> tuple[dict[str, ca.MX], dict[str, Any]]:
+def _posed(node: Node, rows: _Rows) -> tuple[dict[str, ca.MX], dict[str, Any]]:
     """The program, and IPOPT's options with the derivatives among them."""
-    loads = ca.repmat(load, 1, NODES)
-    excess = flat[-_EXCESS:]
-    count = pieces.slope.size1_out(0)
-    values, slopes = pieces.slope.map(NODES)(z, loads)
-    joined = ca.diagcat(*ca.horzsplit(slopes, z.size1()))
-    costs, of_costs = pieces.cost_slope.map(NODES)(z, loads)
-    goal = ca.dot(pieces.weights.T, costs) + _PENALTY * ca.sum1(excess)
-    kept = pieces.selection @ ca.vec(values) + pieces.overdrawn @ excess
-    constraints = ca.vertcat(pieces.defects @ flat, kept)
-    jacobian = ca.vertcat(pieces.defects, ca.horzcat(pieces.selection @ joined, pieces.overdrawn))
-    weighed = of_costs * ca.repmat(pieces.weights.T, z.size1(), 1)
+    pieces, size, weights = _Pieces.of(node), node.layout.size, ca.DM(np.array(WEIGHTS)).T
+    flat, load = ca.MX.sym("x", size * NODES + _EXCESS), ca.MX.sym("load", node.load.numel())
+    z, excess = ca.reshape(flat[:-_EXCESS], size, NODES), flat[-_EXCESS:]
+    last = z[:, -1]
+
+    goal = ca.dot(weights, pieces.cost.map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
+    climbs = pieces.cost_slope.map(NODES)(z, load) * ca.repmat(weights, size, 1)
     # IPOPT takes the gradient as dense, whatever its sparsity.
-    gradient = ca.densify(ca.vertcat(ca.vec(weighed), _PENALTY * ca.DM.ones(_EXCESS)))
+    gradient = ca.densify(ca.vertcat(ca.vec(climbs), _PENALTY * ca.DM.ones(_EXCESS)))
+
+    kept = rows.selection @ ca.vec(pieces.rows.map(NODES)(z, load)) + rows.overdrawn @ excess
+    constraints = ca.vertcat(rows.defects @ flat, kept, pieces.end(last, load))
+    slopes = ca.diagcat(*ca.horzsplit(pieces.slope.map(NODES)(z, load), size))
+    end_slope = pieces.end_slope(last, load)
+    before, after = (ca.MX(end_slope.size1(), count) for count in (size * (NODES - 1), _EXCESS))
+    jacobian = ca.vertcat(
+        rows.defects,
+        ca.horzcat(rows.selection @ slopes, rows.overdrawn),
+        ca.horzcat(before, end_slope, after),
+    )
+
     on_goal, on_rows = ca.MX.sym("on_goal"), ca.MX.sym("on_rows", constraints.numel())
-    multipliers = ca.reshape(
-        pieces.selection.T @ on_rows[pieces.defects.size1() :], count, NODES
-    ) + ca.vertcat(ca.MX(count - 1, NODES), on_goal * pieces.weights.T)
-    blocks = pieces.curvature.map(NODES)(z, loads, multipliers)
-    hessian = ca.diagcat(*ca.horzsplit(blocks, z.size1()), ca.MX(_EXCESS, _EXCESS))
+    _, on_kept, on_end = ca.vertsplit(
+        on_rows, [0, rows.defects.size1(), len(rows.lower), constraints.numel()]
+    )
+    on_nodes = ca.reshape(rows.selection.T @ on_kept, -1, NODES)
+    bent = pieces.curvature.map(NODES)(z, load, on_nodes, on_goal * weights)
+    blocks = ca.horzsplit(bent, size)
+    blocks[-1] += pieces.end_curvature(last, load, on_end)
+    hessian = ca.diagcat(*blocks, ca.MX(_EXCESS, _EXCESS))
     options: dict[str, Any] = {
         **IPOPT_OPTIONS,
+        **_MUMPS,
         "ipopt.tol": _TOLERANCE,
         "ipopt.max_iter": _ITERATIONS_MAX,
         "grad_f": ca.Function("grad_f", [flat, load], [goal, gradient]),
@@ -213,9 +263,8 @@ def _posed(
     return {"x": flat, "p": load, "f": goal, "g": constraints}, options
 
 
-def _defects(node: Node) -> ca.DM:
+def _defects(layout: Layout) -> ca.DM:
     """Cubic splines: y'' is linear on each interval, y' and y its integrals."""
-    layout = node.layout
     step = ca.repmat(ca.DM(np.array(STEPS)).T, layout.coordinates, 1)
     flat = ca.MX.sym("x", layout.size * NODES + _EXCESS)
     z = ca.reshape(flat[:-_EXCESS], layout.size, NODES)
@@ -230,18 +279,6 @@ def _defects(node: Node) -> ca.DM:
         duration[:, ahead] - duration[:, here],
     )
     return ca.evalf(ca.jacobian(joined, flat))
-
-
-def _kept(node: Node) -> NDArray[np.intp]:
-    """Which rows hold, of all nodes' rows one node after the other.
-
-    At the start all coordinates are given; at the end the feet let go. The last rows are the end's.
-    """
-    holds = np.ones((NODES, node.rows.numel()), dtype=bool)
-    holds[0, node.feet] = False
-    holds[-1, node.ground] = False
-    holds[:-1, -6:] = False
-    return np.flatnonzero(holds)
 
 
 def _ones(rows: NDArray[Any], columns: NDArray[Any], shape: tuple[int, int]) -> ca.DM:

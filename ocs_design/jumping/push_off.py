@@ -4,19 +4,31 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.jumping.floating_base import POSE, Load
-from ocs_design.jumping.guess import guess
+from ocs_design.common.arrays import FloatArray
+from ocs_design.jumping.floating_base import POSE, FloatingBase, Load
 from ocs_design.jumping.jump import Jump
 from ocs_design.jumping.legged_body import LeggedBody
-from ocs_design.jumping.mesh import NODES, SHARES
-from ocs_design.jumping.node import END_ROWS, FRICTION, Layout, Limit, limit_or_inf, node
+from ocs_design.jumping.node import (
+    FRICTION,
+    NODES,
+    REACH,
+    SHARES,
+    Layout,
+    Limit,
+    Node,
+    limit_or_inf,
+    spline_slopes,
+)
 from ocs_design.jumping.program import Bounds, Found, Program
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.stance import lifted
 from ocs_design.robot.tree import JointKind
 
+_CROUCH = 0.25
+"""Depth of the crouch where the search begins, over the leg's length."""
+
 _LEAST_LOAD = 0.2
-"""Of its share of the weight that every foot bears until lift-off: less could let it slip."""
+"""Least load of a foot until lift-off, over its share of the weight: less could let it slip."""
 
 _TILT = 0.3
 """Largest roll, pitch and yaw of the trunk while it pushes [rad]."""
@@ -64,11 +76,15 @@ class PushOff:
 
 
 class PushOffs:
-    """Finds the push-offs of one robot; its program is made once."""
+    """Finds the push-offs of one robot; its program is made once.
 
-    def __init__(self, body: LeggedBody) -> None:
+    Attributes:
+        body: the robot.
+    """
+
+    def __init__(self, body: LeggedBody, base: FloatingBase) -> None:
         self.body = body
-        self._node = node(body)
+        self._node = Node.of(body, base)
         self._program = Program(self._node)
 
     def find(
@@ -89,18 +105,95 @@ class PushOffs:
             similar: another push-off of this jump, to begin the search at.
         """
         body, layout = self.body, self._node.layout
-        begin = guess(body, jump)
-        lower, upper = _box(body, layout, begin[layout.duration, 0])
+        crouch = _Crouch.of(body, jump)
+        lower, upper = _box(body, layout, crouch.duration)
         mass = trunk.mass + body.leg_mass
         unit = np.sqrt(jump.gravity * body.length)
         velocity = np.array([jump.forward, 0.0, jump.upward]) / unit
         turning = np.zeros(3) if spin is None else spin / (mass * unit * body.length)
         end = np.concatenate([velocity, turning])
-        assert end.size == END_ROWS
         load = Load.values(jump.gravity, trunk)
-        start = np.clip(begin, lower, upper) if similar is None else similar.answer
-        found = self._program.solve(Bounds(start, lower, upper, end, load))
-        return _push_off(body, layout, found, weight=mass * jump.gravity)
+        bounds = Bounds(lower, upper, end, load)
+        found = None if similar is None else self._program.solve(similar.answer, bounds)
+        if found is None or not found.solved:
+            begin = np.clip(_initial_guess(body, jump, crouch), lower, upper)
+            found = self._program.solve(begin, bounds)
+        z = found.nodes
+        duration = z[layout.duration, -1]
+        return PushOff(
+            time=SHARES * duration,
+            y=z[layout.y].T,
+            v=z[layout.v].T / duration,
+            a=z[layout.a].T / duration**2,
+            torque=found.torque.T,
+            force=z[layout.f].T.reshape(NODES, -1, 3) * (mass * jump.gravity),
+            forbidden=_forbidden(body, layout, found),
+            iterations=found.iterations,
+            answer=found,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Crouch:
+    """The trunk's way down and up again, where the search begins.
+
+    Attributes:
+        depth, rise: of the trunk below and above its height in stance [m].
+        down, up: how long each takes [s].
+    """
+
+    depth: float
+    rise: float
+    down: float
+    up: float
+
+    @classmethod
+    def of(cls, body: LeggedBody, jump: Jump) -> "_Crouch":
+        """Crouch that falls at 0.6 g, and rises at constant acceleration to the speed asked for."""
+        depth, stretched = _CROUCH * body.length, 0.0
+        for leg, where in body.joint_slices:
+            pose = leg.chain.pose(body.posture[where])
+            span, axis = pose.point(leg.foot) - pose.origins[leg.hip], pose.axes[leg.hip]
+            standing = float(np.linalg.norm(span - axis * (axis @ span)))
+            stretched = max(stretched, REACH[1] * leg.length - standing)
+        rise = max(0.9 * stretched, 0.02 * body.length)
+        return cls(
+            depth,
+            rise,
+            2.0 * float(np.sqrt(2.0 * depth / (0.6 * jump.gravity))),
+            2.0 * (depth + rise) / jump.upward,
+        )
+
+    @property
+    def duration(self) -> float:
+        """Duration of both [s]."""
+        return self.down + self.up
+
+    def height(self, share: FloatArray) -> FloatArray:
+        """Height of the trunk over its stance [m], at shares of the duration."""
+        bottom = self.down / self.duration
+        falling = share < bottom
+        first = np.clip(share / bottom, 0.0, 1.0)
+        second = np.clip((share - bottom) / (1.0 - bottom), 0.0, 1.0)
+        down = -0.5 * self.depth * (1.0 - np.cos(np.pi * first))
+        up = -self.depth + (self.depth + self.rise) * second**2
+        return np.where(falling, down, up)
+
+
+def _initial_guess(body: LeggedBody, jump: Jump, crouch: _Crouch) -> FloatArray:
+    """Unknowns where the search begins: level, over still feet, shape (size, nodes)."""
+    layout = Layout(len(body.joints), len(body.legs))
+    found = np.zeros((layout.size, NODES))
+    found[2] = body.height + crouch.height(SHARES)
+    for leg, where in body.joint_slices:
+        rows = slice(POSE + where.start, POSE + where.stop)
+        lifts = body.height - found[2]
+        found[rows] = lifted(leg.chain, leg.foot, leg.length, body.posture[where], lifts).T
+    found[layout.v], found[layout.a] = spline_slopes(found[layout.y])
+    rising = found[layout.a][2] / crouch.duration**2 / jump.gravity
+    found[layout.f][2::3] = np.maximum(1.0 + rising, 0.2) / len(body.legs)
+    found[layout.duration] = crouch.duration
+    return found
 
 
 def _box(body: LeggedBody, layout: Layout, duration: float) -> tuple[FloatArray, FloatArray]:
@@ -122,22 +215,6 @@ def _box(body: LeggedBody, layout: Layout, duration: float) -> tuple[FloatArray,
     lower[3:6, -1] = upper[3:6, -1] = 0.0
     lower[layout.f, -1] = upper[layout.f, -1] = 0.0
     return lower, upper
-
-
-def _push_off(body: LeggedBody, layout: Layout, found: Found, *, weight: float) -> PushOff:
-    z = found.nodes
-    duration = z[layout.duration, -1]
-    return PushOff(
-        time=SHARES * duration,
-        y=z[layout.y].T,
-        v=z[layout.v].T / duration,
-        a=z[layout.a].T / duration**2,
-        torque=found.torque.T,
-        force=z[layout.f].T.reshape(NODES, -1, 3) * weight,
-        forbidden=_forbidden(body, layout, found),
-        iterations=found.iterations,
-        answer=found,
-    )
 
 
 def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
@@ -175,9 +252,10 @@ class _Asked:
     limits: FloatArray
 
     def worst(self, body: LeggedBody, duration: float) -> str:
-        """The joint that needs the largest share of its limit, and when."""
+        """The joint that needs the largest share of its limit, and when; of equals the last."""
         share = np.abs(self.values) / self.limits[:, None]
-        joint, instant = np.unravel_index(np.argmax(share), share.shape)
+        largest = share >= (1.0 - _OVERDRAWN) * share.max()
+        joint, instant = np.argwhere(largest)[-1]
         needed, time = abs(self.values[joint, instant]), duration * float(SHARES[instant])
         unit = self.units[body.joints[joint].kind is JointKind.PRISMATIC]
         return (

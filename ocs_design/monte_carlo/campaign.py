@@ -1,29 +1,28 @@
-"""What is flown over and over, and one block of it: a pure function of values that can be sent."""
+"""What is flown over and over: campaigns, blocks of them, and single samples flown again."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
+from pathlib import Path
 
+import msgspec
 import numpy as np
 
-from ocs_design.design import Device
+from ocs_design.common.errors import OcsError
+from ocs_design.common.files import TextKind, safe_name
+from ocs_design.device.device import Device
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
-from ocs_design.monte_carlo.built import built
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of
-from ocs_design.monte_carlo.reality import Reality
-from ocs_design.monte_carlo.sample import Sample
+from ocs_design.monte_carlo.uncertainty import NAMES, Sample, Uncertainty, built
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.air_drag import air_drag
-from ocs_design.simulation.engine import Progress, simulate
-from ocs_design.simulation.imperfections import AirDrag
-from ocs_design.simulation.metrics import Metrics, measure
-from ocs_design.simulation.recording import Recording
-from ocs_design.simulation.scenario import Options, world_builder
+from ocs_design.simulation.engine import Progress, poses_of, simulate
+from ocs_design.simulation.imperfections import AirDrag, air_drag
+from ocs_design.simulation.metrics import Metrics, measure, objection, series_of
+from ocs_design.simulation.scenario import Options, Run, world_builder
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.soundness import objection
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world import World
-from ocs_design.sizing.trajectory import Trajectory
+from ocs_design.sizing.trajectory.flight import Trajectory
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,24 +42,24 @@ class Flight:
 
 @dataclass(frozen=True, eq=False)
 class Campaign:
-    """Scenarios, the reality that they are flown in, and the seed of its samples.
+    """Scenarios, what is uncertain about them, and the seed of its samples.
 
     Attributes:
         flights: one of each scenario, as designed.
-        reality: how everything is spread.
+        uncertainty: how everything is spread.
         air: drag of a wheel.
         seed: of all samples. hold: steps of the physics per control step.
     """
 
     flights: tuple[Flight, ...]
-    reality: Reality
+    uncertainty: Uncertainty
     air: AirDrag
     seed: int
     hold: int
 
     def sample(self, index: int) -> Sample:
         """What is drawn for one robot."""
-        return Sample.draw(self.reality, self.seed, index)
+        return Sample.draw(self.uncertainty, self.seed, index)
 
     def worlds(self, sample: Sample) -> list[World]:
         """Every scenario of one robot."""
@@ -86,7 +85,7 @@ def make_campaign(
     references: Mapping[str, Trajectory],
     jumps: Mapping[str, JumpPlans],
     can_stand: Sequence[bool | None],
-    reality: Reality,
+    uncertainty: Uncertainty,
     seed: int,
 ) -> Campaign:
     """The campaign of a design.
@@ -94,7 +93,7 @@ def make_campaign(
     Args:
         robot, device, maneuvers, options, references, jumps: see `run_scenarios`.
         can_stand: of each maneuver, as its flights as designed showed it.
-        reality: see `Reality`. seed: of all samples.
+        uncertainty: see `Uncertainty`. seed: of all samples.
     """
     builder = world_builder(robot, device, options)
     worlds = [
@@ -110,7 +109,7 @@ def make_campaign(
         Flight(maneuver, world, stands, objection(world))
         for maneuver, world, stands in zip(maneuvers, worlds, can_stand, strict=True)
     )
-    return Campaign(flights, reality, air_drag(device.flywheel), seed, options.hold)
+    return Campaign(flights, uncertainty, air_drag(device.flywheel), seed, options.hold)
 
 
 def fly_samples(
@@ -135,18 +134,127 @@ def fly_samples(
     metrics, codes = np.full((*shape, len(METRICS)), np.nan), np.zeros(shape, dtype=np.int8)
     for place, world in enumerate(worlds):
         row = divmod(place, len(campaign.flights))
-        metrics[row], codes[row] = _measured(campaign, recording, place, world, row[1])
+        found = measure(recording, place, world)
+        codes[row] = code_of(campaign.judged(found, row[1]))
+        if found is not None:
+            figures = (getattr(found, name) for name in METRICS)
+            metrics[row] = [np.nan if figure is None else float(figure) for figure in figures]
     values = np.stack([sample.values for sample in samples])
     return Outcomes(np.array(indices), values, metrics, codes)
 
 
-def _measured(
-    campaign: Campaign, recording: Recording, place: int, world: World, number: int
-) -> tuple[list[float], int]:
-    """Figures and verdict of one flight."""
-    found = measure(recording, place, world)
-    code = code_of(campaign.judged(found, number))
-    if found is None:
-        return [np.nan] * len(METRICS), code
-    values = (getattr(found, field.name) for field in fields(found))
-    return [np.nan if value is None else float(value) for value in values], code
+SCHEMA_VERSION = 1
+
+_KIND = TextKind("case", 1 << 20, 1 << 20, "give a file from the folder worst/", '"..."')
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A sample with what came of it.
+
+    Attributes:
+        design: SHA-256 of what was designed.
+        seed, sample: which its noise follows from.
+        scenario: for which it was kept. verdict: on it, in one sentence.
+        values: that were drawn, by name (SI).
+        metrics: of each scenario by its name; what there is none of is null.
+    """
+
+    schema_version: int
+    design: str
+    seed: int
+    sample: int
+    scenario: str
+    verdict: str
+    values: Mapping[str, float]
+    metrics: Mapping[str, Mapping[str, float | None]]
+
+    def drawn(self) -> Sample:
+        """The sample itself."""
+        return Sample(self.seed, self.sample, np.array([self.values[name] for name in NAMES]))
+
+
+def case_of(campaign: Campaign, outcomes: Outcomes, row: int, scenario: int, design: str) -> Case:
+    """The sample in one row of the outcomes, kept for one scenario."""
+    names = [flight.maneuver.name for flight in campaign.flights]
+    return Case(
+        schema_version=SCHEMA_VERSION,
+        design=design,
+        seed=campaign.seed,
+        sample=int(outcomes.index[row]),
+        scenario=names[scenario],
+        verdict=campaign.judged(metrics_of(outcomes, row, scenario), scenario).reason,
+        values=dict(zip(NAMES, outcomes.values[row].tolist(), strict=True)),
+        metrics={
+            name: dict(zip(METRICS, outcomes.metrics[row, number].tolist(), strict=True))
+            for number, name in enumerate(names)
+        },
+    )
+
+
+def metrics_of(outcomes: Outcomes, row: int, scenario: int) -> Metrics | None:
+    """The figures of one flight; None if it became unstable."""
+    values = dict(zip(METRICS, outcomes.metrics[row, scenario].tolist(), strict=True))
+    if np.isnan(values["final_roll"]):
+        return None
+    upright = bool(values.pop("upright_at_end"))
+    times = (values.pop(name) for name in ("touchdown_time", "lift_off_time"))
+    landed, left = (None if np.isnan(time) else time for time in times)
+    return Metrics(upright_at_end=upright, touchdown_time=landed, lift_off_time=left, **values)
+
+
+def write_case(case: Case, folder: Path) -> Path:
+    """Write a case as JSON, named after scenario and sample."""
+    path = folder / f"{safe_name(case.scenario)}-{case.sample}.json"
+    path.write_bytes(msgspec.json.format(msgspec.json.encode(case), indent=2) + b"\n")
+    return path
+
+
+def read_case(path: Path) -> Case:
+    """What `write_case` wrote.
+
+    Raises:
+        OcsError: it cannot be read, or lacks a quantity that is drawn.
+    """
+    try:
+        case = msgspec.json.decode(_KIND.read(path), type=Case)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise OcsError(f"{path}: not a case: {error}", hint=_KIND.path_hint) from error
+    missing = [name for name in NAMES if name not in case.values]
+    if missing:
+        raise OcsError(
+            f"{path}: says nothing of {', '.join(missing)}",
+            hint="it is of another version; draw it again with --seed and --sample",
+        )
+    return case
+
+
+def replayed(
+    campaign: Campaign, sample: Sample, *, pose_rate: float | None = None
+) -> tuple[Run, ...]:
+    """Every scenario of one sample; the numbers are those that it had among others.
+
+    Args:
+        campaign: that it belongs to. sample: to fly.
+        pose_rate: see `simulate`.
+    """
+    worlds = campaign.worlds(sample)
+    recording = simulate(worlds, hold=campaign.hold, pose_rate=pose_rate)
+    runs = []
+    for number, (flight, world) in enumerate(zip(campaign.flights, worlds, strict=True)):
+        metrics = measure(recording, number, world)
+        verdict = campaign.judged(metrics, number)
+        runs.append(
+            Run(
+                scenario=flight.maneuver.name,
+                ocs=True,
+                passed=verdict.passed,
+                reason=verdict.reason,
+                metrics=metrics,
+                series=series_of(recording, number, world),
+                note=world.note,
+                can_stand=flight.can_stand,
+                poses=poses_of(recording, number, world),
+            )
+        )
+    return tuple(runs)

@@ -1,17 +1,50 @@
-"""What came of samples, as arrays; and as a compact file."""
+"""Blocks of samples and their outcomes, as arrays, tables and the folder of a campaign."""
 
-from collections.abc import Sequence
+import csv
+import hashlib
+import math
+import shutil
+import zipfile
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.export.single_file import whole_file
-from ocs_design.monte_carlo.reality import NAMES
+from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.common.errors import OutputError
+from ocs_design.export.folder import output_error, whole_file
+from ocs_design.monte_carlo.uncertainty import NAMES
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
+
+BLOCK = 64
+"""Samples of a block: enough for the processors, few enough for the memory."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Samples `start` to `stop`, the last one not among them."""
+
+    start: int
+    stop: int
+
+    @property
+    def samples(self) -> range:
+        """Their indices."""
+        return range(self.start, self.stop)
+
+
+def blocks_of(samples: int, size: int = BLOCK) -> tuple[Block, ...]:
+    """All samples in blocks; the last may be smaller."""
+    starts = range(0, samples, size)
+    return tuple(Block(start, min(start + size, samples)) for start in starts)
+
 
 METRICS = tuple(field.name for field in fields(Metrics))
 """Every figure of a flight, in order."""
@@ -21,8 +54,8 @@ FAULTS = tuple(Fault)
 
 
 @dataclass(frozen=True, eq=False)
-class Outcomes:
-    """Of n samples in s scenarios.
+class Outcomes(Table):
+    """Outcomes of n samples in s scenarios.
 
     Attributes:
         index: of each sample, shape (n,).
@@ -36,12 +69,6 @@ class Outcomes:
     metrics: FloatArray
     codes: NDArray[np.int8]
 
-    @classmethod
-    def joined(cls, parts: Sequence["Outcomes"]) -> "Outcomes":
-        """Several, one after the other."""
-        names = [field.name for field in fields(cls)]
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
-
     @property
     def passed(self) -> NDArray[np.bool_]:
         """Shape (n, s)."""
@@ -50,10 +77,6 @@ class Outcomes:
     def metric(self, name: str) -> FloatArray:
         """One figure of every flight, shape (n, s)."""
         return np.asarray(self.metrics[:, :, METRICS.index(name)])
-
-    def take(self, rows: slice) -> "Outcomes":
-        """Some of the samples."""
-        return Outcomes(*(getattr(self, field.name)[rows] for field in fields(self)))
 
     def save(self, path: Path) -> None:
         """Write a file that appears complete or not at all."""
@@ -76,5 +99,162 @@ class Outcomes:
 
 
 def code_of(verdict: Verdict) -> int:
-    """See `FAULTS`."""
+    """Number of a fault in `FAULTS`."""
     return 0 if verdict.fault is None else 1 + FAULTS.index(verdict.fault)
+
+
+NAME = "samples"
+
+
+def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> tuple[Path, ...]:
+    """One row per sample and scenario: verdict, figures of the flight, what was drawn (SI).
+
+    Args:
+        outcomes: of all samples.
+        scenarios: their names.
+        folder: to write into.
+    """
+    samples, count = len(outcomes.index), len(scenarios)
+    words = np.array(["pass", *map(str, FAULTS)])
+    drawn = np.repeat(outcomes.values, count, axis=0)
+    figures = outcomes.metrics.reshape(samples * count, len(METRICS))
+    columns: Mapping[str, NDArray[np.generic]] = {
+        "sample": np.repeat(outcomes.index, count),
+        "scenario": np.tile(np.array(scenarios), samples),
+        "verdict": words[outcomes.codes.ravel()],
+        **dict(zip(METRICS, figures.T, strict=True)),
+        **dict(zip(NAMES, drawn.T, strict=True)),
+    }
+    # Numbers to six digits; an empty cell where there is none.
+    cells = [
+        ["" if math.isnan(value) else f"{value:.6g}" for value in values.tolist()]
+        if values.dtype.kind == "f"
+        else [str(value) for value in values.tolist()]
+        for values in columns.values()
+    ]
+    table = folder / f"{NAME}.csv"
+    with table.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*cells, strict=True))
+    if find_spec("pyarrow") is None:
+        return (table,)
+    # Parquet has all digits.
+    arrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
+    all_digits = folder / f"{NAME}.parquet"
+    parquet.write_table(arrow.table(dict(columns)), all_digits)
+    return (table, all_digits)
+
+
+CAMPAIGN_FILE = "campaign.json"
+BLOCKS = "samples"
+RESULT_FILE = "monte_carlo.json"
+"""It is written last: a folder without it is not complete, and the same command completes it."""
+
+_HINT = "choose another folder with -o, or start anew with --force"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Identity:
+    """What the numbers of a campaign follow from; equal ones may share a folder.
+
+    Attributes:
+        tool, simulator: versions of this program and of MuJoCo.
+        design: SHA-256 of what was designed. robot: SHA-256 of its file.
+        reality: the distribution of each key. seed: of all samples.
+        hold: steps of the physics per control step. desaturate: see `Options`.
+    """
+
+    schema_version: int
+    tool: str
+    simulator: str
+    design: str
+    robot: str
+    reality: Mapping[str, str]
+    seed: int
+    hold: int
+    desaturate: bool
+
+    @property
+    def key(self) -> str:
+        """One short name for all of it."""
+        return hashlib.sha256(msgspec.json.encode(self, order="deterministic")).hexdigest()
+
+
+class Storage:
+    """Blocks in files of their own, each complete or not there."""
+
+    def __init__(self, folder: Path, identity: Identity, *, force: bool) -> None:
+        """Open or create a folder.
+
+        Args:
+            folder: with the samples of this campaign, or of none.
+            identity: of the campaign.
+            force: throw away the samples of another one.
+
+        Raises:
+            OutputError: it holds something else, or cannot be written.
+        """
+        self.folder = folder
+        try:
+            if folder.exists():
+                self._check(identity, force=force)
+            (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
+            record = msgspec.json.format(msgspec.json.encode(identity), indent=2)
+            with whole_file(folder / CAMPAIGN_FILE) as file:
+                file.write_bytes(record + b"\n")
+        except OSError as error:
+            raise output_error(error, folder) from error
+
+    def found(self, blocks: Sequence[Block]) -> Mapping[Block, Outcomes]:
+        """Blocks that have been flown already."""
+        kept = {}
+        for block in blocks:
+            try:
+                outcomes = Outcomes.load(self._path(block))
+            except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+                # Not there, or spoilt by whatever: it is flown again.
+                continue
+            if outcomes.index.tolist() == list(block.samples):
+                kept[block] = outcomes
+        return kept
+
+    def keep(self, block: Block, outcomes: Outcomes) -> None:
+        """Write one.
+
+        Raises:
+            OutputError: it cannot be written.
+        """
+        try:
+            outcomes.save(self._path(block))
+        except OSError as error:
+            raise output_error(error, self._path(block)) from error
+
+    def _check(self, identity: Identity, *, force: bool) -> None:
+        """Whether this folder may be added to; other samples are thrown away if that is wanted."""
+        folder = self.folder
+        if not folder.is_dir():
+            raise OutputError(f"{folder}: is not a folder", hint="choose another name with -o")
+        recorded = None
+        with suppress(OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+            recorded = msgspec.json.decode((folder / CAMPAIGN_FILE).read_bytes(), type=Identity)
+        if recorded is None and any(folder.iterdir()):
+            raise OutputError(f"{folder}: exists, and holds no samples of ocs-design", hint=_HINT)
+        if recorded is None or recorded.key == identity.key:
+            return
+        if not force:
+            differs = [
+                name
+                for name in recorded.__dataclass_fields__
+                if getattr(recorded, name) != getattr(identity, name)
+            ]
+            raise OutputError(
+                f"{folder}: holds samples of another campaign; not the same: {', '.join(differs)}",
+                hint=_HINT,
+            )
+        # What was made of the samples goes first: it is not to stand beside those of another.
+        (folder / RESULT_FILE).unlink(missing_ok=True)
+        shutil.rmtree(folder / BLOCKS, ignore_errors=True)
+
+    def _path(self, block: Block) -> Path:
+        return self.folder / BLOCKS / f"{block.start:07d}.npz"

@@ -1,16 +1,20 @@
-"""Blocks of samples, one after the other or many at once, until enough is known."""
+"""Blocks of samples, one after the other, many at once, or on a cluster, until enough is known.
 
+A block is a pure function of its campaign and its indices: where and how often it is flown makes no
+difference. A worker that is lost costs the blocks that it was at, which others take over.
+"""
+
+import pickle
 from abc import ABC, abstractmethod
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
-from functools import partial
+from importlib import import_module
 
-from ocs_design.monte_carlo.blocks import Block
+from ocs_design.common.errors import MissingToolError, OcsError
 from ocs_design.monte_carlo.campaign import Campaign, fly_samples
-from ocs_design.monte_carlo.outcomes import Outcomes
-from ocs_design.monte_carlo.storage import Storage
+from ocs_design.monte_carlo.outcomes import Block, Outcomes, Storage
 from ocs_design.monte_carlo.summary import shares
-from ocs_design.simulation.engine import Progress
+from ocs_design.simulation.engine import Progress, scaled
 
 Arrivals = Generator[tuple[Block, Outcomes], None, None]
 
@@ -33,13 +37,13 @@ class ThisMachine(Workers):
     """One block after the other, each on all processors."""
 
     def __init__(self, threads: int | None = None) -> None:
-        """With so many threads for the physics; None: one per processor."""
+        """Take this many threads for the physics; None: one per processor."""
         self._threads = threads
 
     def fly(self, campaign: Campaign, blocks: Sequence[Block], progress: Progress) -> Arrivals:
-        """See `Workers.fly`."""
+        """Fly these blocks (`Workers.fly`)."""
         for done, block in enumerate(blocks):
-            tell = partial(_tell, progress, done, len(blocks))
+            tell = scaled(progress, done / len(blocks), (done + 1) / len(blocks))
             yield block, fly_samples(campaign, block.samples, threads=self._threads, progress=tell)
 
 
@@ -67,7 +71,7 @@ def run_campaign(
     """
     flown = {} if storage is None else dict(storage.found(blocks))
     missing = [block for block in blocks if block not in flown]
-    tell = partial(_tell_rest, progress, len(flown) / len(blocks)) if progress else _ignore
+    tell = scaled(progress or _ignore, len(flown) / len(blocks), 1.0)
     outcomes = _enough(blocks, flown, until_width)
     with closing(workers.fly(campaign, missing, tell)) as arrivals:
         while outcomes is None:
@@ -94,13 +98,70 @@ def _enough(
     return Outcomes.joined(counted)
 
 
-def _tell(progress: Progress, done: int, of: int, part: float) -> None:
-    progress((done + part) / of)
-
-
-def _tell_rest(progress: Progress, already: float, part: float) -> None:
-    progress(already + (1.0 - already) * part)
-
-
 def _ignore(_done: float) -> None:
-    """Where nobody wants to know."""
+    """Progress that nobody watches."""
+
+
+PATIENCE = 10.0
+"""How long a scheduler may take to answer [s]."""
+
+RETRIES = 10
+"""How often a block is flown again whose worker was lost."""
+
+
+class Cluster(Workers):
+    """The workers of a Dask scheduler, each thread of theirs at one block."""
+
+    def __init__(self, address: str) -> None:
+        """Connect to the scheduler at `address`, as in `tcp://host:8786`.
+
+        Raises:
+            MissingToolError: Dask is not installed.
+            OcsError: nobody answers there.
+        """
+        try:
+            self._dask = import_module("distributed")
+        except ImportError as error:
+            raise MissingToolError(
+                "--scheduler needs Dask, which is not installed",
+                hint="pip install 'ocs-design[cluster]'",
+            ) from error
+        try:
+            self._client = self._dask.Client(address, timeout=PATIENCE)
+        except (OSError, ValueError) as error:
+            raise OcsError(
+                f"--scheduler {address}: no Dask scheduler answers there",
+                hint="start one with `dask scheduler`, workers with `dask worker ADDRESS`",
+            ) from error
+
+    def fly(self, campaign: Campaign, blocks: Sequence[Block], progress: Progress) -> Arrivals:
+        """Fly these blocks (`Workers.fly`)."""
+        # The scheduler keeps the bytes: what was sent to a worker that is lost is sent again.
+        shared = self._client.submit(_Unpacked, pickle.dumps(campaign), pure=False)
+        futures = [
+            self._client.submit(_Unpacked.fly, shared, block, retries=RETRIES, pure=False)
+            for block in blocks
+        ]
+        try:
+            arrived = self._dask.as_completed(futures, with_results=True)
+            for done, (future, flown) in enumerate(arrived, 1):
+                future.release()
+                progress(done / len(blocks))
+                yield flown
+        finally:
+            self._client.cancel([shared, *futures], force=True)
+
+    def close(self) -> None:
+        """Leave the cluster as it was."""
+        self._client.close()
+
+
+class _Unpacked:
+    """A campaign on its worker; unpacked there once, whatever Dask does with its arguments."""
+
+    def __init__(self, content: bytes) -> None:
+        self.campaign: Campaign = pickle.loads(content)
+
+    def fly(self, block: Block) -> tuple[Block, Outcomes]:
+        """Fly a block in one thread: the others fly other blocks."""
+        return block, fly_samples(self.campaign, block.samples, threads=1)

@@ -1,19 +1,173 @@
-"""What many samples say together: the record of a campaign."""
+"""What many samples say together: shares with their intervals, causes of failures, advice."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import cos, sin
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.design_file import ValidationRecord
-from ocs_design.monte_carlo.advice import advice
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.records import ValidationRecord
 from ocs_design.monte_carlo.campaign import Campaign
-from ocs_design.monte_carlo.interval import CONFIDENCE, Share, share
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
-from ocs_design.monte_carlo.reality import NAMES
-from ocs_design.monte_carlo.sample import Sample
-from ocs_design.monte_carlo.severity import Cause, attitude_error, causes, order
+from ocs_design.monte_carlo.uncertainty import NAMES, Sample
+from ocs_design.requirement.maneuver import Flip, Maneuver
+from ocs_design.simulation.verdict import LANDING_TOLERANCE, Fault
+
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True, kw_only=True)
+class Share:
+    """A probability, estimated.
+
+    Attributes:
+        passed, flown: successes and trials.
+        estimate: their ratio.
+        low, high: ends of the exact interval at `CONFIDENCE`.
+    """
+
+    passed: int
+    flown: int
+    estimate: float
+    low: float
+    high: float
+
+    @property
+    def width(self) -> float:
+        """Width of the interval."""
+        return self.high - self.low
+
+
+def share(passed: int, flown: int, confidence: float = CONFIDENCE) -> Share:
+    """The exact interval of Clopper and Pearson (Biometrika 26, 1934, 404-413).
+
+    Args:
+        passed: successes, of `flown` > 0 trials.
+        confidence: that the interval holds the probability, at least.
+    """
+    # Importing SciPy's special functions takes a tenth of a second, its statistics a second more.
+    from scipy.special import betaincinv  # noqa: PLC0415
+
+    tail = 0.5 * (1.0 - confidence)
+    low = float(betaincinv(passed, flown - passed + 1, tail)) if passed else 0.0
+    high = 1.0
+    if passed < flown:
+        high = float(betaincinv(passed + 1, flown - passed, 1.0 - tail))
+    return Share(passed=passed, flown=flown, estimate=passed / flown, low=low, high=high)
+
+
+SIGNIFICANT = 4.0
+"""Standard deviations of a rank correlation of independent numbers; 56 are looked at at a time."""
+
+MOST_CAUSES = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cause:
+    """A drawn quantity that the outcome goes with.
+
+    Attributes:
+        quantity: see `uncertainty.NAMES`.
+        correlation: Spearman's, of the quantity with the severity, -1..1.
+        either_way: it is the distance of the quantity from its median that counts.
+    """
+
+    quantity: str
+    correlation: float
+    either_way: bool
+
+
+def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> FloatArray:
+    """Largest of roll and pitch at touchdown and of what a flip falls short by [rad], (n,)."""
+    error = np.maximum(
+        np.abs(outcomes.metric("touchdown_roll")), np.abs(outcomes.metric("touchdown_pitch"))
+    )[:, number]
+    if isinstance(maneuver, Flip):
+        turned = outcomes.metric("turned_angle")[:, number]
+        error = np.maximum(error, np.abs(turned - maneuver.angle))
+    return np.asarray(error)
+
+
+def order(outcomes: Outcomes, maneuver: Maneuver, number: int) -> np.ndarray:
+    """Samples from the best to the worst: passes first, each by its attitude error, (n,)."""
+    failed = ~outcomes.passed[:, number]
+    error = np.nan_to_num(attitude_error(outcomes, maneuver, number), nan=np.inf)
+    return np.lexsort((error, failed))
+
+
+def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
+    """The quantities whose rank goes with that of the outcome, most telling first.
+
+    Args:
+        outcomes: of n samples.
+        ranking: from the best to the worst, see `order`.
+    """
+    n = len(ranking)
+    varied = np.ptp(outcomes.values, axis=0) > 0.0
+    if n < 3 or not varied.any():
+        return ()
+    severity = np.empty(n)
+    severity[ranking] = np.arange(n)
+    away = np.abs(outcomes.values - np.median(outcomes.values, axis=0))
+    found = np.array([_correlations(outcomes.values, severity), _correlations(away, severity)])
+    # One that goes up and down with its quantity does so with its distance too.
+    found[1] *= np.abs(found[1]) > 2.0 * np.abs(found[0])
+    found[:, ~varied] = 0.0
+    strongest = np.abs(found).max(axis=0)
+    telling = np.argsort(-strongest, kind="stable")[:MOST_CAUSES]
+    either = np.argmax(np.abs(found), axis=0)
+    return tuple(
+        Cause(
+            quantity=NAMES[index],
+            correlation=float(found[either[index], index]),
+            either_way=bool(either[index]),
+        )
+        for index in telling.tolist()
+        if strongest[index] > SIGNIFICANT / np.sqrt(n - 1.0)
+    )
+
+
+def _correlations(values: FloatArray, severity: FloatArray) -> FloatArray:
+    """Spearman's of each column with the severity, a permutation of 0..n-1; shape (columns,)."""
+    n = len(severity)
+    ranks = np.argsort(np.argsort(values, axis=0, kind="stable"), axis=0)
+    middle = 0.5 * (n - 1.0)
+    spread = n * (n**2 - 1.0) / 12.0
+    return np.asarray((severity - middle) @ (ranks - middle) / spread)
+
+
+_BLIND = 1e-3
+"""Share of its momentum with which a device reaches an axis that it as good as does not."""
+
+
+def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
+    """How to land level about an axis that the modules, as they are set by hand, do not turn.
+
+    Whatever rate the robot leaves the ground with about such an axis it keeps until it lands.
+
+    Args:
+        outcomes: of n samples. maneuver: of scenario `number`.
+
+    Returns:
+        One sentence; empty if no sample fails for that.
+    """
+    if maneuver.incidence is None:
+        return ""
+    reach = {"roll": sin(maneuver.incidence), "pitch": cos(maneuver.incidence)}
+    axis = min(reach, key=lambda name: abs(reach[name]))
+    if abs(reach[axis]) >= _BLIND:
+        return ""
+    landed_off = outcomes.codes[:, number] == 1 + FAULTS.index(Fault.LANDING)
+    error = np.abs(outcomes.metric(f"touchdown_{axis}")[:, number])
+    count = np.count_nonzero(landed_off & (error > LANDING_TOLERANCE))
+    if not count:
+        return ""
+    return (
+        f"{count} land off level in {axis}, which modules in line do not turn: without "
+        f"`incidence` in its [[maneuver]] they stay as they are designed, and do"
+    )
+
 
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 BINS = 12
@@ -82,16 +236,37 @@ class MonteCarloRecord:
 def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarloRecord:
     """The record of these outcomes."""
     flown, whole = len(outcomes.index), outcomes.passed.all(axis=1)
+    scenarios = []
+    for number, (flight, success) in enumerate(
+        zip(campaign.flights, shares(outcomes), strict=True)
+    ):
+        maneuver, codes = flight.maneuver, outcomes.codes[:, number]
+        ranking = order(outcomes, maneuver, number)
+        scenarios.append(
+            ScenarioSummary(
+                scenario=maneuver.name,
+                success=success,
+                faults={
+                    str(fault): int(count)
+                    for code, fault in enumerate(FAULTS, 1)
+                    if (count := np.count_nonzero(codes == code))
+                },
+                attitude_error=_spread(attitude_error(outcomes, maneuver, number)),
+                peak_wheel_speed=_spread(outcomes.metric("peak_wheel_speed")[:, number]),
+                peak_wheel_torque=_spread(outcomes.metric("peak_wheel_torque")[:, number]),
+                causes=causes(outcomes, ranking),
+                worst=tuple(outcomes.index[ranking[::-1][:WORST]].tolist()),
+                advice=advice(outcomes, maneuver, number),
+            )
+        )
     return MonteCarloRecord(
         seed=campaign.seed,
         samples=flown,
         asked=asked,
         confidence=CONFIDENCE,
-        reality=campaign.reality.written(),
+        reality=campaign.uncertainty.written(),
         success=share(int(whole.sum()), flown),
-        scenarios=tuple(
-            _scenario(campaign, outcomes, number) for number in range(len(campaign.flights))
-        ),
+        scenarios=tuple(scenarios),
     )
 
 
@@ -99,27 +274,6 @@ def shares(outcomes: Outcomes) -> tuple[Share, ...]:
     """How often each scenario passes."""
     passed = outcomes.passed.sum(axis=0).tolist()
     return tuple(share(count, len(outcomes.index)) for count in passed)
-
-
-def _scenario(campaign: Campaign, outcomes: Outcomes, number: int) -> ScenarioSummary:
-    maneuver = campaign.flights[number].maneuver
-    ranking = order(outcomes, maneuver, number)
-    codes = outcomes.codes[:, number]
-    return ScenarioSummary(
-        scenario=maneuver.name,
-        success=shares(outcomes)[number],
-        faults={
-            str(fault): int(count)
-            for code, fault in enumerate(FAULTS, 1)
-            if (count := np.count_nonzero(codes == code))
-        },
-        attitude_error=_spread(attitude_error(outcomes, maneuver, number)),
-        peak_wheel_speed=_spread(outcomes.metric("peak_wheel_speed")[:, number]),
-        peak_wheel_torque=_spread(outcomes.metric("peak_wheel_torque")[:, number]),
-        causes=causes(outcomes, ranking),
-        worst=tuple(outcomes.index[ranking[::-1][:WORST]].tolist()),
-        advice=advice(outcomes, maneuver, number),
-    )
 
 
 def _spread(values: FloatArray) -> Spread | None:
@@ -134,7 +288,7 @@ def _spread(values: FloatArray) -> Spread | None:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drawn:
+class SampleRecord:
     """The one sample that was flown: its values by name, SI."""
 
     seed: int
@@ -142,7 +296,7 @@ class Drawn:
     values: Mapping[str, float]
 
     @classmethod
-    def of(cls, sample: Sample) -> "Drawn":
+    def of(cls, sample: Sample) -> "SampleRecord":
         """The record of a sample."""
         values = dict(zip(NAMES, sample.values.tolist(), strict=True))
         return cls(seed=sample.seed, index=sample.index, values=values)
@@ -160,7 +314,7 @@ class Validated:
     robot: str
     warnings: tuple[str, ...]
     validation: tuple[ValidationRecord, ...]
-    sample: Drawn | None = None
+    sample: SampleRecord | None = None
     monte_carlo: MonteCarloRecord | None = None
 
     @property

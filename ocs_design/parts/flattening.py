@@ -4,17 +4,17 @@ from math import ceil, pi, sin, sqrt
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray, frozen
+from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.parts.outline import Arc, Outline
 
 SECTIONS = 256
-"""Of a full circle: 1.4 degrees each."""
+"""Chords of a full circle: 1.4 degrees each."""
 
 LARGE_RADIUS = 0.04
-"""Of arcs that have as many sections as bodies of revolution [m]: their corners are 2 um off."""
+"""Least radius of arcs with as many chords as bodies of revolution [m]: corners are 2 um off."""
 
 LEAST_SECTIONS = 8
-"""Of any full circle."""
+"""Fewest chords of a full circle."""
 
 
 def circle_radius_factor(sections: int) -> float:
@@ -38,26 +38,18 @@ def arc_sections(radius: float, sections: int) -> int:
 
 def flat_outline(outline: Outline, sections: int = SECTIONS) -> FloatArray:
     """A polygon of the outline's own area, its corners [m], shape (n, 2)."""
-    if _is_circle(outline):
-        return _flat_circle(outline, sections)
+    if len(outline.points) == 2 and bool(np.all(outline.bulges == 1.0)):
+        start, end = outline.points
+        radius = float(np.hypot(*(end - start))) / 2.0
+        count = arc_sections(radius, sections)
+        ring = ring_points(2.0 * pi * np.arange(count) / count)
+        return np.asarray((start + end) / 2.0 + radius * circle_radius_factor(count) * ring)
     return np.concatenate(
         [
             start[None] if bulge == 0.0 else _flat_arc(start, Arc.of(start, end, bulge), sections)
             for start, end, bulge in outline.edges()
         ]
     )
-
-
-def _is_circle(outline: Outline) -> bool:
-    return len(outline.points) == 2 and bool(np.all(outline.bulges == 1.0))
-
-
-def _flat_circle(outline: Outline, sections: int) -> FloatArray:
-    start, end = outline.points
-    radius = float(np.hypot(*(end - start))) / 2.0
-    count = arc_sections(radius, sections)
-    ring = ring_points(2.0 * pi * np.arange(count) / count)
-    return np.asarray((start + end) / 2.0 + radius * circle_radius_factor(count) * ring)
 
 
 def _flat_arc(start: FloatArray, arc: Arc, sections: int) -> FloatArray:
@@ -75,5 +67,5 @@ def _flat_arc(start: FloatArray, arc: Arc, sections: int) -> FloatArray:
 
 
 def ring_points(angles: FloatArray) -> FloatArray:
-    """On the unit circle at these angles [rad], shape (n, 2)."""
+    """Points of the unit circle at these angles [rad], shape (n, 2)."""
     return np.column_stack([np.cos(angles), np.sin(angles)])

@@ -1,130 +1,189 @@
-"""The foot: a turntable with a plate, which sets the incidence angle by hand.
+"""The foot: a turntable with a plate, which holds motor and housing at the incidence angle.
 
-Its own frame is the one that it is printed in: origin in the middle of its underside, z up, the
-wheel's axis along y. Two screws into the trunk hold it through arc slots; a line on the trunk that
-points forward stands at the mark of the angle.
+A disc on the trunk, held by two screws through arc slots, with marks along its edge: a line on the
+trunk that points forward stands at the mark of the angle. On it a plate behind the housing's floor,
+half round above the wheel's axis. Its own frame is the one that it is printed in: origin in the
+middle of its underside, z up, the wheel's axis along y.
+
+Sizes, the rim's outer radius R and height h and the reach of the mount's holes [m], are numbers,
+arrays that broadcast, or CasADi's symbols.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from math import pi
+from math import pi, sqrt
+from typing import Any, Generic
 
 import numpy as np
 
-from ocs_design.parts.housing import Housing
-from ocs_design.parts.outline import Outline, arc_slot, rectangle
+from ocs_design.actuation.fasteners import Fastening, screw
+from ocs_design.parts.housing import Housing, housing_outer_radius
+from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.part import Part
-from ocs_design.parts.solids import Prism, hollow_cylinder
-from ocs_design.robot.rotations import rotation_about
+from ocs_design.parts.printed import CLEARANCE, DENSITY, UPRIGHT, WALL, MountHoles
+from ocs_design.parts.shapes import ArcSlot, Disc, Rectangle, Tongue
+from ocs_design.parts.solids import Prism
 from ocs_design.robot.tree import Placement
-from ocs_design.sizing.foot import (
-    BASE_THICKNESS,
-    LONG_MARK_EVERY,
-    LONG_MARK_LENGTH,
-    MARK_DEPTH,
-    MARK_EVERY,
-    MARK_LENGTH,
-    MARK_WIDTH,
-    TRUNK_SCREW,
-    base_radius,
-    plate_back,
-    plate_half_width,
-    slot_radius,
-    wheel_height,
-)
-from ocs_design.sizing.housing import DENSITY, WALL
+
+BASE_THICKNESS = 3.0e-3
+"""[m]: the trunk's screws press on it."""
+
+PLATE_THICKNESS = 5.0e-3
+"""[m]: 20 g on a module of 0.35 kg, 40 mm above the base, bend a plate 30 mm wide with 22 MPa."""
+
+PLATE_MARGIN = 3.0e-3
+"""Margin of the plate around the mount's holes [m]."""
+
+PLATE_SHARE = 0.5
+"""Least half width of the plate over the housing's radius."""
 
 HALF_SWING = pi / 4.0
-"""Of each slot to both sides of the wheel's axis [rad]: incidence 0..90 degrees.
+"""Angle of each slot to both sides of the wheel's axis [rad]: incidence 0..90 degrees.
 
 So the trunk's screws stand at 45 degrees to the lateral direction.
 """
 
-UP = np.array([0.0, 0.0, 1.0])
+TRUNK_SCREW = screw("M3")
+
+TRUNK_SCREWS = Fastening(
+    TRUNK_SCREW, 2, BASE_THICKNESS, "foot on trunk; longer if its thread begins deeper"
+)
+"""Through a slot each."""
+
+AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
+"""Room of heads, or of a wall, around the middle of a slot [m]."""
+
+LONG_MARKS = 12
+"""All around, every 30 degrees, with two short ones after each: left and right feet are the same
+part, turned by 180 degrees."""
+
+MARK_WIDTH, MARK_DEPTH, MARK_LENGTH, LONG_MARK_LENGTH = 0.8e-3, 0.4e-3, 2.5e-3, 4.0e-3
+"""[m]: two lines of a 0.4 mm nozzle wide, two layers of 0.2 mm deep."""
+
+STANDING = Placement(UPRIGHT, np.zeros(3))
+"""The wheel's axes in the foot's frame: x forward in both, z along the wheel's axis, y down."""
+
+
+def wheel_height(outer_radius: Real) -> Real:
+    """Height of the wheel's centre above the foot's underside [m]."""
+    return housing_outer_radius(outer_radius) + (BASE_THICKNESS + CLEARANCE)
+
+
+def plate_back(half: Real) -> Real:
+    """Distance of the plate's back from the middle of a housing of that half height [m]."""
+    return half + PLATE_THICKNESS
+
+
+def base_radius(outer_radius: Real, height: Real, mount_reach: Real | float) -> Real:
+    """Radius of the base of a foot for that rim and that reach of the mount's holes [m]."""
+    reach: Any = mount_reach
+    return Foot(Housing(outer_radius, height, MountHoles(reach))).base_radius
+
+
+def larger(one: Real, other: Real | float) -> Real:
+    """The larger of two, by operators alone."""
+    return (one + other + abs(one - other)) / 2.0
 
 
 @dataclass(frozen=True)
-class Foot:
+class Foot(Generic[Real]):
     """What carries a housing on the trunk.
 
     Attributes:
         housing: that it carries, with the holes that its plate shares.
     """
 
-    housing: Housing
+    housing: Housing[Real]
 
     @property
-    def wheel_height(self) -> float:
-        """Of the wheel's centre above the underside [m]."""
+    def wheel_height(self) -> Real:
+        """Height of the wheel's centre above the underside [m]."""
         return wheel_height(self.housing.rim_radius)
 
     @property
-    def half_width(self) -> float:
-        """Of the plate [m]."""
-        return plate_half_width(self.housing.rim_radius, self.housing.mount.reach)
+    def half_width(self) -> Real:
+        """Half of the plate's width [m]."""
+        housing = self.housing
+        return larger(PLATE_SHARE * housing.radius, housing.mount.reach + PLATE_MARGIN)
 
     @property
-    def back(self) -> float:
-        """Of the plate, from the wheel's middle [m]."""
+    def back(self) -> Real:
+        """Distance of the plate's back from the wheel's middle [m]."""
         return plate_back(self.housing.half_height)
 
     @property
-    def slot_radius(self) -> float:
-        """Where heads clear the plate at the ends of the slots [m]."""
-        return slot_radius(self.housing.rim_height)
+    def slot_radius(self) -> Real:
+        """Radius of the slots, at whose ends heads clear the plate [m]."""
+        return sqrt(2.0) * (self.back + TRUNK_SCREW.head_diameter / 2.0 + WALL)
 
     @property
-    def base_radius(self) -> float:
-        """Around the marks outside the slots, the heads in them and the plate [m]."""
-        size = self.housing.rim_radius, self.housing.rim_height
-        return base_radius(*size, self.housing.mount.reach)
+    def corner(self) -> Real:
+        """Radius of the plate's corners around the middle of the base [m]."""
+        radius: Real = (self.half_width**2 + self.back**2) ** 0.5
+        return radius
+
+    @property
+    def base_radius(self) -> Real:
+        """Radius around the marks outside the slots, the heads in them and the plate [m]."""
+        return larger(self.slot_radius + AROUND_SLOT, self.corner) + (LONG_MARK_LENGTH + WALL)
 
     @property
     def placement(self) -> Placement:
-        """Of its frame in the wheel's: x forward in both, y along the spin axis, z up is -y."""
-        rotation = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-        return Placement(rotation, np.array([0.0, self.wheel_height, 0.0]))
+        """Its frame in the wheel's: x forward in both, y along the spin axis, z up is -y."""
+        return Placement(UPRIGHT.T, np.array([0.0, self.wheel_height, 0.0]))
+
+    @property
+    def plate(self) -> Tongue[Real]:
+        """The plate from the base up to half a disc around the wheel's axis; y points down."""
+        return Tongue(self.half_width, -self.wheel_height, -BASE_THICKNESS)
+
+    @property
+    def slot(self) -> ArcSlot[Real]:
+        """The slot away from the other module; the other one is opposite."""
+        ends = pi / 2.0 - HALF_SWING, pi / 2.0 + HALF_SWING
+        return ArcSlot(self.slot_radius, TRUNK_SCREW.clearance_hole, *ends)
 
 
-def foot_part(foot: Foot) -> Part:
-    """In its own frame."""
-    base = hollow_cylinder(0.0, foot.base_radius, 0.0, BASE_THICKNESS)
-    low, high = -foot.back, -foot.housing.half_height
-    plate = Prism(_plate(foot), low, high, _standing(foot, BASE_THICKNESS))
-    holes = foot.housing.mount.holes(low, high, _standing(foot, foot.wheel_height))
-    cut = (*_slots(foot), *_marks(foot), *holes)
-    return Part("foot", DENSITY, (base, plate), cut)
+def foot_part(foot: Foot[float]) -> Part[float]:
+    """The foot in its own frame, with the mount's holes."""
+    blank, axis = undrilled(foot), np.array([0.0, 0.0, foot.wheel_height])
+    around = Placement(UPRIGHT, axis)
+    holes = foot.housing.mount.prisms(-foot.back, -foot.housing.half_height, around)
+    return Part("foot", DENSITY, blank.solids, (*blank.holes, *holes))
 
 
-def _standing(foot: Foot, height: float) -> Placement:
-    """A frame with the wheel's axes at a height above the underside [m]."""
-    return Placement(foot.placement.rotation.T, height * UP)
+def undrilled(foot: Foot[Real]) -> Part[Real]:
+    """The foot in its own frame without the mount's holes; see the module for sizes."""
+    base = Prism(Disc(foot.base_radius), 0.0, BASE_THICKNESS)
+    plate = Prism(foot.plate, -foot.back, -foot.housing.half_height, STANDING)
+    cut = [Prism(foot.slot, 0.0, BASE_THICKNESS, count=TRUNK_SCREWS.count)]
+    end, low = foot.base_radius - WALL, BASE_THICKNESS - MARK_DEPTH
+    for third, length in enumerate((LONG_MARK_LENGTH, MARK_LENGTH, MARK_LENGTH)):
+        groove = Rectangle(end - length, end, -MARK_WIDTH / 2.0, MARK_WIDTH / 2.0)
+        first = 2.0 * pi / LONG_MARKS * third / 3.0
+        cut.append(Prism(groove, low, BASE_THICKNESS, count=LONG_MARKS, first=first))
+    return Part("foot", DENSITY, (base, plate), tuple(cut))
 
 
-def _plate(foot: Foot) -> Outline:
-    """From the base upwards to half a circle around the wheel's axis; y points down to 0 there."""
-    width, axis = foot.half_width, BASE_THICKNESS - foot.wheel_height
-    # Zero, and not a difference that is rounded, so that plate and base touch.
-    points = [(width, axis), (width, 0.0), (-width, 0.0), (-width, axis)]
-    return Outline(np.array(points), np.array([0.0, 0.0, 0.0, 1.0]))
+def foot_moments(foot: Foot[Real]) -> MassMoments[Real]:
+    """Moments of the foot in the module's frame, without the mount's holes."""
+    return undrilled(foot).moments().shifted(0.0, -foot.wheel_height)
 
 
-def _slots(foot: Foot) -> Iterator[Prism]:
-    for middle in (pi / 2.0, -pi / 2.0):
-        outline = arc_slot(
-            foot.slot_radius,
-            TRUNK_SCREW.clearance_hole,
-            middle - HALF_SWING,
-            middle + HALF_SWING,
-        )
-        yield Prism(outline, 0.0, BASE_THICKNESS)
+def foot_mass_per_height(foot: Foot[Real]) -> Real:
+    """Change of the base's mass with the rim's height, R held [kg/m]."""
+    corner = foot.corner
+    by_slot = 1.0 * (foot.slot_radius + AROUND_SLOT > corner)
+    outward = by_slot * sqrt(0.5) + (1.0 - by_slot) * foot.back / (2.0 * corner)
+    slots = pi * TRUNK_SCREW.clearance_hole * sqrt(0.5)
+    return DENSITY * BASE_THICKNESS * (2.0 * pi * foot.base_radius * outward - slots)
 
 
-def _marks(foot: Foot) -> Iterator[Prism]:
-    """Grooves all along the base's edge."""
-    for degrees in range(0, 360, MARK_EVERY):
-        length = MARK_LENGTH if degrees % LONG_MARK_EVERY else LONG_MARK_LENGTH
-        end = foot.base_radius - WALL
-        groove = rectangle(end - length, end, -MARK_WIDTH / 2.0, MARK_WIDTH / 2.0)
-        turned = Placement(rotation_about(UP, np.radians(degrees)), np.zeros(3))
-        yield Prism(groove, BASE_THICKNESS - MARK_DEPTH, BASE_THICKNESS, turned)
+def trunk_screw_moments(foot: Foot[Real]) -> MassMoments[Real]:
+    """Moments of the trunk's screws in the module's frame, their heads on the base, as points.
+
+    They stay at 45 degrees to the lateral direction while the foot turns under them, opposite each
+    other: as much forward as sideways. Their product of both is the left one's against the right
+    one's, and is left out.
+    """
+    up = BASE_THICKNESS - TRUNK_SCREWS.centre - foot.wheel_height
+    return flat_ring(TRUNK_SCREWS.mass + 0.0 * up, foot.slot_radius).shifted(0.0, up)

@@ -1,109 +1,155 @@
-"""The housing as it is printed: a drum with a floor, and a lid that is its guard.
+"""The housing around a wheel: what keeps fingers and legs out of it, and carries its motor.
 
-Both stand around the wheel in the wheel's frame, the floor at -z, and are printed as they stand:
-floor or lid on the bed, nothing overhangs.
+A drum with a floor, and a lid that is its guard, with four ears around the band for the lid's
+screws. Both stand around the wheel in the wheel's frame, the floor at -z, and are printed as they
+stand: floor or lid on the bed, nothing overhangs.
+
+Sizes of a rim, its outer radius R and height h [m], are numbers, arrays that broadcast, or CasADi's
+symbols.
 """
 
 from dataclasses import dataclass, field
 from math import pi
+from typing import Generic
 
-from ocs_design.exceptions import PartError
-from ocs_design.fasteners import Screw
-from ocs_design.parts.ears import ear_axis, ear_holes, ear_radius, eared
-from ocs_design.parts.mount import Mount
-from ocs_design.parts.outline import Outline, circle
+from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening, Screw
+from ocs_design.common.errors import PartError
+from ocs_design.parts.moments import MassMoments, Real, ring
 from ocs_design.parts.part import Part
-from ocs_design.parts.solids import Prism
-from ocs_design.sizing.housing import (
+from ocs_design.parts.printed import (
+    CLEARANCE,
     DENSITY,
+    LID_SCREW,
+    UPRIGHT,
     WALL,
-    half_height,
-    housing_outer_radius,
+    MountHoles,
+    ear_axis,
+    ear_holes,
+    eared,
 )
+from ocs_design.parts.rim import cylinder_mass
+from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared, Shape
+from ocs_design.parts.solids import Prism
 
 FIRST_EAR = pi / 4.0
 """Angle from the x axis [rad]: nothing stands out below, above, before and behind."""
 
+LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, WALL, "lid on drum, which is tapped", IN_PLASTIC)
+
+
+def housing_outer_radius(outer_radius: Real) -> Real:
+    """Radius of the band around a rim, outside [m]."""
+    return outer_radius + (CLEARANCE + WALL)
+
+
+def half_height(height: Real) -> Real:
+    """Distance from the wheel's middle to the outside of floor and lid [m]."""
+    return height / 2.0 + (CLEARANCE + WALL)
+
 
 @dataclass(frozen=True)
-class Housing:
+class Housing(Generic[Real]):
     """Drum and lid around a rim.
 
     Attributes:
         rim_radius, rim_height: outer ones of the rim [m].
         mount: holes in the floor.
         lid_screw: of the ears outside the band, cut into the drum's; None: no ears.
+    """
+
+    rim_radius: Real
+    rim_height: Real
+    mount: MountHoles = field(default_factory=MountHoles)
+    lid_screw: Screw | None = None
+
+    @property
+    def radius(self) -> Real:
+        """Radius of the band, outside [m]."""
+        return housing_outer_radius(self.rim_radius)
+
+    @property
+    def inner_radius(self) -> Real:
+        """Radius of the band, inside [m]."""
+        return self.radius - WALL
+
+    @property
+    def half_height(self) -> Real:
+        """Distance from the wheel's middle to the outside of floor and lid [m]."""
+        return half_height(self.rim_height)
+
+    @property
+    def band(self) -> Shape[Real]:
+        """The band's disc, with ears where they are wanted."""
+        if self.lid_screw is None:
+            return Disc(self.radius)
+        return eared(self.radius, self.lid_screw, FIRST_EAR)
+
+
+def housing_parts(housing: Housing[float]) -> tuple[Part[float], Part[float]]:
+    """Drum and lid, each of one piece.
 
     Raises:
         PartError: the mount's holes do not fit the floor.
     """
-
-    rim_radius: float
-    rim_height: float
-    mount: Mount = field(default_factory=Mount)
-    lid_screw: Screw | None = None
-
-    def __post_init__(self) -> None:
-        if self.mount.reach > self.inner_radius - WALL:
-            raise PartError(
-                f"holes up to {1e3 * self.mount.reach:.4g} mm from the axis do not fit the "
-                f"housing's floor of {1e3 * self.inner_radius:.4g} mm",
-                hint="choose a smaller motor, or allow a larger outer radius",
-            )
-
-    @property
-    def radius(self) -> float:
-        """Of the band, outside [m]."""
-        return housing_outer_radius(self.rim_radius)
-
-    @property
-    def inner_radius(self) -> float:
-        """Of the band, inside [m]."""
-        return self.radius - WALL
-
-    @property
-    def half_height(self) -> float:
-        """From the wheel's middle to the outside of floor and lid [m]."""
-        return half_height(self.rim_height)
-
-    @property
-    def ear_reach(self) -> float:
-        """Radius that the ears stay within [m]."""
-        if self.lid_screw is None:
-            return self.radius
-        return ear_axis(self.radius, self.lid_screw) + ear_radius(self.lid_screw)
+    mount, room = housing.mount, housing.inner_radius
+    if mount.reach > room - WALL:
+        raise PartError(
+            f"holes up to {1e3 * mount.reach:.4g} mm from the axis do not fit the "
+            f"housing's floor of {1e3 * room:.4g} mm",
+            hint="choose a smaller motor, or allow a larger outer radius",
+        )
+    drum, lid = undrilled(housing)
+    holes = mount.prisms(-housing.half_height, -housing.half_height + WALL)
+    return Part(drum.name, drum.density, drum.solids, (*drum.holes, *holes)), lid
 
 
-def housing_parts(housing: Housing) -> tuple[Part, Part]:
-    """Drum and lid, each of one piece."""
-    return _drum(housing), _lid(housing)
-
-
-def _drum(housing: Housing) -> Part:
-    low, high = -housing.half_height, housing.half_height - WALL
-    floor, screw = low + WALL, housing.lid_screw
-    room = Prism(circle(housing.inner_radius), floor, high)
-    threads = () if screw is None else _ear_holes(housing, screw, screw.tapping_drill)
-    cut = (
-        room,
-        *housing.mount.holes(low, floor),
-        *(Prism(hole, floor, high) for hole in threads),
+def undrilled(housing: Housing[Real]) -> tuple[Part[Real], Part[Real]]:
+    """Drum and lid without the mount's holes; see `Housing` for sizes."""
+    low, high, held = -housing.half_height, housing.half_height, housing.lid_screw
+    floor, under = low + WALL, high - WALL
+    band: Shape[Real] = housing.band
+    room: Prism[Real] = Prism(Disc(housing.inner_radius), floor, under)
+    drum, lid = Prism(band, low, under), Prism(band, under, high)
+    if held is None or not isinstance(band, Eared):
+        return Part("drum", DENSITY, (drum,), (room,)), Part("lid", DENSITY, (lid,))
+    threads = ear_holes(band, held.tapping_drill, floor, under)
+    passages = ear_holes(band, held.clearance_hole, under, high)
+    return Part("drum", DENSITY, (drum,), (room, threads)), Part(
+        "lid", DENSITY, (lid,), (passages,)
     )
-    return Part("drum", DENSITY, (Prism(_outline(housing), low, high),), cut)
 
 
-def _lid(housing: Housing) -> Part:
-    low, high, screw = housing.half_height - WALL, housing.half_height, housing.lid_screw
-    holes = () if screw is None else _ear_holes(housing, screw, screw.clearance_hole)
-    plate = Prism(_outline(housing), low, high)
-    return Part("lid", DENSITY, (plate,), tuple(Prism(hole, low, high) for hole in holes))
+def housing_moments(housing: Housing[Real]) -> MassMoments[Real]:
+    """Moments of drum and lid in the module's frame, without the mount's holes."""
+    drum, lid = undrilled(housing)
+    return (drum.moments() + lid.moments()).turned(UPRIGHT)
 
 
-def _ear_holes(housing: Housing, screw: Screw, diameter: float) -> list[Outline]:
-    return ear_holes(housing.radius, screw, diameter, FIRST_EAR)
+def housing_mass_per_height(outer_radius: Real) -> Real:
+    """Change of the mass of band and ears with the rim's height [kg/m]."""
+    across = housing_outer_radius(outer_radius)
+    room, thread = Disc(across - WALL), pi / 4.0 * LID_SCREW.tapping_drill**2
+    return DENSITY * (eared(across, LID_SCREW, FIRST_EAR).area - room.area - EAR_COUNT * thread)
 
 
-def _outline(housing: Housing) -> Outline:
-    """The band's circle, with ears where they are wanted."""
-    screw = housing.lid_screw
-    return circle(housing.radius) if screw is None else eared(housing.radius, screw, FIRST_EAR)
+def lid_screw_moments(housing: Housing[Real]) -> MassMoments[Real]:
+    """Moments of the lid's screws in the module's frame, their heads on the lid, as points."""
+    along = housing.half_height - LID_SCREWS.centre
+    on_ears = ring(LID_SCREWS.mass + 0.0 * along, ear_axis(housing.radius, LID_SCREW))
+    return on_ears.shifted(along, 0.0)
+
+
+@dataclass(frozen=True)
+class PlainDrum:
+    """A closed drum without ears, holes and foot: lighter than any housing."""
+
+    def mass(self, outer_radius: Real, height: Real) -> Real:
+        """Mass of both discs and the band [kg]."""
+        across, inside = housing_outer_radius(outer_radius), height + 2.0 * CLEARANCE
+        discs = 2.0 * pi * DENSITY * WALL * across**2
+        return discs + cylinder_mass(across - WALL, across, inside, DENSITY)
+
+    def mass_per_height(self, outer_radius: Real, height: Real) -> Real:
+        """Change of the band's mass with the height, R held [kg/m]."""
+        across = housing_outer_radius(outer_radius) + 0.0 * height
+        return pi * DENSITY * WALL * (2.0 * across - WALL)

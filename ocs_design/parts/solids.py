@@ -1,16 +1,19 @@
-"""Solids with exact mass properties: bodies of revolution and prisms."""
+"""Solids with exact moments: prisms of flat shapes, and bodies of revolution."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from math import pi
-from typing import TypeAlias
+from typing import Any, Generic, TypeAlias
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray, frozen
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.parts.moments import MassMoments, Real, product
 from ocs_design.parts.outline import Outline
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.parts.shapes import Shape
 from ocs_design.robot.tree import Placement
+
+HERE = Placement.identity()
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +30,16 @@ class Revolution:
     def __post_init__(self) -> None:
         object.__setattr__(self, "profile", frozen(self.profile))
 
-    def mass_properties(self, density: float) -> MassProperties:
-        """In the part's frame, exact.
+    def each(self) -> Iterator["Revolution"]:
+        """The solid itself, as a ring of prisms gives each of them."""
+        yield self
+
+    def volume(self) -> float:
+        """Volume [m^3]."""
+        return self.moments().mass
+
+    def moments(self) -> MassMoments[float]:
+        """Moments in the part's frame, of unit density, exact.
 
         Green's theorem turns the integrals over the cross-section into sums over its edges:
         V = pi o r^2 dz, z_c V = pi o r^2 z dz, and the second moments about the origin
@@ -43,44 +54,71 @@ class Revolution:
             pi * float(np.sum(integrand * dz))
             for integrand in (r**2, r**2 * z, r**2 * z**2, r**4 / 4.0)
         )
-        return _from_moments(
-            density, volume, np.array([0.0, 0.0, first]), np.diag([across, across, along])
-        )
+        return MassMoments(volume, 0.0, first, across, across, along, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Prism:
-    """An outline pushed along the z axis of its own frame.
+class Prism(Generic[Real]):
+    """A shape pushed along the z axis of its own frame, or a ring of them around that axis.
 
     Attributes:
-        outline: in the xy plane of that frame.
+        shape: in the xy plane of that frame.
         low, high: where it begins and ends along z [m].
         placement: of that frame in the part's.
+        count: of equal prisms, evenly spaced around the z axis.
+        first: by which the first of them is turned around it [rad].
     """
 
-    outline: Outline
-    low: float
-    high: float
-    placement: Placement = field(default_factory=Placement.identity)
+    shape: Shape[Real]
+    low: Real | float
+    high: Real | float
+    placement: Placement = HERE
+    count: int = 1
+    first: float = 0.0
 
-    def mass_properties(self, density: float) -> MassProperties:
-        """In the part's frame, exact."""
-        plane = self.outline.moments()
+    @property
+    def outline(self) -> Outline:
+        """Outline of the first prism, of numbers."""
+        return self.shape.outline().turned(self.first)
+
+    def each(self) -> Iterator["Prism[Any]"]:
+        """One prism of numbers after the other."""
+        for index in range(self.count):
+            angle = self.first + 2.0 * pi * index / self.count
+            yield replace(self, count=1, first=angle)
+
+    def volume(self) -> Real:
+        """Volume [m^3]."""
+        return self.count * self.shape.area * (self.high - self.low)
+
+    def moments(self) -> MassMoments[Real]:
+        """Moments in the part's frame, of unit density, exact."""
+        plane = self.shape.moments.around(self.count, self.first)
         length, middle = self.high - self.low, (self.high + self.low) / 2.0
-        second = np.zeros((3, 3))
-        second[:2, :2] = plane.second * length
-        second[:2, 2] = second[2, :2] = plane.first * length * middle
-        second[2, 2] = plane.area * (self.high**3 - self.low**3) / 3.0
-        first = length * np.array([*plane.first, plane.area * middle])
-        own = _from_moments(density, plane.area * length, first, second)
-        return own.moved(self.placement.rotation, self.placement.position)
+        volume = plane.mass * length
+        own = MassMoments(
+            mass=volume,
+            y=product(plane.y, length),
+            z=volume * middle,
+            xx=plane.xx * length,
+            yy=plane.yy * length,
+            zz=volume * (middle**2 + length**2 / 12.0),
+            yz=product(plane.y, length * middle),
+            x=product(plane.x, length),
+            xy=product(plane.xy, length),
+            xz=product(plane.x, length * middle),
+        )
+        if self.placement is HERE:
+            return own
+        turned = own.turned(self.placement.rotation)
+        return turned.moved(*self.placement.position.tolist())
 
 
 Solid: TypeAlias = Revolution | Prism
 
 
 def hollow_cylinder(inner: float, outer: float, low: float, high: float) -> Revolution:
-    """About the z axis, between two radii and two heights [m]; a disc if `inner` is 0."""
+    """A hollow cylinder about z, between two radii and two heights [m]; a disc if `inner` is 0."""
     return Revolution(np.array([[inner, low], [outer, low], [outer, high], [inner, high]]))
 
 
@@ -89,13 +127,3 @@ def revolved(corners: Iterable[Sequence[float]]) -> Revolution:
     points = np.array(list(corners))
     distinct = np.any(points != np.roll(points, 1, axis=0), axis=1)
     return Revolution(points[distinct])
-
-
-def _from_moments(
-    density: float, volume: float, first: FloatArray, second: FloatArray
-) -> MassProperties:
-    """From the integrals of 1, x and x x' over the volume, about the origin."""
-    com = first / volume
-    about_com = second - volume * np.outer(com, com)
-    inertia = density * (np.trace(about_com) * np.eye(3) - about_com)
-    return MassProperties(density * volume, com, inertia)

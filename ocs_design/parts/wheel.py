@@ -1,19 +1,20 @@
-"""The wheel as it is made: a rim on a thin web with a hub, and whether it can be."""
+"""The wheel as it is made: a rim on a thin web with a hub, whether it can be, and its pieces."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf, pi, sin
 
-from ocs_design.exceptions import PartError
-from ocs_design.parts.outline import circle, ring_of_points
-from ocs_design.parts.solids import Prism
-from ocs_design.sizing.rim_cuts import CHAMFER_SHARE, LIGAMENT
+from ocs_design.common.errors import PartError
+from ocs_design.parts.part import Part
+from ocs_design.parts.rim import CHAMFER_SHARE, LIGAMENT
+from ocs_design.parts.shapes import Disc
+from ocs_design.parts.solids import Prism, Revolution, revolved
 
 CHAMFER = 0.3e-3
-"""Of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""
+"""Chamfer of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""
 
 ROUNDING = 1e-9
-"""Of lengths that are as they must be at the least [m]: a thousandth of a micrometre."""
+"""Rounding of lengths that are as they must be at the least [m]: a thousandth of a micrometre."""
 
 
 @dataclass(frozen=True)
@@ -32,10 +33,9 @@ class HoleRing:
     hole_radius: float
     depth: float = inf
 
-    def prisms(self, low: float, high: float) -> Iterator[Prism]:
+    def prisms(self, low: float, high: float) -> Prism[float]:
         """The holes between two heights [m]."""
-        for centre in ring_of_points(self.radius, self.count).tolist():
-            yield Prism(circle(self.hole_radius, centre), low, high)
+        return Prism(Disc(self.hole_radius, (0.0, -self.radius)), low, high, count=self.count)
 
     @property
     def spacing(self) -> float:
@@ -118,7 +118,7 @@ class Wheel:
 
     @property
     def one_piece(self) -> bool:
-        """Whether it is turned from one material."""
+        """True if it is turned from one material."""
         return self.hub is None or self.hub.material == self.rim.material
 
 
@@ -136,11 +136,8 @@ def wheel_faults(wheel: Wheel) -> Iterator[str]:
         )
         if 2.0 * rim.balancing.depth + LIGAMENT > rim.height + ROUNDING:
             yield "its balancing holes meet in the middle"
-    if hub is not None:
-        yield from _hub_faults(rim, hub)
-
-
-def _hub_faults(rim: Rim, hub: Hub) -> Iterator[str]:
+    if hub is None:
+        return
     if not 0.0 <= hub.bore_radius < hub.radius:
         yield "its bore is not narrower than its hub"
     if not hub.radius + LIGAMENT <= rim.inner_radius + ROUNDING:
@@ -161,7 +158,7 @@ def _hub_faults(rim: Rim, hub: Hub) -> Iterator[str]:
 
 
 def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Iterator[str]:
-    """Of holes between two edges."""
+    """Faults of holes between two edges."""
     if ring.count < 1 or ring.hole_radius <= 0.0 or ring.depth <= 0.0:
         yield f"its {name} holes have no number, size or depth"
     elif ring.radius - ring.hole_radius < inner + LIGAMENT - ROUNDING:
@@ -170,3 +167,44 @@ def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Itera
         yield f"its {name} holes reach the edge around them"
     elif ring.spacing < LIGAMENT - ROUNDING:
         yield f"its {name} holes reach each other"
+
+
+def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
+    """One part for each piece: the wheel, or its rim and its hub."""
+    rim, hub = wheel.rim, wheel.hub
+    inner, outer = rim.inner_radius, rim.outer_radius
+    half, edge = rim.height / 2.0, rim.made_chamfer
+    # Corners of the upper half, from outside to the bore.
+    upper = [(outer, half - edge), (outer - edge, half), (inner + edge, half), (inner, half - edge)]
+    holes: tuple[Prism[float], ...] = ()
+    if rim.balancing is not None:
+        bottom = half - rim.balancing.depth
+        holes = (rim.balancing.prisms(bottom, half), rim.balancing.prisms(-half, -bottom))
+    if hub is None:
+        return (Part("rim", rim.density, (_mirrored(upper),), holes),)
+
+    web, top, edge = hub.web_thickness / 2.0, hub.height / 2.0, hub.chamfer
+    disc = [
+        (rim.inner_radius, web),
+        (hub.radius, web),
+        (hub.radius, top - edge),
+        (hub.radius - edge, top),
+        (hub.bore_radius + edge, top),
+        (hub.bore_radius, top - edge),
+    ]
+    drilled: tuple[Prism[float], ...] = ()
+    if hub.bolts is not None:
+        drilled += (hub.bolts.prisms(-top, top),)
+    if hub.lightening is not None:
+        drilled += (hub.lightening.prisms(-web, web),)
+    if wheel.one_piece:
+        return (Part("wheel", rim.density, (_mirrored([*upper, *disc]),), holes + drilled),)
+    return (
+        Part("rim", rim.density, (_mirrored(upper),), holes),
+        Part("hub", hub.density, (_mirrored(disc),), drilled),
+    )
+
+
+def _mirrored(upper: list[tuple[float, float]]) -> Revolution:
+    """A body of revolution of an upper half and its mirror image below z = 0."""
+    return revolved([*upper, *((radius, -height) for radius, height in reversed(upper))])

@@ -1,76 +1,118 @@
-"""The device in the terminal: what is to be built, where it sits, what drives it."""
+"""Facts about the robot and its device: what was read, what is to be built, where it sits."""
 
 from collections.abc import Iterator
 
-import numpy as np
-from rich.console import Console
-
-from ocs_design.design import Motor
-from ocs_design.design_file import OcsDesign, OcsRecord
-from ocs_design.drive.gear import DIRECT
-from ocs_design.report.layout import columns, facts, heading, items, print_warnings, show
-from ocs_design.report.motor_notes import motor_notes
-from ocs_design.report.mounting import could_hit, mounted
+from ocs_design.actuation.drive import Drive
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.device.records import Clearance, OcsDesign, OcsRecord, RobotRecord
 from ocs_design.report.quantities import (
     degrees,
+    degrees_number,
     grams,
     inertia,
+    millimetres,
     rpm,
     signed,
     tenths,
 )
+from ocs_design.report.table import Rows, Table, columns
 
-_OVERRATED = (
-    "{motor.name} is rated for {motor.rated_voltage:g} V and fed with {motor.bus_voltage:g} V: its "
-    "speed is limited, whether winding and controller bear it is for their makers to say"
-)
+ROUNDING = 1e-9
+"""Products of inertia below this part of the largest moment are what rounding leaves of zero."""
+
+_NO_MASS = 1e-9
+"""Mass below which a part of a module is not listed [kg]."""
+
+_COUNTS = ("no flywheels", "one flywheel", "two flywheels", "three flywheels", "four flywheels")
 
 
-def print_device(console: Console, design: OcsDesign) -> None:
-    """Rim, masses, place, motor and incidences."""
+def robot_facts(robot: RobotRecord) -> Rows:
+    """What was read of a robot: mass, trunk, posture and locked inertia."""
+    trunk = robot.trunk
+    if robot.floating_base != trunk:
+        trunk += f" (floating base: {robot.floating_base})"
+    posture = robot.posture_name
+    if robot.standing_height is not None:
+        posture += f", trunk {millimetres(robot.standing_height, 0)} over the feet"
+    com = ", ".join(map(tenths, robot.com))
+    moments = [robot.inertia[i][i] for i in range(3)]
+    products = [robot.inertia[i][j] for i, j in ((0, 1), (0, 2), (1, 2))]
+    least = ROUNDING * max(moments)
+    crossed = "  ".join(f"{value:.2g}" if abs(value) > least else "0" for value in products)
+    return (
+        ("mass", f"{robot.mass:.4g} kg"),
+        ("trunk", trunk),
+        ("posture", posture),
+        ("centre of mass", f"{com} mm in the trunk frame"),
+        (
+            "locked inertia",
+            f"{'  '.join(f'{value:.4g}' for value in moments)} kg m2 (xx yy zz about the CoM)",
+        ),
+        ("products", f"{crossed} kg m2 (xy xz yz)"),
+    )
+
+
+def joint_table(robot: RobotRecord) -> Table:
+    """Value of every joint in the nominal posture."""
+    return Table(
+        columns("<joint", "rad or m", "deg"),
+        tuple(
+            (name, f"{value:.4f}", degrees_number(value)) for name, value in robot.posture.items()
+        ),
+    )
+
+
+def heading_drift(drift: tuple[float, float]) -> str:
+    """Yaw that comes with roll and with pitch."""
+    roll, pitch = drift
+    return f"{signed(roll)} rad of yaw per rad of roll, {signed(pitch)} per rad of pitch"
+
+
+def device_title(design: OcsDesign) -> str:
+    """Number of its wheels, and whether motors were chosen."""
+    modules = len(design.ocs.modules)
+    count = _COUNTS[modules] if modules < len(_COUNTS) else f"{modules} flywheels"
+    return f"Device: {count}{'' if has_motor(design) else ', no motors yet'}"
+
+
+def has_motor(design: OcsDesign) -> bool:
+    """Whether a motor was chosen; else wheels are sized alone, at an assumed speed."""
+    return design.ocs.motor.bus_voltage is not None
+
+
+def share_of_robot(design: OcsDesign) -> str:
+    """Mass of the device over that of its robot, in words."""
+    return f"{design.ocs.mass_total / design.robot.mass:.1%} of the robot"
+
+
+def device_facts(design: OcsDesign) -> Rows:
+    """Wheel, masses, drive and place of the device."""
     ocs = design.ocs
-    heading(console, "Device: two flywheels" + ("" if ocs.motor.bus_voltage else ", no motors yet"))
-    facts(console, device_facts(design))
-    print_warnings(console, ocs.warnings)
-    items(console, (*cautions(ocs), *motor_notes(design)), style="yellow")
-    table = columns("incidence by criterion", "deg", "robot alone")
-    for name, angle in ocs.incidence_by_criterion.items():
-        before = ocs.incidence_by_criterion_robot_alone.get(name)
-        table.add_row(
-            name, f"{np.degrees(angle):.2f}", "" if before is None else f"{np.degrees(before):.2f}"
-        )
-    show(console, table)
+    return (*_wheel(ocs), *_masses(design), *_drive(ocs.motor), *_place(ocs))
 
 
-def device_facts(design: OcsDesign) -> list[tuple[str, str]]:
-    """Names and values: the wheel, the masses, the drive and the place."""
-    ocs = design.ocs
-    return [*_wheel(design), *_masses(design), *_drive(ocs.motor), *_stand(ocs)]
-
-
-def _wheel(design: OcsDesign) -> Iterator[tuple[str, str]]:
-    ocs, wheel = design.ocs, design.ocs.flywheel
-    chosen = ocs.incidence_criterion
+def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
+    wheel, chosen = ocs.flywheel, ocs.incidence_criterion
     alone = ocs.incidence_by_criterion_robot_alone.get(chosen)
     if alone is not None:
         chosen += f"; {degrees(alone)} for the robot alone"
+    yield "incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"
     outer, inner, height = (
         f"{1e3 * length:.2f}" for length in (wheel.outer_radius, wheel.inner_radius, wheel.height)
     )
-    rotor = "" if ocs.motor.rotor_inertia == 0.0 else f", {ocs.motor.rotor_inertia:.2e} its rotor's"
-    yield "incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"
     yield "rim", f"R {outer}  r {inner}  h {height} mm, {wheel.material}"
     if wheel.web is not None:
         web, hub = wheel.web, wheel.web.hub
         sizes = f"{tenths(web.thickness)} mm, hub R {tenths(hub.radius)}  h {tenths(hub.height)} mm"
         yield "web", f"{sizes}, {web.material}"
-    yield "spin inertia", f"{inertia(ocs.spin_inertia)} each{rotor}"
+    rotor = ocs.motor.rotor_inertia
+    share = f", of which its rotor {rotor:.2e}" if rotor else ""
+    yield "spin inertia", f"{inertia(ocs.spin_inertia)} each{share}"
     yield "transverse inertia", f"{inertia(wheel.transverse_inertia)} each"
 
 
 def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
     ocs = design.ocs
-    share = f"{ocs.mass_total / design.robot.mass:.1%} of the robot"
     parts = {
         "rim": ocs.flywheel.rim_mass,
         "web": 0.0 if ocs.flywheel.web is None else ocs.flywheel.web.mass,
@@ -78,12 +120,12 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
         "gear": ocs.motor.gear_mass,
         "housing": ocs.carrier.mass - ocs.motor.mass - ocs.motor.gear_mass,
     }
-    named = " + ".join(f"{name} {grams(mass)}" for name, mass in parts.items() if mass > 1e-9)
-    yield "mass of a module", named
-    yield "mass of both", f"{grams(ocs.mass_total)} ({share})"
+    named = (f"{name} {grams(mass)}" for name, mass in parts.items() if mass > _NO_MASS)
+    yield "mass of a module", " + ".join(named)
+    yield "total mass", f"{grams(ocs.mass_total)} ({share_of_robot(design)})"
 
 
-def _drive(motor: Motor) -> Iterator[tuple[str, str]]:
+def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
     yield "motor", f"{motor.name}: {motor.source}"
     if motor.bus_voltage is None:
         return
@@ -94,30 +136,43 @@ def _drive(motor: Motor) -> Iterator[tuple[str, str]]:
     if motor.torque_limit is not None:
         limits.append(f"{motor.torque_limit:.3g} N m at the current limit")
     if motor.speed_max is not None:
-        limits.append(f"driven to {rpm(motor.speed_max)} at most")
+        limits.append(f"speed limit {rpm(motor.speed_max)}")
     yield "drive at the wheel", ", ".join(limits)
 
 
-def cautions(ocs: OcsRecord) -> tuple[str, ...]:
-    """What limbs could hit, what does not fit, and a motor at more volts than it is made for."""
-    return (*could_hit(ocs), *ocs.fitting, *overrated(ocs.motor))
+def _place(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
+    at = (f"{each.name} {', '.join(map(tenths, each.position))}" for each in ocs.modules)
+    yield "wheels at", f"{'; '.join(at)} mm"
+    yield "nearest, standing", _nearest(ocs.clearance)
+    if ocs.mounting is not None:
+        if ocs.mounting.landing is not None:
+            yield "nearest, landing", _nearest(ocs.mounting.landing)
+        shift = ", ".join(map(tenths, ocs.mounting.com_shift))
+        changes = zip(("roll", "pitch", "yaw"), ocs.mounting.inertia_change, strict=True)
+        inertias = ", ".join(f"{name} {change:+.1%}" for name, change in changes)
+        yield "the device shifts", f"the centre of mass by {shift} mm; the inertia: {inertias}"
+    yield "heading drift", f"{heading_drift(ocs.heading_drift)} (cannot be commanded)"
 
 
-def overrated(motor: Motor) -> Iterator[str]:
-    """What is to be said of a motor at more volts than it is made for."""
-    if motor.bus_voltage is None or motor.rated_voltage is None:
-        return
-    if motor.bus_voltage > motor.rated_voltage:
-        yield _OVERRATED.format(motor=motor)
+def _nearest(clearance: Clearance | None) -> str:
+    if clearance is None:
+        return "not checked: the robot has no geometry"
+    gap = millimetres(abs(clearance.distance))
+    how = f"{gap} away" if clearance.distance >= 0.0 else f"overlapping by {gap}"
+    return f"{clearance.part}, {how}"
 
 
-def _stand(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
-    position = ", ".join(map(tenths, ocs.modules[0].position))
-    yield "left wheel at", f"{position} mm; the right one mirrored in y"
-    yield from mounted(ocs)
-    roll, pitch = ocs.heading_drift
-    yield (
-        "heading drift",
-        f"{signed(roll)} rad of yaw per rad of roll, {signed(pitch)} per rad of pitch "
-        "(cannot be commanded)",
+def criterion_table(ocs: OcsRecord) -> Table:
+    """Best incidence under each criterion, with the device and for the robot alone."""
+    alone = ocs.incidence_by_criterion_robot_alone
+    return Table(
+        columns("<incidence by criterion", "with the device [deg]", "robot alone [deg]"),
+        tuple(
+            (
+                name,
+                degrees_number(angle, 2),
+                degrees_number(alone[name], 2) if name in alone else "",
+            )
+            for name, angle in ocs.incidence_by_criterion.items()
+        ),
     )

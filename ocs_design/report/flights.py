@@ -1,133 +1,172 @@
-"""The proof by simulation in the terminal, and what was written."""
+"""Facts about the flights: verdicts, attitudes, what the wheels did, and what no verdict says."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
-from rich.console import Console
-from rich.text import Text
+from numpy.typing import ArrayLike
 
-from ocs_design.design_file import OcsDesign, ValidationRecord
-from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
-from ocs_design.report.layout import columns, facts, heading, items, show
-from ocs_design.report.quantities import degrees
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.records import OcsDesign, ValidationRecord
+from ocs_design.report.quantities import degrees, degrees_number, rpm, rpm_number
+from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air
+from ocs_design.report.table import Cell, Table, Tone, Toned, columns
+from ocs_design.simulation.metrics import UPRIGHT_TILT
+from ocs_design.simulation.verdict import LANDING_TOLERANCE
 
-WITH_DEVICE = {True: ("pass", "green"), False: ("FAIL", "bold red"), None: ("not judged", "yellow")}
-# Without the device a failure is what one expects, and no alarm.
-WITHOUT_DEVICE = {True: ("pass", ""), False: ("fails", "dim"), None: ("not judged", "dim")}
+WORSE = np.radians(1.0)
+"""A swing on the ground with the device is reported if it is larger by this than without [rad]."""
 
+SPENT = 0.95
+"""Share of its top speed from which a wheel takes up next to nothing more."""
 
-MOST_LISTED = 6
-"""Files of one folder that are named; more are counted."""
+_COLUMNS = columns(
+    "<verdict", "touchdown\npitch [deg]", "\nroll [deg]", "end\npitch [deg]",
+    "\nroll [deg]", "turned [deg]", "wheel\nspeed [rpm]", "motor\ntorque [N m]",
+)  # fmt: skip
 
-
-def print_flights(console: Console, design: OcsDesign) -> None:
-    """See `print_runs`; nothing if none was flown."""
-    if design.validation:
-        print_runs(console, design.validation)
-
-
-def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
-    """Verdicts, attitude at touchdown, what the wheels did, and why."""
-    heading(console, "Proof in MuJoCo: the same flights with and without the device")
-    table = columns(
-        "scenario", "verdict", "touchdown\npitch  roll\ndeg", "end\npitch  roll\ndeg",
-        "turned\n\ndeg", "wheel\nspeed\nrpm", "motor\ntorque\nN m", left=2,
-    )  # fmt: skip
-    for run in runs:
-        table.add_row(*_run_row(run))
-    show(console, table)
-    items(console, (run_story(run) for run in runs))
+# A robot that fails without the device is what one expects, and no alarm.
+_WITH = {
+    True: Toned("pass", Tone.PASS),
+    False: Toned("FAIL", Tone.FAIL),
+    None: Toned("not judged", Tone.OPEN),
+}
+_WITHOUT = {**_WITH, False: Toned("fails", Tone.PLAIN)}
 
 
-def _run_row(run: ValidationRecord) -> list[Text | str]:
-    word, style = (WITH_DEVICE if run.ocs else WITHOUT_DEVICE)[run.passed]
+def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
+    """Angle between the trunk's vertical and the world's [rad]; 0..pi."""
+    return np.asarray(np.arccos(np.clip(np.cos(roll) * np.cos(pitch), -1.0, 1.0)))
+
+
+def verdict(passed: Sequence[bool | None]) -> Toned:
+    """Flights with the device in one line, from whether each of them passed."""
+    if not passed:
+        return Toned("No flight was simulated: the design is not proved.", Tone.OPEN)
+    good, unknown = passed.count(True), passed.count(None)
+    line = f"{good} of {len(passed)} scenarios pass with the device"
+    if unknown:
+        line += f", {unknown} could not be judged"
+    return Toned(line, Tone.PASS if good == len(passed) else Tone.FAIL)
+
+
+def flight_table(runs: Sequence[ValidationRecord]) -> Table:
+    """Verdict, attitude at touchdown and at the end, and what the wheels did, of each run."""
+    names = (run.scenario if run.ocs else "  without" for run in runs)
+    return _flight_table("<scenario", names, runs)
+
+
+def device_table(runs: Sequence[ValidationRecord]) -> Table:
+    """Table of the flights of one scenario, in rows with the device and without."""
+    return _flight_table("<device", ("with" if run.ocs else "without" for run in runs), runs)
+
+
+def _flight_table(first: str, names: Iterable[str], runs: Sequence[ValidationRecord]) -> Table:
+    rows = tuple((name, *_flight_row(run)) for name, run in zip(names, runs, strict=True))
+    return Table((*columns(first), *_COLUMNS), rows)
+
+
+def _flight_row(run: ValidationRecord) -> tuple[Cell, ...]:
     metrics = run.metrics
-    speed, torque = metrics.get("peak_wheel_speed"), metrics.get("peak_wheel_torque")
-    return [
-        Text(run.scenario if run.ocs else "  without"),
-        Text(word, style=style),
-        _tilt(metrics, "touchdown") if flies(metrics) else "-",
-        _tilt(metrics, "final"),
-        _deg(metrics, "turned_angle") if flies(metrics) else "-",
-        "-" if not run.ocs or speed is None else f"{speed * 30 / np.pi:,.0f}",
-        "-" if not run.ocs or torque is None else f"{torque:.3g}",
-    ]
+    flew = was_in_the_air(*lift_off_and_touchdown(metrics))
+
+    def angle(name: str, *, known: bool = True) -> str:
+        value = metrics.get(name) if known else None
+        return "-" if value is None else degrees_number(value)
+
+    speed, torque = (
+        metrics.get(name) if run.ocs else None for name in ("peak_wheel_speed", "peak_wheel_torque")
+    )
+    return (
+        (_WITH if run.ocs else _WITHOUT)[run.passed],
+        angle("touchdown_pitch", known=flew),
+        angle("touchdown_roll", known=flew),
+        angle("final_pitch"),
+        angle("final_roll"),
+        angle("turned_angle", known=flew),
+        "-" if speed is None else rpm_number(speed),
+        "-" if torque is None else f"{torque:.3g}",
+    )
 
 
-def run_story(run: ValidationRecord, *, with_note: bool = True) -> str:
-    """The verdict in words, with what was changed about the turn unless that is told elsewhere."""
-    device = "with" if run.ocs else "without"
-    told = (run.reason, run.note if with_note else "")
-    return f"{run.scenario}, {device}: " + "; ".join(filter(None, told))
-
-
-def flies(metrics: Mapping[str, float | bool | None]) -> bool:
-    """Whether the robot was in the air; who is shoved as they stand touch down at once.
-
-    A jump whose feet never left the ground has no lift-off.
-    """
-    # Records of older versions say nothing of it, and all of theirs start in the air.
-    lift_off, touchdown = metrics.get("lift_off_time", 0.0), metrics.get("touchdown_time")
-    return lift_off is not None and (touchdown is None or touchdown > lift_off)
-
-
-def _tilt(metrics: Mapping[str, float | bool | None], when: str) -> str:
-    """Pitch and roll [deg], side by side."""
-    return f"{_deg(metrics, f'{when}_pitch')} {_deg(metrics, f'{when}_roll'):>5}"
-
-
-def _deg(metrics: Mapping[str, float | bool | None], name: str) -> str:
-    value = metrics.get(name)
-    return "-" if value is None else degrees(value).removesuffix(" deg")
-
-
-def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
-    """What was written, and the verdict in one line."""
-    print_files(console, str(folder), design.files, "everything in this report")
-    console.print()
-    print_verdicts(console, design.validation)
-
-
-def print_verdicts(console: Console, runs: Sequence[ValidationRecord]) -> None:
-    """The flights with the device in one line."""
-    console.print(summary([run.passed for run in runs if run.ocs]))
-
-
-def print_files(console: Console, folder: str, files: Iterable[str], held: str = "") -> None:
-    """What a folder got, by the folders in it.
+def short_verdict(run: ValidationRecord, *, turns: bool) -> Toned:
+    """Verdict with the angle that it rests on.
 
     Args:
-        console: to print on.
-        folder: that it was written to.
-        files: paths in that folder, without a design.json.
-        held: what its design.json holds; empty: it has none.
+        run: to judge.
+        turns: whether it is a flip, which is judged by the angle that it turned by.
     """
-    heading(console, f"Written to {folder}/")
-    rows = [(DESIGN_FILE, f"{held}, and the hashes of the other files")] if held else []
-    if (Path(folder) / REPORT_FILE).is_file():
-        rows.append(
-            (REPORT_FILE, "all of it to look at, to mail and to sign: open it in a browser")
+    word = (_WITH if run.ocs else _WITHOUT)[run.passed]
+    found = run.metrics
+    if run.passed is None or not found:
+        return word
+    if turns:
+        angle, kind = abs(found["turned_angle"] or 0.0), " turned"
+    elif found["touchdown_time"] == found["lift_off_time"]:
+        # Pushed as it stands.
+        angle, kind = float(off_level(*_angles(found, "{}_swing"))), " swing"
+    else:
+        angle, kind = float(off_level(*_angles(found, "touchdown_{}"))), ""
+    return Toned(f"{word.text:<5} {degrees_number(angle):>5}{kind}", word.tone)
+
+
+def run_sentence(run: ValidationRecord, *, with_note: bool = True) -> str:
+    """Why a run passes or fails; with its note, also what was changed about the turn."""
+    device = "with" if run.ocs else "without"
+    reasons = (run.reason, run.note if with_note else "")
+    return f"{run.scenario}, {device}: {'; '.join(filter(None, reasons))}"
+
+
+def flight_remarks(design: OcsDesign) -> Iterator[str]:
+    """Flights that do not pass or are not judged, poor landings, and what was changed."""
+    carrying = [run for run in design.validation if run.ocs]
+    for run in carrying:
+        if run.passed is not True or run.can_stand is False:
+            yield run_sentence(run, with_note=False)
+    yield from landing_remarks(design)
+    about: dict[str, list[str]] = {}
+    for run in carrying:
+        if run.note:
+            about.setdefault(run.note, []).append(run.scenario)
+    yield from (f"{', '.join(names)}: {note}" for note, names in about.items())
+
+
+def landing_remarks(design: OcsDesign) -> Iterator[str]:
+    """Landings that the device does not mend, and wheels that are left at speed."""
+    carrying = [run for run in design.validation if run.ocs]
+    bare = {run.scenario: run for run in design.validation if not run.ocs}
+    swings = []
+    for run in carrying:
+        swing = _tilt(run, "{}_swing")
+        alone = _tilt(bare[run.scenario], "{}_swing") if run.scenario in bare else None
+        if swing is not None and alone is not None and swing > alone + WORSE:
+            swings.append(f"{run.scenario} {degrees(swing)}, {degrees(alone)} without")
+    if swings:
+        yield f"on the ground the trunk swings further with the device: {'; '.join(swings)}"
+    stood = (run for run in carrying if run.passed and run.can_stand)
+    ends = {run.scenario: _tilt(run, "final_{}") or 0.0 for run in stood}
+    leaning = [f"{name} {degrees(end)}" for name, end in ends.items() if end > LANDING_TOLERANCE]
+    if leaning:
+        yield (
+            f"stands, as less than {degrees(float(UPRIGHT_TILT), 0)} off level, but not level in "
+            f"the end: {', '.join(leaning)}"
         )
-    folders: dict[str, list[str]] = {}
-    for name in (name for name in files if name != REPORT_FILE):
-        folder_name, _, file = name.rpartition("/")
-        folders.setdefault(folder_name, []).append(file)
-    rows += [(f"{name or '.'}/", _listed(names)) for name, names in sorted(folders.items())]
-    facts(console, rows)
+    motor = design.ocs.motor
+    top = min(motor.no_load_speed, motor.speed_max or np.inf)
+    speeds = {run.scenario: run.metrics.get("final_wheel_speed") or 0.0 for run in carrying}
+    spent = [name for name, speed in speeds.items() if speed >= SPENT * top]
+    if spent:
+        yield (
+            f"{', '.join(spent)}: a wheel ends at {rpm(max(speeds.values()))}, near its top speed, "
+            "and cannot help again until it is braked: see --desaturate"
+        )
 
 
-def _listed(files: Sequence[str]) -> str:
-    """All of a few files, the number of many."""
-    return "  ".join(files) if len(files) <= MOST_LISTED else f"{len(files)} files"
+def _angles(metrics: Mapping[str, float | bool | None], name: str) -> tuple[float, float]:
+    roll, pitch = (metrics[name.format(axis)] for axis in ("roll", "pitch"))
+    return roll or 0.0, pitch or 0.0
 
 
-def summary(verdicts: Sequence[bool | None]) -> Text:
-    """The flights with the device in one line."""
-    if not verdicts:
-        return Text("No flight was simulated: the design is not proved.", style="bold yellow")
-    passed, failed = verdicts.count(True), verdicts.count(False)
-    line = f"{passed} of {len(verdicts)} scenarios pass with the device"
-    if unknown := len(verdicts) - passed - failed:
-        line += f", {unknown} could not be judged"
-    return Text(line, style="bold green" if passed == len(verdicts) else "bold red")
+def _tilt(run: ValidationRecord, name: str) -> float | None:
+    """Roll and pitch together [rad]; None where they are not known."""
+    roll, pitch = (run.metrics.get(name.format(axis)) for axis in ("roll", "pitch"))
+    return None if roll is None or pitch is None else float(np.hypot(roll, pitch))

@@ -1,6 +1,25 @@
 """SI numbers as people at the bench read them: mm, g, rpm, degrees."""
 
+from typing import TypeVar
+
 import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import to_unit
+
+BOUND_NOTE = (
+    "The paper prints I_r d / (d + gamma); from its own momentum follows I_r d / (gamma - d). "
+    "I_r is the robot's inertia, d the change of its rate, gamma the wheel's speed. The bound is "
+    "necessary, never sufficient: it does not ask for torque, angle or time."
+)
+"""Said wherever the paper's lower bound is shown."""
+
+Amount = TypeVar("Amount", float, FloatArray)
+
+
+def in_unit(values: Amount, unit: str) -> Amount:
+    """One SI value or an array of them, counted in `unit`."""
+    return values * to_unit(1.0, unit)
 
 
 def millimetres(length: float, digits: int = 1) -> str:
@@ -8,34 +27,39 @@ def millimetres(length: float, digits: int = 1) -> str:
     return f"{length * 1e3:.{digits}f} mm"
 
 
-def grams(mass: float) -> str:
-    """Mass [kg] in g below 1 kg, else in kg."""
-    return f"{mass * 1e3:.1f} g" if mass < 1.0 else f"{mass:.3f} kg"
-
-
-def rpm(speed: float) -> str:
-    """Angular speed [rad/s] in rpm with thousands apart."""
-    return f"{speed * 30.0 / np.pi:,.0f} rpm"
-
-
-def degrees(angle: float, digits: int = 1) -> str:
-    """Angle [rad] in degrees."""
-    return f"{_rounded(float(np.degrees(angle)), digits):.{digits}f} deg"
-
-
 def tenths(length: float) -> str:
     """Length [m] in tenths of a mm, without its unit."""
     return f"{_rounded(1e3 * length, 1):.1f}"
 
 
+def grams(mass: float) -> str:
+    """Mass [kg] in g below 1 kg, else in kg."""
+    return f"{mass * 1e3:.1f} g" if mass < 1.0 else f"{mass:.3f} kg"
+
+
+def rpm_number(speed: float) -> str:
+    """Angular speed [rad/s] in rpm with thousands apart, without its unit."""
+    return f"{speed * 30.0 / np.pi:,.0f}"
+
+
+def rpm(speed: float) -> str:
+    """Angular speed [rad/s] in rpm."""
+    return f"{rpm_number(speed)} rpm"
+
+
+def degrees_number(angle: float, digits: int = 1) -> str:
+    """Angle [rad] in degrees, without its unit."""
+    return f"{_rounded(float(np.degrees(angle)), digits):.{digits}f}"
+
+
+def degrees(angle: float, digits: int = 1) -> str:
+    """Angle [rad] in degrees."""
+    return f"{degrees_number(angle, digits)} deg"
+
+
 def signed(ratio: float) -> str:
     """A ratio with its sign and three digits."""
     return f"{_rounded(ratio, 3):+.3f}"
-
-
-def _rounded(value: float, digits: int) -> float:
-    """Adding zero turns a rounded -0.0 into 0.0."""
-    return round(value, digits) + 0.0
 
 
 def inertia(value: float) -> str:
@@ -46,3 +70,18 @@ def inertia(value: float) -> str:
 def megapascals(stress: float) -> str:
     """Stress [Pa] in MPa."""
     return f"{stress / 1e6:.1f} MPa"
+
+
+_SHOWN = {"rad/s": rpm, "Pa": megapascals, "m": millimetres, "kg": grams, "rad": degrees}
+
+
+def quantity(value: float, unit: str) -> str:
+    """An SI value in its bench unit; a plain share in per cent."""
+    if not unit:
+        return f"{value:.0%}"
+    return _SHOWN[unit](value) if unit in _SHOWN else f"{value:.3g} {unit}"
+
+
+def _rounded(value: float, digits: int) -> float:
+    # Adding zero turns a rounded -0.0 into 0.0.
+    return round(value, digits) + 0.0

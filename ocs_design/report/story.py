@@ -1,24 +1,118 @@
 """What a report is made of: the design, its flights and its looks."""
 
-from collections.abc import Sequence
+import csv
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import msgspec
+import numpy as np
 
-from ocs_design.answers import PostureLine
-from ocs_design.design_file import OcsDesign
-from ocs_design.exceptions import OcsError
-from ocs_design.monte_carlo.storage import RESULT_FILE
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import OcsError
+from ocs_design.common.files import safe_name
+from ocs_design.device.answers import PostureLine
+from ocs_design.device.records import OcsDesign, ValidationRecord
+from ocs_design.export.time_series import series_file
+from ocs_design.monte_carlo.outcomes import RESULT_FILE
 from ocs_design.monte_carlo.summary import MonteCarloRecord
-from ocs_design.report.flight import Flight, first_file, recorded_flight
-from ocs_design.report.viewer.bodies import ShownBody, read_bodies
-from ocs_design.text_files import safe_name
+from ocs_design.report.bodies import ShownBody, read_bodies
+from ocs_design.simulation.engine import Poses
+from ocs_design.simulation.scenario import Run
+
+RunMetrics: TypeAlias = Mapping[str, float | bool | None]
+"""Metrics of a recorded run by their names, SI."""
+
+
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """One simulated run, to be drawn.
+
+    Attributes:
+        scenario: name of the maneuver. ocs: whether the device was on the robot.
+        columns: time series by the headings of the CSV files, which name the units; SI.
+        lift_off: when it leaves the ground, or is pushed as it stands [s]; None: it never does.
+        touchdown: when it comes down [s]; None: it never does.
+        poses: to show it again; None: only its time series are known.
+    """
+
+    scenario: str
+    ocs: bool
+    columns: Mapping[str, FloatArray]
+    lift_off: float | None
+    touchdown: float | None
+    poses: Poses | None
+
+    @property
+    def time(self) -> FloatArray:
+        """Instants [s], shape (k,)."""
+        return self.columns["time_s"]
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """Names of the modules, in the order of the columns."""
+        start, end = "wheel_speed_", "_rad_s"
+        names = (name for name in self.columns if name.startswith(start))
+        return tuple(name.removeprefix(start).removesuffix(end) for name in names)
+
+    def wheel_speed(self, wheel: str) -> FloatArray:
+        """Speed of one wheel relative to the trunk [rad/s], shape (k,)."""
+        return self.columns[f"wheel_speed_{wheel}_rad_s"]
+
+    def wheel_torque(self, wheel: str) -> FloatArray:
+        """Torque of one motor on its wheel [N m], shape (k,)."""
+        return self.columns[f"wheel_torque_{wheel}_nm"]
+
+    @property
+    def driven(self) -> slice:
+        """Instants from lift-off, or the push, to touchdown: when the wheels are at work.
+
+        A robot that never left the ground has its last instant for them.
+        """
+        if self.lift_off is None:
+            return slice(-1, None)
+        first = int(np.searchsorted(self.time, self.lift_off))
+        if self.flies and self.touchdown is not None:
+            return slice(first, int(np.searchsorted(self.time, self.touchdown)) + 1)
+        return slice(first, None)
+
+    @property
+    def flies(self) -> bool:
+        """Whether it was in the air at all."""
+        return was_in_the_air(self.lift_off, self.touchdown)
+
+
+def was_in_the_air(lift_off: float | None, touchdown: float | None) -> bool:
+    """Whether a run left the ground; who is pushed as they stand touch down at once."""
+    return lift_off is not None and (touchdown is None or touchdown > lift_off)
+
+
+def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | None]:
+    """Times of a recorded run [s]; None: it never does so."""
+    # Older versions do not record the lift-off, and all of their flights start in the air.
+    lift_off = metrics.get("lift_off_time", 0.0 if metrics else None)
+    return lift_off, metrics.get("touchdown_time")
+
+
+def flights_of(runs: Sequence[Run]) -> tuple[Flight, ...]:
+    """Runs of a simulation as flights to be drawn."""
+    return tuple(
+        Flight(
+            run.scenario,
+            run.ocs,
+            run.series.columns(),
+            None if run.metrics is None else run.metrics.lift_off_time,
+            None if run.metrics is None else run.metrics.touchdown_time,
+            run.poses,
+        )
+        for run in runs
+    )
 
 
 @dataclass(frozen=True, eq=False)
 class Story:
-    """Everything that a report tells.
+    """Everything that a report is made from.
 
     Attributes:
         design: the artefact.
@@ -45,26 +139,44 @@ def story_in(
     postures: tuple[PostureLine, ...] = (),
     command: str = "",
 ) -> Story:
-    """From output folders: their CSV files where no flights are given, and their GLB.
+    """Story of a design from its output folders: flights from their CSV files, bodies from the GLB.
 
     Args:
         folders: that were written or are being written; the first that has a file is asked for it.
         design: that they are of.
-        flights: as they were simulated.
+        flights: as they were simulated; empty: they are read.
         postures, command: see `Story`.
     """
     recorded = flights or [
         flight
         for record in design.validation
-        if (flight := recorded_flight(folders, record)) is not None
+        if (flight := _recorded_flight(folders, record)) is not None
     ]
-    picture = first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
+    picture = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
     bodies = () if picture is None else read_bodies(picture.read_bytes())
     return Story(design, tuple(recorded), bodies, postures, read_campaign(folders), command=command)
 
 
+def _recorded_flight(folders: Sequence[Path], record: ValidationRecord) -> Flight | None:
+    """Flight of a recorded run; None if the file of its time series is not there any more."""
+    path = _first_file(folders, f"validation/{series_file(record.scenario, ocs=record.ocs)}")
+    if path is None:
+        return None
+    with path.open(encoding="utf-8", newline="") as file:
+        heading, *rows = csv.reader(file)
+    values = np.array(rows, dtype=np.float64)
+    columns = dict(zip(heading, values.T, strict=True))
+    lift_off, touchdown = lift_off_and_touchdown(record.metrics)
+    return Flight(record.scenario, record.ocs, columns, lift_off, touchdown, None)
+
+
+def _first_file(folders: Sequence[Path], name: str) -> Path | None:
+    """File of that name below the first folder that has it."""
+    return next((folder / name for folder in folders if (folder / name).is_file()), None)
+
+
 def read_campaign(folders: Sequence[Path]) -> MonteCarloRecord | None:
-    """What `validate --samples` wrote into one of these folders, or below one.
+    """Record that `validate --samples` wrote into one of these folders, or below one.
 
     Raises:
         OcsError: it is there and cannot be read.

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ocs_design.arrays import FloatArray, frozen
-from ocs_design.drive.tilt_inertia import OUT_OF_REACH, TiltInertia
-from ocs_design.requirement.requirement import Requirement
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.requirement.maneuver import Requirement
 
 AXES = ("roll", "pitch")
 """The axes that the wheels can turn the trunk about, in the order of all (2,) arrays."""
@@ -180,7 +180,7 @@ def spin_demands(
     def demand(
         source: str, momentum: FloatArray, at: float, torque: FloatArray | None = None
     ) -> SpinDemand:
-        """Of this momentum [N m s] and, where a time is set, least torque [N m] on the trunk."""
+        """Demand of a momentum [N m s] and, where a time is set, a least torque [N m]."""
         least = spin_inertia_for(momentum, at, requirement.wheel_speed_max)
         per_motor = 0.0 if torque is None else per_wheel(torque, at)
         return SpinDemand(source, at, momentum, least, per_motor)
@@ -200,7 +200,7 @@ def spin_demands(
 
 
 def rate_momenta(inertia: TiltInertia, rate_change: float) -> FloatArray:
-    """About roll and pitch for a change of the rate of roll, and of that of pitch [N m s].
+    """Momenta about roll and pitch for a change of the rate of roll, and of that of pitch [N m s].
 
     Args:
         inertia: of the robot with its device, wheels braked.

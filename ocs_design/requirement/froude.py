@@ -5,18 +5,49 @@ lengths go with the standing height L of the trunk, times with sqrt(L / g), spee
 and a torque that turns both alike with I / T^2.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi, radians, sqrt
+from types import MappingProxyType
 
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.requirement.maneuver import (
-    STANDARD_GRAVITY,
-    Disturbance,
-    Drop,
-    Flip,
-    Shove,
-)
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Disturbance, Drop, Flip, Shove
 from ocs_design.robot.robot import Robot
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """Limits of one flywheel rim, all SI.
+
+    Attributes:
+        outer_radius_max: [m]. inner_radius_min: the bore that the motor needs [m].
+        height_max, height_min: along the spin axis [m].
+        wall_min: of outer minus inner radius [m].
+        mass_max: of one rim [kg].
+        stress_safety: yield strength over the hoop stress allowed at the highest wheel speed.
+    """
+
+    outer_radius_max: float
+    inner_radius_min: float
+    height_max: float
+    height_min: float
+    wall_min: float
+    mass_max: float
+    stress_safety: float
+
+
+LIMIT_OF_KEY: Mapping[str, str] = MappingProxyType(
+    {
+        "r_max": "outer_radius_max",
+        "r_min": "inner_radius_min",
+        "h_max": "height_max",
+        "h_min": "height_min",
+        "wall_min": "wall_min",
+        "wheel_mass_max": "mass_max",
+        "stress_safety": "stress_safety",
+    }
+)
+"""Field of `Envelope` that each key of `[flywheel]` sets."""
+
 
 LUNAR_GRAVITY = 1.62
 """[m/s^2] of the paper's back-flip, which scales with the robot but stays on the Moon."""
@@ -118,14 +149,14 @@ def _ratio(figure: float, reference: float) -> float:
 
 
 def standing_height(robot: Robot) -> float:
-    """Of the trunk over the ground [m]; scaled from Solo12's for a robot without legs."""
+    """Height of the trunk over the ground [m]; scaled from Solo12's for a robot without legs."""
     if robot.standing_height is not None:
         return robot.standing_height
     return SOLO12.standing_height * Scale.of(robot).length
 
 
 def default_bus_voltage(robot: Robot) -> float:
-    """Of the supply that robots of this mass have [V]."""
+    """Supply voltage that robots of this mass usually have [V]."""
     light, heavy = BUS_VOLTAGES
     return light if robot.mass <= LIGHT_ROBOT else heavy
 
@@ -140,7 +171,16 @@ def default_maneuvers(
         gravity: of the first two [m/s^2]; the back-flip is made on the Moon.
     """
     scale = Scale.of(robot)
-    return _disturbance(scale, gravity), _drop(scale, gravity), _back_flip(scale)
+    drop = Drop(name="drop", gravity=gravity, height=1.0 * scale.length, pitch=radians(30.0))
+    back_flip = Flip(
+        name="back-flip",
+        gravity=LUNAR_GRAVITY,
+        incidence=0.0,
+        jump_height=1.0 * scale.length,
+        angle=-2.0 * pi,
+        duration=2.0 * sqrt(scale.length),
+    )
+    return _disturbance(scale, gravity), drop, back_flip
 
 
 def example_shove(robot: Robot, gravity: float = STANDARD_GRAVITY) -> Shove:
@@ -190,19 +230,4 @@ def _disturbance(scale: Scale, gravity: float) -> Disturbance:
         torque=(0.2 * scale.roll_inertia / time**2, 0.8 * scale.pitch_inertia / time**2, 0.0),
         onset=0.1 * time,
         duration=0.05 * time,
-    )
-
-
-def _drop(scale: Scale, gravity: float) -> Drop:
-    return Drop(name="drop", gravity=gravity, height=1.0 * scale.length, pitch=radians(30.0))
-
-
-def _back_flip(scale: Scale) -> Flip:
-    return Flip(
-        name="back-flip",
-        gravity=LUNAR_GRAVITY,
-        incidence=0.0,
-        jump_height=1.0 * scale.length,
-        angle=-2.0 * pi,
-        duration=2.0 * sqrt(scale.length),
     )

@@ -1,15 +1,48 @@
-"""Maneuvers as data: what the device must do, and how the proof by simulation starts."""
+"""Maneuvers as data: what the device must do, and how the proof by simulation starts.
+
+They are the `[[maneuver]]` tables of a specification.
+"""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.drive.tilt_inertia import TiltInertia
-from ocs_design.exceptions import SpecificationError
-from ocs_design.requirement.slew import Slew
-from ocs_design.units import format_quantity
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.units import Dimension, format_quantity
+from ocs_design.requirement.values import (
+    INCIDENCE,
+    TILT,
+    TURN,
+    Quantities,
+    Quantity,
+    Sign,
+    Text,
+    Value,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Slew:
+    """What both wheels together must do to the trunk in a given time, roll and pitch.
+
+    Attributes:
+        swept: momentum that must pass through the wheels, over time: inertia times angle of a turn
+            from rest to rest [N m s^2], shape (..., 2).
+        momentum: that the wheels still hold at the end [N m s], shape (..., 2).
+            Signs count, but for that of all together.
+        duration: in which it must be done [s].
+    """
+
+    swept: FloatArray
+    momentum: FloatArray
+    duration: float
+
 
 STANDARD_GRAVITY = 9.81
 """[m/s^2], as the paper takes it."""
@@ -31,12 +64,12 @@ class Maneuver(ABC):
 
     @property
     def turn(self) -> FloatArray:
-        """That it asks for about roll and pitch [rad], shape (2,); none where a push leaves it."""
+        """Turn about roll and pitch [rad], shape (2,); zero where a push leaves it open."""
         return np.zeros(2)
 
     @property
     def stray(self) -> float:
-        """By how much it ends off level where the trunk drifts about the other axis, per drift.
+        """Tilt at the end for each radian that the trunk has drifted about the other axis [1].
 
         The chord of the turn [rad]: a whole one ends where it began (`TiltInertia.within_reach`).
         """
@@ -93,7 +126,7 @@ class Unforeseen(Maneuver):
     @property
     @abstractmethod
     def time_left(self) -> float:
-        """From the end of the torque until the trunk must be level and at rest again [s]."""
+        """Time from the end of the torque until the trunk must be level and at rest again [s]."""
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """The impulse, which the wheels hold till touchdown (docs/theory.md, Disturbances)."""
@@ -116,7 +149,7 @@ class Unforeseen(Maneuver):
 
     @property
     def _impulse(self) -> FloatArray:
-        """About roll and pitch [N m s], shape (2,)."""
+        """Angular impulse about roll and pitch [N m s], shape (2,)."""
         return np.array(self.torque[:2]) * self.duration
 
 
@@ -138,7 +171,7 @@ class Disturbance(Unforeseen):
 
     @property
     def time_left(self) -> float:
-        """Of the flight [s]."""
+        """Time left in the air [s]."""
         return self.flight_time - self.onset - self.duration
 
     @property
@@ -177,7 +210,7 @@ class Shove(Unforeseen):
 
     @property
     def time_left(self) -> float:
-        """As stated [s]."""
+        """Time left as specified [s]."""
         return self.settling
 
     @property
@@ -199,7 +232,7 @@ class Reorientation(Maneuver):
 
     @abstractmethod
     def time(self, standing_height: float) -> float:
-        """That it may take [s]."""
+        """Time that the turn may take [s]."""
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Half the time up, half the time down: a peak rate of 2 theta / T."""
@@ -207,7 +240,7 @@ class Reorientation(Maneuver):
         return np.abs(inertia.momentum(self.turn)) * peak
 
     def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """That of the same turn: 4 I theta / T^2."""
+        """Least torque of the turn from rest to rest, 4 I theta / T^2 [N m]."""
         return 2.0 * self.momentum(inertia, standing_height) / self.time(standing_height)
 
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
@@ -229,7 +262,7 @@ class Drop(Reorientation):
     pitch: float
 
     def time(self, standing_height: float) -> float:
-        """From release until the feet of the levelled robot meet the ground [s].
+        """Time from release until the feet of the levelled robot meet the ground [s].
 
         Raises:
             SpecificationError: the robot would stand on the ground already.
@@ -278,11 +311,11 @@ class Flip(Reorientation):
 
     @property
     def turn(self) -> FloatArray:
-        """Of pitch alone."""
+        """Turn about pitch alone [rad], shape (2,)."""
         return np.array([0.0, self.angle])
 
     def time(self, standing_height: float) -> float:
-        """As stated."""
+        """Time as specified [s]."""
         del standing_height
         return self.duration
 
@@ -298,3 +331,98 @@ class Flip(Reorientation):
             f"turns {format_quantity(self.angle, 'deg')} of pitch in {self.duration:.3g} s, "
             f"in a vertical jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
         )
+
+
+@dataclass(frozen=True, eq=False)
+class Requirement:
+    """Everything that the flywheels must be able to do.
+
+    Attributes:
+        maneuvers: see `Maneuver`; may be empty.
+        rate_change: of the trunk, on roll and pitch one at a time [rad/s]; None: not asked.
+        wheel_speed_max: of a wheel relative to the trunk [rad/s].
+        spin_inertia: of one wheel, asked for in place of all else [kg m^2]; None: solved for.
+        standing_height: of the trunk over the ground, for maneuvers that end there [m].
+    """
+
+    maneuvers: tuple[Maneuver, ...]
+    rate_change: float | None
+    wheel_speed_max: float
+    spin_inertia: float | None
+    standing_height: float
+
+
+@dataclass(frozen=True)
+class ManeuverKind:
+    """A kind of maneuver as the file sees it.
+
+    Attributes:
+        maneuver: the class.
+        values: how each of its fields is read.
+    """
+
+    maneuver: type[Maneuver]
+    values: Mapping[str, Value[Any]]
+
+    @property
+    def required(self) -> tuple[str, ...]:
+        """Fields that have no default."""
+        return tuple(item.name for item in fields(self.maneuver) if item.default is MISSING)
+
+
+_COMMON: Mapping[str, Value[Any]] = {
+    "name": Text(),
+    "gravity": Quantity(Dimension.ACCELERATION),
+    "incidence": INCIDENCE,
+}
+_TIME = Quantity(Dimension.TIME)
+_LONGEST_STRIDE = 5.0
+"""[s]: a giraffe's takes one; a robot is watched for several."""
+
+MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
+    {
+        "disturbance": ManeuverKind(
+            Disturbance,
+            {
+                **_COMMON,
+                "takeoff_velocity": Quantities(Dimension.SPEED, (2,)),
+                "torque": Quantities(Dimension.TORQUE, (3,)),
+                "onset": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE),
+                "duration": _TIME,
+            },
+        ),
+        "shove": ManeuverKind(
+            Shove,
+            {
+                **_COMMON,
+                "torque": Quantities(Dimension.TORQUE, (3,)),
+                "duration": _TIME,
+                "settling": _TIME,
+                "stride": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE),
+            },
+        ),
+        "drop": ManeuverKind(
+            Drop,
+            {**_COMMON, "height": Quantity(Dimension.LENGTH), "roll": TILT, "pitch": TILT},
+        ),
+        "flip": ManeuverKind(
+            Flip,
+            {
+                **_COMMON,
+                "jump_height": Quantity(Dimension.LENGTH),
+                "angle": TURN,
+                "duration": _TIME,
+            },
+        ),
+    }
+)
+"""Every kind by the word that `kind` takes."""
+
+
+def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
+    """The word that `kind` takes for a maneuver, and how its fields are read."""
+    return next(
+        (word, kind.values)
+        for word, kind in MANEUVER_KINDS.items()
+        if kind.maneuver is type(maneuver)
+    )

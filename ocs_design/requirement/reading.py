@@ -1,18 +1,21 @@
 """Reads specification files, strictly: all faults at once, each with its key's path."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from reprlib import repr as shortened
 from typing import Any
 
-from ocs_design.exceptions import SpecificationError
-from ocs_design.requirement.contradictions import contradictions
-from ocs_design.requirement.faults import Faults
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
-from ocs_design.requirement.maneuver_table import MANEUVER_KINDS, ManeuverKind
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.files import TextKind, safe_name
+from ocs_design.requirement.checks import contradictions
+from ocs_design.requirement.maneuver import (
+    MANEUVER_KINDS,
+    STANDARD_GRAVITY,
+    Maneuver,
+)
 from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
-from ocs_design.text_files import TextKind, safe_name
+from ocs_design.requirement.values import Faults, Text, Value
 
 # A specification takes a few thousand bytes.
 _FILE = TextKind(
@@ -59,6 +62,7 @@ def parse_specification(text: str, name: str) -> Specification:
 
 
 def _specification(content: Mapping[str, object], faults: Faults) -> Specification:
+    """Sections and maneuvers of the content of a file, with its faults kept."""
     known = (*SECTIONS, "maneuver")
     for name in content:
         if name not in known:
@@ -66,52 +70,47 @@ def _specification(content: Mapping[str, object], faults: Faults) -> Specificati
     sections: dict[str, Any] = {}
     for name, section in SECTIONS.items():
         table = faults.table(content.get(name, {}), name)
-        sections[name] = section(**_stated(section, table, name, faults))
+        values = {key: found.value for key, found in keys_of(section).items()}
+        sections[name] = section(**_fields(table, values, name, faults))
+    tables, maneuvers = content.get("maneuver", []), []
+    if not isinstance(tables, list):
+        faults.append("maneuver: write each maneuver as a [[maneuver]] table")
+        tables = []
     gravity = sections["requirement"].gravity or STANDARD_GRAVITY
-    maneuvers = _maneuvers(content.get("maneuver", []), gravity, faults)
-    return Specification(**sections, maneuvers=maneuvers)
+    for index, entry in enumerate(tables):
+        table = faults.table(entry, f"maneuver[{index}]")
+        maneuver = _maneuver(table, index, gravity, faults)
+        if maneuver is not None:
+            maneuvers.append(maneuver)
+
+    # Maneuvers whose figures would be written to the same files; some disks do not tell capitals
+    # apart.
+    of_file: dict[str, list[str]] = {}
+    for maneuver in maneuvers:
+        of_file.setdefault(safe_name(maneuver.name).casefold(), []).append(maneuver.name)
+    for same in of_file.values():
+        if len(set(same)) > 1:
+            names = ", ".join(map(repr, same))
+            faults.append(
+                f"maneuver: {names} would have the same files, give each a name of its own"
+            )
+        elif len(same) > 1:
+            faults.append(f"maneuver: two are named {same[0]!r}")
+    return Specification(**sections, maneuvers=tuple(maneuvers))
 
 
-def _stated(
-    section: type, table: Mapping[str, object], where: str, faults: Faults
+def _fields(
+    table: Mapping[str, object], values: Mapping[str, Value[Any]], where: str, faults: Faults
 ) -> dict[str, Any]:
-    """Each field of a section that its table states."""
-    keys = keys_of(section)
+    """Each field of a section or a maneuver that its table has, with its faults kept."""
     found: dict[str, Any] = {}
     for name, raw in table.items():
         path = f"{where}.{name}"
-        if name in keys:
-            found[name] = faults.read(keys[name].value, raw, path)
+        if name in values:
+            found[name] = faults.read(values[name], raw, path)
         else:
-            faults.unknown(path, name, tuple(keys))
+            faults.unknown(path, name, tuple(values))
     return found
-
-
-def _maneuvers(raw: object, gravity: float, faults: Faults) -> tuple[Maneuver, ...]:
-    if not isinstance(raw, list):
-        faults.append("maneuver: write each maneuver as a [[maneuver]] table")
-        return ()
-    found = [
-        _maneuver(faults.table(entry, f"maneuver[{index}]"), index, gravity, faults)
-        for index, entry in enumerate(raw)
-    ]
-    known = tuple(maneuver for maneuver in found if maneuver is not None)
-    faults.extend(_same_files([maneuver.name for maneuver in known]))
-    return known
-
-
-def _same_files(names: Sequence[str]) -> Iterator[str]:
-    """Faults of maneuvers whose figures would be written to the same files."""
-    of_file: dict[str, list[str]] = {}
-    for name in names:
-        # Some disks do not tell capitals apart.
-        of_file.setdefault(safe_name(name).casefold(), []).append(name)
-    for same in of_file.values():
-        if len(set(same)) > 1:
-            told = ", ".join(map(repr, same))
-            yield f"maneuver: {told} would have the same files, give each a name of its own"
-        elif len(same) > 1:
-            yield f"maneuver: two are named {same[0]!r}"
 
 
 def _maneuver(
@@ -127,21 +126,8 @@ def _maneuver(
         faults.append(f"{where}.kind: {what}; one of {', '.join(MANEUVER_KINDS)}")
         return None
     before = len(faults)
-    values = _maneuver_values(table, kind, where, faults)
+    values = _fields(table, {"kind": Text(), **kind.values}, where, faults)
+    del values["kind"]
+    faults.extend(f"{where}.{name}: is missing" for name in kind.required if name not in table)
     values.setdefault("gravity", gravity)
     return kind.maneuver(**values) if len(faults) == before else None
-
-
-def _maneuver_values(
-    table: Mapping[str, object], kind: ManeuverKind, where: str, faults: Faults
-) -> dict[str, Any]:
-    """Each field that the table states."""
-    found: dict[str, Any] = {}
-    for name, raw in table.items():
-        path = f"{where}.{name}"
-        if name in kind.values:
-            found[name] = faults.read(kind.values[name], raw, path)
-        elif name != "kind":
-            faults.unknown(path, name, ("kind", *kind.values))
-    faults.extend(f"{where}.{name}: is missing" for name in kind.required if name not in table)
-    return found

@@ -1,23 +1,236 @@
-"""From what was stated to what is designed for: fills defaults, says what it assumed."""
+"""From what was specified to what is designed for: robot, defaults, and what was assumed."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
 
+from ocs_design.actuation.drive import RESERVE, missing_figures
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
-from ocs_design.exceptions import SpecificationError
-from ocs_design.requirement.assumptions import assumptions
-from ocs_design.requirement.envelope import LIMIT_OF_KEY, Envelope
+from ocs_design.common.errors import RobotError, SpecificationError, UsageError
+from ocs_design.common.units import format_quantity
+from ocs_design.requirement.checks import unfit_for_robot
+from ocs_design.requirement.choices import MotorChoice, motor_choice
 from ocs_design.requirement.froude import (
+    BUS_VOLTAGES,
+    LIGHT_ROBOT,
+    LIMIT_OF_KEY,
+    RIM_MASS_SHARE,
+    SOLO12,
     WHEEL_SPEED_MAX,
+    Envelope,
+    Scale,
+    default_bus_voltage,
     default_envelope,
     default_maneuvers,
     standing_height,
 )
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
-from ocs_design.requirement.motor_choice import MotorChoice, motor_choice
-from ocs_design.requirement.plausibility import implausible
-from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import AUTO, FlywheelSection, Specification
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Requirement
+from ocs_design.requirement.specification import (
+    AUTO,
+    BALANCING_DEPTH,
+    BALANCING_DIAMETER,
+    CHAMFER,
+    CONTROL_PERIOD,
+    DISC,
+    LIGHTEST,
+    NO_WEB,
+    PROJECTIONS,
+    FlywheelSection,
+    MotorSection,
+    OcsSection,
+    RequirementSection,
+    RobotSection,
+    Specification,
+    ValidationSection,
+)
+from ocs_design.requirement.uncertainty import default_uncertainty
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
+
+
+def default_specification(
+    robot: Robot, *, kp: float, kd: float, gravity: float = STANDARD_GRAVITY
+) -> Specification:
+    """What `resolve` fills in for `robot`, as if a user had stated it.
+
+    Keys that have no default, or whose default is found while sizing, are None.
+
+    Args:
+        robot: to scale to.
+        kp, kd: gains of the wheel law [1/s^2, 1/s].
+        gravity: of the maneuvers on Earth [m/s^2].
+    """
+    envelope = default_envelope(robot)
+    return Specification(
+        robot=RobotSection(posture=robot.posture_name),
+        requirement=RequirementSection(gravity=STANDARD_GRAVITY, maneuvers="paper"),
+        ocs=OcsSection(alpha_criterion=LIGHTEST, co_design=False),
+        flywheel=FlywheelSection(
+            material=AUTO,
+            web=DISC,
+            chamfer=CHAMFER,
+            balancing_holes=0,
+            balancing_hole_diameter=BALANCING_DIAMETER,
+            balancing_hole_depth=BALANCING_DEPTH,
+            **{key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()},
+        ),
+        motor=MotorSection(name=AUTO, gear=AUTO, bus_voltage=default_bus_voltage(robot)),
+        validation=ValidationSection(
+            enabled=True,
+            projection=PROJECTIONS[0],
+            kp=kp,
+            kd=kd,
+            ballistic=False,
+            seed=0,
+            control_period=CONTROL_PERIOD,
+            desaturate=False,
+            video=False,
+        ),
+        reality=default_uncertainty(standing_height(robot)),
+        maneuvers=default_maneuvers(robot, gravity),
+    )
+
+
+SCALES = 0.02
+"""Of a robot's mass over what it weighs: a battery or a harness that its file lacks is more."""
+
+
+def read_stated_robot(
+    specification: Specification,
+    *,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Robot:
+    """Read it.
+
+    Raises:
+        UsageError: neither or both are stated.
+        RobotError: it cannot be read; with `strict`, also if there is any warning.
+    """
+    stated = specification.robot
+    if stated.file is not None and (stated.mass is not None or stated.inertia is not None):
+        raise UsageError("a robot file and --mass/--inertia exclude each other", hint="give one")
+    if stated.file is not None:
+        robot = read_robot(
+            stated.file,
+            trunk=stated.trunk,
+            posture=stated.posture,
+            joints=stated.joints or {},
+            package_paths=package_paths,
+        )
+    elif stated.mass is not None and stated.inertia is not None:
+        robot = robot_by_hand(stated.mass, stated.inertia, name=stated.name or "robot")
+    elif stated.mass is not None or stated.inertia is not None:
+        raise UsageError(
+            "a robot by hand needs both its mass and its inertia",
+            hint="give --mass MASS and --inertia IXX,IYY,IZZ, or both keys under [robot]",
+        )
+    else:
+        raise UsageError(
+            "no robot is given",
+            hint="give a robot file, or --mass and --inertia, or [robot] in the specification; "
+            "see docs/tutorial.md",
+        )
+    weighed = stated.weighed
+    if weighed is not None and abs(robot.mass - weighed) > SCALES * weighed:
+        wrong = "something is missing" if robot.mass < weighed else "something is too heavy"
+        warning = (
+            f"the parts' masses add up to {robot.mass:.4g} kg, but the robot weighs "
+            f"{weighed:.4g} kg: {wrong} in its file"
+        )
+        robot = replace(robot, warnings=(*robot.warnings, warning))
+    if strict and robot.warnings:
+        raise RobotError("--strict: " + "; ".join(robot.warnings), hint="mend the robot's file")
+    return robot
+
+
+def _assumptions(
+    specification: Specification,
+    robot: Robot,
+    requirement: Requirement,
+    envelope: Envelope,
+    *,
+    materials: tuple[Material, ...],
+    choice: MotorChoice | None,
+) -> Iterator[str]:
+    """One sentence for everything that was not specified; the rest has its defaults filled in."""
+    flywheel, motor, scale = specification.flywheel, specification.motor, Scale.of(robot)
+
+    if robot.standing_height is None:
+        height = format_quantity(requirement.standing_height, "mm", 3)
+        yield f"No legs: the trunk stands {height} high, {SOLO12.name}'s scaled by gyration radius."
+    if specification.takes_default_maneuvers:
+        ratio = f"lengths x {scale.length:.3g}"
+        yield f"Maneuvers: the paper's three, scaled from {SOLO12.name} ({ratio})."
+        yield from (f"{item.name}: {item.summary}." for item in requirement.maneuvers)
+
+    lengths = [
+        f"{key} {format_quantity(getattr(envelope, LIMIT_OF_KEY[key]), 'mm', 3)}"
+        for key in ("r_max", "r_min", "h_max", "h_min", "wall_min")
+        if getattr(flywheel, key) is None
+    ]
+    if lengths:
+        yield f"Rim: {', '.join(lengths)} ({SOLO12.name}'s x {scale.rim:.3g})."
+    if flywheel.wheel_mass_max is None:
+        mass = format_quantity(envelope.mass_max, "g" if envelope.mass_max < 1.0 else "kg", 3)
+        yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
+
+    if choice is not None:
+        if motor.bus_voltage is None:
+            which = "up to" if choice.bus_voltage == BUS_VOLTAGES[0] else "above"
+            yield f"Bus: {choice.bus_voltage:g} V, as robots {which} {LIGHT_ROBOT:g} kg have."
+        if motor.name in {None, AUTO}:
+            # Those whose figures suffice; a gear asks for more of them, never for less.
+            known = sum(not missing_figures(found, DIRECT) for found in choice.motors)
+            yield f"Motor: the lightest device of {known} motors in the catalogue."
+        if motor.gear in {None, AUTO}:
+            yield f"Gear: none, or one of {len(choice.gears) - 1} stages in the catalogue."
+
+    yield from _assumed_wheel(flywheel, envelope, materials, any_motor=choice is not None)
+    if choice is not None:
+        yield (
+            f"Reserve: a design uses {RESERVE:.0%} of voltage and current; "
+            "the rest is the feedback's."
+        )
+        return
+    if specification.requirement.wheel_speed_max is None:
+        speed = format_quantity(requirement.wheel_speed_max, "rpm")
+        yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
+    if motor.torque_max is None:
+        yield "Motor torque: not limited."
+
+
+def _assumed_wheel(
+    flywheel: FlywheelSection,
+    envelope: Envelope,
+    materials: tuple[Material, ...],
+    *,
+    any_motor: bool,
+) -> Iterator[str]:
+    """One sentence for everything about the wheels that was not specified."""
+    chosen = materials[0]
+    if flywheel.web is None:
+        yield "Web: a thin disc of aluminium with a hub joins each rim to its motor."
+    if any_motor and flywheel.web != NO_WEB:
+        if flywheel.chamfer is None:
+            yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')}."
+        if flywheel.balancing_holes:
+            across = flywheel.balancing_hole_diameter or BALANCING_DIAMETER
+            deep = flywheel.balancing_hole_depth or BALANCING_DEPTH
+            size = f"{format_quantity(across, 'mm')} wide, {format_quantity(deep, 'mm')} deep"
+            yield f"Balancing holes: {flywheel.balancing_holes} in each face, {size}."
+    if flywheel.material in {None, AUTO}:
+        yield (
+            f"Material: one of {len(materials)} whose strength is known."
+            if any_motor
+            else f"Material: {chosen.name}, {chosen.density:g} kg/m3."
+        )
+    if chosen.yield_strength is None:
+        yield f"Stress: not checked, for no strength of {chosen.name} is known."
+    elif flywheel.stress_safety is None:
+        yield f"Stress: yield strength over hoop stress at least {envelope.stress_safety:g}."
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,51 +265,38 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
     Raises:
         SpecificationError: keys that contradict each other or the robot; all are listed.
     """
-    envelope = _envelope(specification.flywheel, robot)
-    requirement = _requirement(specification, robot)
-    faults = implausible(specification, robot, robot_size, requirement, envelope)
+    flywheel, asked = specification.flywheel, specification.requirement
+    envelope = default_envelope(robot)
+    for key, limit in LIMIT_OF_KEY.items():
+        specified = getattr(flywheel, key)
+        if specified is not None:
+            envelope = replace(envelope, **{limit: specified})
+    maneuvers = specification.maneuvers
+    if specification.takes_default_maneuvers:
+        maneuvers = default_maneuvers(robot, asked.gravity or STANDARD_GRAVITY)
+    requirement = Requirement(
+        maneuvers=maneuvers,
+        rate_change=asked.rate_change,
+        wheel_speed_max=asked.wheel_speed_max or WHEEL_SPEED_MAX,
+        spin_inertia=asked.spin_inertia,
+        standing_height=standing_height(robot),
+    )
+    faults = tuple(unfit_for_robot(specification, robot, robot_size, requirement, envelope))
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)
     choice = motor_choice(specification, robot)
-    chosen = _material(specification.flywheel.material)
+    # Without a motor only the rim has a mass, and one material is as good as chosen.
+    chosen = material(DEFAULT_MATERIAL if flywheel.material in {None, AUTO} else flywheel.material)
+    materials = (chosen,) if choice is None else choice.materials
     return Resolved(
         requirement=requirement,
         envelope=envelope,
         material=chosen,
         torque_max=specification.motor.torque_max,
         choice=choice,
-        assumptions=assumptions(
-            specification, robot, requirement, envelope, chosen=chosen, choice=choice
+        assumptions=tuple(
+            _assumptions(
+                specification, robot, requirement, envelope, materials=materials, choice=choice
+            )
         ),
     )
-
-
-def _material(name: str | None) -> Material:
-    """Where no motor is chosen nothing but the rim weighs anything, and the default will do."""
-    return material(DEFAULT_MATERIAL if name in {None, AUTO} else name)
-
-
-def _envelope(flywheel: FlywheelSection, robot: Robot) -> Envelope:
-    default = default_envelope(robot)
-    limits = {}
-    for key, limit in LIMIT_OF_KEY.items():
-        stated = getattr(flywheel, key)
-        limits[limit] = getattr(default, limit) if stated is None else stated
-    return Envelope(**limits)
-
-
-def _requirement(specification: Specification, robot: Robot) -> Requirement:
-    stated = specification.requirement
-    return Requirement(
-        maneuvers=_maneuvers(specification, robot),
-        rate_change=stated.rate_change,
-        wheel_speed_max=stated.wheel_speed_max or WHEEL_SPEED_MAX,
-        spin_inertia=stated.spin_inertia,
-        standing_height=standing_height(robot),
-    )
-
-
-def _maneuvers(specification: Specification, robot: Robot) -> tuple[Maneuver, ...]:
-    if not specification.takes_default_maneuvers:
-        return specification.maneuvers
-    return default_maneuvers(robot, specification.requirement.gravity or STANDARD_GRAVITY)

@@ -7,16 +7,22 @@ is read. None means that it was not stated and that a default holds.
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
-from typing import Annotated, TypeVar, get_args, get_type_hints
+from typing import Annotated, Any, TypeVar, get_args, get_type_hints
 
-from ocs_design.requirement.believed import INCIDENCE, SUPPLY, TRUNK_RATE, WHEEL_SPEED
-from ocs_design.requirement.key import Key
+from ocs_design.common.errors import UsageError
+from ocs_design.common.units import Dimension
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.reality import RealitySection
+from ocs_design.requirement.uncertainty import UncertaintySection
 from ocs_design.requirement.values import (
+    INCIDENCE,
+    SUPPLY,
+    TRUNK_RATE,
+    WHEEL_SPEED,
     Choice,
     Count,
+    Faults,
     JointValues,
+    Key,
     Number,
     Quantities,
     Quantity,
@@ -24,7 +30,6 @@ from ocs_design.requirement.values import (
     Switch,
     Text,
 )
-from ocs_design.units import Dimension
 
 Section = TypeVar("Section")
 
@@ -221,7 +226,7 @@ class Specification:
     flywheel: FlywheelSection = field(default_factory=FlywheelSection)
     motor: MotorSection = field(default_factory=MotorSection)
     validation: ValidationSection = field(default_factory=ValidationSection)
-    reality: RealitySection = field(default_factory=RealitySection)
+    reality: UncertaintySection = field(default_factory=UncertaintySection)
     maneuvers: tuple[Maneuver, ...] = ()
 
     @property
@@ -270,13 +275,34 @@ def merge(base: Specification, override: Specification) -> Specification:
 
 def merge_section(base: Section, override: Section) -> Section:
     """One section, with everything that `override` states in its place."""
-    changes = {
-        name: _merge_value(getattr(base, name), getattr(override, name)) for name in vars(base)
-    }
+    changes: dict[str, Any] = {}
+    for name, own in vars(base).items():
+        other = getattr(override, name)
+        if isinstance(own, Mapping) and isinstance(other, Mapping):
+            changes[name] = {**own, **other}
+        else:
+            changes[name] = own if other is None else other
     return type(base)(**changes)
 
 
-def _merge_value(base: object, override: object) -> object:
-    if isinstance(base, Mapping) and isinstance(override, Mapping):
-        return {**base, **override}
-    return base if override is None else override
+def specification_from_options(options: Mapping[str, object]) -> Specification:
+    """The specification that options of the command line state, read as the file's keys are.
+
+    Args:
+        options: text or flag by the key's path, as in `flywheel.r_max`; None is not stated.
+
+    Raises:
+        UsageError: all faults, each with its option.
+    """
+    faults = Faults()
+    sections: dict[str, dict[str, Any]] = {name: {} for name in SECTIONS}
+    for path, raw in options.items():
+        section, name = path.split(".")
+        key = all_keys()[path]
+        if raw is not None:
+            named = f"--{key.option or name.replace('_', '-')}"
+            option = "ROBOT" if path == "robot.file" else named
+            sections[section][name] = faults.read(key.value, raw, option)
+    if faults:
+        raise UsageError("\n".join(faults))
+    return Specification(**{name: SECTIONS[name](**found) for name, found in sections.items()})

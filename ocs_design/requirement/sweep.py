@@ -3,14 +3,65 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from math import hypot
+from types import MappingProxyType
 from typing import Any
 
-from ocs_design.exceptions import UsageError
-from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.common.errors import UsageError
+from ocs_design.common.units import Dimension, round_outwards, si_unit
+from ocs_design.requirement.froude import default_bus_voltage
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove, kind_of
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.values import Quantities, Quantity
 from ocs_design.robot.robot import Robot
-from ocs_design.units import Dimension
+
+_LONGER_THAN_ITS_TURN = 1.02
+"""Flight over turn, where a longer turn needs a longer flight."""
+
+
+def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuver:
+    """Maneuver with `factor` times the time for its turn: a higher fall or jump, a longer turn.
+
+    Args:
+        maneuver: as it is. factor: positive; below 1: less time.
+        standing_height: of the trunk over the ground [m].
+    """
+    match maneuver:
+        case Drop():
+            fall = (maneuver.height - standing_height) * factor**2
+            return replace(maneuver, height=standing_height + fall)
+        case Flip():
+            duration = maneuver.duration * factor
+            higher = max(_LONGER_THAN_ITS_TURN * duration / maneuver.flight_time, 1.0) ** 2
+            return replace(maneuver, duration=duration, jump_height=maneuver.jump_height * higher)
+        case Disturbance():
+            longer = maneuver.flight_time + (factor - 1.0) * maneuver.time_left
+            forward, _ = maneuver.takeoff_velocity
+            return replace(maneuver, takeoff_velocity=(forward, longer * maneuver.gravity / 2.0))
+        case Shove():
+            return replace(maneuver, settling=maneuver.settling * factor)
+        case _:
+            return maneuver
+
+
+def told_change(before: Maneuver, after: Maneuver) -> str:
+    """The keys of `after` that are other than those of `before`, rounded up, as in `height 2 m`."""
+    changes = []
+    for name, how in kind_of(after)[1].items():
+        old, new = getattr(before, name), getattr(after, name)
+        match how:
+            case Quantity(dimension=dimension) if old != new:
+                changes.append(f"{name} {_up(new)} {si_unit(dimension)}")
+            case Quantities(dimension=dimension) if old != new:
+                kept = zip(old, new, strict=True)
+                figures = [f"{a:.6g}" if a == b else _up(b) for a, b in kept]
+                changes.append(f"{name} [{', '.join(figures)}] {si_unit(dimension)}")
+    return f"{after.name} {' and '.join(changes)}"
+
+
+def _up(value: float) -> str:
+    return f"{round_outwards(value, upwards=True):.6g}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +88,7 @@ class Task:
         return cls(specification, resolve(specification, robot, robot_size), robot, robot_size)
 
     def with_specification(self, specification: Specification) -> "Task":
-        """The same robot with another specification, resolved anew.
+        """Task for the same robot with another specification, resolved anew.
 
         Raises:
             SpecificationError: see `resolve`.
@@ -51,7 +102,7 @@ class Task:
 
     @property
     def standing_height(self) -> float:
-        """Of the trunk over the ground [m]."""
+        """Height of the trunk over the ground [m]."""
         return self.resolved.requirement.standing_height
 
 
@@ -106,14 +157,14 @@ class KeySweep(Sweep):
     value: Callable[[Task], float]
 
     def own(self, task: Task) -> float:
-        """See `Sweep.own`."""
+        """Value that the specification has (`Sweep.own`)."""
         return self.value(task)
 
     def at(self, value: float, task: Task) -> Specification:
-        """See `Sweep.at`."""
-        change: dict[str, Any] = {self.key: value}
-        section = replace(getattr(task.specification, self.section), **change)
-        return _with_section(task.specification, self.section, section)
+        """Specification at another value (`Sweep.at`)."""
+        section = replace(getattr(task.specification, self.section), **{self.key: value})
+        changes: dict[str, Any] = {self.section: section}
+        return replace(task.specification, **changes)
 
     def remarks(self, task: Task) -> tuple[str, ...]:
         """Nothing else moves."""
@@ -136,7 +187,7 @@ class ManeuverSweep(Sweep):
     maneuver: str = ""
 
     def own(self, task: Task) -> float:
-        """See `Sweep.own`."""
+        """Value that the specification has (`Sweep.own`)."""
         found = self._figures(task)
         if found:
             return next(iter(found.values()))
@@ -152,7 +203,7 @@ class ManeuverSweep(Sweep):
         )
 
     def at(self, value: float, task: Task) -> Specification:
-        """See `Sweep.at`."""
+        """Specification at another value (`Sweep.at`)."""
         ratio, moved = value / self.own(task), self._figures(task)
         maneuvers = tuple(
             self.scaled(maneuver, ratio, task.standing_height)
@@ -173,11 +224,11 @@ class ManeuverSweep(Sweep):
         return (
             f"The {self.name} is that of {first!r}.",
             *([f"In the same ratio: {', '.join(others)}."] if others else []),
-            *([f"As stated: {', '.join(kept)}."] if kept else []),
+            *([f"As specified: {', '.join(kept)}."] if kept else []),
         )
 
     def _figures(self, task: Task) -> Mapping[str, float]:
-        """Of every maneuver that is varied, by its name."""
+        """Figure of every maneuver that is varied, by the maneuver's name."""
         figures = {
             maneuver.name: self.figure(maneuver, task.standing_height)
             for maneuver in task.maneuvers
@@ -186,6 +237,108 @@ class ManeuverSweep(Sweep):
         return {name: figure for name, figure in figures.items() if figure}
 
 
-def _with_section(specification: Specification, name: str, section: object) -> Specification:
-    change: dict[str, Any] = {name: section}
-    return replace(specification, **change)
+def _time(maneuver: Maneuver, standing_height: float) -> float | None:
+    """Time of the fall or of the turn [s]."""
+    match maneuver:
+        case Drop():
+            return maneuver.time(standing_height)
+        case Flip():
+            return maneuver.duration
+        case _:
+            return None
+
+
+def _with_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
+    """A fall from the height that takes so long; a turn in a jump that is longer by as much."""
+    match maneuver:
+        case Drop():
+            return slower(maneuver, ratio, standing_height)
+        case Flip():
+            return replace(
+                maneuver,
+                duration=maneuver.duration * ratio,
+                jump_height=maneuver.jump_height * ratio**2,
+            )
+        case _:
+            return maneuver
+
+
+def _angle(maneuver: Maneuver, standing_height: float) -> float | None:
+    """Angle of the tilt or of the turn [rad], without its sign."""
+    del standing_height
+    match maneuver:
+        case Drop():
+            return hypot(maneuver.roll, maneuver.pitch)
+        case Flip():
+            return abs(maneuver.angle)
+        case _:
+            return None
+
+
+def _with_angle(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
+    """Roll and pitch of a tilt keep their proportion."""
+    del standing_height
+    match maneuver:
+        case Drop():
+            return replace(maneuver, roll=maneuver.roll * ratio, pitch=maneuver.pitch * ratio)
+        case Flip():
+            return replace(maneuver, angle=maneuver.angle * ratio)
+        case _:
+            return maneuver
+
+
+_SWEEPS = (
+    ManeuverSweep("time", "time of the turn", Dimension.TIME, "ms", (0.8, 1.6), _time, _with_time),
+    ManeuverSweep(
+        "angle", "angle of the turn", Dimension.ANGLE, "deg", (0.4, 1.6), _angle, _with_angle
+    ),
+    KeySweep(
+        "radius",
+        "room for the rim, r_max",
+        Dimension.LENGTH,
+        "mm",
+        (0.6, 1.4),
+        "flywheel",
+        "r_max",
+        lambda task: task.resolved.envelope.outer_radius_max,
+    ),
+    KeySweep(
+        "height",
+        "room for the rim, h_max",
+        Dimension.LENGTH,
+        "mm",
+        (0.4, 2.0),
+        "flywheel",
+        "h_max",
+        lambda task: task.resolved.envelope.height_max,
+    ),
+    KeySweep(
+        "voltage",
+        "bus voltage",
+        Dimension.VOLTAGE,
+        "V",
+        (0.5, 2.5),
+        "motor",
+        "bus_voltage",
+        lambda task: task.specification.motor.bus_voltage or default_bus_voltage(task.robot),
+    ),
+)
+
+SWEEPS: Mapping[str, Sweep] = MappingProxyType({sweep.name: sweep for sweep in _SWEEPS})
+"""Everything that can be varied, by the word that `--against` takes."""
+
+
+def sweep_of(name: str, maneuver: str = "") -> Sweep:
+    """The sweep called `name`, of one maneuver alone if that is named.
+
+    Raises:
+        UsageError: there is none, or it is not of maneuvers.
+    """
+    sweep = SWEEPS.get(name)
+    if sweep is None:
+        raise UsageError(f"--against {name}: is none of {', '.join(SWEEPS)}")
+    if not maneuver:
+        return sweep
+    if not isinstance(sweep, ManeuverSweep):
+        raise UsageError(f"--maneuver {maneuver}: the {name} is not that of a maneuver")
+    return replace(sweep, maneuver=maneuver)

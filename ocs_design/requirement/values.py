@@ -1,19 +1,20 @@
-"""How one value of the specification is read, from TOML or from the command line's text.
+"""How one value of the specification is read, its key, and what is wrong with it.
 
 One class per kind of value; each reads or raises an `OcsError` that names the place.
 """
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import Enum
+from math import pi
 from reprlib import repr as shortened
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
-from ocs_design.exceptions import QuantityError, SpecificationError
-from ocs_design.units import (
+from ocs_design.common.errors import OcsError, QuantityError, SpecificationError
+from ocs_design.common.units import (
     UNITS,
     Dimension,
     format_quantity,
@@ -86,31 +87,29 @@ class Quantity(Value[float]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         return f"{self.dimension}: {', '.join(UNITS[self.dimension])}"
 
     def read(self, raw: object, where: str) -> float:
-        """See `Value.read`."""
+        """Value that `raw` stands for (`Value.read`)."""
         number = parse_quantity(raw, self.dimension, where)
         if not self.sign.allows(number):
             raise QuantityError(f"{where}: {raw} must be {self.sign.value}")
         if 0.0 < number < SMALLEST:
             raise QuantityError(f"{where}: {raw} is next to nothing", hint="Check its unit.")
         if abs(number) > self.most:
-            raise QuantityError(f"{where}: {self._too_much(raw, number)}", hint=self._hint(raw))
+            # In the unit that it was written in; a bare number's is named.
+            unit = written_unit(raw, self.dimension)
+            limit = format_quantity(math.copysign(self.most, number), unit)
+            given = f"{raw} {unit}" if _is_bare(raw) else raw
+            beyond = "above" if number > 0.0 else "below"
+            raise QuantityError(f"{where}: {given} is {beyond} {limit}", hint=self._hint(raw))
         if abs(number) > self.most_bare and _is_bare(raw):
             raise QuantityError(
                 f"{where}: {raw} without a unit is {raw} {si_unit(self.dimension)}",
                 hint=f"{self._hint(raw)} Give the number with its unit.",
             )
         return number
-
-    def _too_much(self, raw: object, number: float) -> str:
-        """Against the limit in the unit that it was written in; a bare number's is named."""
-        unit = written_unit(raw, self.dimension)
-        limit = format_quantity(math.copysign(self.most, number), unit)
-        told = f"{raw} {unit}" if _is_bare(raw) else raw
-        return f"{told} is {'above' if number > 0.0 else 'below'} {limit}"
 
     def _hint(self, raw: object) -> str:
         """The cure where a bare number was meant in another unit."""
@@ -141,12 +140,12 @@ class Quantities(Value[tuple[float, ...]]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         count = " or ".join(map(str, self.counts))
         return f"{count} of {Quantity(self.dimension).takes}"
 
     def read(self, raw: object, where: str) -> tuple[float, ...]:
-        """See `Value.read`."""
+        """Value that `raw` stands for (`Value.read`)."""
         entries = raw.split(",") if isinstance(raw, str) else raw
         if not isinstance(entries, (list, tuple)) or len(entries) not in self.counts:
             wanted = " or ".join(map(str, self.counts))
@@ -163,11 +162,11 @@ class Number(Value[float]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         return "positive number"
 
     def read(self, raw: object, where: str) -> float:
-        """See `Value.read`."""
+        """Value that `raw` stands for (`Value.read`)."""
         return Quantity(Dimension.RATIO).read(raw, where)
 
 
@@ -177,11 +176,11 @@ class Count(Value[int]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         return "whole number"
 
     def read(self, raw: object, where: str) -> int:
-        """See `Value.read`."""
+        """Value that `raw` stands for (`Value.read`)."""
         text = str(raw).strip() if isinstance(raw, (str, int)) else ""
         if isinstance(raw, bool) or not text.isascii() or not text.isdigit():
             raise QuantityError(
@@ -196,11 +195,11 @@ class Text(Value[str]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         return "text"
 
     def read(self, raw: object, where: str) -> str:
-        """See `Value.read`."""
+        """Value that `raw` stands for (`Value.read`)."""
         # A zero character ends a path for the operating system.
         if not isinstance(raw, str) or not raw.strip() or "\0" in raw:
             raise SpecificationError(f"{where}: {shortened(raw)} is not a text in quotes")
@@ -215,11 +214,11 @@ class Choice(Value[str]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         return ", ".join(self.words)
 
     def read(self, raw: object, where: str) -> str:
-        """See `Value.read`."""
+        """Value that `raw` stands for (`Value.read`)."""
         if isinstance(raw, str) and raw in self.words:
             return raw
         raise SpecificationError(
@@ -234,11 +233,11 @@ class Switch(Value[bool]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         return "true or false"
 
     def read(self, raw: object, where: str) -> bool:
-        """See `Value.read`."""
+        """Value that `raw` stands for (`Value.read`)."""
         if isinstance(raw, bool):
             return raw
         raise SpecificationError(f"{where}: {shortened(raw)} is neither true nor false")
@@ -253,32 +252,34 @@ class JointValues(Value[Mapping[str, float]]):
 
     @property
     def takes(self) -> str:
-        """See `Value.takes`."""
+        """What may be written, in words (`Value.takes`)."""
         return "table of joint = angle or length"
 
     def read(self, raw: object, where: str) -> Mapping[str, float]:
-        """See `Value.read`."""
-        table = dict(self._pair(text, where) for text in raw) if isinstance(raw, list) else raw
+        """Value that `raw` stands for (`Value.read`)."""
+        table = raw
+        if isinstance(raw, list):
+            pairs: dict[str, object] = {}
+            for text in raw:
+                name, separator, value = str(text).partition("=")
+                if not (name and separator):
+                    raise SpecificationError(
+                        f"{where}: {shortened(text)} is not NAME=VALUE", hint="Write hip=10deg."
+                    )
+                pairs[name] = value
+            table = pairs
         if not isinstance(table, Mapping):
             raise SpecificationError(
                 f"{where}: {shortened(raw)} is not a table, as in {{ hip = '10deg' }}"
             )
         return {name: self._value(value, f"{where}.{name}") for name, value in table.items()}
 
-    def _pair(self, text: object, where: str) -> tuple[str, str]:
-        name, separator, value = str(text).partition("=")
-        if not (name and separator):
-            raise SpecificationError(
-                f"{where}: {shortened(text)} is not NAME=VALUE", hint="Write hip=10deg."
-            )
-        return name, value
-
     def _value(self, raw: object, where: str) -> float:
+        """Length where its unit says so, else angle; a bare number is neither far nor long."""
         try:
             length = parse_quantity(raw, Dimension.LENGTH, where)
         except QuantityError:
             return parse_quantity(raw, Dimension.ANGLE, where)
-        # Neither does a joint turn so far, nor is one so long.
         return _BARE_JOINT.read(raw, where) if _is_bare(raw) else length
 
 
@@ -289,3 +290,64 @@ def did_you_mean(word: object, known: tuple[str, ...]) -> str:
     """A question that offers the closest of `known`; empty if none is close."""
     close = get_close_matches(word, known, n=1) if isinstance(word, str) else ()
     return f"Did you mean {close[0]!r}?" if close else ""
+
+
+FASTEST_BARE = 4000.0
+"""[rad/s], 38,000 rpm: a larger wheel speed without a unit was meant in rpm."""
+
+FASTEST_TURN = 50.0
+"""[rad/s], eight turns a second: a larger rate without a unit was meant in degrees."""
+
+HIGHEST_VOLTAGE = 1000.0
+"""[V], beyond any robot's supply."""
+
+MOST_TURNS = 10
+"""Of a flip; no animal and no machine comes near."""
+
+WHEEL_SPEED = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
+TRUNK_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s")
+SUPPLY = Quantity(Dimension.VOLTAGE, most=HIGHEST_VOLTAGE, likely="mV")
+INCIDENCE = angle(Sign.NOT_NEGATIVE, pi / 2)
+TURN = angle(Sign.ANY, MOST_TURNS * 2.0 * pi, ONE_TURN)
+
+TILT = angle(Sign.ANY, pi, pi / 2)
+"""Upside down at most."""
+
+
+@dataclass(frozen=True)
+class Key:
+    """What a field of a section means outside the program.
+
+    Attributes:
+        value: how it is read.
+        summary: what it is, for help and for messages.
+        option: its name on the command line; empty: the key's own, with dashes.
+    """
+
+    value: Value[Any]
+    summary: str
+    option: str = ""
+
+
+class Faults(list[str]):
+    """One line per fault, each with the path of its key."""
+
+    def read(self, value: Value[T], raw: object, where: str) -> T | None:
+        """The value, or None with the fault kept."""
+        try:
+            return value.read(raw, where)
+        except OcsError as error:
+            self.append(f"{error.message}. {error.hint}" if error.hint else error.message)
+            return None
+
+    def table(self, raw: object, where: str) -> Mapping[str, object]:
+        """A table as it is; an empty one, with the fault kept, for anything else."""
+        if isinstance(raw, Mapping):
+            return raw
+        self.append(f"{where}: must be a table")
+        return {}
+
+    def unknown(self, where: str, key: str, known: Sequence[str]) -> None:
+        """Keeps that `key` is none of `known`."""
+        hint = did_you_mean(key, tuple(known)) or f"Known: {', '.join(known)}."
+        self.append(f"{where}: unknown key. {hint}")

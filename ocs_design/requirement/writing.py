@@ -1,22 +1,30 @@
-"""A specification as the text of a file: what `read_specification` reads back, to the last bit."""
+"""A specification as text: the same keys again, or a commented file to start from.
+
+What a key is and how it is read is in `specification`; what holds where it is not stated is in
+`defaults`. Here is only what people need besides.
+"""
 
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 from functools import partial
 from math import isclose
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
-from ocs_design.requirement.distributions import Distribution
-from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.maneuver_table import kind_of
-from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
-from ocs_design.requirement.spread import Spread
-from ocs_design.requirement.values import ONE_TURN, Quantities, Quantity, Value
-from ocs_design.units import Dimension, format_quantity, parse_quantity, si_unit
+from ocs_design.common.units import (
+    Dimension,
+    format_quantity,
+    parse_quantity,
+    si_unit,
+)
+from ocs_design.requirement.maneuver import Maneuver, kind_of
+from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, keys_of
+from ocs_design.requirement.uncertainty import Distribution, Spread
+from ocs_design.requirement.values import ONE_TURN, Key, Quantities, Quantity, Value
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
@@ -49,20 +57,22 @@ def specification_to_toml(specification: Specification, comment: str = "") -> st
     """
     lines = [f"# {line}".rstrip() for line in comment.splitlines()]
     for name, section in SECTIONS.items():
-        stated = list(_section(getattr(specification, name), keys_of(section)))
-        lines += ["", f"[{name}]", *stated] if stated else []
+        how = {key: found.value for key, found in keys_of(section).items()}
+        specified = list(_fields(getattr(specification, name), how))
+        lines += ["", f"[{name}]", *specified] if specified else []
     for maneuver in specification.maneuvers:
-        lines += ["", "[[maneuver]]", *_maneuver(maneuver)]
+        word, values = kind_of(maneuver)
+        lines += ["", "[[maneuver]]", f"kind = {_text(word)}", *_fields(maneuver, values)]
     return "\n".join(lines).lstrip("\n") + "\n"
 
 
 def with_absolute_files(specification: Specification) -> Specification:
-    """The same with the files that it names found from any folder."""
+    """Specification whose files are found from any folder: their paths are made absolute."""
     return _with_files(specification, lambda file: str(Path(file).absolute()))
 
 
 def with_files_from(specification: Specification, folder: Path) -> Specification:
-    """The same with the files that it names found from `folder`, and after both were moved."""
+    """Specification whose files are found from `folder`, also after both were moved together."""
     return _with_files(specification, lambda file: os.path.relpath(file, folder))
 
 
@@ -81,24 +91,16 @@ def _with_files(specification: Specification, renamed: Callable[[str], str]) -> 
     )
 
 
-def _section(section: object, keys: Mapping[str, Any]) -> Iterator[str]:
-    for name, key in keys.items():
-        value = getattr(section, name)
-        if value is not None:
-            yield f"{name} = {written(value, key.value)}"
-
-
-def _maneuver(maneuver: Maneuver) -> Iterator[str]:
-    word, values = kind_of(maneuver)
-    yield f"kind = {_text(word)}"
+def _fields(specified: object, values: Mapping[str, Value[Any]]) -> Iterator[str]:
+    """Line of each field of a section or a maneuver that has a value."""
     for name, how in values.items():
-        value = getattr(maneuver, name)
+        value = getattr(specified, name)
         if value is not None:
             yield f"{name} = {written(value, how)}"
 
 
 def written(value: object, how: Value[Any], figures: Figures = Figures.SI) -> str:
-    """As TOML; a quantity with its unit, for some are not believed without."""
+    """Value as TOML, a quantity with its unit: some are not believed without one."""
     match how, value:
         case Quantity(dimension=dimension), float() | int():
             return _text(_quantity(value, dimension, figures))
@@ -121,7 +123,7 @@ def _quantity(value: float, dimension: Dimension, figures: Figures) -> str:
 
 
 def _told(value: float, dimension: Dimension, unit: str, figures: Figures) -> str:
-    """In `unit` or in SI, as `figures` wants."""
+    """Quantity in `unit` or in SI, as `figures` asks."""
     if figures is Figures.ROUNDED:
         return format_quantity(value, unit)
     told = format_quantity(value, unit, digits=12)
@@ -143,17 +145,291 @@ def _plain(value: object) -> str:
             # NumPy's own floats are floats too, and call themselves by their type.
             return repr(float(value))
         case Mapping():
-            pairs = ", ".join(f"{_text(name)} = {_joint(entry)}" for name, entry in value.items())
+            # A bare number beyond a turn would be taken for degrees, and refused.
+            joints = {
+                name: _plain(entry) if abs(entry) <= ONE_TURN else _text(f"{float(entry)!r} rad")
+                for name, entry in value.items()
+            }
+            pairs = ", ".join(f"{_text(name)} = {entry}" for name, entry in joints.items())
             return f"{{ {pairs} }}"
         case _:
             return repr(value)
 
 
-def _joint(value: float) -> str:
-    """A bare number beyond a turn would be taken for degrees, and refused."""
-    return _plain(value) if abs(value) <= ONE_TURN else _text(f"{float(value)!r} rad")
-
-
 def _text(text: str) -> str:
     """A basic string; TOML escapes what JSON does, and the delete character."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+@dataclass(frozen=True)
+class KeyNote:
+    """Note on one key: why it would be specified, and what it changes.
+
+    Attributes:
+        why: one line, when to state it.
+        default: what holds where nothing is stated, in words; empty: the value says it all.
+        example: a value as it is written in TOML, where there is no default to show.
+    """
+
+    why: str
+    default: str = ""
+    example: str = ""
+
+
+KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
+    {
+        "robot.file": KeyNote(
+            "Mass, inertia and legs are read from it; from the folder of this file.",
+            "the robot on the command line",
+            '"robot.urdf"',
+        ),
+        "robot.name": KeyNote(
+            "Names the output folder of a robot by hand.", "the file's own", '"robot"'
+        ),
+        "robot.trunk": KeyNote(
+            "State it where the wrong link was found to carry the legs.", "found", '"trunk"'
+        ),
+        "robot.posture": KeyNote(
+            "The inertia, and with it all else, is that of this posture.",
+            "stand where legs are found",
+            '"stand"',
+        ),
+        "robot.joints": KeyNote(
+            "For a posture that has no name.", "none", '{ "FL_HFE" = "45deg", "FL_KFE" = "-90deg" }'
+        ),
+        "robot.mass": KeyNote("In place of a file, with the inertia.", "read", '"2.5 kg"'),
+        "robot.inertia": KeyNote(
+            "In place of a file, with the mass.", "read", "[0.032, 0.055, 0.070]"
+        ),
+        "robot.weighed": KeyNote(
+            "Tells when the parts in the file do not add up to it.", "not checked", '"2.5 kg"'
+        ),
+        "requirement.rate_change": KeyNote(
+            "The paper's requirement: asked of either axis, on top of the maneuvers.",
+            "not asked",
+            '"2 rad/s"',
+        ),
+        "requirement.wheel_speed_max": KeyNote(
+            "What bearings and balance stand, if less than the motor can do.",
+            "the motor's own; 7200 rpm without a motor",
+            '"7200 rpm"',
+        ),
+        "requirement.spin_inertia": KeyNote(
+            "For a wheel that you have already; nothing else is then asked.",
+            "found",
+            '"7.11e-5 kg m2"',
+        ),
+        "requirement.gravity": KeyNote("1.62 m/s2 is the Moon's."),
+        "requirement.maneuvers": KeyNote(
+            "none where the bound alone is asked for; leave it out where you state your own."
+        ),
+        "ocs.alpha": KeyNote(
+            "Where mounts for one angle exist already.", "by the criterion below", '"40 deg"'
+        ),
+        "ocs.alpha_criterion": KeyNote(
+            "equal-rate is the paper's: the same change of rate about either axis.",
+            "lightest; without a motor equal-rate",
+        ),
+        "ocs.position": KeyNote(
+            "In the trunk's frame; the right wheel is mirrored in y.",
+            "found, free of the robot's own parts",
+            '["0 mm", "50 mm", "70 mm"]',
+        ),
+        "ocs.mass_max": KeyNote(
+            "What the robot may carry: if the lightest device is heavier, there is none.",
+            "not limited",
+            '"1 kg"',
+        ),
+        "ocs.co_design": KeyNote(
+            "0 to 0.8 % lighter on the robots tried, and seconds slower to find."
+        ),
+        "flywheel.r_max": KeyNote(
+            "Of the rim: its housing adds 3.6 mm all around. The wider the rim, the lighter."
+        ),
+        "flywheel.r_min": KeyNote("Room for the motor's shaft or can inside the rim."),
+        "flywheel.h_max": KeyNote("The room along the spin axis."),
+        "flywheel.h_min": KeyNote("What your lathe or printer still makes well."),
+        "flywheel.wall_min": KeyNote("The same across the rim."),
+        "flywheel.wheel_mass_max": KeyNote("What the trunk may carry on each side."),
+        "flywheel.material": KeyNote(
+            "One that you can get: see `ocs-design catalogue materials`.",
+        ),
+        "flywheel.web": KeyNote("none is the paper's: spokes that weigh nothing."),
+        "flywheel.stress_safety": KeyNote("More where a burst rim could hurt someone."),
+        "flywheel.chamfer": KeyNote("What your workshop breaks edges by; it is counted."),
+        "flywheel.balancing_holes": KeyNote(
+            "At least three, where weights are to balance the wheel; its wall grows to fit them."
+        ),
+        "flywheel.balancing_hole_diameter": KeyNote("1.6 mm is the core hole of M2."),
+        "flywheel.balancing_hole_depth": KeyNote(
+            "A thread of M2 wants 2 mm; both faces have them, so that the rim grows too."
+        ),
+        "motor.name": KeyNote(
+            "One that you have: see `ocs-design catalogue motors`; none: the bound alone."
+        ),
+        "motor.bus_voltage": KeyNote("Your robot's battery under load, not its nameplate."),
+        "motor.gear": KeyNote(
+            "direct where backlash or noise forbid one: see `ocs-design catalogue gears`."
+        ),
+        "motor.motors": KeyNote(
+            "To choose from as well; from the folder of this file.", "none", '"my_motors.csv"'
+        ),
+        "motor.gears": KeyNote(
+            "To choose from as well; from the folder of this file.", "none", '"my_gears.csv"'
+        ),
+        "motor.torque_max": KeyNote(
+            "What your motor controller gives, at the wheel.", "the motor's own", '"1 N m"'
+        ),
+        "validation.enabled": KeyNote("false: size and export only, in half the time."),
+        "validation.projection": KeyNote("transpose is the paper's, which scales the gains."),
+        "validation.kp": KeyNote("Higher: quicker, and more torque."),
+        "validation.kd": KeyNote("2 sqrt(kp) damps critically."),
+        "validation.ballistic": KeyNote("true: the legs need not make the jumps."),
+        "validation.seed": KeyNote("The same seed gives the same figures."),
+        "validation.video": KeyNote("true: each maneuver as a film, with the device and without."),
+        "validation.control_period": KeyNote("That of your controller; longer ones fly worse."),
+        "validation.desaturate": KeyNote("true: wheels let go of their momentum after landing."),
+        "reality.mass_error": KeyNote("After weighing the robot: the balance's error."),
+        "reality.inertia_error": KeyNote("From CAD 5 % is common, from a pendulum 1 %."),
+        "reality.com_error": KeyNote("Batteries and cables are seldom where CAD has them."),
+        "reality.incidence_error": KeyNote("Play and tolerance of the mounts."),
+        "reality.torque_constant_error": KeyNote("Makers state 5 to 10 % at most."),
+        "reality.resistance_error": KeyNote("A warm winding has 0.4 % more for each degree."),
+        "reality.bus_voltage_error": KeyNote("From a full battery to one that is to be charged."),
+        "reality.coulomb_friction": KeyNote(
+            "Measure it: run the wheel down.", "half of the motor's no-load torque", '"5 mN m"'
+        ),
+        "reality.viscous_friction": KeyNote(
+            "The same at speed.", "the other half at the speed it is stated for", '"3 uN m s/rad"'
+        ),
+        "reality.air_drag": KeyNote("0: a vacuum, as on the Moon."),
+        "reality.torque_delay": KeyNote("Bus, filters and the motor's own controller."),
+        "reality.attitude_noise": KeyNote("The data sheet of your inertial sensor has it."),
+        "reality.attitude_bias": KeyNote("Most of what a flight is off level by."),
+        "reality.gyro_noise": KeyNote("Noise density times the root of the bandwidth."),
+        "reality.gyro_bias": KeyNote("What is left after it was calibrated."),
+        "reality.contact_friction": KeyNote("Of your feet on your floor."),
+    }
+)
+"""By the path of the key, as in `flywheel.r_max`."""
+
+MANEUVER_NOTES: Mapping[str, str] = MappingProxyType(
+    {
+        "disturbance": "A jump in which something hits the trunk; to stay level until touchdown.",
+        "shove": "A torque on the trunk of a robot that stands or trots; to be at rest soon.",
+        "drop": "A fall from rest with the trunk tilted; to be level before touchdown.",
+        "flip": "A turn in pitch during a vertical jump; a back-flip is negative.",
+    }
+)
+"""What each kind of maneuver is."""
+
+FIELD_NOTES: Mapping[str, str] = MappingProxyType(
+    {
+        "name": "yours, of each maneuver another",
+        "gravity": "if not that of [requirement]",
+        "incidence": "if the modules are turned by hand for it",
+        "takeoff_velocity": "forward, up",
+        "torque": "on the trunk, about its x (forward), y (left) and z",
+        "onset": "after lift-off",
+        "duration": "of the torque",
+        "flip.duration": "of the turn, from lift-off",
+        "settling": "from the end of the torque to rest",
+        "stride": "of a trot on the spot; 0: the robot stands",
+        "height": "of the trunk over the ground",
+        "roll": "at release",
+        "pitch": "at release",
+        "jump_height": "of the centre of mass",
+        "angle": "of pitch",
+    }
+)
+"""What each field of a `[[maneuver]]` is; by `kind.field`, of that kind alone."""
+
+
+def field_note(kind: str, field: str) -> str:
+    """Note on a field of a kind of maneuver."""
+    return FIELD_NOTES.get(f"{kind}.{field}") or FIELD_NOTES[field]
+
+
+INTRODUCTION = """\
+Every key that there is. A line such as `# h_max = "10 mm"` shows what holds anyway, or an example
+where it says so: take away the `# ` to state it. A quantity is SI if it is a bare number, or text
+with one of the units in brackets. Whatever is left out is assumed for the robot, and `size` prints
+what it assumed."""
+
+_WIDTH = 40
+"""Columns from the start of a maneuver's line to its comment."""
+
+
+def commented_toml(
+    stated: Specification,
+    default: Specification,
+    *,
+    title: str,
+    chosen: Collection[str] = (),
+    examples: tuple[Maneuver, ...] = (),
+) -> str:
+    """The text of the file; it is read back as `stated` with the chosen maneuvers.
+
+    Args:
+        stated: is written as it is, to the last digit.
+        default: what holds where nothing is stated, to four digits, behind a `#`.
+        title: of the file, for people; may have several lines.
+        chosen: names of default maneuvers to state as well.
+        examples: maneuvers that are not assumed, shown behind a `#` where none of the kind is.
+    """
+    lines = [f"# {line}".rstrip() for line in (*title.splitlines(), "", *INTRODUCTION.splitlines())]
+    for name, section in SECTIONS.items():
+        lines += ["", f"[{name}]"]
+        for key_name, key in keys_of(section).items():
+            own, assumed = (getattr(getattr(one, name), key_name) for one in (stated, default))
+            lines += _key_lines(key_name, key, KEY_NOTES[f"{name}.{key_name}"], own, assumed)
+
+    lines += [
+        "",
+        "# What the device must do in the air, a table for each. As soon as one is stated, none",
+        "# is assumed any more; requirement.maneuvers must then be left out.",
+    ]
+    shown = stated.maneuvers or default.maneuvers
+    figures = Figures.EXACT if stated.maneuvers else Figures.ROUNDED
+    for maneuver in shown:
+        is_specified = bool(stated.maneuvers) or maneuver.name in chosen
+        lines += ["", *_commented_maneuver(maneuver, figures, "" if is_specified else "# ")]
+    kinds = {kind_of(maneuver)[0] for maneuver in shown}
+    for maneuver in examples:
+        if kind_of(maneuver)[0] not in kinds:
+            lines += ["", "# Not assumed, an example:"]
+            lines += _commented_maneuver(maneuver, Figures.ROUNDED, "# ")
+    return "\n".join(lines) + "\n"
+
+
+def rounded_text(specification: Specification, path: str) -> str:
+    """The value of the key at `path`, as in `flywheel.r_max`, for people."""
+    section, _, name = path.partition(".")
+    value = getattr(getattr(specification, section), name)
+    return written(value, all_keys()[path].value, Figures.ROUNDED).strip('"')
+
+
+def _key_lines(
+    name: str, key: Key, note: KeyNote, specified: object, default: object
+) -> Iterator[str]:
+    """Comment and line of one key."""
+    shown = note.example if default is None else written(default, key.value, Figures.ROUNDED)
+    yield from ("", f"# {key.summary} [{key.value.takes}]", f"# {note.why}")
+    if specified is not None:
+        yield f"# Default: {note.default or shown}"
+        yield f"{name} = {written(specified, key.value, Figures.EXACT)}"
+        return
+    if note.default:
+        yield f"# Default: {note.default}.{' Example:' if default is None else ''}"
+    yield f"# {name} = {shown}"
+
+
+def _commented_maneuver(maneuver: Maneuver, figures: Figures, mark: str) -> Iterator[str]:
+    """Table of a maneuver with a note on each field; `mark` comments it out."""
+    word, values = kind_of(maneuver)
+    yield from (f"# {MANEUVER_NOTES[word]}", f"{mark}[[maneuver]]", f'{mark}kind = "{word}"')
+    for name, how in values.items():
+        value = getattr(maneuver, name)
+        if value is not None:
+            line = f"{name} = {written(value, how, figures)}"
+            yield f"{mark}{line:<{_WIDTH}} # {field_note(word, name)}"

@@ -5,9 +5,8 @@ from itertools import permutations
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.exceptions import RobotError, UsageError
-from ocs_design.robot.mass_properties import MassProperties, physical_defect
+from ocs_design.common.errors import RobotError, UsageError
+from ocs_design.robot.mass import MassProperties, solid_defect
 from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.tree import Body, Placement, Shape, ShapeKind, Tree
 
@@ -15,10 +14,10 @@ TRUNK = "base"
 """The only link of a robot given by hand."""
 
 LARGEST = 10.0
-"""Radius of gyration [m] beyond which the inertia is in another unit."""
+"""Largest radius of gyration [m]; beyond it the inertia is in another unit."""
 
 _DENSEST = 4.0 / 3.0 * np.pi * (5.0 / 6.0) ** 1.5 * 19_300.0
-"""Mass over cube of `sqrt(trace(I) / m)` of a ball of tungsten [kg/m^3]."""
+"""Mass of a ball of tungsten over the cube of its `sqrt(trace(I) / m)` [kg/m^3]."""
 
 
 def robot_by_hand(
@@ -36,7 +35,14 @@ def robot_by_hand(
         com: centre of mass in B [m].
         name: of the robot.
     """
-    weighed = MassProperties(mass, np.array(com, dtype=np.float64), _matrix(inertia))
+    if len(inertia) not in {3, 6}:
+        raise UsageError(
+            f"an inertia has 3 or 6 numbers, not {len(inertia)}",
+            hint="give IXX,IYY,IZZ or IXX,IYY,IZZ,IXY,IXZ,IYZ in kg m^2",
+        )
+    xx, yy, zz, xy, xz, yz = (*inertia, 0.0, 0.0, 0.0)[:6]
+    matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], dtype=np.float64)
+    weighed = MassProperties(mass, np.array(com, dtype=np.float64), matrix)
     _check_physical(weighed)
     links = {TRUNK: Placement.identity()}
     body = Body(
@@ -66,48 +72,26 @@ def equal_box(weighed: MassProperties) -> Shape:
     A box of sides a, b, c has I_a = m (b^2 + c^2) / 12 and so on, hence
     a^2 = 6 (I_b + I_c - I_a) / m.
     """
-    moments, axes = _principal(weighed.inertia)
-    squares = 6.0 * (moments.sum() - 2.0 * moments) / weighed.mass
-    half = 0.5 * np.sqrt(np.maximum(squares, 0.0))
-    size = (float(half[0]), float(half[1]), float(half[2]))
-    return Shape(ShapeKind.BOX, size, weighed.com, axes, TRUNK, collides=True)
-
-
-def _principal(inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Principal moments (3,) and right-handed axes as columns (3, 3), as near to B's as can be."""
-    moments, axes = np.linalg.eigh(inertia)
+    # Right-handed principal axes, as near to B's as can be.
+    moments, axes = np.linalg.eigh(weighed.inertia)
     orders = [list(order) for order in permutations(range(3))]
     order = max(orders, key=lambda each: float(np.abs(np.diag(axes[:, each])).sum()))
     moments, axes = moments[order], axes[:, order]
     axes = axes * np.where(np.diag(axes) < 0.0, -1.0, 1.0)
     if np.linalg.det(axes) < 0.0:
         axes[:, 2] *= -1.0
-    return moments, axes
-
-
-def _matrix(inertia: Sequence[float]) -> FloatArray:
-    if len(inertia) not in {3, 6}:
-        raise UsageError(
-            f"an inertia has 3 or 6 numbers, not {len(inertia)}",
-            hint="give IXX,IYY,IZZ or IXX,IYY,IZZ,IXY,IXZ,IYZ in kg m^2",
-        )
-    xx, yy, zz, xy, xz, yz = (*inertia, 0.0, 0.0, 0.0)[:6]
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], dtype=np.float64)
+    squares = 6.0 * (moments.sum() - 2.0 * moments) / weighed.mass
+    half = 0.5 * np.sqrt(np.maximum(squares, 0.0))
+    size = (float(half[0]), float(half[1]), float(half[2]))
+    return Shape(ShapeKind.BOX, size, weighed.com, axes, TRUNK, collides=True)
 
 
 def _check_physical(weighed: MassProperties) -> None:
-    """Refuse what no body can have, naming the condition and the numbers."""
+    """Refuse a body that cannot exist or that is no robot, with the condition and the figures."""
     hint = "the inertia is about the centre of mass, in kg m^2; the mass is in kg"
-    defect = physical_defect(weighed)
+    defect = solid_defect(weighed)
     if defect is not None:
         raise RobotError(f"the robot given by hand {defect}", hint=hint)
-    if weighed.mass == 0.0:
-        raise RobotError("the robot given by hand has the mass 0 kg", hint=hint)
-    smallest = np.linalg.eigvalsh(weighed.inertia)[0]
-    if smallest <= 0.0:
-        raise RobotError(
-            f"the robot given by hand has the principal moment {smallest:.3g} kg m^2", hint=hint
-        )
     radius = float(np.sqrt(np.trace(weighed.inertia) / weighed.mass))
     if radius > LARGEST:
         raise RobotError(

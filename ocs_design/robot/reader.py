@@ -1,21 +1,144 @@
-"""From a robot file to a robot: trunk, legs, posture and mass properties."""
+"""From a robot file of any format to a robot: trunk, legs, posture and mass properties.
+
+Named postures come from the SRDF beside a URDF: https://wiki.ros.org/srdf/review, `<group_state>`.
+"""
 
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
-from ocs_design.exceptions import RobotError
-from ocs_design.robot.doubts.doubts import doubts_of
-from ocs_design.robot.files.loader import load
-from ocs_design.robot.mass_properties import MassProperties, physical_defect
-from ocs_design.robot.robot import Robot
-from ocs_design.robot.stance.base_frame import BASE_FRAME, with_base_frame
-from ocs_design.robot.stance.leg_geometry import convention_warnings
-from ocs_design.robot.stance.legs import find_legs
-from ocs_design.robot.stance.posture import resolve_posture, unknown_name
-from ocs_design.robot.stance.trunk import find_trunk
+from ocs_design.common.errors import MissingToolError, RobotError
+from ocs_design.robot.checks import plausibility_warnings
+from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
+from ocs_design.robot.legs import find_legs, find_trunk
+from ocs_design.robot.links import Warnings, check_whole
+from ocs_design.robot.packages import MeshFinder
+from ocs_design.robot.posture import resolve_posture, unknown_name
+from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.source import Source, read_source
 from ocs_design.robot.tree import Tree
+from ocs_design.robot.urdf import is_xacro, read_urdf
+from ocs_design.robot.xacro import expand_xacro
+from ocs_design.robot.xml import number, parse_xml, text
+
+Postures = Mapping[str, Mapping[str, float]]
+"""Joint values [rad or m] by the posture's name."""
+
+
+def read_group_states(content: bytes) -> Postures:
+    """Joint values [rad or m] of each `<group_state>`; states of one name are joined.
+
+    Joints with several values, such as the pose of a floating base, are left out.
+    """
+    root = parse_xml(content)
+    if root.tag != "robot":
+        raise RobotError(f"not an SRDF: its root element is <{root.tag}>")
+    postures: dict[str, dict[str, float]] = {}
+    for state in root.iter("group_state"):
+        name = text(state, "name", "a group_state")
+        values = postures.setdefault(name, {})
+        where = f"group_state {name!r}"
+        for joint in state.findall("joint"):
+            if len(text(joint, "value", where).split()) == 1:
+                values[text(joint, "name", where)] = number(joint, "value", where)
+    return {name: values for name, values in postures.items() if values}
+
+
+def find_srdfs(folder: Path, stem: str, robot_name: str) -> list[Path]:
+    """SRDFs in `folder` or its sister `srdf` that belong to a robot file.
+
+    The one named like the file, else all that name the same robot.
+    """
+    named = sorted([*folder.glob("*.srdf"), *folder.glob("../srdf/*.srdf")])
+    # A pipe of that name would be waited for without end.
+    found = [path for path in named if path.is_file()]
+    same_stem = [path for path in found if path.stem == stem]
+    return same_stem[:1] or [path for path in found if _robot_name(path) == robot_name]
+
+
+def _robot_name(path: Path) -> str | None:
+    try:
+        return parse_xml(read_source(path).content).get("name")
+    except RobotError:
+        return None
+
+
+def postures_beside(read: Source, tree: Tree, warnings: Warnings) -> Postures:
+    """Named postures of the SRDFs that belong to a robot file, for the joints of its tree."""
+    if read.folder is None:
+        return {}
+    stem = Path(read.path_text).name
+    for suffix in (".gz", ".xacro", ".urdf", ".xml"):
+        stem = stem.removesuffix(suffix)
+    postures: dict[str, Mapping[str, float]] = {}
+    for path in find_srdfs(read.folder, stem, tree.name):
+        try:
+            states = read_group_states(read_source(path).content)
+        except RobotError as error:
+            warnings.add(f"{path.name} was not read: {error.message}")
+            continue
+        postures = {**states, **postures}
+    known = {
+        name: {joint: value for joint, value in values.items() if joint in tree.joints}
+        for name, values in postures.items()
+    }
+    return {name: values for name, values in known.items() if values}
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """Tree of a robot file, with the text that it was read from.
+
+    Attributes:
+        tree: moving bodies.
+        format: URDF (also from xacro) or MJCF.
+        content: the file's text, unzipped and expanded.
+        sha256: of the bytes as they were read.
+        source: as the user wrote it.
+    """
+
+    tree: Tree
+    format: Format
+    content: bytes
+    sha256: str
+    source: str
+
+
+def load(source: str | Path, *, package_paths: Mapping[str, Path] | None = None) -> Loaded:
+    """Read a URDF, xacro or MJCF, gzipped or not, from a path or from standard input (`-`).
+
+    Args:
+        source: a path, or `-`.
+        package_paths: folder of each package that `package://` addresses name.
+    """
+    read = read_source(source)
+    try:
+        return _load(read, package_paths or {})
+    except (RobotError, MissingToolError) as error:
+        raise type(error)(f"{read.shown}: {error.message}", hint=error.hint) from error
+
+
+def _load(read: Source, package_paths: Mapping[str, Path]) -> Loaded:
+    folder = read.folder or Path.cwd()
+    content = read.content
+    root = parse_xml(content)
+    if root.tag == "mujoco":
+        from ocs_design.robot.mjcf import read_mjcf  # noqa: PLC0415 - MuJoCo takes 0.3 s
+
+        tree = read_mjcf(content, folder)
+        return Loaded(tree, Format.MJCF, content, read.sha256, read.path_text)
+    if root.tag == "robot" and is_xacro(root):
+        content = expand_xacro(content, folder / Path(read.path_text).name, package_paths)
+    finder = MeshFinder(folder, package_paths)
+    tree = read_urdf(content, find_mesh=finder)
+    warnings = Warnings()
+    if finder.missing:
+        first = next(iter(finder.missing))
+        warnings.add(f"{len(finder.missing)} meshes were not found, the first is {first}")
+    postures = postures_beside(read, tree, warnings)
+    every = (*tree.warnings, *warnings.sentences())
+    tree = replace(tree, named_postures=postures, warnings=every)
+    return Loaded(tree, Format.URDF, content, read.sha256, read.path_text)
 
 
 def read_robot(
@@ -40,16 +163,18 @@ def read_robot(
     legs = find_legs(tree)
     if trunk is None:
         found = find_trunk(tree, legs)
-        tree, mount, told = with_base_frame(tree, found, legs)
+        tree, mount, of_frame = with_base_frame(tree, found, legs)
         base = found if mount is None else BASE_FRAME
+    elif trunk in tree.body_of_link:
+        base, mount = trunk, None
+        of_frame = tuple(convention_warnings(tree, base, legs))
     else:
-        base, mount = _checked_trunk(tree, trunk), None
-        told = tuple(convention_warnings(tree, base, legs))
+        raise unknown_name("link", trunk, tree.body_of_link)
     chosen = resolve_posture(tree, base, legs, posture, joints or {})
     weighed = tree.locked_mass_properties(chosen.values, base)
-    _check_physical(weighed)
-    doubts = doubts_of(tree, base, legs, chosen.values, weighed)
-    warnings = (*tree.warnings, *told, *chosen.warnings, *doubts)
+    check_whole(weighed, tree)
+    unlikely = plausibility_warnings(tree, base, legs, chosen.values, weighed)
+    warnings = (*tree.warnings, *of_frame, *chosen.warnings, *unlikely)
     return Robot(
         name=tree.name,
         source=loaded.source,
@@ -67,24 +192,3 @@ def read_robot(
         warnings=tuple(dict.fromkeys(warnings)),
         mount=mount,
     )
-
-
-def _checked_trunk(tree: Tree, trunk: str) -> str:
-    if trunk not in tree.body_of_link:
-        raise unknown_name("link", trunk, tree.body_of_link)
-    return trunk
-
-
-def _check_physical(weighed: MassProperties) -> None:
-    """Refuse a robot that cannot exist or that nothing can turn."""
-    hint = (
-        "correct the <inertial> elements of the links; `inspect` lists what is odd about them; "
-        "see docs/howto-inertials.md"
-    )
-    if weighed.mass == 0.0:
-        raise RobotError("the robot has no mass: no link has an <inertial>", hint=hint)
-    defect = physical_defect(weighed)
-    if defect is not None:
-        raise RobotError(f"the robot as a whole {defect}", hint=hint)
-    if np.linalg.eigvalsh(weighed.inertia)[0] <= 0.0:
-        raise RobotError("the robot as a whole has no inertia about one of its axes", hint=hint)

@@ -1,4 +1,4 @@
-"""The robot as the rest of the chain sees it: one frozen value."""
+"""The robot as every later step sees it: one frozen value."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,13 +6,13 @@ from enum import StrEnum
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.common.arrays import FloatArray
+from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.tree import Placement, Tree
 
 
 class Format(StrEnum):
-    """Where the robot came from."""
+    """Kind of description that a robot was read from."""
 
     URDF = "urdf"
     MJCF = "mjcf"
@@ -42,7 +42,7 @@ class Leg:
 
 @dataclass(frozen=True, eq=False)
 class Mount:
-    """The base frame B where no link of the file has x forward and z up.
+    """Base frame B of a robot of which no link has x forward and z up.
 
     Attributes:
         link: of the file that B is fixed to.
@@ -95,7 +95,7 @@ class Robot:
 
     @property
     def mass(self) -> float:
-        """[kg]."""
+        """Mass of the whole robot [kg]."""
         return self.mass_properties.mass
 
     @property
@@ -110,5 +110,5 @@ class Robot:
 
     @property
     def gyration_radius(self) -> float:
-        """sqrt(trace(I) / m) [m]: a length that needs no geometry."""
+        """Radius of gyration sqrt(trace(I) / m) [m]: a length that needs no geometry."""
         return float(np.sqrt(np.trace(self.inertia) / self.mass))

@@ -1,7 +1,7 @@
-"""The kinematic tree: moving bodies, their joints, where they stand, what they weigh.
+"""Kinematic tree: moving bodies with their joints, placements and mass properties.
 
-A reader lumps everything that is rigidly joined into one `Body`; only moving joints remain, each
-with at most one degree of freedom. Mass properties are the file's raw numbers.
+A reader merges everything that is rigidly joined into one `Body`; only moving joints remain, each
+with one degree of freedom. Mass properties are the file's raw numbers.
 """
 
 from collections.abc import Mapping
@@ -12,16 +12,16 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray, frozen
-from ocs_design.robot.mass_properties import MassProperties, combine
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.rotations import rotation_about
 
 LARGEST_NUMBER = 1e75
-"""Of a robot, SI: beyond it a square of a square overflows, and zero times that is no number."""
+"""Largest number in a robot, SI: the square of the square of a larger one overflows."""
 
 
 class JointKind(StrEnum):
-    """How a body moves against its parent."""
+    """Motion of a body against its parent."""
 
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
@@ -67,6 +67,45 @@ class Shape:
 
 
 @dataclass(frozen=True, eq=False)
+class Ball:
+    """Ball that a module may sweep.
+
+    Attributes:
+        center: in B [m], shape (3,).
+        radius: [m].
+    """
+
+    center: FloatArray
+    radius: float
+
+    @property
+    def reach(self) -> float:
+        """Radius of the ball around it [m]."""
+        return self.radius
+
+
+@dataclass(frozen=True, eq=False)
+class Drum:
+    """Cylinder that a module is as it stands.
+
+    Attributes:
+        center: in B [m], shape (3,).
+        axis: unit vector in B, shape (3,).
+        radius, height: [m].
+    """
+
+    center: FloatArray
+    axis: FloatArray
+    radius: float
+    height: float
+
+    @property
+    def reach(self) -> float:
+        """Radius of the ball around it [m]."""
+        return float(np.hypot(self.radius, 0.5 * self.height))
+
+
+@dataclass(frozen=True, eq=False)
 class Joint:
     """A moving joint.
 
@@ -96,7 +135,7 @@ class Joint:
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """A frame in another.
+    """Rotation and position of one frame in another.
 
     Attributes:
         rotation: takes coordinates of the frame to the other, shape (3, 3).
@@ -112,7 +151,7 @@ class Placement:
 
     @classmethod
     def identity(cls) -> "Placement":
-        """The frame itself."""
+        """The frame in itself."""
         return cls(np.eye(3), np.zeros(3))
 
     def __matmul__(self, inner: "Placement") -> "Placement":
@@ -190,6 +229,13 @@ class Tree:
             found.append(found[body.parent] @ body.placement @ motion)
         return tuple(found)
 
+    def placements_from(self, link: str, posture: Mapping[str, float]) -> tuple[Placement, ...]:
+        """Frame of each body in the frame of `link`; joints missing in `posture` are at zero."""
+        placements = self.placements(posture)
+        index = self.body_of_link[link]
+        to_link = (placements[index] @ self.bodies[index].links[link]).inverse()
+        return tuple(to_link @ placement for placement in placements)
+
     def complete(self, posture: Mapping[str, float]) -> dict[str, float]:
         """Every joint's value: as given, else zero; joints that mimic another follow it."""
         values = {name: float(posture.get(name, 0.0)) for name in self.joints}
@@ -200,18 +246,15 @@ class Tree:
         return values
 
     def locked_mass_properties(self, posture: Mapping[str, float], link: str) -> MassProperties:
-        """The whole robot with its joints held at `posture`, in the frame of `link`.
+        """Mass properties of the robot with its joints held at `posture`, in the frame of `link`.
 
         The composite rigid body of Featherstone (2008), section 6.2; Pinocchio calls its inertia
         `data.Ig` after `ccrba`.
         """
-        placements = self.placements(posture)
-        index = self.body_of_link[link]
-        to_link = (placements[index] @ self.bodies[index].links[link]).inverse()
-        seen = [to_link @ placement for placement in placements]
+        placements = self.placements_from(link, posture)
         return combine(
             body.mass_properties.moved(place.rotation, place.position)
-            for body, place in zip(self.bodies, seen, strict=True)
+            for body, place in zip(self.bodies, placements, strict=True)
         )
 
 

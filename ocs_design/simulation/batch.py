@@ -1,22 +1,137 @@
-"""Worlds that run in step: the physics in MuJoCo's `rollout`, the law vectorised in between."""
+"""Worlds that run in step: physics in MuJoCo's `rollout`, the vectorised law in between."""
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields
 from threading import Event
 
 import mujoco
 import numpy as np
 from mujoco.rollout import Rollout
+from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.controller import WheelLaw
-from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.imperfections import Drives, Sensing
-from ocs_design.simulation.legs import LegReferences
-from ocs_design.simulation.lift_off import FlightClock
-from ocs_design.simulation.recording import Recording, empty_recording, pose_stride
-from ocs_design.simulation.schedule import Pushes, References
+from ocs_design.simulation.schedule import FlightClock, LegReferences, Pushes, References
+from ocs_design.simulation.wheel_law import WheelBrake, WheelLaw
 from ocs_design.simulation.world import World, start_states
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What happened in n worlds at k control instants; a world that has ended holds NaN.
+
+    Attributes:
+        time: [s], shape (k,).
+        attitude: of the trunk, quaternions (k, n, 4).
+        rate: of the trunk in B [rad/s], (k, n, 3).
+        wheel_speed: relative to the trunk [rad/s], (k, n, 2).
+        wheel_torque: of the motors on the wheels, held until the next instant [N m], (k, n, 2).
+        com: centre of mass in the world [m], (k, n, 3).
+        momentum: angular, about the centre of mass, in the world [N m s], (k, n, 3).
+        impulse: of the outer torque since the start, in the world [N m s], (k, n, 3).
+        height: of the trunk's body over the floor [m], (k, n).
+        contact: whether anything touches the floor before the next instant, (k, n).
+        pose_stride: control steps from one recorded pose to the next; 0: none is recorded.
+        qpos: the poses, as the models have them, (frames, n, nq).
+        lengths: number of instants of each world, (n,).
+        stable: whether MuJoCo got each world to its end, (n,); it stops one whose state is huge or
+            not finite, and its last state then stands still.
+        warning: what stopped it, an `mjtWarning`, (n,); -1: nothing, or it is not known.
+        lift_off: first control instant in flight, (n,); -1 for a world that never left the ground.
+    """
+
+    time: FloatArray
+    attitude: FloatArray
+    rate: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    com: FloatArray
+    momentum: FloatArray
+    impulse: FloatArray
+    height: FloatArray
+    contact: NDArray[np.bool_]
+    pose_stride: int
+    qpos: FloatArray
+    lengths: NDArray[np.int64]
+    stable: NDArray[np.bool_]
+    warning: NDArray[np.int8]
+    lift_off: NDArray[np.int64]
+
+
+def empty_recording(
+    times: FloatArray, lengths: NDArray[np.int64], *, pose_stride: int = 0, nq: int = 0
+) -> Recording:
+    """Nothing known yet, no impulse at the start; `nq` is the length of a pose."""
+    k, n = len(times), len(lengths)
+    frames = len(times[::pose_stride]) if pose_stride else 0
+
+    def unknown(*shape: int) -> FloatArray:
+        """One such value per time and world."""
+        return np.full((k, n, *shape), np.nan)
+
+    impulse = unknown(3)
+    impulse[0] = 0.0
+    return Recording(
+        time=times,
+        attitude=unknown(4),
+        rate=unknown(3),
+        wheel_speed=unknown(2),
+        wheel_torque=unknown(2),
+        com=unknown(3),
+        momentum=unknown(3),
+        impulse=impulse,
+        height=unknown(),
+        contact=np.zeros((k, n), dtype=bool),
+        pose_stride=pose_stride,
+        qpos=np.full((frames, n, nq), np.nan),
+        lengths=lengths,
+        stable=np.zeros(n, dtype=bool),
+        warning=np.full(n, -1, dtype=np.int8),
+        lift_off=np.zeros(n, dtype=np.int64),
+    )
+
+
+def pose_stride(rate: float | None, period: float) -> int:
+    """Control steps from one pose to the next; 0 where none are wanted.
+
+    Args:
+        rate: of the poses [1/s].
+        period: of the control steps [s].
+    """
+    return 0 if rate is None else max(1, round(1.0 / (rate * period)))
+
+
+def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Recording:
+    """Several recordings as one.
+
+    Args:
+        parts: with equal control steps.
+        places: for each part, where its worlds belong among all worlds.
+    """
+    longest = max(parts, key=lambda part: len(part.time))
+    whole = empty_recording(
+        longest.time,
+        np.empty(sum(map(len, places)), dtype=np.int64),
+        pose_stride=longest.pose_stride,
+        nq=longest.qpos.shape[2],
+    )
+    for part, place in zip(parts, places, strict=True):
+        for name in _ONCE:
+            getattr(whole, name)[place] = getattr(part, name)
+        for name in _SERIES:
+            series = getattr(part, name)
+            getattr(whole, name)[: len(series), place] = series
+    return whole
+
+
+_ONCE = ("lengths", "stable", "warning", "lift_off")
+"""What a world has one value of."""
+
+_SERIES = [
+    field.name for field in fields(Recording) if field.name not in {"time", "pose_stride", *_ONCE}
+]
+
 
 _CONTROL = mujoco.mjtState.mjSTATE_CTRL.value
 _PUSHED = _CONTROL | mujoco.mjtState.mjSTATE_XFRC_APPLIED.value
@@ -32,11 +147,13 @@ class Batch:
     """
 
     def __init__(self, worlds: Sequence[World], hold: int, pose_rate: float | None = None) -> None:
-        """Of worlds with models of equal sizes, longest first; see `simulate`."""
+        """Batch of worlds with models of equal sizes, longest first; see `simulate`."""
         first = worlds[0].model
         self._hold, self._period = hold, hold * first.opt.timestep
         self._models = [world.model for world in worlds]
-        self._lengths = np.array([_control_steps(world, self._period) for world in worlds])
+        self._lengths = np.array(
+            [max(1, int(np.ceil(each.duration / self._period - 1e-9))) for each in worlds]
+        )
         times = self._period * np.arange(self._lengths[0])
         self._record = empty_recording(
             times, self._lengths, pose_stride=pose_stride(pose_rate, self._period), nq=first.nq
@@ -45,39 +162,34 @@ class Batch:
         self._pushes = Pushes(worlds, times, self._period)
         self._legs = LegReferences(worlds, hold)
         self._clock = FlightClock(worlds, self._period)
-        self._law = WheelLaw.stack([world.law for world in worlds])
-        self._sensing, self._drives = self._reality(worlds)
-        self._brake = WheelBrake.of(worlds, self._period)
+        self._law = WheelLaw.joined([world.law for world in worlds])
+        # Sensors and drives are perfect in all of a batch or in none.
+        own = [world.imperfections for world in worlds if world.imperfections is not None]
+        self._sensing = Sensing(own, self._lengths.tolist()) if own else None
+        self._drives = None
+        if own:
+            self._drives = Drives(
+                own,
+                response=self._law.wheel_response,
+                instants=int(self._lengths[0]),
+                hold=hold,
+                step=first.opt.timestep,
+            )
+        brakes = [world.desaturation for world in worlds]
+        self._brake = WheelBrake(brakes, self._period) if any(brakes) else None
         self._chain, self._addresses = worlds[0].chain, worlds[0].addresses
         self._wheels, self._motors = list(self._addresses.wheels), list(self._addresses.motors)
         self._state = start_states(worlds)
         self._qpos, self._qvel = np.split(
             self._state[:, 1 : 1 + first.nq + first.nv], [first.nq], 1
         )
-        self._make_buffers(np.stack([world.ctrl for world in worlds]), first)
-
-    def _reality(self, worlds: Sequence[World]) -> tuple[Sensing | None, Drives | None]:
-        """Sensors and drives; None where they are perfect, as in all of a batch or in none."""
-        own = [world.imperfections for world in worlds if world.imperfections is not None]
-        if not own:
-            return None, None
-        drives = Drives(
-            own,
-            response=self._law.wheel_response,
-            instants=int(self._lengths[0]),
-            hold=self._hold,
-            step=worlds[0].model.opt.timestep,
-        )
-        return Sensing(own, self._lengths.tolist()), drives
-
-    def _make_buffers(self, ctrl: FloatArray, model: mujoco.MjModel) -> None:
-        """What `rollout` reads and writes; every step of a control step has its own row."""
-        n, hold = len(ctrl), self._hold
+        # What `rollout` reads and writes; every step of a control step has its own row.
+        n, ctrl = len(worlds), np.stack([world.ctrl for world in worlds])
         self._states = np.empty((n, hold, self._state.shape[1]))
-        self._sensors = np.empty((n, hold, model.nsensordata))
+        self._sensors = np.empty((n, hold, first.nsensordata))
         self._control = _held(ctrl, hold)
-        self._pushed_control = _held(np.hstack([ctrl, np.zeros((n, 6 * model.nbody))]), hold)
-        self._push_address = model.nu + 6 * self._addresses.trunk + 3
+        self._pushed_control = _held(np.hstack([ctrl, np.zeros((n, 6 * first.nbody))]), hold)
+        self._push_address = first.nu + 6 * self._addresses.trunk + 3
 
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
         """Run all worlds to their ends, once.
@@ -96,25 +208,22 @@ class Batch:
                 if k % _TELLING == 0:
                     progress(float(np.minimum(self._lengths, k).sum() / self._lengths.sum()))
                 torque = self._observe_and_decide(k, running, law)
-                self._advance(pool, data, k, torque, self._push_in_world(k, running))
-                self._sense(k, running)
+                self._advance(pool, data, k, torque)
+                self._record_sensors(k, running)
         missing = np.abs(self._state[:, 0] - self._lengths * self._period)
         finite = np.isfinite(self._state).all(axis=1)
         self._record.stable[:] = finite & (missing < 0.5 * self._period)
         for index in np.flatnonzero(~self._record.stable).tolist():
-            self._record.warning[index] = self._warning(index, data[0])
+            # What MuJoCo says to the last state as it takes one more step.
+            model, last = self._models[index], data[0]
+            mujoco.mj_resetData(model, last)
+            mujoco.mj_setState(model, last, self._state[index], mujoco.mjtState.mjSTATE_FULLPHYSICS)
+            last.ctrl[:] = self._control[index, -1]
+            mujoco.mj_step(model, last)
+            said = np.flatnonzero(last.warning.number)
+            self._record.warning[index] = int(said[0]) if said.size else -1
         self._record.lift_off[:] = self._clock.lift_off
         return self._record
-
-    def _warning(self, index: int, data: mujoco.MjData) -> int:
-        """What MuJoCo says to the last state of a world as it takes one more step; -1: nothing."""
-        model = self._models[index]
-        mujoco.mj_resetData(model, data)
-        mujoco.mj_setState(model, data, self._state[index], mujoco.mjtState.mjSTATE_FULLPHYSICS)
-        data.ctrl[:] = self._control[index, -1]
-        mujoco.mj_step(model, data)
-        said = np.flatnonzero(data.warning.number)
-        return int(said[0]) if said.size else -1
 
     def _control_steps(self) -> Iterator[tuple[int, int, WheelLaw | None]]:
         """Each control instant, how many worlds run, and their law; None where all are off."""
@@ -159,32 +268,21 @@ class Batch:
         record.wheel_torque[k, :running] = torque
         return acting
 
-    def _push_in_world(self, k: int, running: int) -> FloatArray | None:
-        """The outer torque of this step in the world; its impulse is added to the record."""
-        record, push, torque = self._record, self._pushes.at(self._clock.steps(k, running)), None
-        if push is not None:
-            rotation = quaternions.matrix(record.attitude[k, :running])
-            torque = np.einsum("nij,nj->ni", rotation, push)
-        if k + 1 < len(record.time):
-            gained = 0.0 if torque is None else torque * self._period
-            record.impulse[k + 1, :running] = record.impulse[k, :running] + gained
-        return torque
-
     def _advance(
-        self,
-        pool: Rollout,
-        data: list[mujoco.MjData],
-        k: int,
-        torque: FloatArray,
-        push: FloatArray | None,
+        self, pool: Rollout, data: list[mujoco.MjData], k: int, torque: FloatArray
     ) -> None:
-        """Control step `k` of physics."""
-        n = len(torque)
+        """Control step `k` of physics, with the outer torque of that step and its impulse."""
+        n, record = len(torque), self._record
         control, specification = self._control, _CONTROL
+        push, gained = self._pushes.at(self._clock.steps(k, n)), None
         if push is not None:
+            in_world = np.einsum("nij,nj->ni", quaternions.matrix(record.attitude[k, :n]), push)
+            gained = in_world * self._period
             control, specification = self._pushed_control, _PUSHED
             first = self._push_address
-            control[:n, :, first : first + 3] = push[:, None]
+            control[:n, :, first : first + 3] = in_world[:, None]
+        if k + 1 < len(record.time):
+            record.impulse[k + 1, :n] = record.impulse[k, :n] + (0.0 if gained is None else gained)
         self._legs.write(k, control[:n])
         control[:n, :, self._motors] = torque
         pool.rollout(
@@ -200,8 +298,8 @@ class Batch:
         )
         self._state[:n] = self._states[:n, -1]
 
-    def _sense(self, k: int, running: int) -> None:
-        """What the sensors saw at the start of the control step; contact throughout it."""
+    def _record_sensors(self, k: int, running: int) -> None:
+        """Record what the sensors saw at the start of the control step; contact throughout it."""
         where, record = self._addresses, self._record
         now = self._sensors[:running, 0]
         record.com[k, :running] = now[:, where.com : where.com + 3]
@@ -215,10 +313,6 @@ class Batch:
             record.contact[k - 1, :running] |= touches[:, 0]
 
 
-def _control_steps(world: World, period: float) -> int:
-    return max(1, int(np.ceil(world.duration / period - 1e-9)))
-
-
 def _held(values: FloatArray, hold: int) -> FloatArray:
-    """The same values in each step of a control step, shape (n, hold, ...)."""
+    """Values repeated in each step of a control step, shape (n, hold, ...)."""
     return np.ascontiguousarray(np.repeat(values[:, None], hold, axis=1))

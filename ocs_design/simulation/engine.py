@@ -1,25 +1,23 @@
-"""The batch engine: one world or thousands, the wheel law closed over all of them at once.
+"""The batch engine: one world or thousands, and the poses to show them again.
 
 With more than one thread the worlds are dealt to two batches that run beside each other. One
 computes its law while the other has the processors for its physics, and neither waits at every
 control step for threads to wake up, which took as long as the physics of a few worlds.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
-from functools import partial
+from dataclasses import dataclass
 from threading import Event
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.processors import processors
-from ocs_design.simulation.batch import Batch
-from ocs_design.simulation.recording import Recording, joined
-from ocs_design.simulation.scene import STEP
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.files import processors
+from ocs_design.simulation.batch import Batch, Recording, joined
+from ocs_design.simulation.scene import STEP, WHEEL_JOINTS
 from ocs_design.simulation.world import World
 
 Progress = Callable[[float], None]
@@ -45,46 +43,43 @@ def simulate(
             memory for.
         progress: told the part of the work that is done, 0..1.
     """
-    told, groups = progress or _ignore, _of_one_step(worlds)
+    tell = progress or _ignore
     recordings: list[Recording] = []
-    shares: list[NDArray[np.intp]] = []
-    done = 0.0
-    for group, work in groups:
-        step = worlds[group[0]].model.opt.timestep
-        dealt = _dealt(worlds, group, threads or processors())
-        batches = [
-            Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate)
-            for share in dealt.shares
-        ]
-        with _no_warnings():
-            recordings += _run_beside(batches, dealt.threads, partial(_tell, told, done, work))
-        shares += dealt.shares
-        done += work
-    told(1.0)
-    return joined(recordings, shares)
-
-
-class _Dealt(NamedTuple):
-    """Worlds of each batch by their places, and the threads of its physics."""
-
-    shares: list[NDArray[np.intp]]
-    threads: int
-
-
-def _dealt(worlds: Sequence[World], group: NDArray[np.intp], threads: int) -> _Dealt:
-    """Longest first, and of a pair of equals one to each batch."""
-    available = min(threads, len(group))
-    count = min(available, 2)
-    order = group[np.argsort([-worlds[index].duration for index in group], kind="stable")]
-    return _Dealt([order[first::count] for first in range(count)], available // count)
-
-
-def _of_one_step(worlds: Sequence[World]) -> list[tuple[NDArray[np.intp], float]]:
-    """Places of the worlds of each time step, and their part of all the work."""
+    places: list[NDArray[np.intp]] = []
     steps = np.array([world.model.opt.timestep for world in worlds])
     work = np.array([world.duration for world in worlds]) / steps
-    groups = [np.flatnonzero(steps == step) for step in np.unique(steps)]
-    return [(group, float(work[group].sum() / work.sum())) for group in groups]
+    done = 0.0
+    for step in np.unique(steps):
+        group = np.flatnonzero(steps == step)
+        part = float(work[group].sum() / work.sum())
+        # Longest first, and of a pair of equals one to each batch.
+        order = group[
+            np.argsort([-worlds[index].duration for index in group.tolist()], kind="stable")
+        ]
+        available = min(threads or processors(), len(group))
+        count = min(available, 2)
+        shares = [order[first::count] for first in range(count)]
+        batches = [
+            Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate)
+            for share in shares
+        ]
+        within = scaled(tell, done, done + part)
+        # MuJoCo would write MUJOCO_LOG.TXT where the user stands; `Recording.stable` tells.
+        before = mujoco.get_mju_user_warning()
+        mujoco.set_mju_user_warning(lambda _message: None)
+        try:
+            recordings += _run_beside(batches, available // count, within)
+        finally:
+            mujoco.set_mju_user_warning(before)
+        places += shares
+        done += part
+    tell(1.0)
+    return joined(recordings, places)
+
+
+def scaled(progress: Progress, begin: float, end: float) -> Progress:
+    """Progress of a part of the work that begins and ends at these shares of all of it."""
+    return lambda share: progress(begin + (end - begin) * share)
 
 
 def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> list[Recording]:
@@ -107,20 +102,55 @@ def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> l
     return recordings
 
 
-def _tell(progress: Progress, done: float, work: float, part: float) -> None:
-    progress(done + work * part)
-
-
 def _ignore(_done: float) -> None:
-    """Where nobody wants to know."""
+    """Progress that nobody watches."""
 
 
-@contextmanager
-def _no_warnings() -> Iterator[None]:
-    """Keeps MuJoCo from writing MUJOCO_LOG.TXT where the user stands; `Recording.stable` tells."""
-    before = mujoco.get_mju_user_warning()
-    mujoco.set_mju_user_warning(lambda _message: None)
-    try:
-        yield
-    finally:
-        mujoco.set_mju_user_warning(before)
+POSE_RATE = 60.0
+"""Poses per second of a replay on a screen [1/s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """What a model looked like, again and again.
+
+    Attributes:
+        time: [s], shape (n,).
+        qpos: of the simulated model, free joint first as (x, y, z) [m] and quaternion (w, x, y, z),
+            then joints [rad or m]; shape (n, nq).
+        bodies: names of the model's b bodies, the world left out.
+        position: of their frames in the world [m], shape (n, b, 3).
+        attitude: of their frames in the world, quaternions (w, x, y, z), shape (n, b, 4).
+        wheel_angle: of the left and the right wheel, all turns counted [rad], shape (n, 2).
+    """
+
+    time: FloatArray
+    qpos: FloatArray
+    bodies: tuple[str, ...]
+    position: FloatArray
+    attitude: FloatArray
+    wheel_angle: FloatArray
+
+
+def poses_of(recording: Recording, index: int, world: World) -> Poses | None:
+    """Poses of one world of a recording; None if there are none."""
+    if not recording.pose_stride:
+        return None
+    time = recording.time[: recording.lengths[index] : recording.pose_stride]
+    qpos, model = recording.qpos[: len(time), index], world.model
+    data = mujoco.MjData(model)
+    position = np.empty((len(qpos), model.nbody - 1, 3))
+    attitude = np.empty((len(qpos), model.nbody - 1, 4))
+    for k, pose in enumerate(qpos):
+        data.qpos[:] = pose
+        mujoco.mj_kinematics(model, data)
+        position[k], attitude[k] = data.xpos[1:], data.xquat[1:]
+    wheels = [int(model.joint(name).qposadr[0]) for name in WHEEL_JOINTS]
+    return Poses(
+        time=time,
+        qpos=qpos,
+        bodies=tuple(model.body(body).name for body in range(1, model.nbody)),
+        position=position,
+        attitude=attitude,
+        wheel_angle=qpos[:, wheels],
+    )

@@ -1,7 +1,12 @@
-"""What stands between the wheel law and the wheels: sensors, delay, real motors and friction.
+"""What stands between the wheel law and the wheels: sensors, delay, real motors, friction, air.
 
 The law believes in the design; each world has its own sensors and drives. Everything is vectorised
 over the worlds of a batch, and costs next to nothing beside their physics.
+
+The faces drag as an enclosed disc (Daily and Nece, J. Basic Engineering 82, 1960, 217-230), the rim
+as a cylinder in a wider one: Couette flow, exact, then with vortices and turbulent (Bilgen and
+Boulos, J. Fluids Engineering 95, 1973, 122-126). Every regime is a power of the Reynolds number,
+and the one that drags most is the one that holds.
 """
 
 from collections.abc import Sequence
@@ -9,8 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.simulation.motor_limits import clipped
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Flywheel
+from ocs_design.parts.printed import CLEARANCE
+from ocs_design.simulation.wheel_law import clipped
 
 _SENSED = 5
 """Numbers that noise is added to at each instant: two of attitude, three of rate."""
@@ -71,7 +78,7 @@ class Sensing:
     """What n trunks measure."""
 
     def __init__(self, imperfections: Sequence[Imperfections], lengths: Sequence[int]) -> None:
-        """Of worlds that run for so many control steps each."""
+        """Sensors of worlds that run for so many control steps each."""
         self._errors = np.zeros((max(lengths), len(lengths), _SENSED))
         for world, (own, length) in enumerate(zip(imperfections, lengths, strict=True)):
             self._errors[:length, world] = own.noise(length)
@@ -108,7 +115,7 @@ class Drives:
         hold: int,
         step: float,
     ) -> None:
-        """Of worlds whose commands are held for `hold` steps of the physics.
+        """Drives of worlds whose commands are held for `hold` steps of the physics.
 
         Args:
             imperfections: of each world.
@@ -116,12 +123,15 @@ class Drives:
             instants: control steps of the longest run.
             hold: steps of the physics from one command to the next. step: of the physics [s].
         """
-        self._own, self._air = imperfections, imperfections[0].air
+        self._air = imperfections[0].air
         self._gain = (response * hold * step)[:, None]
-        self._torque_gain = self._each("torque_gain")
-        self._line, self._slope = self._each("no_load_speed"), self._each("line_slope")
-        self._limit = self._each("torque_limit")
-        self._coulomb, self._viscous = self._each("coulomb"), self._each("viscous")
+        self._torque_gain, self._line, self._slope, self._limit, self._coulomb, self._viscous = (
+            np.stack([getattr(own, name) for own in imperfections])
+            for name in (
+                *("torque_gain", "no_load_speed", "line_slope", "torque_limit"),
+                *("coulomb", "viscous"),
+            )
+        )
         self._air_factor = np.array([[own.air_factor] for own in imperfections])
         delay = np.array([own.delay for own in imperfections])
         whole, part = np.divmod(delay, hold)
@@ -130,9 +140,6 @@ class Drives:
         self._before = int(self._back.max())
         self._commands = np.zeros((self._before + instants, len(delay), 2))
         self._worlds = np.arange(len(delay))[:, None]
-
-    def _each(self, name: str) -> FloatArray:
-        return np.stack([getattr(own, name) for own in self._own])
 
     def driven(
         self, k: int, command: FloatArray, speed: FloatArray
@@ -161,16 +168,73 @@ class Drives:
         )
         # So written, the mean of equal torques is that torque to the last bit.
         mean = motor[:, 0] + (motor - motor[:, :1]).mean(axis=1)
-        return mean, motor - self._friction(mean, speed)[:, None]
-
-    def _friction(self, torque: FloatArray, speed: FloatArray) -> FloatArray:
-        """What holds the wheels back [N m], shape (n, 2).
-
-        Implicit: a wheel is brought to rest at most, and one at rest stays so until its motor
-        overcomes the friction.
-        """
-        n, turning = len(torque), np.abs(speed)
+        # Friction is implicit: it brings a wheel to rest at most, and one at rest stays so until
+        # its motor overcomes it.
+        turning = np.abs(speed)
         air = self._air_factor[:n] * self._air.at(turning)
         largest = self._coulomb[:n] + self._viscous[:n] * turning + air
-        to_rest = speed / self._gain[:n] + torque
-        return np.minimum(np.maximum(to_rest, -largest), largest)
+        to_rest = speed / self._gain[:n] + mean
+        friction = np.minimum(np.maximum(to_rest, -largest), largest)
+        return mean, motor - friction[:, None]
+
+
+AIR_DENSITY = 1.225
+"""Of the standard atmosphere at sea level, 15 degrees [kg/m^3] (ISO 2533)."""
+
+AIR_VISCOSITY = 1.4607e-5
+"""Kinematic, of the same [m^2/s]."""
+
+_SPEEDS = np.concatenate([[0.0], np.geomspace(0.1, 2e4, 600)])
+"""Close enough for straight lines to be within 1e-3 of the formulas [rad/s]."""
+
+
+def air_drag(wheel: Flywheel, gap: float = CLEARANCE) -> AirDrag:
+    """Air drag of a wheel in its housing, `gap` [m] away from it all round."""
+    turning = _SPEEDS[1:]
+    torque = disc_drag(turning, wheel.outer_radius, gap) + cylinder_drag(
+        turning, wheel.outer_radius, wheel.height, gap
+    )
+    return AirDrag(_SPEEDS, np.concatenate([[0.0], torque]))
+
+
+def disc_drag(speed: FloatArray, radius: float, gap: float) -> FloatArray:
+    """Drag torque on both faces of a disc between two walls [N m], `C rho W^2 R^5 / 2`.
+
+    Laminar and turbulent, each with merged and with separate boundary layers.
+
+    Args:
+        speed: positive [rad/s].
+        radius: of the disc [m]. gap: from a face to its wall [m].
+    """
+    reynolds, ratio = speed * radius**2 / AIR_VISCOSITY, gap / radius
+    coefficient = np.max(
+        [
+            2.0 * np.pi / (ratio * reynolds),
+            3.70 * ratio**0.1 / reynolds**0.5,
+            0.080 / (ratio ** (1.0 / 6.0) * reynolds**0.25),
+            0.102 * ratio**0.1 / reynolds**0.2,
+        ],
+        axis=0,
+    )
+    return np.asarray(0.5 * coefficient * AIR_DENSITY * speed**2 * radius**5)
+
+
+def cylinder_drag(speed: FloatArray, radius: float, height: float, gap: float) -> FloatArray:
+    """Drag torque on a cylinder in a wider one [N m], `C pi rho W^2 R^4 h / 2`.
+
+    Args:
+        speed: positive [rad/s].
+        radius: of the cylinder [m]. height: [m]. gap: between the two [m].
+    """
+    reynolds = speed * radius * gap / AIR_VISCOSITY
+    narrow, wider = (gap / radius) ** 0.3, (1.0 + gap / radius) ** 2
+    coefficient = np.max(
+        [
+            8.0 * wider / (wider - 1.0) * (gap / radius) / reynolds,
+            2.0 * narrow / reynolds**0.6,
+            1.03 * narrow / reynolds**0.5,
+            0.065 * narrow / reynolds**0.2,
+        ],
+        axis=0,
+    )
+    return np.asarray(0.5 * np.pi * coefficient * AIR_DENSITY * speed**2 * radius**4 * height)

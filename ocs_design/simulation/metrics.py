@@ -1,14 +1,19 @@
-"""What a run is measured by."""
+"""What a run is measured by, and whether its start and its integration were sound.
+
+What shows in the figures of a run, momentum and wheels that are too fast, is for the `verdict`.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import mujoco
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.design import SIDES
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import SIDES
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.recording import Recording
+from ocs_design.simulation.batch import Recording
+from ocs_design.simulation.scene import lowest_point
 from ocs_design.simulation.world import World
 
 UPRIGHT_TILT = np.radians(45.0)
@@ -19,6 +24,10 @@ UPRIGHT_HEIGHT = 0.5
 
 _SLOW = np.radians(1.0)
 """Rate below which a flight counts as one without any turning [rad/s]."""
+
+
+_AT_REST = np.radians(1.0)
+"""How near to where it ends a trunk must stay to have settled [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,14 +157,28 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     if not recording.stable[index]:
         return None
     series = series_of(recording, index, world)
-    flight, lands = _flight(series, int(recording.lift_off[index]))
-    first, last = flight.start, flight.stop - 1
-    after = slice(last, None)
+    end = len(series.time) - 1
+
+    # Instants in free flight, at least one; a robot that never left the ground has it at its end.
+    lift_off = int(recording.lift_off[index])
+    touching = np.flatnonzero(series.contact[lift_off:]) if lift_off >= 0 else np.empty(0, int)
+    first = lift_off if lift_off >= 0 else end
+    last = first + int(touching[0]) if touching.size else end
+    flight, after = slice(first, last + 1), slice(last, None)
     driven = flight if world.stands is None else after
+
+    # Roll and pitch have settled once they stay near where they end.
+    off = np.maximum(np.abs(series.roll - series.roll[-1]), np.abs(series.pitch - series.pitch[-1]))
+    moving = np.flatnonzero(off[after] > _AT_REST)
+    settled = last + (int(moving[-1]) + 1 if moving.size else 0)
+
+    _, x, y, _ = recording.attitude[end, index]
+    rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
+    above = recording.height[end, index] > UPRIGHT_HEIGHT * world.standing_height
     return Metrics(
-        lift_off_time=float(series.time[first]) if recording.lift_off[index] >= 0 else None,
+        lift_off_time=float(series.time[first]) if lift_off >= 0 else None,
         rise=float(series.com[flight, 2].max() - series.com[first, 2]),
-        touchdown_time=float(series.time[last]) if lands else None,
+        touchdown_time=float(series.time[last]) if touching.size else None,
         touchdown_roll=float(series.roll[last]),
         touchdown_pitch=_within_half_turn(series.pitch[last]),
         touchdown_rate=float(np.hypot(*series.rate[last, :2])),
@@ -165,39 +188,14 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         final_wheel_speed=float(np.abs(series.wheel_speed[-1]).max()),
         peak_wheel_torque=float(np.abs(series.wheel_torque[driven]).max()),
         momentum_error=_momentum_error(recording, index, flight, world),
-        upright_at_end=_is_upright(recording, index, world),
+        upright_at_end=bool(rises and above),
         final_roll=float(series.roll[-1]),
         final_pitch=_within_half_turn(series.pitch[-1]),
         roll_swing=float(np.ptp(series.roll[after])),
         pitch_swing=float(np.ptp(series.pitch[after])),
-        settling_time=_settling_time(series, after),
+        settling_time=float(series.time[settled] - series.time[last]),
         nutation=_nutation(series.wheel_speed[driven], world),
     )
-
-
-_AT_REST = np.radians(1.0)
-"""How near to where it ends a trunk must stay to have settled [rad]."""
-
-
-def _settling_time(series: Series, after: slice) -> float:
-    """See `Metrics`."""
-    off = np.maximum(np.abs(series.roll - series.roll[-1]), np.abs(series.pitch - series.pitch[-1]))
-    moving = np.flatnonzero(off[after] > _AT_REST)
-    steps = int(moving[-1]) + 1 if moving.size else 0
-    return float(series.time[after][steps] - series.time[after][0])
-
-
-def _flight(series: Series, lift_off: int) -> tuple[slice, bool]:
-    """Instants in free flight, at least one, and whether something touched the floor after them.
-
-    A robot that never left the ground has them at its end.
-    """
-    end = len(series.time)
-    if lift_off < 0:
-        return slice(end - 1, end), False
-    touching = np.flatnonzero(series.contact[lift_off:])
-    last = lift_off + int(touching[0]) if touching.size else end - 1
-    return slice(lift_off, last + 1), bool(touching.size)
 
 
 def _momentum_error(recording: Recording, index: int, flown: slice, world: World) -> float:
@@ -228,13 +226,85 @@ def _nutation(wheel_speed: FloatArray, world: World) -> float:
     return float(momentum / np.sqrt(smallest.prod()) * world.model.opt.timestep)
 
 
-def _is_upright(recording: Recording, index: int, world: World) -> bool:
-    last = recording.lengths[index] - 1
-    _, x, y, _ = recording.attitude[last, index]
-    rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
-    above = recording.height[last, index] > UPRIGHT_HEIGHT * world.standing_height
-    return bool(rises and above)
-
-
 def _within_half_turn(angle: float) -> float:
     return float((angle + np.pi) % (2.0 * np.pi) - np.pi)
+
+
+DEPTH_LIMIT = 0.01
+"""Deepest start below the floor, over the standing height: springs of contact throw it out."""
+
+GROWTH_LIMIT = 1e-3
+"""Largest growth of any motion of the joint drives in a step. Motions that neither grow nor decay,
+which the floating base has six of, are found to within 1e-8."""
+
+
+def objection(world: World) -> str:
+    """Why a run from here would say nothing, and the cure; empty if nothing is against it."""
+    if not (np.isfinite(world.qpos).all() and np.isfinite(world.qvel).all()):
+        return "not judged: the start is not finite; look for numbers beyond measure in the files"
+    data = mujoco.MjData(world.model)
+    data.qpos[:], data.qvel[:] = world.qpos, world.qvel
+    mujoco.mj_forward(world.model, data)
+    depth = -lowest_point(world.model, data)
+    if depth > DEPTH_LIMIT * world.standing_height:
+        return (
+            f"not judged: at the start the robot reaches {1e3 * depth:.3g} mm into the floor; "
+            f"release it so much higher, or less tilted"
+        )
+    growth = drive_growth(world.model, data)
+    if growth > GROWTH_LIMIT:
+        step = 1e3 * world.model.opt.timestep
+        return (
+            f"not judged: the joint drives are unstable at steps of {step:.3g} ms: a motion grows "
+            f"by {100.0 * growth:.3g} % in each; lower their gains, or give the links inertia "
+            f"(`ocs-design inspect` names those with next to none)"
+        )
+    return ""
+
+
+def breakdown(recording: Recording, index: int) -> str:
+    """What ended a run before its time, and the cure; empty if nothing did."""
+    if recording.stable[index]:
+        return ""
+    code = int(recording.warning[index])
+    said = f": MuJoCo stopped at {_WARNINGS[code]}" if code in _WARNINGS else ""
+    return (
+        f"not judged: the simulation became unstable{said}; look for links with next to no inertia "
+        f"and for figures that are hardly meant by `ocs-design inspect`"
+    )
+
+
+_WARNINGS = {
+    int(mujoco.mjtWarning.mjWARN_INERTIA): "an inertia that is close to singular",
+    int(mujoco.mjtWarning.mjWARN_CONTACTFULL): "more contacts than it has room for",
+    int(mujoco.mjtWarning.mjWARN_CNSTRFULL): "more constraints than it has room for",
+    int(mujoco.mjtWarning.mjWARN_BADQPOS): "a position that is huge or not a number",
+    int(mujoco.mjtWarning.mjWARN_BADQVEL): "a speed that is huge or not a number",
+    int(mujoco.mjtWarning.mjWARN_BADQACC): "an acceleration that is huge or not a number",
+    int(mujoco.mjtWarning.mjWARN_BADCTRL): "a command that is not a number",
+}
+
+
+def drive_growth(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+    """Growth per step of the fastest growing motion of drives and joint friction, in free flight.
+
+    `M q'' = -K q - D q'`, linear about the pose in `data`. Runge-Kutta of order four takes a motion
+    `exp(l t)` to `R(l dt)` times itself, `R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24` (Hairer and
+    Wanner, Solving ODEs II, section IV.2).
+    """
+    # Of every degree of freedom, by its drive and in itself.
+    damping = np.array(model.dof_damping, dtype=np.float64)
+    stiffness = np.zeros(model.nv)
+    stiffness[model.jnt_dofadr] = model.jnt_stiffness
+    driven = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_AFFINE)
+    dofs = model.jnt_dofadr[model.actuator_trnid[driven, 0]]
+    np.subtract.at(stiffness, dofs, model.actuator_biasprm[driven, 1])
+    np.subtract.at(damping, dofs, model.actuator_biasprm[driven, 2])
+    mass, n = np.empty((model.nv, model.nv)), model.nv
+    mujoco.mj_fullM(model, data, mass)
+    motion = np.zeros((2 * n, 2 * n))
+    motion[:n, n:] = np.eye(n)
+    motion[n:] = -np.linalg.solve(mass, np.hstack([np.diag(stiffness), np.diag(damping)]))
+    z = np.linalg.eigvals(motion) * model.opt.timestep
+    stretched = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))))
+    return float(stretched.max() - 1.0)

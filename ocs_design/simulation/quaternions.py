@@ -6,7 +6,7 @@ call into a general rotation class costs more than the physics.
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray
 
 
 def from_axis_angle(axis: FloatArray, angle: FloatArray) -> FloatArray:

@@ -1,14 +1,15 @@
-"""Attitude references: a turn about a fixed axis on a smooth profile that the wheels can follow."""
+"""Attitude references that the wheels can follow, sampled at the control instants of a run."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.drive.line import RESERVE
-from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.sizing.gyrostat import Gyrostat
+from ocs_design.actuation.drive import RESERVE
+from ocs_design.common.arrays import FloatArray
+from ocs_design.simulation.wheel_law import MotorLimits, WheelLaw
+from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 _FLATTENED = (
     f"the turn follows a trapezoid of rate in place of the quintic, which would take more than "
@@ -119,7 +120,7 @@ class Turn:
     extendable: bool = True
 
     def angle(self, time: FloatArray) -> FloatArray:
-        """At `time` from lift-off [rad]."""
+        """Angle at `time` from lift-off [rad]."""
         return self.start + self.span * self.profile.position(self._unit(time))
 
     def rate(self, time: FloatArray) -> FloatArray:
@@ -152,7 +153,7 @@ class FittedTurn:
 
 
 def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
-    """The turn with the first profile that leaves the feedback its reserve (`drive.line.RESERVE`).
+    """Turn with the first profile that leaves the feedback its reserve (`actuation.drive.RESERVE`).
 
     The profile asked for comes first, then trapezoids from gentle to short ramps, which trade wheel
     speed for torque. If none will do in the time asked, the turn takes longer; where it may not, it
@@ -170,7 +171,25 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
         return FittedTurn(replace(turn, profile=Step()), _STEPPED)
     stretched = [_stretched(option, body, usable) for option in (turn, *options)]
     shortest = min(stretched, key=lambda option: option.duration)
-    return FittedTurn(shortest, _lengthened(turn, shortest))
+    note = (
+        f"the turn takes {shortest.duration:.3g} s in place of the {turn.duration:.3g} s asked "
+        f"for: the wheels cannot turn the trunk faster"
+    )
+    return FittedTurn(shortest, note)
+
+
+def _stretched(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
+    """Profile stretched to the shortest time that keeps the limits, by bisection."""
+    too_short, enough = turn.duration, 2.0 * turn.duration
+    while utilisation(replace(turn, duration=enough), body, limits) > 1.0:
+        too_short, enough = enough, 2.0 * enough
+    for _ in range(30):
+        middle = 0.5 * (too_short + enough)
+        if utilisation(replace(turn, duration=middle), body, limits) > 1.0:
+            too_short = middle
+        else:
+            enough = middle
+    return replace(turn, duration=enough)
 
 
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
@@ -195,22 +214,56 @@ def _turned(inertia: FloatArray, axis: FloatArray) -> FloatArray:
     return momentum
 
 
-def _stretched(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
-    """The same profile over the shortest time that keeps the limits, by bisection."""
-    too_short, enough = turn.duration, 2.0 * turn.duration
-    while utilisation(replace(turn, duration=enough), body, limits) > 1.0:
-        too_short, enough = enough, 2.0 * enough
-    for _ in range(30):
-        middle = 0.5 * (too_short + enough)
-        if utilisation(replace(turn, duration=middle), body, limits) > 1.0:
-            too_short = middle
-        else:
-            enough = middle
-    return replace(turn, duration=enough)
+_LEVEL = np.array([0.0, 0.0, 1.0])
 
 
-def _lengthened(asked: Turn, turn: Turn) -> str:
-    return (
-        f"the turn takes {turn.duration:.3g} s in place of the {asked.duration:.3g} s asked for: "
-        f"the wheels cannot turn the trunk faster"
-    )
+@dataclass(frozen=True, eq=False)
+class Track:
+    """What one trunk should do at k control instants; after the trajectory's end it stays level.
+
+    Attributes:
+        vertical: the world's upward direction in B, unit vectors (k, 3).
+        rate: about roll and pitch in B [rad/s], (k, 2).
+        torque: what the motors give before any feedback [N m], (k, 2); see `Target.torque`.
+    """
+
+    vertical: FloatArray
+    rate: FloatArray
+    torque: FloatArray
+
+
+def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: float) -> Track:
+    """The trajectory as the law of one world follows it.
+
+    Args:
+        trajectory: see `Trajectory`.
+        law: of one world.
+        times: of the control instants from lift-off or release [s], shape (k,).
+        period: from one to the next [s].
+    """
+    flying = (times < trajectory.time[-1])[:, None]
+    vertical = _at(times, trajectory.time, trajectory.vertical)
+    vertical = vertical / np.linalg.norm(vertical, axis=1, keepdims=True)
+    rate = flying * _at(times, trajectory.time, trajectory.rate)
+    speed = _at(times, trajectory.time, trajectory.wheel_speed)
+
+    # The mean over each control step of a torque that is linear between samples and zero after the
+    # last: held for a step, it gives the momentum that was planned for that step.
+    samples, values = trajectory.time, trajectory.wheel_torque
+    until = np.clip(np.append(times, times[-1] + period), samples[0], samples[-1])
+    before = np.clip(np.searchsorted(samples, until, side="right") - 1, 0, len(samples) - 2)
+    steps = 0.5 * np.diff(samples)[:, None] * (values[1:] + values[:-1])
+    whole = np.vstack([np.zeros(values.shape[1]), np.cumsum(steps, axis=0)])
+    part = 0.5 * (until - samples[before])[:, None]
+    integral = whole[before] + part * (values[before] + _at(until, samples, values))
+    given = np.diff(integral, axis=0) / period
+
+    # The law adds the gyroscopic torque of the motion that it sees; that of the motion that was
+    # planned is in the planned torque already.
+    planned = law.gyroscopic(rate, speed) @ law.torque_map[0, :, 2:].T
+    return Track(np.where(flying, vertical, _LEVEL), rate[:, :2], given - planned)
+
+
+def _at(times: FloatArray, samples: FloatArray, values: FloatArray) -> FloatArray:
+    """Linear between samples, shape (k, m)."""
+    return np.column_stack([np.interp(times, samples, column) for column in values.T])

@@ -8,21 +8,26 @@ flies that maneuver once more, level and undisturbed, to tell the device's fault
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from ocs_design.design import Device
+from ocs_design.device.device import Device
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.stance.leg_geometry import up_axis
-from ocs_design.simulation.controller import Allocation, Gains
-from ocs_design.simulation.engine import Progress, simulate
-from ocs_design.simulation.metrics import Metrics, Series, measure, series_of
-from ocs_design.simulation.poses import Poses, poses_of
+from ocs_design.simulation.engine import Poses, Progress, poses_of, simulate
+from ocs_design.simulation.metrics import (
+    Metrics,
+    Series,
+    breakdown,
+    measure,
+    objection,
+    series_of,
+)
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.soundness import breakdown, objection
-from ocs_design.simulation.verdict import Verdict, comes_down_well, judge, stands
+from ocs_design.simulation.verdict import comes_down_well, judge, stands
+from ocs_design.simulation.wheel_law import Allocation, Gains
 from ocs_design.simulation.world import World, WorldBuilder
-from ocs_design.sizing.trajectory import Trajectory
+from ocs_design.sizing.trajectory.flight import Trajectory
 
 
 @dataclass(frozen=True)
@@ -119,22 +124,44 @@ def run_scenarios(
     flights = _fly(worlds, chosen, progress)
     pairs = list(zip(flights[::2], flights[1::2], strict=True))
     unclear = refusal(robot)
-    can_stand = _legs_bear_landings(builder, robot, maneuvers, pairs, starts, options=chosen)
-    return tuple(
-        _run(
-            maneuver,
-            flight,
-            judge(flight.metrics, maneuver, can_stand=legs, objection=unclear or flight.objection),
-            ocs=ocs,
-            can_stand=legs,
-        )
-        for maneuver, pair, legs in zip(maneuvers, pairs, can_stand, strict=True)
-        for flight, ocs in zip(pair, (True, False), strict=True)
-    )
+
+    # Where flights come down well but none of those stands, it is the legs or the device.
+    can_stand: list[bool | None] = [True if robot.legs else None] * len(maneuvers)
+    doubtful = []
+    for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True)):
+        down = [flight.metrics for flight in pair if comes_down_well(flight.metrics, maneuver)]
+        if robot.legs and down and not any(stands(metrics) for metrics in down):
+            doubtful.append(index)
+    landings = [
+        builder.level_landing(maneuvers[i], starts.get(maneuvers[i].name, BALLISTIC).carrying)
+        for i in doubtful
+    ]
+    for index, flight in zip(doubtful, _fly(landings, chosen), strict=True):
+        can_stand[index] = stands(flight.metrics)
+
+    runs = []
+    for maneuver, pair, legs in zip(maneuvers, pairs, can_stand, strict=True):
+        for flight, ocs in zip(pair, (True, False), strict=True):
+            against = unclear or flight.objection
+            verdict = judge(flight.metrics, maneuver, can_stand=legs, objection=against)
+            runs.append(
+                Run(
+                    scenario=maneuver.name,
+                    ocs=ocs,
+                    passed=verdict.passed,
+                    reason=verdict.reason,
+                    metrics=flight.metrics,
+                    series=flight.series,
+                    note=flight.world.note,
+                    poses=flight.poses,
+                    can_stand=legs,
+                )
+            )
+    return tuple(runs)
 
 
 def world_builder(robot: Robot, device: Device, options: Options) -> WorldBuilder:
-    """Of worlds that are flown with these options."""
+    """Builder of worlds that are flown with these options."""
     return WorldBuilder(
         robot,
         device,
@@ -169,40 +196,6 @@ def _fly(
     ]
 
 
-def _legs_bear_landings(
-    builder: WorldBuilder,
-    robot: Robot,
-    maneuvers: Sequence[Maneuver],
-    pairs: Sequence[tuple[_Flight, _Flight]],
-    starts: Mapping[str, JumpPlans],
-    *,
-    options: Options,
-) -> list[bool | None]:
-    """`can_stand` of each maneuver; see `judge`."""
-    if not robot.legs:
-        return [None] * len(maneuvers)
-    doubtful = [
-        index
-        for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True))
-        if _is_doubtful(maneuver, pair)
-    ]
-    worlds = [
-        builder.level_landing(maneuvers[i], starts.get(maneuvers[i].name, BALLISTIC).carrying)
-        for i in doubtful
-    ]
-    level = _fly(worlds, options)
-    found: list[bool | None] = [True] * len(maneuvers)
-    for index, flight in zip(doubtful, level, strict=True):
-        found[index] = stands(flight.metrics)
-    return found
-
-
-def _is_doubtful(maneuver: Maneuver, pair: Sequence[_Flight]) -> bool:
-    """Whether some flight comes down well, but none that does stands."""
-    down = [flight.metrics for flight in pair if comes_down_well(flight.metrics, maneuver)]
-    return bool(down) and not any(stands(metrics) for metrics in down)
-
-
 def refusal(robot: Robot) -> str:
     """Why no flight of this robot says anything; empty if they do."""
     if not robot.legs or up_axis(robot.tree, robot.trunk, robot.legs)[2] == 1.0:
@@ -210,20 +203,4 @@ def refusal(robot: Robot) -> str:
     return (
         f"not judged: the z axis of the trunk frame '{robot.trunk}' does not point up, so level "
         f"is not what it seems"
-    )
-
-
-def _run(
-    maneuver: Maneuver, flight: _Flight, verdict: Verdict, *, ocs: bool, can_stand: bool | None
-) -> Run:
-    return Run(
-        scenario=maneuver.name,
-        ocs=ocs,
-        passed=verdict.passed,
-        reason=verdict.reason,
-        metrics=flight.metrics,
-        series=flight.series,
-        note=flight.world.note,
-        poses=flight.poses,
-        can_stand=can_stand,
     )

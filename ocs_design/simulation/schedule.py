@@ -1,4 +1,9 @@
-"""What is known of a run before it starts: references and outer torques, from lift-off on."""
+"""What is known of a run before it starts: references of trunk and legs, and outer torques.
+
+`K_p (q_ref - q) + K_d (q_dot_ref - q_dot) + tau_ref` (paper, section 4) is what a position drive
+does whose command is `q_ref + (K_d q_dot_ref + tau_ref) / K_p`; its limit of force holds for the
+sum. Unlike the wheels' law it needs no feedback from the batch, and changes at every physics step.
+"""
 
 from collections.abc import Sequence
 from typing import TypeAlias
@@ -6,11 +11,105 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.controller import Target
-from ocs_design.simulation.tracking import Track, track
+from ocs_design.simulation.reference import track
+from ocs_design.simulation.scene import DRIVE
+from ocs_design.simulation.wheel_law import Target
 from ocs_design.simulation.world import World
+
+_EARLIEST = 0.5
+"""Share of the push-off before which feet that let go of the ground do not count."""
+
+_SURE = 5e-3
+"""How long nothing may touch the ground before a robot is taken to fly [s]."""
+
+NEVER = -1
+
+
+class FlightClock:
+    """Counts each world's control steps since lift-off.
+
+    A ballistic world flies from the start. One that stands is left to itself until its legs have
+    come to rest under its weight, and counts from then.
+    """
+
+    def __init__(self, worlds: Sequence[World], period: float) -> None:
+        planned = np.array([0.0 if w.legs is None else w.legs.lift_off for w in worlds])
+        self._earliest = np.ceil(_EARLIEST * planned / period)
+        self._sure = max(1, round(_SURE / period))
+        self._in_air = np.zeros(len(worlds), dtype=np.int64)
+        standing = np.array([world.stands or 0.0 for world in worlds])
+        settled = np.round(standing / period).astype(np.int64)
+        self.lift_off: NDArray[np.int64] = np.where(planned > 0.0, NEVER, settled)
+
+    def steps(self, k: int, running: int) -> NDArray[np.int64]:
+        """Since lift-off, at control instant `k`; negative for a world that is on the ground."""
+        left = self.lift_off[:running]
+        return np.where(left == NEVER, NEVER, k - left)
+
+    def look(self, k: int, touches: NDArray[np.bool_]) -> None:
+        """Note which worlds were in the air throughout control step `k`.
+
+        Args:
+            k: control step that has passed.
+            touches: whether anything touches the floor in each of its physics steps, (n, hold).
+        """
+        left, in_air = self.lift_off[: len(touches)], self._in_air[: len(touches)]
+        free = (k >= self._earliest[: len(touches)]) & ~touches.any(axis=1)
+        in_air[:] = np.where(free, in_air + 1, 0)
+        flies = (left == NEVER) & (in_air == self._sure)
+        left[flies] = k + 1 - self._sure
+
+
+class LegReferences:
+    """Commands of the joint drives of all worlds, those of equal worlds held once."""
+
+    def __init__(self, worlds: Sequence[World], hold: int) -> None:
+        # Equal for worlds with the same commands.
+        keys = [
+            (
+                id(world.legs),
+                world.model.actuator_gainprm[:, 0].tobytes(),
+                world.model.actuator_biasprm[:, 2].tobytes(),
+                world.ctrl.tobytes(),
+            )
+            for world in worlds
+        ]
+        rows = {key: row for row, key in enumerate(dict.fromkeys(keys))}
+        tables = [_commands(worlds[keys.index(key)]) for key in rows]
+        length = max(map(len, tables)) + hold
+        self._hold, self._last = hold, length - hold
+        self._row = np.array([rows[key] for key in keys])
+        # The last command holds on.
+        self._commands = np.stack(
+            [np.pad(table, ((0, length - len(table)), (0, 0)), mode="edge") for table in tables]
+        )
+
+    def write(self, k: int, control: FloatArray) -> None:
+        """Put the commands of control step `k` into `control`, shape (n, hold, nu and more)."""
+        first = min(k * self._hold, self._last)
+        now = self._commands[self._row[: len(control)], first : first + self._hold]
+        control[:, :, : now.shape[2]] = now
+
+
+def _commands(world: World) -> FloatArray:
+    """Commands at each physics step until they no longer change, shape (steps, nu)."""
+    if world.legs is None:
+        return world.ctrl[None]
+    model, legs = world.model, world.legs
+    times = np.arange(0.0, legs.time[-1] + model.opt.timestep, model.opt.timestep)
+    commands = np.tile(world.ctrl, (len(times) + 1, 1))
+    actuators = [model.actuator(DRIVE + name).id for name in legs.joints]
+    stiffness = model.actuator_gainprm[actuators, 0]
+    damping = -model.actuator_biasprm[actuators, 2]
+    position, velocity, torque = (
+        np.column_stack([np.interp(times, legs.time, column) for column in values.T])
+        for values in (legs.position, legs.velocity, legs.torque)
+    )
+    commands[:-1, actuators] = position + (damping * velocity + torque) / stiffness
+    return commands
+
 
 Steps: TypeAlias = NDArray[np.int64]
 """Control steps since lift-off, one number a world; negative on the ground."""
@@ -31,17 +130,15 @@ class References:
         self._torque = np.zeros((len(times), len(worlds), 2))
         for index, world in enumerate(worlds):
             if world.trajectory is not None:
-                self._follow(index, track(world.trajectory, world.law, times, period))
-
-    def _follow(self, index: int, planned: Track) -> None:
-        """Put a trajectory in place of one world's turn; its torque holds its acceleration."""
-        self._vertical[:, index] = planned.vertical
-        self._rate[:, index] = planned.rate
-        self._acceleration[:, index] = 0.0
-        self._torque[:, index] = planned.torque
+                # Its torque holds its acceleration.
+                planned = track(world.trajectory, world.law, times, period)
+                self._vertical[:, index] = planned.vertical
+                self._rate[:, index] = planned.rate
+                self._acceleration[:, index] = 0.0
+                self._torque[:, index] = planned.torque
 
     def at(self, steps: Steps) -> Target:
-        """Of the first worlds in the air, each so many control steps after its lift-off."""
+        """References of the worlds in the air, each so many control steps after its lift-off."""
         rows = np.maximum(steps, 0), np.arange(len(steps))
         return Target(
             self._vertical[rows],
@@ -63,7 +160,7 @@ class Pushes:
         self._last = int(acting[-1]) if acting.size else 0
 
     def at(self, steps: Steps) -> FloatArray | None:
-        """On the first worlds, shape (n, 3); None: on none of them."""
+        """Outer torque on the first worlds [N m], shape (n, 3); None: on none of them."""
         if not ((steps >= self._first) & (steps <= self._last)).any():
             return None
         rows = np.maximum(steps, 0), np.arange(len(steps))

@@ -10,15 +10,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.exceptions import SpecificationError
-from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import SpecificationError
+from ocs_design.jumping.jump import LegTrajectory
 from ocs_design.jumping.legged_body import obstacle_to_jumping
 from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import Maneuver, Shove
+from ocs_design.robot.leg_geometry import LegGeometry, leg_geometries
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.stance.leg_geometry import LegGeometry, leg_geometries
-from ocs_design.robot.stance.lifting import lifted
+from ocs_design.robot.stance import lifted
 
 STEP_HEIGHT = 0.02
 """How high Solo12 lifts its feet [m]; other robots in proportion."""
@@ -83,7 +83,7 @@ def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
 
 @dataclass(frozen=True)
 class Trot:
-    """Of one robot.
+    """Trot on the spot of one robot.
 
     Attributes:
         stride: of each foot [s]. start: in which the steps grow from nothing to their height [s].
@@ -106,7 +106,9 @@ class Trot:
         height = STEP_HEIGHT * Scale.of(robot).length
         time = np.arange(0.0, self.duration + _SAMPLE, _SAMPLE)
         growth = np.clip(time / self.start, 0.0, 1.0)
-        swing = _swings(time / self.stride, _pairs(robot, geometries))
+        # Share of its swing that each foot has behind it, 0 where it stands.
+        phase = (time / self.stride + 0.5 * _pairs(robot, geometries)[:, None]) % 1.0
+        swing = np.maximum(phase - DUTY, 0.0) / (1.0 - DUTY)
         share = 1.0 - growth * np.minimum(1.0, _UNLOADING * np.sin(np.pi * swing))
         force = self.weight * share / share.sum(axis=0)
         lift = height * growth * np.sin(np.pi * swing) ** 2
@@ -130,20 +132,16 @@ def shoved_at(stride: float, earliest: float) -> float:
     return float((np.ceil(earliest / stride - DUTY) + DUTY) * stride)
 
 
-def _swings(strides: FloatArray, pairs: FloatArray) -> FloatArray:
-    """Share of its swing that each foot has behind it, 0 where it stands, shape (feet, k).
-
-    Args:
-        strides: that have passed, shape (k,). pairs: of each foot, 0 or 1, shape (feet,).
-    """
-    phase = (strides + 0.5 * pairs[:, None]) % 1.0
-    return np.asarray(np.maximum(phase - DUTY, 0.0) / (1.0 - DUTY))
-
-
 def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
     """Which of both diagonals each foot is on, shape (feet,)."""
     obstacle = obstacle_to_jumping(robot)
-    feet = np.array([_foot(each, robot) for each in geometries]).reshape(-1, 3)
+    postures = [np.array([robot.posture[n] for n in each.chain.names]) for each in geometries]
+    feet = np.array(
+        [
+            each.chain.pose(posture).point(each.leg.foot)
+            for each, posture in zip(geometries, postures, strict=True)
+        ]
+    ).reshape(-1, 3)
     quadrants = len(np.unique(np.sign(feet[:, :2]), axis=0))
     if obstacle or not len(feet) == quadrants == _QUADRANTS:
         why = obstacle or "it has no foot before and one behind on either side, and no others"
@@ -152,12 +150,6 @@ def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
             hint="leave out `stride` of the maneuver: the robot is then shoved as it stands",
         )
     return np.where(feet[:, 0] * feet[:, 1] > 0.0, 0.0, 1.0)
-
-
-def _foot(each: LegGeometry, robot: Robot) -> FloatArray:
-    """In B, in the nominal posture [m], shape (3,)."""
-    values = np.array([robot.posture[name] for name in each.chain.names])
-    return each.chain.pose(values).point(each.leg.foot)
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +172,10 @@ class _Leg:
         chain, leg, heights = each.chain, each.leg, np.linspace(0.0, highest, _HEIGHTS)
         posture = np.array([robot.posture[name] for name in chain.names])
         positions = lifted(chain, leg.foot, leg.length, posture, heights)
-        return cls(heights, positions, np.array([_bearing(each, values) for values in positions]))
+        # Torques with which the joints hold against 1 N on the foot, upwards.
+        poses = [chain.pose(values) for values in positions]
+        bearing = [-chain.point_jacobian(pose, pose.point(leg.foot))[2] for pose in poses]
+        return cls(heights, positions, np.array(bearing))
 
     def follow(self, lift: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Joints and their torques at k instants, shape (k, n) each."""
@@ -189,9 +184,3 @@ class _Leg:
             for values in (self.position, self.bearing)
         )
         return position, bearing * force[:, None]
-
-
-def _bearing(each: LegGeometry, values: FloatArray) -> FloatArray:
-    """Torques with which the joints hold against 1 N on the foot, upwards, shape (n,)."""
-    pose = each.chain.pose(values)
-    return np.asarray(-each.chain.point_jacobian(pose, pose.point(each.leg.foot))[2])

@@ -58,64 +58,52 @@ def judge(
         return Verdict(None, unsound, Fault.UNSOUND)
     if isinstance(maneuver, Shove):
         return _shoved(metrics, can_stand)
-    return _landed(metrics, maneuver, can_stand)
-
-
-def _landed(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Verdict:
-    """Of a flight; see `judge`."""
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
         return failure
-    landing = f"touches down at {_tilt(metrics)}"
+    landing, final = f"touches down at {_tilt(metrics)}", _final_tilt(metrics)
     if can_stand is None:
-        return Verdict(True, f"{landing}; without legs there is nothing to stand on")
-    if not can_stand:
-        return Verdict(
-            True,
-            f"{landing}; standing is not judged: the legs do not bear this landing even when "
-            f"level; ends at {_final_tilt(metrics)}",
+        ending = "; without legs there is nothing to stand on"
+    elif not can_stand:
+        ending = (
+            f"; standing is not judged: the legs do not bear this landing even when level; "
+            f"ends at {final}"
         )
-    if not metrics.upright_at_end:
-        ends = f"{landing} but does not stay up: ends at {_final_tilt(metrics)}"
-        return Verdict(False, ends, Fault.STANDING)
-    return Verdict(True, f"{landing} and stands, in the end at {_final_tilt(metrics)}")
+    elif metrics.upright_at_end:
+        ending = f" and stands, in the end at {final}"
+    else:
+        return Verdict(False, f"{landing} but does not stay up: ends at {final}", Fault.STANDING)
+    return Verdict(True, f"{landing}{ending}")
 
 
 def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
-    """Of a robot that stands; see `judge`."""
+    """Verdict on a robot that is shoved as it stands; see `judge`."""
     if can_stand is None:
         unsupported = "not judged: without legs there is nothing to stand on"
         return Verdict(None, unsupported, Fault.UNSOUND)
     if not can_stand:
         falls = "not judged: the legs do not keep the robot up, not even unshoved"
         return Verdict(None, falls, Fault.UNSOUND)
-    if leans := _leaning(metrics):
+    # What a shove has for touchdown is the instant that it begins.
+    if _landing_failure(metrics):
+        leans = (
+            f"not judged: the robot does not stand level by itself: it leans by {_tilt(metrics)} "
+            f"before the shove"
+        )
         return Verdict(None, leans, Fault.UNSOUND)
+    if metrics.touchdown_rate > REST_RATE:
+        rate = np.degrees(metrics.touchdown_rate)
+        turns = (
+            f"not judged: the robot does not stand still by itself: it turns at {rate:.0f} deg/s "
+            f"before the shove"
+        )
+        return Verdict(None, turns, Fault.UNSOUND)
     pitch, roll = np.degrees([metrics.pitch_swing, metrics.roll_swing])
     swing = f"swings by pitch {_degrees(pitch)}, roll {_degrees(roll)} deg from peak to peak"
     if not metrics.upright_at_end:
         ends = f"{swing} and does not stay up: ends at {_final_tilt(metrics)}"
         return Verdict(False, ends, Fault.STANDING)
     return Verdict(True, f"{swing}, is at rest after {metrics.settling_time:.2f} s and stands")
-
-
-def _leaning(metrics: Metrics) -> str:
-    """Why a robot is in no state to be shoved; empty if it stands level and at rest.
-
-    What a shove has for touchdown is the instant that it begins.
-    """
-    if _landing_failure(metrics):
-        return (
-            f"not judged: the robot does not stand level by itself: it leans by {_tilt(metrics)} "
-            f"before the shove"
-        )
-    if metrics.touchdown_rate > REST_RATE:
-        rate = np.degrees(metrics.touchdown_rate)
-        return (
-            f"not judged: the robot does not stand still by itself: it turns at {rate:.0f} deg/s "
-            f"before the shove"
-        )
-    return ""
 
 
 def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
@@ -161,23 +149,20 @@ def _unsound(metrics: Metrics | None) -> str:
 
 def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     """What was wrong up to touchdown; None if nothing."""
-    if failure := _turn_failure(metrics, maneuver):
+    if (
+        isinstance(maneuver, Flip)
+        and abs(metrics.turned_angle - maneuver.angle) > LANDING_TOLERANCE
+    ):
+        turned, asked = np.degrees([metrics.turned_angle, maneuver.angle])
+        failure = f"turns {_degrees(turned)} of {asked:.0f} deg before touchdown"
         return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics):
         return Verdict(False, failure, Fault.LANDING)
     return None
 
 
-def _turn_failure(metrics: Metrics, maneuver: Maneuver) -> str:
-    if not isinstance(maneuver, Flip):
-        return ""
-    if abs(metrics.turned_angle - maneuver.angle) <= LANDING_TOLERANCE:
-        return ""
-    turned, asked = np.degrees([metrics.turned_angle, maneuver.angle])
-    return f"turns {_degrees(turned)} of {asked:.0f} deg before touchdown"
-
-
 def _landing_failure(metrics: Metrics) -> str:
+    """What is wrong with the attitude at touchdown; empty if it is level."""
     tilt = max(abs(metrics.touchdown_roll), abs(metrics.touchdown_pitch))
     if tilt <= LANDING_TOLERANCE:
         return ""
@@ -186,12 +171,15 @@ def _landing_failure(metrics: Metrics) -> str:
 
 
 def _tilt(metrics: Metrics) -> str:
-    pitch, roll = np.degrees([metrics.touchdown_pitch, metrics.touchdown_roll])
-    return f"pitch {_degrees(pitch)}, roll {_degrees(roll)} deg"
+    return _angles(metrics.touchdown_pitch, metrics.touchdown_roll)
 
 
 def _final_tilt(metrics: Metrics) -> str:
-    pitch, roll = np.degrees([metrics.final_pitch, metrics.final_roll])
+    return _angles(metrics.final_pitch, metrics.final_roll)
+
+
+def _angles(pitch: float, roll: float) -> str:
+    pitch, roll = np.degrees([pitch, roll])
     return f"pitch {_degrees(pitch)}, roll {_degrees(roll)} deg"
 
 

@@ -1,4 +1,8 @@
-"""One simulated world: a model, where it starts, what its wheels and its surroundings do."""
+"""One simulated world: a model, where it starts, what its wheels and its surroundings do.
+
+The wheels and the law live on the trunk, which in some robots hangs below the floating base by
+joints (a humanoid's chest over its pelvis). For most robots the chain is empty.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,16 +10,15 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.design import Device
-from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
-from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Device
+from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan, LegTrajectory
 from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Unforeseen
+from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.controller import Allocation, Gains, WheelLaw
-from ocs_design.simulation.desaturation import Desaturation
-from ocs_design.simulation.drives import DRIVE, leg_joints, set_gains
+from ocs_design.robot.tree import Body, JointKind
+from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import Imperfections
 from ocs_design.simulation.launch import (
     Push,
@@ -23,23 +26,118 @@ from ocs_design.simulation.launch import (
     launch,
     level_launch,
     on_the_ground,
+    place,
+    stand,
 )
-from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.placing import place, stand
 from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, Turn, fit_turn
 from ocs_design.simulation.scene import (
+    DRIVE,
     JUMP_STEP,
     WHEEL_JOINTS,
     Sensor,
     Wheels,
     compile_scene,
+    leg_joints,
     locked_inertia,
     robot_scene,
+    set_gains,
 )
 from ocs_design.simulation.trotting import waiting
-from ocs_design.simulation.trunk import TrunkChain
-from ocs_design.sizing.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory import Trajectory
+from ocs_design.simulation.wheel_law import (
+    Allocation,
+    Desaturation,
+    Gains,
+    MotorLimits,
+    WheelLaw,
+)
+from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """One hinge between the floating base and the trunk.
+
+    Attributes:
+        fixed: of the child's frame in its parent at zero, quaternion (4,).
+        axis: in the child's frame, shape (3,).
+        position, velocity: index of the joint in qpos and in qvel.
+    """
+
+    fixed: FloatArray
+    axis: FloatArray
+    position: int
+    velocity: int
+
+
+@dataclass(frozen=True, eq=False)
+class TrunkChain:
+    """Chain of bodies from the floating base to the trunk's frame B.
+
+    Attributes:
+        position, velocity: where the free joint starts in qpos and in qvel.
+        links: from the base outwards; slides do not turn the trunk and are left out.
+        end: frame B in the last body, quaternion (4,).
+    """
+
+    position: int
+    velocity: int
+    links: tuple[Link, ...]
+    end: FloatArray
+
+    @classmethod
+    def of(cls, robot: Robot, model: mujoco.MjModel) -> "TrunkChain":
+        """The chain of `robot` with the coordinates of `model`."""
+        # Bodies below the floating base on the way to the trunk.
+        tree = robot.tree
+        path: list[Body] = []
+        last = tree.body_of_link[robot.trunk]
+        while tree.bodies[last].joint is not None:
+            path.insert(0, tree.bodies[last])
+            last = tree.bodies[last].parent
+        fixed, links = np.eye(3), []
+        for body in path:
+            fixed = fixed @ body.placement.rotation
+            if body.joint is not None and body.joint.kind is JointKind.REVOLUTE:
+                joint = model.joint(body.joint.name)
+                position, velocity = int(joint.qposadr[0]), int(joint.dofadr[0])
+                turn = quaternion(fixed)
+                links.append(Link(turn, body.joint.axis, position, velocity))
+                fixed = np.eye(3)
+        end = tree.bodies[tree.body_of_link[robot.trunk]].links[robot.trunk].rotation
+        free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
+        return cls(
+            int(model.jnt_qposadr[free]),
+            int(model.jnt_dofadr[free]),
+            tuple(links),
+            quaternion(fixed @ end),
+        )
+
+    def attitude(self, qpos: FloatArray) -> FloatArray:
+        """Frame B in the world, quaternions, from qpos (..., nq); shape (..., 4)."""
+        found = qpos[..., self.position + 3 : self.position + 7]
+        for link in self.links:
+            hinge = quaternions.from_axis_angle(link.axis, qpos[..., link.position])
+            found = quaternions.product(found, quaternions.product(link.fixed, hinge))
+        return found if _is_identity(self.end) else quaternions.product(found, self.end)
+
+    def rate(self, qpos: FloatArray, qvel: FloatArray) -> FloatArray:
+        """Angular rate of the trunk in B [rad/s], shape (..., 3)."""
+        found: FloatArray = qvel[..., self.velocity + 3 : self.velocity + 6]
+        for link in self.links:
+            hinge = quaternions.from_axis_angle(link.axis, qpos[..., link.position])
+            step = quaternions.matrix(quaternions.product(link.fixed, hinge))
+            found = np.einsum("...ji,...j->...i", step, found)
+            found = found + link.axis * qvel[..., link.velocity, None]
+        if _is_identity(self.end):
+            return found
+        rate: FloatArray = np.einsum("ji,...j->...i", quaternions.matrix(self.end), found)
+        return rate
+
+
+def _is_identity(quaternion: FloatArray) -> bool:
+    return bool(quaternion[0] == 1.0)
+
 
 PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
 """K_p and K_d of all robots where none are stated."""
@@ -51,7 +149,7 @@ STEADY_LEGS = 3
 
 @dataclass(frozen=True)
 class Addresses:
-    """Where things are in the vectors of a model; equal for all worlds of a batch.
+    """Addresses in the vectors of a model, equal for all worlds of a batch.
 
     Attributes:
         wheels: of the wheel joints in qvel. motors: of the wheel motors in ctrl.
@@ -156,7 +254,7 @@ class WorldBuilder:
         return self._build(maneuver, wheels, trajectory, jump, level=False)
 
     def level_landing(self, maneuver: Maneuver, jump: JumpPlan = IN_FLIGHT) -> World:
-        """The same flight, level and undisturbed with braked wheels: what the legs can bear."""
+        """World of the same flight, level, undisturbed, wheels braked: what the legs can bear."""
         return self._build(maneuver, Wheels.BRAKED, None, jump, level=True)
 
     def _build(
@@ -191,7 +289,25 @@ class WorldBuilder:
         settling = settling_time(self._robot, maneuver.gravity)
         weight = float(model.body_mass.sum()) * maneuver.gravity
         waits = waiting(maneuver, self._robot, weight, settling)
-        fitted = self._fit(start.turn, body, wheels, trajectory)
+
+        active = wheels is Wheels.ACTIVE
+        fitted = FittedTurn(start.turn, "" if trajectory is None else trajectory.note)
+        if active and trajectory is None:
+            fitted = fit_turn(start.turn, body, self._limits)
+        law, desaturation = WheelLaw.off(), None
+        if active:
+            # One leg or two on the ground hold no attitude.
+            balances = 0 < len(self._robot.legs) < STEADY_LEGS
+            law = WheelLaw.of(body, self._gains, self._limits, self._allocation, balances=balances)
+        if active and self._desaturate:
+            desaturation = Desaturation.of(
+                self._robot, standing, body.spin_inertia, maneuver.gravity
+            )
+
+        # Every leg drive at the nominal posture, the motors at zero.
+        ctrl = np.zeros(model.nu)
+        for name in leg_joints(self._robot):
+            ctrl[model.actuator(DRIVE + name).id] = self._robot.posture[name]
         if legs is not None:
             start = on_the_ground(start, standing)
         place(self._robot, model, data, start, standing)
@@ -199,12 +315,12 @@ class WorldBuilder:
             model=model,
             qpos=data.qpos.copy(),
             qvel=data.qvel.copy(),
-            ctrl=_posture_control(self._robot, model),
+            ctrl=ctrl,
             addresses=addresses(model),
             chain=TrunkChain.of(self._robot, model),
             body=body,
-            law=self._law(body, wheels),
-            limits=self._limits if wheels is Wheels.ACTIVE and self._limits.is_finite else None,
+            law=law,
+            limits=self._limits if active and self._limits.is_finite else None,
             turn=fitted.turn,
             trajectory=trajectory,
             legs=waits.legs or legs,
@@ -217,31 +333,8 @@ class WorldBuilder:
             + flight
             + settling,
             note="; ".join(filter(None, (jump.note, fitted.note))),
-            desaturation=self._desaturation(body, wheels, standing, maneuver.gravity),
+            desaturation=desaturation,
         )
-
-    def _desaturation(
-        self, body: Gyrostat, wheels: Wheels, standing: float, gravity: float
-    ) -> Desaturation | None:
-        if not self._desaturate or wheels is not Wheels.ACTIVE:
-            return None
-        return Desaturation.of(self._robot, standing, body.spin_inertia, gravity)
-
-    def _fit(
-        self, turn: Turn, body: Gyrostat, wheels: Wheels, trajectory: Trajectory | None
-    ) -> FittedTurn:
-        if trajectory is not None:
-            return FittedTurn(turn, trajectory.note)
-        if wheels is Wheels.ACTIVE:
-            return fit_turn(turn, body, self._limits)
-        return FittedTurn(turn, "")
-
-    def _law(self, body: Gyrostat, wheels: Wheels) -> WheelLaw:
-        if wheels is not Wheels.ACTIVE:
-            return WheelLaw.off()
-        # One leg or two on the ground hold no attitude.
-        balances = 0 < len(self._robot.legs) < STEADY_LEGS
-        return WheelLaw.of(body, self._gains, self._limits, self._allocation, balances=balances)
 
 
 def wheel_gains(robot: Robot) -> Gains:
@@ -268,14 +361,6 @@ def addresses(model: mujoco.MjModel) -> Addresses:
         momentum=at[Sensor.MOMENTUM],
         height=at[Sensor.TRUNK] + 2,
     )
-
-
-def _posture_control(robot: Robot, model: mujoco.MjModel) -> FloatArray:
-    """Every leg drive at the nominal posture, the motors at zero, shape (nu,)."""
-    ctrl = np.zeros(model.nu)
-    for name in leg_joints(robot):
-        ctrl[model.actuator(DRIVE + name).id] = robot.posture[name]
-    return ctrl
 
 
 def start_states(worlds: Sequence[World]) -> FloatArray:

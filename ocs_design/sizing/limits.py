@@ -1,22 +1,13 @@
-"""The limits of the specification by name, and the smallest change of one that mends a design."""
+"""The limits of the specification by name."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial
-from math import isfinite, log10, pi
+from math import pi
 from typing import Any, TypeVar
 
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.requirement.requirement import Requirement
-from ocs_design.units import round_outwards
-
-MOST_CHANGE = 1e3
-"""A limit that helps only when multiplied or divided by more than this is no advice."""
-
-PRECISION = 1e-6
-"""Relative, of the smallest change that helps."""
-
-_STEP = 1.25
+from ocs_design.common.units import round_outwards
+from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.maneuver import Requirement
 
 Owner = TypeVar("Owner", Envelope, Requirement)
 
@@ -44,7 +35,7 @@ class Limit:
         return float(getattr(owner, self.field))
 
     def replaced(self, owner: Owner, value: float) -> Owner:
-        """The same with this limit alone changed."""
+        """Limits with this one alone changed."""
         change: dict[str, Any] = {self.field: value}
         return replace(owner, **change)
 
@@ -61,7 +52,7 @@ class Limit:
         return f"{self.label} {self.figure(value)}"
 
     def loose_text(self, value: float) -> str:
-        """The same with three digits, rounded to the loose side."""
+        """Text with three digits, rounded to the loose side."""
         figure = round_outwards(value * self.per_si, upwards=self.loosens_upwards)
         return f"{self.label} {figure:.6g} {self.unit}".rstrip()
 
@@ -77,7 +68,7 @@ RIM_LIMITS = (
     Limit("wheel_mass_max", "wheel_mass_max", "mass_max", True, "g", 1e3),
     STRESS,
 )
-"""Those of the envelope, in the order in which they are reported."""
+"""Limits of the envelope, in the order in which they are reported."""
 
 WHEEL_SPEED = Limit("wheel_speed_max", "wheel_speed_max", "wheel_speed_max", True, "rpm", 30.0 / pi)
 BUS_VOLTAGE = Limit("bus_voltage", "bus_voltage", "bus_voltage", True, "V", 1.0)
@@ -88,64 +79,4 @@ DEVICE_MASS = Limit("mass_max", "mass_max", "mass_max", True, "g", 1e3)
 LIMITS: Mapping[str, Limit] = {
     limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, TIME, DEVICE_MASS)
 }
-"""By name."""
-
-
-def told_changes(texts: Sequence[str]) -> str:
-    """Single changes that would do, at least one, as a sentence."""
-    which = "Any one of these" if len(texts) > 1 else "This"
-    return f"{which} alone would do: {'; '.join(texts)}."
-
-
-def smallest_changes(
-    values: Mapping[Limit, float],
-    mends: Callable[[Limit, float], bool],
-    precision: float = PRECISION,
-) -> dict[Limit, float]:
-    """For each limit that can mend the design alone the value that just does, gentlest first [SI].
-
-    Args:
-        values: of the limits as they are [SI].
-        mends: whether a design exists with one limit at another value.
-        precision: of the values, relative.
-    """
-    found = {
-        limit: smallest_change(limit, now, partial(mends, limit), precision)
-        for limit, now in values.items()
-    }
-    helpful = {limit: value for limit, value in found.items() if value is not None}
-    return dict(sorted(helpful.items(), key=lambda item: abs(log10(item[1] / values[item[0]]))))
-
-
-def smallest_change(
-    limit: Limit, now: float, mends: Callable[[float], bool], precision: float = PRECISION
-) -> float | None:
-    """The value next to `now`, on its loose side, that mends the design.
-
-    Steps outwards until it mends, then halves the last step: a limit loosened too far need not
-    mend what a smaller change does, as a larger wheel also weighs on the robot.
-
-    Args:
-        limit: which one, for the side on which it is loose.
-        now: its value, at which `mends` is false.
-        mends: whether a value allows a design.
-        precision: of the value, relative.
-
-    Returns:
-        None if nothing within `MOST_CHANGE` helps.
-    """
-    if not (isfinite(now) and now > 0.0):
-        return None
-    tight, loose = 1.0, _STEP
-    while not mends(limit.loosened(now, loose)):
-        tight, loose = loose, loose * _STEP
-        if tight > MOST_CHANGE:
-            return None
-    while loose - tight > precision / 3.0 * tight:
-        middle = (tight + loose) / 2.0
-        if mends(limit.loosened(now, middle)):
-            loose = middle
-        else:
-            tight = middle
-    # Just inside: on the edge itself a single point is feasible, and no solver can prove it.
-    return limit.loosened(now, loose * (1.0 + precision / 3.0))
+"""All limits by name."""

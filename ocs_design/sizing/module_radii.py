@@ -12,7 +12,7 @@ radii that leave room are one interval, between the largest of those crossings t
 below and the smallest of those that bound it from above.
 
 A rim with broken edges and holes is a plain one of so much more k and mass as they take
-(`rim_cuts`). That changes little along with (R, r), and each round of settling it at a crossing
+(`rim_cuts`). That changes little along with (R, r), and each round of solving for it at a crossing
 gains two digits or so.
 """
 
@@ -21,20 +21,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.sizing.rim_closed_form import BORE_SHARE, flat_wall_radius
-from ocs_design.sizing.rim_problem import RimLimits
+from ocs_design.common.arrays import FloatArray
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, flat_wall_radius
 
 # From above each step of Newton's method halves the error at least; then it doubles the digits.
 _NEWTON_STEPS = 12
 # Relative, of a last step that no digit is left to gain by: the one after it would be nothing.
 _LAST_STEP = 1e-9
 # Of what is cut off a rim, at least a digit each: it is at most an eighth of its cross-section.
-_SETTLING = 7
+_CUT_ROUNDS = 7
 
 
 class _Asked(NamedTuple):
-    """Of a plain rim, for chamfers and holes to be cut off it.
+    """Figures of a plain rim, for chamfers and holes to be cut off it.
 
     Attributes:
         full: k [m^5]. mass: largest, over pi rho [m^3].
@@ -45,7 +44,7 @@ class _Asked(NamedTuple):
 
 
 class _Crossing(NamedTuple):
-    """Where two limits meet: r and R [m]."""
+    """Rim at which two limits meet: r and R [m]."""
 
     inner: FloatArray
     outer: FloatArray
@@ -58,7 +57,7 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     crossings = [_tall_and_narrow, _tall_and_closed]
     if not np.all(np.isinf(limits.mass_max)):
         crossings += [_tall_and_heavy, _thin_and_heavy]
-    found = [_settled(crossing, inertia, limits) for crossing in crossings]
+    found = [_crossing_radius(crossing, inertia, limits) for crossing in crossings]
     radius: FloatArray = np.maximum.reduce(
         np.broadcast_arrays(by_wall, np.asarray(limits.outer_radius_min), *found)
     )
@@ -73,7 +72,7 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     by_share = stretch / (outer + inner * BORE_SHARE**2)
     square = np.minimum(by_bore, by_share)
     crossings = (_stretched_and_heavy, _stretched_and_flat, _thin_and_flat)
-    found = [_settled(crossing, inertia, limits) for crossing in crossings]
+    found = [_crossing_radius(crossing, inertia, limits) for crossing in crossings]
     radius: FloatArray = np.minimum.reduce(
         np.broadcast_arrays(
             np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0)), *found
@@ -82,22 +81,19 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     return radius
 
 
-def _settled(
+def _crossing_radius(
     crossing: Callable[[_Asked, RimLimits], _Crossing], inertia: FloatArray, limits: RimLimits
 ) -> FloatArray:
     """R where two limits meet on a rim with what is cut off it [m]."""
     cuts, per_volume = limits.cuts, np.pi * limits.density
     full, mass = 2.0 * inertia / per_volume, np.asarray(limits.mass_max) / per_volume
     found = crossing(_Asked(full, mass), limits)
-    for _ in range(_SETTLING if cuts.any else 0):
+    for _ in range(_CUT_ROUNDS if cuts.any else 0):
         # Where they do not meet nothing is cut.
-        spread, area = (_finite(cut(*found)) for cut in (cuts.spread, cuts.area))
+        both = cuts.spread(*found), cuts.area(*found)
+        spread, area = (np.where(np.isfinite(cut), cut, 0.0) for cut in both)
         found = crossing(_Asked(full + spread, mass + area), limits)
     return found.outer
-
-
-def _finite(cut: FloatArray) -> FloatArray:
-    return np.where(np.isfinite(cut), cut, 0.0)
 
 
 def _tall_and_narrow(asked: _Asked, limits: RimLimits) -> _Crossing:
@@ -138,7 +134,7 @@ def _thin_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
     start = (wall + np.sqrt(np.maximum(2.0 * light - wall**2, 0.0))) / 2.0
 
     def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Of what the largest mass has with the least wall, and its slope."""
+        """Excess of what the largest mass has with the least wall, and its slope."""
         inner = radius - wall
         value = asked.mass * (radius**2 + inner**2) + web * inner**4 - asked.full
         return value, 2.0 * asked.mass * (radius + inner) + 4.0 * web * inner**3
@@ -153,7 +149,7 @@ def _thin_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
     flat = np.asarray(limits.height_min)
 
     def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Of what the flattest rim with the least wall has, and its slope."""
+        """Excess of what the flattest rim with the least wall has, and its slope."""
         inner = radius - wall
         value = flat * radius**4 - (flat - web) * inner**4 - asked.full
         return value, 4.0 * (flat * radius**3 - (flat - web) * inner**3)
@@ -193,7 +189,7 @@ def _stretched_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
 
 
 def _stretched(square: FloatArray, limits: RimLimits) -> _Crossing:
-    """Of a rim with that R^2 [m^2] the bore that the hoop stress leaves."""
+    """Bore that the hoop stress leaves of a rim with that R^2 [m^2]."""
     nu = limits.poisson_ratio
     square = np.maximum(square, 0.0)
     bore = (limits.stretch_max - (3.0 + nu) * square) / (1.0 - nu)
@@ -205,7 +201,7 @@ def _root_from_above(
     start: FloatArray,
     web: float | FloatArray,
 ) -> FloatArray:
-    """Of a convex, rising function, by Newton's method; without a web it is the start itself.
+    """Root of a convex, rising function, by Newton's method; without a web it is the start itself.
 
     Args:
         excess: the function and its slope.

@@ -1,15 +1,23 @@
-"""Where the two modules stand on the trunk."""
+"""Places of the modules on the trunk: its faces, and the nearest place without collisions."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import Generic, NamedTuple, TypeVar
 
-from ocs_design.arrays import FloatArray, frozen
-from ocs_design.drive.gear import GearRoom
-from ocs_design.robot.bounds import trunk_top
+import numpy as np
+
+from ocs_design.actuation.motor import GearRoom
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.parts.foot import base_radius, larger, plate_back, wheel_height
+from ocs_design.parts.housing import half_height, housing_outer_radius
+from ocs_design.parts.motor_mount import HeldMotor, mount_of
+from ocs_design.requirement.froude import Envelope
+from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
+from ocs_design.robot.collision import CollisionModel, Nearest, Part, collision_model
+from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.foot import base_radius, larger, plate_back, wheel_height
-from ocs_design.sizing.housing import half_height, housing_outer_radius
-from ocs_design.sizing.motor_mount import HeldMotor, mount_of
+from ocs_design.robot.tree import Ball
 
 CLEARANCE = 1.1
 """Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
@@ -30,7 +38,7 @@ class Size(NamedTuple, Generic[Real]):
 
 
 def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
-    """Of a bare wheel, that turns freely over what carries it."""
+    """Size of a bare wheel that turns freely over what carries it."""
     reach = sphere_radius(outer_radius, height)
     return Size(reach, CLEARANCE * reach)
 
@@ -42,7 +50,7 @@ def module_size(
     behind_radius: Real,
     mount_reach: Real,
 ) -> Size[Real]:
-    """Of a housing on its foot, around a wheel of that outer radius and height, with its motor.
+    """Size of a housing on its foot, around a wheel of this radius and height, with its motor.
 
     All in metres. What stands behind the foot's plate, motor, gear and cage, goes so far back and
     so far to both sides: how high it stands is no matter to a turn about the vertical.
@@ -57,7 +65,7 @@ def module_size(
 def motor_size(
     motor: HeldMotor, room: GearRoom | None, outer_radius: Real, height: Real
 ) -> Size[Real]:
-    """Of a module with this motor behind a gear of that room, as far as its size is known."""
+    """Size of a motor behind a gear of this room, as far as it is known."""
     zero, mount = 0.0 * outer_radius, mount_of(motor, room)
     depth, radius = mount.behind(motor)
     return module_size(outer_radius, height, zero + depth, zero + radius, zero + mount.holes.reach)
@@ -82,7 +90,7 @@ class Place:
         return self.centers(wheel_size(outer_radius, height))
 
     def centers(self, size: Size[float]) -> FloatArray:
-        """In B [m], left first, shape (2, 3)."""
+        """Centres of the modules in B [m], left first, shape (2, 3)."""
         x, y, z = self.left(size)
         return frozen([[x, y, z], [x, -y, z]])
 
@@ -94,7 +102,7 @@ class Place:
 
 
 def sphere_radius(outer_radius: Real, height: Real) -> Real:
-    """Of the sphere around a cylinder, sqrt(R^2 + h^2 / 4) [m]."""
+    """Radius of the sphere around a cylinder, sqrt(R^2 + h^2 / 4) [m]."""
     # No function of numpy: symbols know only operators.
     square: Real = outer_radius**2 + height**2 / 4.0
     reach: Real = square**0.5
@@ -102,7 +110,7 @@ def sphere_radius(outer_radius: Real, height: Real) -> Real:
 
 
 def place_on_top(robot: Robot) -> Place:
-    """On top of the trunk over the centre of mass, symmetric to the sagittal plane.
+    """Place on top of the trunk over the centre of mass, symmetric to the sagittal plane.
 
     Each module may be turned to any incidence without touching the trunk or the other one. Other
     parts of the robot are not looked at: see `free_place`.
@@ -117,3 +125,269 @@ def place_at(position: tuple[float, ...]) -> Place:
     """The left module at `position` in B [m], the right one mirrored in y."""
     x, y, z = position
     return Place(origin=(x, y, z), outward=(0.0, 0.0, 0.0))
+
+
+FORWARD, LEFT, UP = np.eye(3)
+
+ON_TOP = "on top of"
+
+STEP = 0.5
+"""Between places that are tried, over the radius of the largest module's sphere."""
+
+STAND_OFF = 2.0
+"""Farthest from a face, in the same unit."""
+
+Spot = tuple[float, float, float]
+"""Where on a face: along, across and off it [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A side of the box around the trunk.
+
+    Attributes:
+        name: for people, as in "on top of the trunk".
+        normal, along, across: unit vectors in B: outwards, and two in the face, shape (3,).
+        outward: how the left module stands off as it grows; see `Place`.
+        upright: whether it stands on its foot; see `Place`.
+        nearest: point of the face that is nearest to the centre of mass, in B [m], shape (3,).
+        shifts, offsets: ranges along and across, from `nearest`, that stay on the face [m].
+    """
+
+    name: str
+    normal: FloatArray
+    along: FloatArray
+    across: FloatArray
+    outward: FloatArray
+    nearest: FloatArray
+    shifts: tuple[float, float]
+    offsets: tuple[float, float]
+    upright: bool = False
+
+    def place(self, spot: Spot) -> Place:
+        """Place of modules at a spot, to the micrometre."""
+        shift, offset, stand_off = spot
+        origin = self.nearest + shift * self.along + offset * self.across + stand_off * self.normal
+        # A rounding error of the centre of mass must not reach the files.
+        x, y, z = (round(float(value), 6) + 0.0 for value in origin)
+        out_x, out_y, out_z = (float(value) for value in self.outward)
+        return Place((x, y, z), (out_x, out_y, out_z), self.upright)
+
+    def spots(self, reach: float) -> Iterator[Spot]:
+        """Spots to try for modules that fill a sphere of radius `reach` [m]."""
+        step = STEP * reach
+        for shift in _steps(self.shifts, step):
+            for offset in _steps(self.offsets, step):
+                for stand_off in _steps((0.0, STAND_OFF * reach), step):
+                    yield shift, offset, stand_off
+
+
+def faces(robot: Robot) -> tuple[Face, ...]:
+    """Top, back and flanks of the trunk.
+
+    Nothing is put beneath it, where a robot lands that falls short, or in front, where legs fold
+    up and cameras look. Beside it, each module is on its own side.
+    """
+    forward, shifts = _range(robot, FORWARD)
+    up, offsets = _range(robot, UP)
+    half_width = max(_plane(robot, LEFT), _plane(robot, -LEFT))
+    flank = half_width * LEFT + forward * FORWARD + up * UP
+    return (
+        _sagittal_face(robot, ON_TOP, UP, FORWARD),
+        _sagittal_face(robot, "behind", -FORWARD, UP),
+        Face("beside", LEFT, FORWARD, UP, CLEARANCE * LEFT, flank, shifts, offsets),
+    )
+
+
+def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArray) -> Face:
+    """Face with both modules side by side, as far apart as the trunk is wide or less."""
+    shift, shifts = _range(robot, along)
+    upright = name == ON_TOP
+    return Face(
+        name,
+        normal,
+        along,
+        LEFT,
+        CLEARANCE * (LEFT if upright else normal + LEFT),
+        _plane(robot, normal) * normal + shift * along,
+        shifts,
+        (0.0, max(_plane(robot, LEFT), _plane(robot, -LEFT))),
+        upright,
+    )
+
+
+def _plane(robot: Robot, normal: FloatArray) -> float:
+    return trunk_extent(robot.tree, robot.trunk, normal)
+
+
+def _range(robot: Robot, direction: FloatArray) -> tuple[float, tuple[float, float]]:
+    """Coordinate on the trunk nearest to the centre of mass, and how far the trunk goes from it."""
+    low, high = -_plane(robot, -direction), _plane(robot, direction)
+    start = float(np.clip(direction @ robot.com, low, high))
+    return start, (low - start, high - start)
+
+
+def _steps(limits: tuple[float, float], step: float) -> list[float]:
+    """Multiples of `step` between two limits that have 0 between them."""
+    low, high = limits
+    return [count * step for count in range(int(np.ceil(low / step)), int(high // step) + 1)]
+
+
+_ROUNDING = 2e-6
+"""Places are rounded to the micrometre [m]."""
+
+_NEAR = 0.5
+"""What comes nearer than this, over a ball's radius, is looked at more closely."""
+
+_SIZES = 5
+"""Of a module that are tried."""
+
+_HALVINGS = 5
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """The smallest and the largest housing on its foot, whatever motor is behind it."""
+
+    smallest: Size[float]
+    largest: Size[float]
+
+    @classmethod
+    def of(cls, envelope: Envelope) -> "Sizes":
+        """Sizes of modules in their housings around rims that an envelope allows."""
+        least_radius = envelope.inner_radius_min + envelope.wall_min
+        return cls(
+            _housing(least_radius, envelope.height_min),
+            _housing(envelope.outer_radius_max, envelope.height_max),
+        )
+
+    def all(self) -> Iterator[Size[float]]:
+        """Radii from the largest down, so close that balls at them cover all between."""
+        for share in np.linspace(1.0, 0.0, _SIZES).tolist():
+            pairs = zip(self.smallest, self.largest, strict=True)
+            yield Size(*((1.0 - share) * small + share * large for small, large in pairs))
+
+
+@dataclass(frozen=True)
+class FreePlace:
+    """Place of the modules, and why it is that one.
+
+    Attributes:
+        place: of both, for every size.
+        face: where on the trunk, as in "behind the trunk".
+        blocked_by: the part that keeps them from standing on top over the centre of mass; empty if
+            they do.
+        free: whether nothing is hit there; False: no place that was tried is free.
+    """
+
+    place: Place
+    face: str
+    blocked_by: str
+    free: bool
+
+
+def specified_place(position: tuple[float, ...] | None, robot: Robot, envelope: Envelope) -> Place:
+    """The left module's centre as stated in B [m]; None: the free place nearest to the robot's."""
+    return place_free(robot, envelope).place if position is None else place_at(position)
+
+
+@lru_cache(maxsize=1)
+def place_free(robot: Robot, envelope: Envelope) -> FreePlace:
+    """Place on top over the centre of mass if that is free, else the free place nearest to it.
+
+    Free is what no other part of the robot comes near, in the nominal posture and while its legs
+    give way (`landing_ranges`), whatever the module's size and incidence. Nearest is where a module
+    adds least to the robot's inertia about roll and pitch, each over the robot's own.
+    """
+    search = _Search(collision_model(robot), Sizes.of(envelope))
+    on_top = place_on_top(robot)
+    blocker = search.blocker(on_top)
+    if blocker is None:
+        return FreePlace(on_top, ON_TOP, "", free=True)
+    for face, spot in search.spots():
+        if search.is_free(face.place(spot)):
+            place = face.place(search.drawn_in(face, spot))
+            return FreePlace(place, face.name, blocker.name, free=True)
+    return FreePlace(on_top, ON_TOP, blocker.name, free=False)
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Attributes: see `CollisionModel` and `Sizes`."""
+
+    collision: CollisionModel
+    sizes: Sizes
+
+    def spots(self) -> list[tuple[Face, Spot]]:
+        """Spots of all faces, the nearest first."""
+        found = [
+            (face, spot)
+            for face in faces(self.collision.robot)
+            for spot in face.spots(self.sizes.largest.reach)
+        ]
+        return sorted(found, key=lambda each: self._cost(each[0].place(each[1])))
+
+    def is_free(self, place: Place) -> bool:
+        """Whether the place is free, first in the nominal posture, which is quick, then in all."""
+        nominal = self.collision.nominal
+        for ball in self._balls(place, self.sizes.largest):
+            if self.collision.nearest(ball, nominal, self._others, within=-_ROUNDING) is not None:
+                return False
+        return self.blocker(place) is None
+
+    def blocker(self, place: Place) -> Part | None:
+        """What of the robot comes too near."""
+        for size in self.sizes.all():
+            hits = [self._hit(ball) for ball in self._balls(place, size)]
+            found = [hit for hit in hits if hit is not None]
+            if found:
+                return min(found, key=lambda hit: hit.distance).part
+        return None
+
+    def drawn_in(self, face: Face, spot: Spot) -> Spot:
+        """Nearer than the grid of spots has it: to the face, to the middle, to the trunk's own."""
+        for axis in (2, 1, 0):
+            step = np.sign(spot[axis]) * min(STEP * self.sizes.largest.reach, abs(spot[axis]))
+            for _ in range(_HALVINGS):
+                step /= 2.0
+                nearer = [*spot]
+                nearer[axis] -= step
+                candidate = (nearer[0], nearer[1], nearer[2])
+                if step and self.is_free(face.place(candidate)):
+                    spot = candidate
+        return spot
+
+    def _hit(self, ball: Ball) -> Nearest | None:
+        """What a ball touches, or would in some posture between those that were drawn."""
+        near = self.collision.nearest(
+            ball, landing_poses(self.collision), self._others, within=_NEAR * ball.radius
+        )
+        if near is None:
+            return None
+        nearest = descended(self.collision, ball, near, self._ranges)
+        return nearest if nearest.distance < -_ROUNDING else None
+
+    @cached_property
+    def _ranges(self) -> Ranges:
+        return landing_ranges(self.collision.robot)
+
+    def _balls(self, place: Place, size: Size[float]) -> tuple[Ball, Ball]:
+        """Balls around both modules of one size, with the room that they need."""
+        x, y, z = place.left(size)
+        radius = CLEARANCE * size.reach
+        return Ball(np.array([x, y, z]), radius), Ball(np.array([x, -y, z]), radius)
+
+    @cached_property
+    def _others(self) -> list[Part]:
+        """All but the trunk, whose box ends at the face that the modules stand on."""
+        return [part for part in self.collision.parts if part.limb]
+
+    def _cost(self, place: Place) -> float:
+        """What the largest module adds to the inertia about roll and pitch, over the robot's."""
+        robot = self.collision.robot
+        x, y, z = np.array(place.left(self.sizes.largest)) - robot.com
+        return float((y**2 + z**2) / robot.inertia[0, 0] + (x**2 + z**2) / robot.inertia[1, 1])
+
+
+def _housing(outer_radius: float, height: float) -> Size[float]:
+    return module_size(outer_radius, height, 0.0, 0.0, 0.0)

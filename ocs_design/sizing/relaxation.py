@@ -1,52 +1,125 @@
-"""Why no rim meets its limits, and the smallest single changes that would do."""
+"""Why no rim, or no device of two rims, meets its limits, and which single changes would do."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from math import degrees, isfinite, isinf
+from typing import TypeVar
 
 import numpy as np
 
-from ocs_design.exceptions import Infeasible
-from ocs_design.sizing.limits import (
-    MOST_CHANGE,
-    RIM_LIMITS,
-    Limit,
-    smallest_changes,
-    told_changes,
+from ocs_design.common.errors import Infeasible
+from ocs_design.common.units import round_outwards
+from ocs_design.requirement.bound import SpinDemand
+from ocs_design.sizing.bound.device_problem import (
+    DeadEnd,
+    DeviceProblem,
+    FixedPoint,
+    find_fixed_point,
 )
-from ocs_design.sizing.rim_closed_form import lightest_rim, smallest_spin_inertia
-from ocs_design.sizing.rim_problem import RimProblem
-from ocs_design.units import round_outwards
+from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim, smallest_spin_inertia
+from ocs_design.sizing.changes import MOST_CHANGE, PRECISION, advice, smallest_changes
+from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED, Limit
+
+DEVICE_PRECISION = 1e-4
+"""Precision of a device's changes, relative: they are reported to three digits, and each step of
+the search sizes a whole device."""
+
+Problem = TypeVar("Problem", RimProblem, DeviceProblem)
 
 
 def infeasible_rim(problem: RimProblem, solve: Callable[[RimProblem], object]) -> Infeasible:
-    """The error for a problem without solution.
+    """The error for a rim that cannot be.
 
     Args:
         problem: of the rim.
         solve: proves each change by solving with it; raises where it fails.
     """
-    changes = rim_changes(problem)
+    changes = _changes(problem, limits_set(problem), is_feasible, PRECISION)
+    return _infeasible(problem, problem, changes, solve, binding=conflicting_limits(problem))
+
+
+def infeasible_device(
+    problem: DeviceProblem, dead_end: DeadEnd, solve: Callable[[DeviceProblem], object]
+) -> Infeasible:
+    """The error for a device that cannot be.
+
+    Args:
+        problem: of the device.
+        dead_end: where its iteration ended.
+        solve: proves each change by sizing again with it; raises where it fails.
+    """
+    if isinf(dead_end.spin_inertia):
+        return _axis_out_of_reach(problem, dead_end.demands)
+    rim = problem.rim_problem(dead_end.spin_inertia)
+    limits, asked_by = limits_set(rim), ""
+    if problem.requirement.spin_inertia is None:
+        # The wheel speed is a limit only where it decides on the spin inertia.
+        limits = (*limits, WHEEL_SPEED)
+        if largest_spin_inertia(rim) > 0.0:
+            most = max(dead_end.demands, key=lambda demand: demand.spin_inertia)
+            asked_by = f"{most.source} asks for too much: "
+
+    def possible(changed: DeviceProblem) -> bool:
+        """Whether there is a device."""
+        return isinstance(find_fixed_point(changed), FixedPoint)
+
+    changes = _changes(problem, limits, possible, DEVICE_PRECISION)
+    return _infeasible(problem, rim, changes, solve, binding=in_the_way(rim), asked_by=asked_by)
+
+
+def _changes(
+    problem: Problem,
+    limits: Sequence[Limit],
+    possible: Callable[[Problem], bool],
+    precision: float,
+) -> dict[Limit, float]:
+    """Values of the limits that can mend the problem alone and just do [SI]."""
+
+    def mends(limit: Limit, value: float) -> bool:
+        """Whether a value does just inside: on the edge itself no solver can prove it."""
+        return possible(with_limit(problem, limit, limit.loosened(value, 1.0 - precision / 3.0)))
+
+    values = {
+        limit: limit.value(problem.requirement)
+        if isinstance(problem, DeviceProblem) and limit is WHEEL_SPEED
+        else limit.value(problem.envelope)
+        for limit in limits
+    }
+    return smallest_changes(values, mends, precision=precision / 3.0)
+
+
+def _infeasible(
+    problem: Problem,
+    rim: RimProblem,
+    changes: Mapping[Limit, float],
+    solve: Callable[[Problem], object],
+    *,
+    binding: Sequence[Limit],
+    asked_by: str = "",
+) -> Infeasible:
     for limit, value in changes.items():
         solve(with_limit(problem, limit, value))
+    message = asked_by + shortfall(rim)
+    texts = [_change_text(rim, limit, value) for limit, value in changes.items()]
     return Infeasible(
-        f"{capitalised(shortfall(problem))}.",
-        binding=[limit.name for limit in conflicting_limits(problem)],
-        required_spin_inertia=problem.spin_inertia,
-        largest_spin_inertia=largest_spin_inertia(problem),
-        relaxations=relaxations(problem, changes),
-        hint=advice(problem, changes),
+        f"{capitalised(message)}.",
+        binding=[limit.name for limit in binding],
+        required_spin_inertia=rim.spin_inertia,
+        largest_spin_inertia=largest_spin_inertia(rim),
+        # Of the hoop stress it is the stress to allow [Pa].
+        relaxations={
+            limit.name: _allowed_stress(rim, value) if limit.name == "hoop_stress" else value
+            for limit, value in changes.items()
+        },
+        hint=advice(texts, MOST_CHANGE, "loosen several, or ask for less."),
     )
 
 
-def rim_changes(problem: RimProblem) -> dict[Limit, float]:
-    """For each limit that can mend the rim alone, the value that just does (SI)."""
-
-    def mends(limit: Limit, value: float) -> bool:
-        """Whether there is a rim with this limit changed."""
-        return is_feasible(with_limit(problem, limit, value))
-
-    values = {limit: limit.value(problem.envelope) for limit in limits_set(problem)}
-    return smallest_changes(values, mends)
+def with_limit(problem: Problem, limit: Limit, value: float) -> Problem:
+    """The problem with one limit changed [SI]."""
+    if isinstance(problem, RimProblem) or limit is not WHEEL_SPEED:
+        return replace(problem, envelope=limit.replaced(problem.envelope, value))
+    return replace(problem, requirement=limit.replaced(problem.requirement, value))
 
 
 def is_feasible(problem: RimProblem) -> bool:
@@ -54,13 +127,8 @@ def is_feasible(problem: RimProblem) -> bool:
     return bool(lightest_rim(problem.spin_inertia, problem.limits).mass > 0.0)
 
 
-def with_limit(problem: RimProblem, limit: Limit, value: float) -> RimProblem:
-    """The same problem with one limit changed."""
-    return replace(problem, envelope=limit.replaced(problem.envelope, value))
-
-
 def limits_set(problem: RimProblem) -> tuple[Limit, ...]:
-    """Those that limit anything."""
+    """Limits of a rim that limit anything."""
     limited = np.isfinite(problem.hoop_stress_max)
     return tuple(
         limit
@@ -87,7 +155,7 @@ def conflicting_limits(problem: RimProblem) -> tuple[Limit, ...]:
 
 
 def largest_spin_inertia(problem: RimProblem) -> float:
-    """The largest that the limits allow [kg m^2]; 0 if they allow no rim at all.
+    """Largest spin inertia that the limits allow [kg m^2]; 0 if they allow no rim at all.
 
     The spin inertias that the limits allow form an interval: from any rim, a lower height and
     then a thinner wall and a smaller bore lead to the smallest one without leaving the limits.
@@ -111,9 +179,10 @@ def largest_spin_inertia(problem: RimProblem) -> float:
 
 
 def shortfall(problem: RimProblem) -> str:
-    """What is asked for, what stands against it and how much is possible, without a full stop."""
+    """Clause on what is asked for, what stands against it and how much is possible."""
     asked = f"{problem.spin_inertia:.5g} kg m^2"
-    room = _listed([limit.text(limit.value(problem.envelope)) for limit in in_the_way(problem)])
+    texts = [limit.text(limit.value(problem.envelope)) for limit in in_the_way(problem)]
+    room = " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
     largest = largest_spin_inertia(problem)
     if largest == 0.0:
         return f"no rim at all fits within {room}, whatever its spin inertia"
@@ -131,25 +200,6 @@ def in_the_way(problem: RimProblem) -> Sequence[Limit]:
     return conflicting_limits(problem) or limits_set(problem)
 
 
-def relaxations(problem: RimProblem, changes: Mapping[Limit, float]) -> dict[str, float]:
-    """The changes by name in SI units; of the hoop stress, the stress to allow [Pa]."""
-    return {
-        limit.name: _allowed_stress(problem, value) if limit.name == "hoop_stress" else value
-        for limit, value in changes.items()
-    }
-
-
-def advice(problem: RimProblem, changes: Mapping[Limit, float]) -> str:
-    """The changes as a sentence."""
-    if not changes:
-        return (
-            f"No single limit would do, not even changed {MOST_CHANGE:.0f}-fold: "
-            "loosen several, or ask for less."
-        )
-    texts = [_change_text(problem, limit, value) for limit, value in changes.items()]
-    return told_changes(texts)
-
-
 def _change_text(problem: RimProblem, limit: Limit, value: float) -> str:
     if limit.name != "hoop_stress":
         return limit.loose_text(value)
@@ -163,10 +213,23 @@ def _allowed_stress(problem: RimProblem, stress_safety: float) -> float:
 
 
 def capitalised(text: str) -> str:
-    """With a capital first letter and the rest as it is."""
+    """Text with a capital first letter and the rest as it is."""
     return text[:1].upper() + text[1:]
 
 
-def _listed(words: Sequence[str]) -> str:
-    """One, two and three."""
-    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+def _axis_out_of_reach(problem: DeviceProblem, demands: Sequence[SpinDemand]) -> Infeasible:
+    """The error for wheels that have no authority about an axis that needs momentum."""
+    blind = next(demand for demand in demands if isinf(demand.spin_inertia))
+    axes = " and ".join(blind.unreachable_axes)
+    rim_problem = problem.rim_problem(1.0)
+    return Infeasible(
+        f"{capitalised(blind.source)} asks for {axes} momentum, which wheels at an incidence of "
+        f"{degrees(blind.incidence):.4g} deg cannot give.",
+        binding=["incidence"],
+        # The largest of the others: infinity is no number in JSON.
+        required_spin_inertia=max(filter(isfinite, (d.spin_inertia for d in demands)), default=0.0),
+        largest_spin_inertia=largest_spin_inertia(rim_problem),
+        relaxations={},
+        hint="Choose an incidence between 0 and 90 deg, another criterion, "
+        "or drop what asks for that axis.",
+    )

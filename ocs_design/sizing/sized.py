@@ -1,12 +1,38 @@
-"""What is known of a sized device, whichever way it was sized."""
+"""Figures behind a sized device, of wheels by the bound alone or of a selected one."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
-from ocs_design.requirement.bound import SpinDemand
-from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.device_sizing import DeviceSizing
-from ocs_design.sizing.incidence import Criterion
+import numpy as np
+
+from ocs_design.device.layout import Criterion, incidence_by_criterion
+from ocs_design.parts.module import Printed
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.requirement.bound import AXES, SpinDemand, authority, per_wheel, rate_momenta
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.bound.device_problem import design_momenta
+from ocs_design.sizing.bound.device_sizing import DeviceSizing
+from ocs_design.sizing.bound.rim_problem import RimProblem
+from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.selection.device import inertia_at
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.result import Candidate
+
+METHOD = "branch and bound over the catalogue, each module in closed form"
+
+_LIMIT_OF_NAME: Mapping[str, str] = {
+    "r_max": "outer_radius_max",
+    "r_min": "inner_radius_min",
+    "h_max": "height_max",
+    "h_min": "height_min",
+    "wall_min": "wall_min",
+    "wheel_mass_max": "mass_max",
+    "hoop_stress": "stretch_max",
+}
+"""Field of `RimLimits` behind each name of a limit that can bind."""
+
+_STEP = 1e-5
+"""Half the distance of the two points of a difference, relative."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,3 +91,74 @@ def sized_by_bound(sizing: DeviceSizing, wheel_speed_max: float) -> Sized:
         residual=sizing.residual,
         iterations=sizing.iterations,
     )
+
+
+def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
+    """Figures behind the selected, or the co-designed, device."""
+    inertia, robot = chosen.total.inertia, problem.robot.inertia
+    requirement, line = problem.requirement, chosen.line.reserved()
+    return Sized(
+        wheel_speed_max=min(float(line.no_load_speed), float(line.speed_max)),
+        incidence_by_criterion=incidence_by_criterion(
+            inertia, design_momenta(requirement, inertia)
+        ),
+        incidence_by_criterion_robot=incidence_by_criterion(
+            robot, design_momenta(requirement, robot)
+        ),
+        demands=tuple(_spin_demands(problem, chosen)),
+        total=chosen.total,
+        status="optimal",
+        method=METHOD,
+        objective=chosen.mass,
+        binding=chosen.binding,
+        shadow_prices=_shadow_prices(problem, chosen),
+        gap=0.0,
+        residual=chosen.residual,
+        iterations=chosen.iterations,
+    )
+
+
+def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[SpinDemand]:
+    """Demands that the motors' figures make of each part of the requirement."""
+    requirement = problem.requirement
+    maneuvers = {maneuver.name: maneuver for maneuver in requirement.maneuvers}
+    height = requirement.standing_height
+    for demand in chosen.demands:
+        maneuver, at = maneuvers.get(demand.source), demand.incidence
+        inertia = inertia_at(problem, chosen, at)
+        if maneuver is None:
+            about = [demand.source.endswith(name) for name in AXES]
+            momentum = rate_momenta(inertia, requirement.rate_change or 0.0)[about][0]
+            torque = 0.0
+        else:
+            turned = inertia.within_reach(authority(at), maneuver.stray)
+            momentum = maneuver.momentum(turned, height)
+            torque = per_wheel(maneuver.least_torque(turned, height), at)
+        yield SpinDemand(demand.source, at, momentum, demand.spin_inertia, torque)
+
+
+def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, float]:
+    """Change of one module's mass per limit that holds it, at the spin inertia that was found.
+
+    Central differences of the closed form; one-sided where only one side has a module.
+    """
+    hub_share = 0.0 if chosen.hub is None else chosen.hub.axial_inertia
+    rim_inertia = chosen.spin_inertia - chosen.rotor_share - hub_share
+    rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
+    limits = chosen.limits(problem.envelope)
+    shell = Printed(mount_of(chosen.motor, chosen.gear.room).holes.reach)
+    prices = {}
+    for name in chosen.binding:
+        field = _LIMIT_OF_NAME.get(name)
+        if field is None:
+            continue
+        value = float(np.asarray(getattr(limits, field)))
+        steps = np.array([-_STEP, 0.0, _STEP]) * value
+        changed = [replace(limits, **{field: value + step}) for step in steps]
+        masses = np.array([float(lightest_module(rim_inertia, c, shell).mass) for c in changed])
+        known = np.isfinite(masses)
+        masses, steps = masses[known], steps[known]
+        slope = float((masses[-1] - masses[0]) / (steps[-1] - steps[0]))
+        stress = name == "hoop_stress"
+        prices[name] = slope * (rim.stretch_max / rim.hoop_stress_max if stress else 1.0)
+    return prices

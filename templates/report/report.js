@@ -6,6 +6,10 @@ const UNSEEN = 2000;                  // [ms] after which the page counts as pai
 const WIDER = 1.3;                    // where two robots are shown beside each other
 const READOUT = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
+// Angle of a wheel in a frame; a flight has all wheels of a frame one behind the other.
+const wheelsOf = (flight) => flight.wheels.length / flight.frames;
+const turn = (flight, frame, wheel) => flight.wheels[wheelsOf(flight) * frame + wheel];
+
 class Replay {
   constructor(viewer, scene, array) {
     this.viewer = viewer; this.scene = scene; this.time = 0; this.playing = false; this.index = -1;
@@ -101,7 +105,7 @@ class Replay {
       const a = flight.attitude.subarray(4 * (first * n + i), 4 * (first * n + i) + 4), b = flight.attitude.subarray(4 * (next * n + i), 4 * (next * n + i) + 4);
       const sign = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1 : 1;
       let q = unit([0, 1, 2, 3].map((k) => between(a[k], sign * b[k])));
-      if (body.wheel !== null) q = spun(q, between(flight.wheels[2 * first + body.wheel], flight.wheels[2 * next + body.wheel]));
+      if (body.wheel !== null) q = spun(q, between(turn(flight, first, body.wheel), turn(flight, next, body.wheel)));
       p[1] += aside;
       return placed(q, p);
     });
@@ -111,10 +115,10 @@ class Replay {
 
   words(flight) {
     const { first, next, part, step } = this.at(flight), between = (array, k) => array[2 * first + k] + part * (array[2 * next + k] - array[2 * first + k]);
-    const speed = (k) => (flight.wheels[2 * next + k] - flight.wheels[2 * first + k]) / step * 30 / Math.PI;
+    const speed = (_, k) => READOUT.format((turn(flight, next, k) - turn(flight, first, k)) / step * 30 / Math.PI);
     const tenths = (value) => (Math.round(10 * value) / 10 || 0).toFixed(1);
     const tilt = `pitch ${tenths(between(flight.tilt, 0))}°, roll ${tenths(between(flight.tilt, 1))}°`;
-    const wheels = flight.ocs ? `, wheels ${READOUT.format(speed(0))} and ${READOUT.format(speed(1))} rpm` : "";
+    const wheels = flight.ocs ? `, wheels ${Array.from({ length: wheelsOf(flight) }, speed).join(" and ")} rpm` : "";
     return `${this.time.toFixed(2)} s, ${flight.ocs ? "with" : "without"}: ${tilt}${wheels}`;
   }
 

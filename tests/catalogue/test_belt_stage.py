@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from ocs_design.catalogue.belt import CLEARANCE, FLANGE, BeltStage
-from ocs_design.catalogue.gears import gear
+from ocs_design.catalogue.gears import CLEARANCE, FLANGE, BeltStage, gear
 
 STAGE = BeltStage(
     motor_teeth=20,

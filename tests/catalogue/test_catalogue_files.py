@@ -6,7 +6,7 @@ import pytest
 
 from ocs_design.catalogue.gears import known_gears, load_gears
 from ocs_design.catalogue.motors import known_motors, load_motors, motors
-from ocs_design.exceptions import SpecificationError
+from ocs_design.common.errors import SpecificationError
 
 HEADER = "name,maker,source,mass_kg,kt_nm_per_a,kt_convention,kv_rpm_per_v,resistance_ohm"
 SHEET = {

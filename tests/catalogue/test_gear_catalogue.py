@@ -5,10 +5,18 @@ from dataclasses import fields
 
 import pytest
 
-from ocs_design.catalogue.gear_sheet import GEAR_COLUMNS, GearKind, GearSheet, InertiaAt
-from ocs_design.catalogue.gears import gear, gears, gears_to_json, stages
-from ocs_design.drive.gear import DIRECT
-from ocs_design.exceptions import SpecificationError
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.catalogue.gears import (
+    GearKind,
+    GearSheet,
+    InertiaAt,
+    gear,
+    gears,
+    gears_to_json,
+    stages,
+)
+from ocs_design.catalogue.rows import columns_of, fraction, numbers, switch, tooth_counts
+from ocs_design.common.errors import SpecificationError
 
 
 def test_sorted_named_and_each_with_a_source():
@@ -72,8 +80,11 @@ def test_inertia_at_the_wheel_is_taken_as_it_is():
     assert all(stage.reverses for stage in sheet.stages())
 
 
-def test_columns_are_the_fields_of_a_row():
-    assert set(GEAR_COLUMNS) == {field.name for field in fields(GearSheet)}
+def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
+    columns = columns_of(GearSheet)
+    assert list(columns) == [field.name for field in fields(GearSheet)]
+    asked = {"efficiency": fraction, "ratios": numbers, "teeth": tooth_counts, "reverses": switch}
+    assert {name: columns[name] for name in asked} == asked
 
 
 def test_an_unknown_gear_gets_the_closest():

@@ -3,7 +3,7 @@
 import pytest
 
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material, materials
-from ocs_design.exceptions import OcsError, SpecificationError
+from ocs_design.common.errors import OcsError, SpecificationError
 
 
 def test_sorted_and_each_with_a_source():

@@ -6,11 +6,11 @@ from dataclasses import fields
 
 import pytest
 
-from ocs_design.catalogue.motor_sheet import MOTOR_COLUMNS, MotorSheet
-from ocs_design.catalogue.motors import motor, motors, motors_to_json
-from ocs_design.drive.gear import DIRECT
-from ocs_design.drive.line import drive_line, missing_figures
-from ocs_design.exceptions import SpecificationError
+from ocs_design.actuation.drive import drive_line, missing_figures
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.catalogue.motors import MotorSheet, motor, motors, motors_to_json
+from ocs_design.catalogue.rows import columns_of, positive, text, whole
+from ocs_design.common.errors import SpecificationError
 
 RPM = math.pi / 30.0
 
@@ -122,8 +122,13 @@ def test_an_unknown_name_gets_the_closest(asked, offered):
     assert offered in caught.value.hint
 
 
-def test_columns_are_the_fields_of_a_row():
-    assert set(MOTOR_COLUMNS) == {field.name for field in fields(MotorSheet)}
+def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
+    columns = columns_of(MotorSheet)
+    assert list(columns) == [field.name for field in fields(MotorSheet)]
+    asked = {"maker": text, "mass_kg": positive, "rotor_bolts": whole, "rotor_thread": text}
+    assert {name: columns[name] for name in asked} == asked
+    with pytest.raises(ValueError, match="none of six-step, foc, foc-rms"):
+        columns["kt_convention"]("sine")
 
 
 def test_json_says_what_is_missing():

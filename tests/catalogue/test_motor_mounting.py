@@ -4,10 +4,10 @@ import json
 
 import pytest
 
+from ocs_design.actuation.motor import BoltCircle, Face, Mounting
 from ocs_design.catalogue.motors import load_motors, motor, motors, motors_to_json
-from ocs_design.drive.mounting import BoltCircle, Face, Mounting
-from ocs_design.exceptions import SpecificationError
-from ocs_design.report.threads import mounting_text
+from ocs_design.common.errors import SpecificationError
+from ocs_design.report.text.catalogue import motor_mounting
 
 WHOLE = {
     "name": "M",
@@ -111,6 +111,6 @@ def test_rows_with_threads_say_where_they_are_from():
 def test_it_is_in_the_json_and_in_words():
     (row,) = json.loads(motors_to_json([motor("MN5212 KV340")]))["motors"]
     assert row["mounting"]["rotor"] == {"diameter": 0.017, "bolts": 3, "thread": "M3"}
-    said = mounting_text(motor("MN5212 KV340").mounting)
+    said = motor_mounting(motor("MN5212 KV340").mounting)
     assert said == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"
-    assert mounting_text(None) == ""
+    assert motor_mounting(None) == ""

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from ocs_design.cli.stated import stated_package_paths, stated_specification
-from ocs_design.exceptions import UsageError
+from ocs_design.cli.options import stated_package_paths, stated_specification
+from ocs_design.common.errors import UsageError
 
 
 def stated(**parameters):

@@ -1,22 +1,32 @@
 """The product of `size`, made once for all that open it."""
 
+import fcntl
 import json
 import shutil
 import sys
+from dataclasses import asdict
+from pathlib import Path
 
 import pytest
-from commands import SOLO12, environment, run_process
+from commands import SOLO12, Result, environment, run_process
 from exported import pinocchio_model
 from products import CASES, Product, device_of
 from renewed import sized
 
 
 @pytest.fixture(scope="session", params=CASES)
-def product(request, tmp_path_factory):
-    """A cold process, its streams piped."""
-    case, parent = CASES[request.param], tmp_path_factory.mktemp("cold")
-    said = run_process("size", SOLO12, *case.options, cwd=parent, env=environment())
-    return Product(case, said, parent / "solo12-ocs")
+def product(request, tmp_path_factory, worker_id):
+    """A cold process, its streams piped; whichever worker comes first makes it for all."""
+    case, own = CASES[request.param], tmp_path_factory.getbasetemp()
+    shared = (own if worker_id == "master" else own.parent) / request.param.replace(" ", "-")
+    parent, said = shared / "cold", shared / "said.json"
+    parent.mkdir(parents=True, exist_ok=True)
+    with (shared / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not said.exists():
+            result = run_process("size", SOLO12, *case.options, cwd=parent, env=environment())
+            said.write_text(json.dumps(asdict(result)))
+    return Product(case, Result(**json.loads(said.read_text())), parent / "solo12-ocs")
 
 
 @pytest.fixture(scope="session")
@@ -42,8 +52,18 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.fixture(scope="session")
+def sized_solo12(tmp_path_factory):
+    """A copy of Solo12's file, and beside it what was sized for it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(tmp_path_factory.mktemp("sized"))
+        patch.setitem(sys.modules, "xacro", None)
+        shutil.copy(SOLO12, "solo12.urdf")
+        return sized("solo12.urdf").absolute().parent
+
+
 @pytest.fixture
-def solo12(folder):
+def solo12(sized_solo12, folder):
     """A design for a copy of Solo12 that tests may harm, in the working directory."""
-    shutil.copy(SOLO12, "solo12.urdf")
-    return sized("solo12.urdf")
+    shutil.copytree(sized_solo12, folder, dirs_exist_ok=True)
+    return Path("ocs")

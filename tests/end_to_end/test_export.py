@@ -200,7 +200,7 @@ def test_meshes_that_the_urdf_names_by_relative_paths_are_told_of_once(folder):
 
 def test_a_robot_that_may_not_be_read_is_an_error(solo12, monkeypatch):
     refused = mock.Mock(side_effect=PermissionError(13, "Permission denied"))
-    monkeypatch.setattr("ocs_design.robot.files.source._read_bounded", refused)
+    monkeypatch.setattr("ocs_design.robot.source._read_bounded", refused)
     result = run("export", solo12, "-o", "again")
     assert result.code == 3
     assert "may not be read" in result.said

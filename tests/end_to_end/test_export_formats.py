@@ -1,13 +1,14 @@
 """`export --formats`: which files are written, alone and on request."""
 
+import sys
 from pathlib import Path
 
 import pytest
 from commands import run
 from renewed import files_in, made_in
 
+from ocs_design.export import formats
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS
-from ocs_design.parts import step
 
 
 @pytest.mark.parametrize("each", USUAL_FORMATS, ids=lambda each: each.name)
@@ -36,12 +37,31 @@ def test_what_is_written_on_request_alone(product, folder):
     assert files_in("more") == again
 
 
-def test_step_without_its_extra_is_a_missing_tool(solo12, monkeypatch):
-    monkeypatch.setattr(step, "find_spec", lambda _: None)
-    result = run("export", solo12, "-o", "again", "--formats", "step")
+@pytest.mark.parametrize("name", ["step", "dxf"])
+def test_a_format_without_its_extra_is_a_missing_tool(solo12, monkeypatch, name):
+    monkeypatch.setattr(formats, "find_spec", lambda _: None)
+    result = run("export", solo12, "-o", "again", "--formats", name)
     assert result.code == 5
-    assert "pip install 'ocs-design[step]'" in result.said
+    assert f"pip install 'ocs-design[{name}]'" in result.said
     assert not Path("again").exists()
+
+
+@pytest.mark.parametrize("name", ["step", "dxf"])
+def test_a_library_that_does_not_load_is_a_missing_tool(solo12, monkeypatch, name):
+    """As where a shared library that it needs is not on the system."""
+    (each,) = (each for each in FORMATS if each.name == name)
+    monkeypatch.setitem(sys.modules, f"ocs_design.export.{each.module}", None)
+    result = run("export", solo12, "-o", "again", "--formats", name)
+    assert result.code == 5
+    assert "cannot be loaded" in result.said
+
+
+def test_dxf_of_each_piece_and_the_same_every_time(solo12):
+    for folder in ("one", "two"):
+        assert run("export", solo12, "-o", folder, "-q", "--formats", "dxf").code == 0
+    pieces = {f"cad/{path.stem}.dxf" for path in (solo12 / "cad").glob("flywheel*.stl")}
+    assert set(files_in("one")) == {"design.json", *pieces}
+    assert files_in("one") == files_in("two")
 
 
 def test_formats_are_listed_with_commas_or_one_by_one(solo12):
@@ -56,7 +76,7 @@ def test_formats_are_listed_with_commas_or_one_by_one(solo12):
 
 
 def test_an_unknown_format_is_wrong_usage(solo12):
-    result = run("export", solo12, "-o", "again", "--formats", "stl,dxf", "--json")
+    result = run("export", solo12, "-o", "again", "--formats", "stl,dwg", "--json")
     assert result.code == 2
-    assert "dxf" in result.document["error"]["message"]
+    assert "dwg" in result.document["error"]["message"]
     assert all(each.name in result.document["error"]["hint"] for each in FORMATS)

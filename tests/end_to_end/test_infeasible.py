@@ -107,9 +107,10 @@ def test_the_figures_of_a_refusal_are_those_of_its_words(folder):
     assert f"{error['largest_spin_inertia']:.3g}" == words[2]
 
 
+ONE_KIND = ("--gear", "direct", "--material", "stainless-304")
 ONE_DRIVE = (
-    *("--motor", "EC 90 flat 90 W 323772", "--gear", "direct"),
-    *("--material", "stainless-304", "--alpha", "35deg", "--no-validate"),
+    *("--motor", "EC 90 flat 90 W 323772", *ONE_KIND),
+    *("--alpha", "35deg", "--no-validate"),
 )
 TOO_TIGHT_FOR_MOTORS = {
     "voltage": ("--bus-voltage", "5V"),
@@ -158,7 +159,7 @@ def test_a_refusal_points_to_what_is_odd_in_the_robots_file(folder):
     """Here limits of a joint that leave it no room."""
     text = re.sub('upper="[^"]*"', 'upper="-99"', Path(SOLO12).read_text(), count=1)
     (folder / "odd.urdf").write_text(text)
-    weak = ("--motor", "Antigravity 4004 KV300", "--json")
+    weak = ("--motor", "Antigravity 4004 KV300", *ONE_KIND, "--json")
     hint = run("size", "odd.urdf", *weak).document["error"]["hint"]
     assert hint.startswith("`ocs-design inspect` warns of what is odd")
     assert "odd" not in run("size", SOLO12, *weak).document["error"]["hint"]

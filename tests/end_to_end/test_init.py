@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 from commands import BY_HAND, PROGRAM, SOLO12, environment, run
 
-from ocs_design.initializing import read_start
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.workflows.init import read_start
 
 SOLO12_SPECIFICATION = Specification(robot=RobotSection(file=SOLO12))
 

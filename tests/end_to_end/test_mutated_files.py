@@ -7,7 +7,7 @@ import pytest
 from hostile_readers import READERS
 from mutated import mutated
 
-from ocs_design.exceptions import OcsError
+from ocs_design.common.errors import OcsError
 
 CASES = {"xacro": 4}
 USUAL = 20

@@ -9,8 +9,8 @@ import pytest
 from commands import ROOT, SOLO12, run
 from products import equal_rate
 
-from ocs_design.design_file import read_design
-from ocs_design.exceptions import OcsError
+from ocs_design.common.errors import OcsError
+from ocs_design.device.records import read_design
 
 PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
 

@@ -13,7 +13,7 @@ from commands import SOLO12, everything_in
 from exported import check_moments, check_wheels_in_pinocchio
 from products import FILES, composite, with_modules
 
-from ocs_design.design_file import design_to_json, read_design
+from ocs_design.device.records import design_to_json, read_design
 
 # INTERFACE: the fields that scripts and other programs rely on.
 SCHEMA = {

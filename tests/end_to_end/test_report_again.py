@@ -10,10 +10,10 @@ from browser import browser
 from commands import run
 from renewed import files_in
 
-from ocs_design.design_file import read_design
-from ocs_design.exceptions import OcsError
-from ocs_design.report.on_request import ON_DESIGN
+from ocs_design.common.errors import OcsError
+from ocs_design.device.records import read_design
 from ocs_design.report.story import read_campaign, story_in
+from ocs_design.workflows.export import ON_DESIGN
 
 DOC = (Path(__file__).parents[2] / "docs" / "report.md").read_text()
 

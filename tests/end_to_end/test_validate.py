@@ -65,7 +65,7 @@ def test_samples_are_told_in_words(by_hand, folder):
         "1 of 1 scenarios pass",
         "2 robots as they might be built",
         "95% interval",
-        "worst are samples",
+        "the worst samples are",
         "15.8 .. 100.0 %",
     ):
         assert words in said

@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from ocs_design.drive.line import DriveLine
-from ocs_design.drive.slew import slew_time
-from ocs_design.drive.tilt_inertia import TiltInertia
-from ocs_design.drive.wheel_pair import WheelPairTask, smallest_spin_inertia
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.actuation.slew import slew_time
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_pair import WheelPairTask, smallest_spin_inertia
+from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import read_specification
-from ocs_design.requirement.stated_robot import read_stated_robot
-from ocs_design.sizing.cylinder import cylinder_spin_inertia, cylinder_transverse_inertia
+from ocs_design.requirement.resolving import read_stated_robot
 
 ROOT = Path(__file__).parents[2]
 MACHINES = ROOT / "examples" / "machines"

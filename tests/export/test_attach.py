@@ -6,11 +6,12 @@ import pytest
 from robots import ROBOTS, SOLO12
 from wheels import motor, paper_device
 
-from ocs_design.exceptions import RobotError
-from ocs_design.export.attach import WHEEL_CONTACT_BIT, attach_device
+from ocs_design.common.errors import RobotError
+from ocs_design.export.attach import attach_device
+from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.model import build_spec
 
 MJCF = """<mujoco>
   <compiler angle="degree" inertiafromgeom="true" settotalmass="7"/>

@@ -6,12 +6,12 @@ from dataclasses import replace
 import pytest
 from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_device
 
-from ocs_design.design import Web
-from ocs_design.drive.gear import GearRoom
+from ocs_design.actuation.motor import GearRoom
+from ocs_design.device.device import Web
 from ocs_design.export.bill_of_materials import COLUMNS, bill_rows, export_bill_of_materials, plain
-from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.shell import Printed
-from ocs_design.sizing.web import Hub
+from ocs_design.parts.module import Printed
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.rim import Hub
 
 GEAR_MASS = 0.02
 

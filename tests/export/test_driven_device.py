@@ -12,9 +12,9 @@ from exported import LEGGED, LEGGED_PATHS, pinocchio_model
 from robots import SOLO12
 from wheels import EC45, EC45_BODY, braked_inertia, driven_device, geared
 
-from ocs_design.exceptions import RobotError
-from ocs_design.export.inertials import carrier_inertial, flywheel_inertial
+from ocs_design.common.errors import RobotError
 from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.module_bodies import carrier_inertial, flywheel_inertial
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
     export_snippet_mjcf,
@@ -23,7 +23,7 @@ from ocs_design.export.snippets import (
 )
 from ocs_design.export.urdf import export_robot_urdf
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.mass_properties import MassProperties, physical_defect
+from ocs_design.robot.mass import MassProperties, physical_defect
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scene import locked_inertia
 

@@ -8,13 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 
-from ocs_design.design import Device, Web
-from ocs_design.drive.mounting import BoltCircle, Face, Mounting
-from ocs_design.export.fitting import fitting_remarks, standing_remarks
-from ocs_design.export.standing import standing_visuals
-from ocs_design.export.wheel_frame import wheel_placement
-from ocs_design.sizing.rim_cuts import RimCuts
-from ocs_design.sizing.web import Hub
+from ocs_design.actuation.motor import BoltCircle, Face, Mounting
+from ocs_design.device.device import Device, Web
+from ocs_design.export.assembly_notes import device_notes, drive_notes
+from ocs_design.export.module_bodies import wheel_placement
+from ocs_design.export.visuals import carrier_visuals
+from ocs_design.parts.rim import Hub, RimCuts
 
 M3 = BoltCircle(0.02, 4, "M3")
 FLAT = Mounting(0.004, stator=M3, stator_face=Face.OUTPUT)
@@ -34,7 +33,7 @@ def device_on(mounting, drive=EC45, apart=0.05, incidence=0.3) -> Device:
 
 
 def said(device):
-    return " | ".join(standing_remarks(device))
+    return " | ".join(drive_notes(device))
 
 
 def test_a_motor_whose_shaft_is_long_enough_needs_no_word():
@@ -43,14 +42,14 @@ def test_a_motor_whose_shaft_is_long_enough_needs_no_word():
 
 
 def test_broken_edges_are_told():
-    (remark,) = fitting_remarks(paper_device())
+    (remark,) = device_notes(paper_device())
     assert remark == "with its edges broken 0.2 mm a wheel has 0.10% less inertia than was designed"
 
 
 def test_broken_edges_that_are_sized_with_take_nothing():
     device = paper_device()
     cut = replace(device.flywheel, cuts=RimCuts(chamfer=0.2e-3))
-    assert fitting_remarks(replace(device, flywheel=cut)) == ()
+    assert device_notes(replace(device, flywheel=cut)) == ()
 
 
 def test_a_shaft_that_is_too_short_or_not_known():
@@ -63,7 +62,7 @@ def test_a_shaft_that_is_too_short_or_not_known():
 @pytest.mark.parametrize(
     ("mounting", "words"),
     [
-        (None, "the motor's threads are not in the catalogue: floor and plate are to be drilled"),
+        (None, "the motor's threads are not in the catalogue: drill floor and plate"),
         (Mounting(0.004), "the motor's threads are not in the catalogue"),
         (
             replace(FLAT, stator_face=Face.BACK),
@@ -103,7 +102,7 @@ def test_motors_are_told_of_where_they_reach_over_the_middle(incidence, diameter
     """By brute force: points on the edges of both ends."""
     drive = replace(EC45, diameter=diameter, length=length)
     device = device_on(FLAT, drive, incidence=incidence)
-    motor = standing_visuals(device, device.modules[0])[-1]
+    motor = carrier_visuals(device, device.modules[0])[-1]
     turn, (radius, half) = np.linspace(0.0, 2.0 * np.pi, 2001), motor.size
     ring = np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
     ends = [np.column_stack([ring, np.full(len(ring), end)]) for end in (-half, half)]

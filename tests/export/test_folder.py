@@ -5,7 +5,7 @@ import hashlib
 
 import pytest
 
-from ocs_design.exceptions import OutputError
+from ocs_design.common.errors import OutputError
 from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
 
 

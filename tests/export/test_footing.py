@@ -8,9 +8,9 @@ import pytest
 from robots import SOLO12
 from wheels import driven_device
 
-from ocs_design.export.footing import footing_remarks
-from ocs_design.export.workshop import printed_foot
-from ocs_design.robot.bounds import trunk_extent, trunk_top
+from ocs_design.export.assembly_notes import trunk_notes
+from ocs_design.export.device_parts import printed_foot
+from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.reader import read_robot
 
 DEVICE = driven_device()
@@ -38,18 +38,18 @@ def half_width(robot):
 
 
 def test_feet_on_the_trunk_need_no_word(robot):
-    assert footing_remarks(robot, moved(robot, half_width(robot) - FOOT.base_radius - 1e-6)) == ()
+    assert trunk_notes(robot, moved(robot, half_width(robot) - FOOT.base_radius - 1e-6)) == ()
 
 
 def test_a_base_beyond_the_trunk_is_measured(robot):
-    (said,) = footing_remarks(robot, moved(robot, half_width(robot) - FOOT.base_radius + 0.002))
+    (said,) = trunk_notes(robot, moved(robot, half_width(robot) - FOOT.base_radius + 0.002))
     assert said == "the feet stand 2 mm over the trunk's sides; their screws are on it"
 
 
 def test_a_screw_beyond_the_trunk_needs_a_plate(robot):
     """The screws stand at 45 degrees, their clearance holes have 3.4 mm."""
     out = half_width(robot) - FOOT.slot_radius / sqrt(2.0) - 0.0017 + 0.003
-    (said,) = footing_remarks(robot, moved(robot, out))
+    (said,) = trunk_notes(robot, moved(robot, out))
     width = 2e3 * (out + FOOT.base_radius)
     assert "the outer screw of each is 3 mm off it" in said
     assert f"a plate of {width:.4g}"[:14] in said
@@ -57,11 +57,11 @@ def test_a_screw_beyond_the_trunk_needs_a_plate(robot):
 
 @pytest.mark.parametrize(("up", "words"), [(0.02, "20 mm above"), (-0.015, "15 mm below")])
 def test_feet_that_are_not_on_top_need_a_bracket(robot, up, words):
-    (said,) = footing_remarks(robot, moved(robot, 0.03, up))
+    (said,) = trunk_notes(robot, moved(robot, 0.03, up))
     assert words in said
     assert "bracket" in said
 
 
 def test_wheels_without_feet_stand_on_nothing(robot):
     bare = replace(DEVICE, carrier=replace(DEVICE.carrier, mass=0.0))
-    assert footing_remarks(robot, bare) == ()
+    assert trunk_notes(robot, bare) == ()

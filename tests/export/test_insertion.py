@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.exceptions import RobotError
-from ocs_design.export.insertion import insert_before_end
+from ocs_design.common.errors import RobotError
+from ocs_design.export.urdf import insert_before_end
 
 ADDITION = '  <link name="a"/>\n  <link name="b"/>\n'
 

@@ -7,20 +7,18 @@ from pathlib import Path
 import pytest
 from wheels import EC45, PAPER_WHEEL, driven_device
 
+from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Mounting
 from ocs_design.catalogue.motors import motor
-from ocs_design.design import Web
-from ocs_design.design_file import design_to_json, read_design
-from ocs_design.drive.gear import DIRECT
-from ocs_design.drive.mounting import BoltCircle, Face, Mounting
-from ocs_design.drive_solids import motor_mount
+from ocs_design.device.device import Web
+from ocs_design.device.records import design_to_json, read_design
+from ocs_design.device.solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_rows, export_bill_of_materials
-from ocs_design.export.made_wheel import made_wheel
-from ocs_design.export.workshop import printed_parts
-from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.housing import DENSITY, WALL
-from ocs_design.sizing.mount import screwed_by_face
-from ocs_design.sizing.standing import standing
-from ocs_design.sizing.web import WEB_DENSITY, WEB_MATERIAL, WEB_THICKNESS, hub_of, web_mass
+from ocs_design.export.device_parts import printed_parts, wheel_geometry
+from ocs_design.parts.module import standing
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.motor_mount import screwed_by_face
+from ocs_design.parts.printed import DENSITY, WALL
+from ocs_design.parts.rim import WEB_DENSITY, WEB_MATERIAL, WEB_THICKNESS, hub_of, web_mass
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 MN5212 = motor("MN5212 KV340")
@@ -100,7 +98,7 @@ def test_a_motor_with_threads_at_its_back_has_a_cage_on_the_plate():
 
 
 def test_the_wheel_is_drilled_for_the_motor():
-    hub = made_wheel(device_on(MN5212.mounting).flywheel).hub
+    hub = wheel_geometry(device_on(MN5212.mounting).flywheel).hub
     assert (hub.bolts.count, 2.0 * hub.bolts.radius) == (3, pytest.approx(0.017))
     assert 2.0 * hub.bore_radius == 0.004
 

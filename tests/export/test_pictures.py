@@ -9,13 +9,12 @@ import pytest
 from robots import SOLO12
 from wheels import paper_device
 
-from ocs_design.exceptions import MissingToolError
+from ocs_design.common.errors import MissingToolError
 from ocs_design.export import opengl
-from ocs_design.export.camera_views import HEIGHT, WIDTH, shown_box
-from ocs_design.export.made_wheel import made_wheel
-from ocs_design.export.pictures import draw_pictures
+from ocs_design.export.film import Take
+from ocs_design.export.offscreen import HEIGHT, WIDTH, shown_box
+from ocs_design.export.pictures import draw_pictures, render_views
 from ocs_design.export.png import png_bytes
-from ocs_design.export.rendering import Scene, render_views
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.reader import read_robot
 
@@ -27,7 +26,7 @@ BOX = """<mujoco><worldbody><body>
 
 def box_scene():
     model = mujoco.MjModel.from_xml_string(BOX)
-    return Scene(model, model.qpos0)
+    return Take(model, model.qpos0[None])
 
 
 def drawn(scenes):
@@ -83,9 +82,7 @@ def test_the_box_around_what_is_shown_knows_the_pose_and_not_what_is_hidden():
 def test_a_robot_with_its_device():
     robot, device = read_robot(SOLO12), paper_device()
     try:
-        pictures = draw_pictures(
-            device, made_wheel(device.flywheel), robot, robot_model(robot, device)
-        )
+        pictures = draw_pictures(device, robot, robot_model(robot, device))
     except MissingToolError as error:
         pytest.skip(str(error))
     # Nothing stands still in the paper's device, so that a module is its wheel.
@@ -122,6 +119,6 @@ def test_a_driver_that_kills_or_hangs_the_process_is_only_told(monkeypatch):
 
 
 def test_the_program_does_not_load_the_rest_of_the_package():
-    code = "import sys, ocs_design.export.camera_views; print('cvxpy' in sys.modules)"
+    code = "import sys, ocs_design.export.offscreen; print('cvxpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
     assert done.stdout.strip() == b"False"

@@ -10,8 +10,9 @@ from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pino
 from robots import SOLO12
 from wheels import motor, paper_device
 
-from ocs_design.exceptions import RobotError
-from ocs_design.export.urdf import WHEEL_MESH, export_robot_urdf
+from ocs_design.common.errors import RobotError
+from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.export.visuals import WHEEL_MESH
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot

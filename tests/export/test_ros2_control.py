@@ -7,7 +7,7 @@ from robots import SOLO12
 from seats import TRUNK, TrunkOnly, expanded
 from wheels import driven_device, geared, motor, paper_device
 
-from ocs_design.export.ros2_control import MOCK_PLUGIN
+from ocs_design.export.device_urdf import MOCK_PLUGIN
 from ocs_design.export.snippets import export_snippet_ros2_control, export_snippet_xacro
 
 CALL = f'<xacro:ocs parent="{TRUNK}" prefix="front_" ros2_control="true" hardware_plugin="a/B"/>'

@@ -7,11 +7,11 @@ from exported import LEGGED, LEGGED_PATHS
 from robots import SOLO12
 from wheels import driven_device
 
-from ocs_design.exceptions import RobotError
+from ocs_design.common.errors import RobotError
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
+from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.model import build_spec
 
 DEVICE = driven_device()
 BRANCHED = """<mujoco model="branched">

@@ -3,8 +3,8 @@
 import pytest
 from commands import everything_in
 
-from ocs_design.exceptions import OutputError
-from ocs_design.export.single_file import write_whole
+from ocs_design.common.errors import OutputError
+from ocs_design.export.folder import write_whole
 
 
 def test_it_is_written(tmp_path):

@@ -7,7 +7,7 @@ import textwrap
 import pytest
 from commands import everything_in
 
-from ocs_design.exceptions import OutputError
+from ocs_design.common.errors import OutputError
 from ocs_design.export import folder as folders
 from ocs_design.export import staging as stagings
 from ocs_design.export.folder import DESIGN_FILE, staged_folder

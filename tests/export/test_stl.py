@@ -7,15 +7,20 @@ import pytest
 import trimesh
 from wheels import PAPER_WHEEL
 
-from ocs_design.export.stl import METRES, MILLIMETRES, export_stl
+from ocs_design.export.stl import METRES, MILLIMETRES, wheel_stl
 
 # 32-bit coordinates of binary STL, and the polygon's error of fourth order.
 RELATIVE = 1e-7
 
 
+def saved(wheel, path, units_per_metre):
+    path.write_bytes(wheel_stl(wheel, units_per_metre=units_per_metre))
+    return path
+
+
 @pytest.mark.parametrize("unit", [METRES, MILLIMETRES])
 def test_mesh_weighs_what_the_rim_weighs(tmp_path, unit, record_property):
-    mesh = trimesh.load_mesh(export_stl(PAPER_WHEEL, tmp_path / "w.stl", units_per_metre=unit))
+    mesh = trimesh.load_mesh(saved(PAPER_WHEEL, tmp_path / "w.stl", unit))
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
     mesh.density = PAPER_WHEEL.density / unit**3
@@ -30,15 +35,13 @@ def test_mesh_weighs_what_the_rim_weighs(tmp_path, unit, record_property):
 
 
 def test_outline_is_the_rims_in_the_asked_unit(tmp_path):
-    mesh = trimesh.load_mesh(
-        export_stl(PAPER_WHEEL, tmp_path / "w.stl", units_per_metre=MILLIMETRES)
-    )
+    mesh = trimesh.load_mesh(saved(PAPER_WHEEL, tmp_path / "w.stl", MILLIMETRES))
     # Radii are larger by 5e-5 so that the polygon has the circle's area.
     np.testing.assert_allclose(mesh.extents, [60.0, 60.0, 10.0], rtol=1e-4)
 
 
 def test_normals_point_outwards(tmp_path):
-    mesh = trimesh.load_mesh(export_stl(PAPER_WHEEL, tmp_path / "w.stl", units_per_metre=METRES))
+    mesh = trimesh.load_mesh(saved(PAPER_WHEEL, tmp_path / "w.stl", METRES))
     assert mesh.volume > 0.0
     written = np.frombuffer((tmp_path / "w.stl").read_bytes()[84:], "<f4,<f4,<f4,(9,)<f4,<u2")
     for axis, name in enumerate(("f0", "f1", "f2")):
@@ -47,14 +50,14 @@ def test_normals_point_outwards(tmp_path):
 
 def test_a_disc_has_no_degenerate_triangles(tmp_path):
     disc = replace(PAPER_WHEEL, inner_radius=0.0)
-    mesh = trimesh.load_mesh(export_stl(disc, tmp_path / "w.stl", units_per_metre=METRES))
+    mesh = trimesh.load_mesh(saved(disc, tmp_path / "w.stl", METRES))
     assert mesh.is_watertight
     assert mesh.area_faces.min() > 0.0
     assert mesh.volume == pytest.approx(np.pi * 0.03**2 * 0.01, rel=RELATIVE)
 
 
 def test_bytes_are_the_same_every_time(tmp_path):
-    first = export_stl(PAPER_WHEEL, tmp_path / "a.stl", units_per_metre=METRES)
-    second = export_stl(PAPER_WHEEL, tmp_path / "b.stl", units_per_metre=METRES)
+    first = saved(PAPER_WHEEL, tmp_path / "a.stl", METRES)
+    second = saved(PAPER_WHEEL, tmp_path / "b.stl", METRES)
     assert first.read_bytes() == second.read_bytes()
     assert not first.read_bytes().startswith(b"solid")

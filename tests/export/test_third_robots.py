@@ -13,10 +13,10 @@ from robots import ROBOTS
 from seats import TRUNK, TrunkOnly
 from wheels import braked_inertia, driven_device
 
-from ocs_design.export.mjcf_precision import precise_xml
+from ocs_design.export.mjcf import precise_xml
 from ocs_design.export.snippets import export_snippets
+from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.model import build_spec
 
 DEVICE = driven_device()
 THIRD = {

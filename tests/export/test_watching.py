@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from commands import run
 
-from ocs_design.exceptions import MissingToolError
+from ocs_design.common.errors import MissingToolError
 from ocs_design.export import watching
 from ocs_design.export.film import Take
 from ocs_design.export.watching import watch_takes
@@ -60,14 +60,14 @@ def test_every_take_is_handed_to_the_other_process(take, monkeypatch):
     monkeypatch.setenv("DISPLAY", ":0")
     monkeypatch.setattr(watching.subprocess, "run", fake)
     watch_takes([take, take], 0.25)
-    assert told[0][2:4] == ["ocs_design.export.watch_frames", "0.25"]
+    assert told[0][2:4] == ["ocs_design.export.watching", "0.25"]
     assert len(told[0]) == 8
 
 
 CLOSES = """
 import sys, threading
 import mujoco, mujoco.viewer
-from ocs_design.export import watch_frames
+from ocs_design.export import watching
 seen, launch = [], mujoco.viewer.launch_passive
 def launched(model, data, **options):
     handle = launch(model, data, **options)
@@ -77,7 +77,7 @@ def launched(model, data, **options):
     threading.Timer(1.5, end).start()
     return handle
 mujoco.viewer.launch_passive = launched
-watch_frames.main(sys.argv[1:])
+watching.main(sys.argv[1:])
 print("seen", seen, flush=True)
 import os
 os._exit(0)

@@ -6,10 +6,12 @@ from dataclasses import replace
 import pytest
 from wheels import paper_device
 
-from ocs_design.design import Web
-from ocs_design.export.made_wheel import made_wheel
-from ocs_design.export.wheel_drawing import device_hash, export_wheel_drawing, wheel_drawing
-from ocs_design.sizing.web import WEB_DENSITY, WEB_MATERIAL, WEB_THICKNESS, Hub
+from ocs_design.device.device import Web
+from ocs_design.export.device_parts import wheel_geometry
+from ocs_design.export.drawing.wheel_sheet import device_hash, wheel_drawing, write
+from ocs_design.export.formats import Subject
+from ocs_design.parts.rim import WEB_DENSITY, WEB_MATERIAL, WEB_THICKNESS, Hub
+from ocs_design.workflows.restoring import RecordedSeat
 
 DEVICE = paper_device()
 HUB = Hub(0.010, 0.005, 0.0015, bolts=4, bolt_circle_radius=0.006, bolt_hole_radius=0.0011)
@@ -22,7 +24,7 @@ def on_a_web(device):
 
 
 def test_mass_and_inertia_are_the_designed_ones():
-    drawing = wheel_drawing(DEVICE, made_wheel(DEVICE.flywheel), "solo12")
+    drawing = wheel_drawing(DEVICE, "solo12")
     found, wheel = drawing.mass_properties, DEVICE.flywheel
     assert found.mass == pytest.approx(wheel.mass, rel=1e-9)
     rotor = DEVICE.motor.rotor_inertia
@@ -31,20 +33,21 @@ def test_mass_and_inertia_are_the_designed_ones():
 
 
 def test_a_web_is_made_with_the_hub_that_was_sized():
-    made = made_wheel(on_a_web(DEVICE).flywheel)
+    made = wheel_geometry(on_a_web(DEVICE).flywheel)
     assert (made.hub.bolts.count, made.hub.bolts.radius) == (4, 0.006)
     assert made.hub.material == WEB_MATERIAL
     no_bolts = replace(HUB, bolts=0)
     web = replace(on_a_web(DEVICE).flywheel.web, hub=no_bolts)
-    assert made_wheel(replace(DEVICE.flywheel, web=web)).hub.bolts is None
+    assert wheel_geometry(replace(DEVICE.flywheel, web=web)).hub.bolts is None
 
 
 def test_both_files_are_written_and_the_same_every_time(tmp_path):
-    drawing = wheel_drawing(DEVICE, made_wheel(DEVICE.flywheel), "solo12")
-    paths = export_wheel_drawing(drawing, tmp_path)
-    assert [path.name for path in paths] == ["wheel.svg", "wheel.pdf"]
+    subject = Subject("solo12", DEVICE, RecordedSeat("base_link", None), None)
+    assert write(subject, tmp_path) == ()
+    paths = sorted(tmp_path.iterdir())
+    assert [path.name for path in paths] == ["wheel.pdf", "wheel.svg"]
     first = [path.read_bytes() for path in paths]
-    export_wheel_drawing(drawing, tmp_path)
+    write(subject, tmp_path)
     assert [path.read_bytes() for path in paths] == first
 
 
@@ -59,4 +62,4 @@ def test_the_hash_follows_the_parts_and_not_their_place():
 def test_a_speed_without_limit_is_no_speed(fastest, said):
     motor = replace(DEVICE.motor, no_load_speed=fastest, speed_max=None)
     device = replace(DEVICE, motor=motor)
-    assert wheel_drawing(device, made_wheel(DEVICE.flywheel), "x").speed == said
+    assert wheel_drawing(device, "x").speed == said

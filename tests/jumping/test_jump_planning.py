@@ -89,7 +89,7 @@ def test_feet_roll_and_do_not_slide(push_off, body):
 
 
 def test_the_legs_come_back_to_the_stance_in_flight(planner, body):
-    legs = planner.plan(JUMP, body.trunk).legs
+    legs = planner.plan(JUMP, body.trunk).plan.legs
     assert legs.time[-1] < legs.lift_off + JUMP.flight_time
     np.testing.assert_allclose(legs.position[-1], body.posture, atol=1e-9)
     np.testing.assert_allclose(legs.velocity[-1], 0.0, atol=1e-9)
@@ -100,7 +100,7 @@ def test_the_legs_come_back_to_the_stance_in_flight(planner, body):
 
 @pytest.mark.slow
 def test_the_limit_that_forbids_a_jump_is_named(planner, body):
-    note = planner.plan(Jump(0.0, 6.0, 9.81), body.trunk).note
+    note = planner.plan(Jump(0.0, 6.0, 9.81), body.trunk).plan.note
     assert "of joint '" in note
     assert "more than its" in note
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from commands import SOLO12
 
-from ocs_design.pareto import draw_front, lightest_device, read_task
 from ocs_design.requirement.specification import RobotSection, Specification
-from ocs_design.requirement.sweeps import SWEEPS
+from ocs_design.requirement.sweep import SWEEPS
+from ocs_design.workflows.pareto import draw_front, lightest_device, read_task
 
 SETTLED = 1e-9
 """Relative, to which the selection finds the lightest of one drive."""

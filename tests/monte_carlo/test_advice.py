@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from made_outcomes import made_outcomes
 
-from ocs_design.monte_carlo.advice import advice
+from ocs_design.device.layout import module_axes
 from ocs_design.monte_carlo.outcomes import METRICS
+from ocs_design.monte_carlo.summary import advice
 from ocs_design.requirement.maneuver import Flip
-from ocs_design.sizing.incidence import module_axes
 
 FLIP = Flip(name="flip", jump_height=1.0, angle=-3.0, duration=1.0, incidence=0.0)
 

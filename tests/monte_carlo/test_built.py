@@ -8,9 +8,8 @@ import pytest
 from campaigns import NOTHING, short_campaign
 from wheels import driven_device, paper_device
 
-from ocs_design.monte_carlo.built import built
-from ocs_design.requirement.distributions import Constant
-from ocs_design.requirement.reality import RealitySection
+from ocs_design.monte_carlo.uncertainty import built
+from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 
@@ -18,7 +17,7 @@ from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 def drawn(robot, device=None, **stated):
     """World as designed, and as built with these errors and no others."""
     given = {**NOTHING, **{name: Constant(value) for name, value in stated.items()}}
-    campaign = short_campaign(robot, RealitySection(**given), device=device, drop_only=True)
+    campaign = short_campaign(robot, UncertaintySection(**given), device=device, drop_only=True)
     world = campaign.flights[0].world
     return world, built(world, campaign.sample(0), 0, campaign.air)
 

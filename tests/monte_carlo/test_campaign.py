@@ -6,10 +6,15 @@ import numpy as np
 import pytest
 from campaigns import short_campaign
 
-from ocs_design.monte_carlo.campaign import fly_samples
-from ocs_design.monte_carlo.cases import case_of, metrics_of, read_case, write_case
+from ocs_design.monte_carlo.campaign import (
+    case_of,
+    fly_samples,
+    metrics_of,
+    read_case,
+    replayed,
+    write_case,
+)
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
-from ocs_design.monte_carlo.replay import replayed
 from ocs_design.monte_carlo.summary import summarised
 from ocs_design.simulation.verdict import MOMENTUM_GATE
 

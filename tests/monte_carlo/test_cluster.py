@@ -12,16 +12,14 @@ import numpy as np
 import pytest
 from campaigns import short_campaign
 
-from ocs_design.exceptions import MissingToolError, OcsError
-from ocs_design.monte_carlo.blocks import blocks_of
+from ocs_design.common.errors import MissingToolError, OcsError
 from ocs_design.monte_carlo.campaign import fly_samples
-from ocs_design.monte_carlo.cluster import Cluster
-from ocs_design.monte_carlo.outcomes import Outcomes
-from ocs_design.monte_carlo.running import run_campaign
+from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
+from ocs_design.monte_carlo.running import Cluster, run_campaign
 
 
 def test_nobody_at_the_address_is_an_error_with_its_cure(monkeypatch):
-    monkeypatch.setattr("ocs_design.monte_carlo.cluster.PATIENCE", 0.2)
+    monkeypatch.setattr("ocs_design.monte_carlo.running.PATIENCE", 0.2)
     with pytest.raises(OcsError, match="no Dask scheduler answers") as error:
         Cluster("tcp://127.0.0.1:1")
     assert "dask scheduler" in error.value.hint

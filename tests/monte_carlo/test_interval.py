@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from ocs_design.monte_carlo.interval import share
+from ocs_design.monte_carlo.summary import share
 
 
 @pytest.mark.parametrize("flown", [1, 2, 10, 64, 10_000])

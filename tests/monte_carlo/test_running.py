@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from made_outcomes import made_outcomes
 
-from ocs_design.exceptions import OutputError
-from ocs_design.monte_carlo.blocks import blocks_of
-from ocs_design.monte_carlo.outcomes import Outcomes
+from ocs_design.common.errors import OutputError
+from ocs_design.monte_carlo.outcomes import Identity, Outcomes, Storage, blocks_of
 from ocs_design.monte_carlo.running import Workers, run_campaign
-from ocs_design.monte_carlo.storage import Identity, Storage
 
 BLOCKS = blocks_of(100, 8)
 IDENTITY = Identity(

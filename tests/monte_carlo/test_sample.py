@@ -6,26 +6,24 @@ import numpy as np
 from scipy import stats
 from wheels import driven_device, paper_device
 
-from ocs_design.monte_carlo.reality import KEYS, NAMES, Reality, no_load_torque
-from ocs_design.monte_carlo.sample import Sample
-from ocs_design.requirement.distributions import Constant, Normal
-from ocs_design.requirement.reality import RealitySection
+from ocs_design.monte_carlo.uncertainty import KEYS, NAMES, Sample, Uncertainty, no_load_torque
+from ocs_design.requirement.uncertainty import Constant, Normal, UncertaintySection
 
 
-def reality(robot, **stated):
-    return Reality.of(RealitySection(**stated), robot, driven_device())
+def uncertainty(robot, **stated):
+    return Uncertainty.of(UncertaintySection(**stated), robot, driven_device())
 
 
 def test_every_key_has_a_default_and_its_own_place(solo12):
-    sample = Sample.draw(reality(solo12), 0, 0)
+    sample = Sample.draw(uncertainty(solo12), 0, 0)
     placed = np.concatenate([sample.of(key) for key in KEYS])
     np.testing.assert_array_equal(placed, sample.values)
     assert len(NAMES) == len(sample.values) == 28
 
 
 def test_a_changed_distribution_leaves_what_else_is_drawn(solo12):
-    one = Sample.draw(reality(solo12), 3, 5)
-    other = Sample.draw(reality(solo12, com_error=Normal(0.0, 1.0)), 3, 5)
+    one = Sample.draw(uncertainty(solo12), 3, 5)
+    other = Sample.draw(uncertainty(solo12, com_error=Normal(0.0, 1.0)), 3, 5)
     same = [not name.startswith("com_error") for name in NAMES]
     np.testing.assert_array_equal(one.values[same], other.values[same])
     assert not np.any(one.of("com_error") == other.of("com_error"))
@@ -33,7 +31,7 @@ def test_a_changed_distribution_leaves_what_else_is_drawn(solo12):
 
 def test_samples_and_seeds_are_independent(solo12):
     """Kolmogorov and Smirnov: uniform numbers behind every value, and none of them shared."""
-    spread = reality(solo12, mass_error=Normal(0.0, 0.02))
+    spread = uncertainty(solo12, mass_error=Normal(0.0, 0.02))
     drawn = np.array([Sample.draw(spread, 0, index).values for index in range(400)])
     masses = drawn[:, NAMES.index("mass_error")]
     cut = stats.truncnorm(-3.0, 3.0, scale=0.02)
@@ -44,7 +42,7 @@ def test_samples_and_seeds_are_independent(solo12):
 
 
 def test_noise_differs_from_flight_to_flight(solo12):
-    sample = Sample.draw(reality(solo12), 0, 9)
+    sample = Sample.draw(uncertainty(solo12), 0, 9)
     first, second = (sample.noise(flight).generate_state(4) for flight in range(2))
     assert not np.any(first == second)
     np.testing.assert_array_equal(first, sample.noise(0).generate_state(4))
@@ -54,7 +52,7 @@ def test_friction_is_that_of_the_no_load_current(solo12):
     """Half of k_t I_0 whatever the speed, and the other half at the speed that it is stated at."""
     device = driven_device()
     motor = replace(device.motor, torque_constant=0.037, no_load_current=0.2, rated_voltage=24.0)
-    spread = Reality.of(RealitySection(), solo12, replace(device, motor=motor))
+    spread = Uncertainty.of(UncertaintySection(), solo12, replace(device, motor=motor))
     middle = {key: spread.spreads[key].at(0.5) for key in ("coulomb_friction", "viscous_friction")}
     whole = middle["coulomb_friction"] + middle["viscous_friction"] * motor.no_load_speed
     assert no_load_torque(motor) == 0.037 * 0.2
@@ -62,11 +60,11 @@ def test_friction_is_that_of_the_no_load_current(solo12):
 
 
 def test_a_motor_of_which_nothing_is_known_has_no_friction(solo12):
-    spread = Reality.of(RealitySection(), solo12, paper_device())
+    spread = Uncertainty.of(UncertaintySection(), solo12, paper_device())
     assert spread.spreads["coulomb_friction"].at(1.0) == 0.0
     assert spread.spreads["viscous_friction"].at(1.0) == 0.0
 
 
 def test_what_is_stated_holds(solo12):
-    spread = reality(solo12, torque_delay=Constant(0.0))
+    spread = uncertainty(solo12, torque_delay=Constant(0.0))
     assert Sample.draw(spread, 0, 1).only("torque_delay") == 0.0

@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow.parquet
 from made_outcomes import made_outcomes
 
-from ocs_design.monte_carlo.tables import write_tables
+from ocs_design.monte_carlo.outcomes import write_tables
 
 
 def test_csv_and_parquet_hold_the_same_rows(tmp_path):

@@ -2,14 +2,12 @@
 
 import pytest
 from made_parts import CAGE
+from part_gaps import overlap_volume, thinnest_wall, turning_clearance
 
-from ocs_design.parts.cage import cage_part
-from ocs_design.parts.interference import overlap_volume, turning_clearance
+from ocs_design.parts.cage import FLOOR, FRONT_GAP, cage_part
 from ocs_design.parts.part import Part
+from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.solids import hollow_cylinder
-from ocs_design.parts.walls import thinnest_wall
-from ocs_design.sizing.cage import FLOOR, FRONT_GAP
-from ocs_design.sizing.housing import CLEARANCE, WALL
 
 MOTOR = Part(
     "motor", 1.0, (hollow_cylinder(0.0, CAGE.motor_radius, FLOOR, FLOOR + CAGE.motor_length),)

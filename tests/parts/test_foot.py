@@ -6,12 +6,18 @@ import numpy as np
 import pytest
 from made_parts import FOOT, HOUSING
 
-from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.export.meshes import part_manifold
+from ocs_design.parts.foot import (
+    BASE_THICKNESS,
+    MARK_DEPTH,
+    PLATE_THICKNESS,
+    TRUNK_SCREW,
+    Foot,
+    foot_part,
+)
 from ocs_design.parts.housing import Housing, housing_parts
-from ocs_design.parts.mesh import part_manifold
+from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.solids import Prism
-from ocs_design.sizing.foot import BASE_THICKNESS, MARK_DEPTH, PLATE_THICKNESS, TRUNK_SCREW
-from ocs_design.sizing.housing import CLEARANCE, WALL
 
 
 def in_wheel_frame(foot: Foot):
@@ -76,8 +82,11 @@ def test_a_mark_every_ten_degrees_within_the_base():
     assert len(marks) == 36
     reach = max(np.linalg.norm(mark.outline.points, axis=1).max() for mark in marks)
     assert reach < FOOT.base_radius
-    turns = [np.degrees(np.arctan2(*mark.placement.rotation[[1, 0], 0])) for mark in marks]
-    np.testing.assert_allclose(np.mod(turns, 360.0), np.arange(0.0, 360.0, 10.0), atol=1e-12)
+    middles = [mark.outline.points.mean(axis=0) for mark in marks]
+    turns = sorted(np.mod(np.degrees([np.arctan2(y, x) for x, y in middles]) + 1e-9, 360.0))
+    np.testing.assert_allclose(turns, np.arange(0.0, 360.0, 10.0), atol=1e-8)
+    long = [mark for mark in marks if np.ptp(mark.outline.turned(0.0).points, axis=0).max() > 3e-3]
+    assert len(long) == 12
 
 
 def test_plate_grows_with_the_mount():

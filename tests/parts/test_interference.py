@@ -2,21 +2,13 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from made_parts import SLOTTED, TWO_PIECES
+from made_parts import TWO_PIECES
+from part_gaps import overlap_volume, turning_clearance
 
-from ocs_design.parts.interference import (
-    overlap_volume,
-    profile_clearance,
-    swept,
-    turning_clearance,
-)
-from ocs_design.parts.outline import rectangle
 from ocs_design.parts.part import Part
+from ocs_design.parts.shapes import Rectangle
 from ocs_design.parts.solids import Prism, hollow_cylinder
-from ocs_design.parts.wheel_parts import wheel_parts
-from ocs_design.robot.tree import Placement
+from ocs_design.parts.wheel import wheel_parts
 
 BAND = Part("band", 1.0, (hollow_cylinder(0.032, 0.034, -0.01, 0.01),))
 
@@ -35,37 +27,20 @@ def test_overlap_of_two_cylinders():
 
 def test_gap_to_a_band_both_ways():
     wheel = wheel_parts(TWO_PIECES)
-    exact = profile_clearance(swept(wheel[0]).swept_profiles(), BAND.swept_profiles())
-    assert exact == pytest.approx(0.002, rel=1e-12)
     # Polygons of 256 sections are 2 um off their circles.
-    assert turning_clearance(wheel, [BAND], 0.01) == pytest.approx(exact, abs=5e-6)
+    assert turning_clearance(wheel, [BAND], 0.01) == pytest.approx(0.002, abs=5e-6)
 
 
 def test_gap_to_a_block_that_the_wheel_only_passes():
     block = Part(
         "block",
         1.0,
-        (Prism(rectangle(0.031, 0.04, -0.001, 0.001), -0.002, 0.002),),
+        (Prism(Rectangle(0.031, 0.04, -0.001, 0.001), -0.002, 0.002),),
     )
     gap = turning_clearance(wheel_parts(TWO_PIECES), [block], 0.01)
     assert gap == pytest.approx(0.001, abs=5e-6)
 
 
 def test_gap_beyond_reach():
-    far = Part("far", 1.0, (Prism(rectangle(1.0, 1.1, 0.0, 0.1), 0.0, 0.1),))
+    far = Part("far", 1.0, (Prism(Rectangle(1.0, 1.1, 0.0, 0.1), 0.0, 0.1),))
     assert turning_clearance(wheel_parts(TWO_PIECES), [far], 0.01) == pytest.approx(0.01)
-
-
-@given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
-def test_profile_gap_of_two_boxes(right, up):
-    one = np.array([[2.0, 0.0], [3.0, 0.0], [3.0, 1.0], [2.0, 1.0]])
-    other = one + np.array([1.0 + abs(right), up * 3.0])
-    gap = np.hypot(abs(right), max(0.0, abs(up) * 3.0 - 1.0))
-    assert profile_clearance([one], [other]) == pytest.approx(gap, abs=1e-12)
-
-
-def test_prisms_sweep_more_than_themselves():
-    placed = Prism(rectangle(-1.0, 1.0, -1.0, 1.0), 0.0, 1.0, Placement.identity())
-    assert swept(Part("x", 1.0, (hollow_cylinder(0.0, 1.0, 0.0, 1.0),), (placed,))).cut == ()
-    with pytest.raises(ValueError, match="no body of revolution"):
-        swept(SLOTTED)

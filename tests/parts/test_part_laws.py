@@ -5,19 +5,19 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from made_parts import ALUMINIUM, STEEL
+from part_gaps import overlap_volume, turning_clearance
 
-from ocs_design.exceptions import PartError
-from ocs_design.fasteners import SCREWS
+from ocs_design.actuation.fasteners import SCREWS
+from ocs_design.actuation.motor import BoltCircle
+from ocs_design.common.errors import PartError
+from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
-from ocs_design.parts.interference import overlap_volume, turning_clearance
-from ocs_design.parts.mesh import part_manifold
-from ocs_design.parts.mount import Mount
 from ocs_design.parts.part import Part
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
-from ocs_design.parts.wheel_parts import wheel_parts
-from ocs_design.robot.mass_properties import physical_defect
-from ocs_design.sizing.housing import CLEARANCE, EAR_COUNT
+from ocs_design.parts.printed import CLEARANCE, MountHoles
+from ocs_design.parts.shapes import EAR_COUNT
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
+from ocs_design.robot.mass import physical_defect
 
 SECTIONS = 48
 few = settings(max_examples=25, deadline=None)
@@ -62,7 +62,7 @@ def wheels(draw: st.DrawFn) -> Wheel:
 def housings(draw: st.DrawFn) -> Housing:
     """From a rim of 10 mm to one of 200."""
     radius = draw(st.floats(0.01, 0.2))
-    mount = Mount(0.003, (HoleRing(0.007, draw(st.integers(1, 6)), 0.0012),))
+    mount = MountHoles(0.003, BoltCircle(0.014, draw(st.integers(1, 6)), "M2"))
     return Housing(radius, radius * draw(st.floats(0.1, 1.0)), mount, draw(st.sampled_from(SCREWS)))
 
 
@@ -80,7 +80,7 @@ def test_wheel(wheel):
 @few
 @given(housings())
 def test_housing_and_foot(housing):
-    holes = 1 + housing.mount.rings[0].count
+    holes = 1 + housing.mount.screws.bolts
     drum, lid = housing_parts(housing)
     # The threads end on the floor's ears: blind.
     assert_one_body(drum, holes)

@@ -2,23 +2,23 @@
 
 import pytest
 from made_parts import FOOT, HOUSING, HUB, TWO_PIECES
+from part_gaps import thinnest_wall
 
 from ocs_design.parts.foot import BASE_THICKNESS, MARK_DEPTH, foot_part
 from ocs_design.parts.housing import housing_parts
-from ocs_design.parts.outline import rectangle
 from ocs_design.parts.part import Part
+from ocs_design.parts.printed import WALL
+from ocs_design.parts.shapes import Rectangle
 from ocs_design.parts.solids import Prism, hollow_cylinder
-from ocs_design.parts.walls import thinnest_wall
-from ocs_design.parts.wheel_parts import wheel_parts
-from ocs_design.sizing.housing import WALL
+from ocs_design.parts.wheel import wheel_parts
 
 POLYGONS = 0.01
 """Share of a wall that polygons of 128 sections cost."""
 
 
 def test_box_with_a_pocket():
-    block = Prism(rectangle(0.0, 0.03, 0.0, 0.02), 0.0, 0.01)
-    pocket = Prism(rectangle(0.004, 0.026, 0.005, 0.0175), 0.003, 0.01)
+    block = Prism(Rectangle(0.0, 0.03, 0.0, 0.02), 0.0, 0.01)
+    pocket = Prism(Rectangle(0.004, 0.026, 0.005, 0.0175), 0.003, 0.01)
     assert thinnest_wall(Part("box", 1.0, (block,), (pocket,))) == pytest.approx(0.0025, rel=1e-9)
 
 

@@ -11,14 +11,13 @@ import pytest
 from fronts import by_hand, infeasible, make_front
 from rich.console import Console
 
-from ocs_design.answers import to_json
-from ocs_design.exceptions import OutputError
-from ocs_design.report.charts.marks import Points
-from ocs_design.report.charts.png import png_chart
+from ocs_design.common.errors import OutputError
+from ocs_design.device.answers import to_json
+from ocs_design.report.charts.chart import Points
+from ocs_design.report.charts.files import png_file
+from ocs_design.report.charts.front import COLUMNS, front_chart, front_csv, write_front
 from ocs_design.report.charts.svg import svg_file
-from ocs_design.report.figures.front import front_chart
-from ocs_design.report.front_files import COLUMNS, front_csv, write_front
-from ocs_design.report.pareto import NONE, OWN, print_front
+from ocs_design.report.text.front import NONE, OWN, print_front
 
 BRAILLE = {chr(code) for code in range(0x2800, 0x2900)}
 
@@ -93,7 +92,7 @@ def test_the_figure_has_a_point_for_each_device_in_the_colour_of_its_drive(front
 def test_any_name_can_be_drawn(front):
     chart = front_chart(replace(front, robot=r"$\nonsense$ & <b>"))
     assert ET.fromstring(svg_file(chart)).tag.endswith("svg")
-    assert png_chart(chart).startswith(b"\x89PNG")
+    assert png_file(chart).startswith(b"\x89PNG")
 
 
 def test_the_table_of_numbers_has_all_digits(front):
@@ -143,8 +142,8 @@ def test_a_foreign_folder_is_never_replaced(front, tmp_path):
     assert (tmp_path / "letter.txt").exists()
 
 
-def test_without_matplotlib_all_else_is_written(front, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
+def test_without_resvg_all_else_is_written(front, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
     (remark,) = write_front(front, tmp_path / "front")
     assert "pip install 'ocs-design[plot]'" in remark
     assert not (tmp_path / "front" / "front.png").exists()
@@ -155,7 +154,7 @@ def test_nothing_is_left_of_a_front_that_could_not_be_written(front, tmp_path, m
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("ocs_design.report.front_files.front_chart", interrupted)
+    monkeypatch.setattr("ocs_design.report.charts.front.front_chart", interrupted)
     with pytest.raises(KeyboardInterrupt):
         write_front(front, tmp_path / "front")
     assert list(tmp_path.iterdir()) == []

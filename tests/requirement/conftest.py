@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.tree import Body, Placement, Tree
 

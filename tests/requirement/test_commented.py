@@ -7,11 +7,10 @@ from dataclasses import is_dataclass, replace
 import pytest
 from specifications import FULL
 
-from ocs_design.requirement.commented import commented_toml, rounded_text
-from ocs_design.requirement.defaults import default_specification
 from ocs_design.requirement.froude import example_shove
-from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
+from ocs_design.requirement.maneuver import MANEUVER_KINDS
 from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.resolving import default_specification
 from ocs_design.requirement.specification import (
     SECTIONS,
     FlywheelSection,
@@ -20,6 +19,7 @@ from ocs_design.requirement.specification import (
     all_keys,
     keys_of,
 )
+from ocs_design.requirement.writing import commented_toml, rounded_text
 from ocs_design.robot.manual import robot_by_hand
 
 KEY_LINE = re.compile(r"^(?:# )?(\w+) = ", re.MULTILINE)

@@ -5,8 +5,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from ocs_design.requirement.defaults import default_specification
-from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.resolving import default_specification, resolve
 from ocs_design.requirement.specification import Specification
 
 SIZE = 2.0
@@ -45,3 +44,11 @@ def test_maneuvers_fall_as_gravity_has_it(solo12):
     assert disturbance.gravity == drop.gravity == 3.7
     np.testing.assert_allclose(disturbance.takeoff_velocity[1], 2.4 * np.sqrt(3.7 / 9.81))
     assert flip.gravity == 1.62
+
+
+@pytest.mark.parametrize(
+    ("robot", "said"), [("solo12", "at most 250 g"), ("large", "at most 5 kg")]
+)
+def test_the_rim_mass_is_told_in_a_unit_that_needs_no_exponent(robot, said, request):
+    assumptions = resolve(Specification(), request.getfixturevalue(robot), SIZE).assumptions
+    assert said in next(each for each in assumptions if each.startswith("Rim mass"))

@@ -8,12 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from ocs_design.exceptions import OcsError
-from ocs_design.requirement.distributions import CUT, Constant, Normal, Uniform
+from ocs_design.common.errors import OcsError
+from ocs_design.common.units import Dimension
 from ocs_design.requirement.reading import parse_specification
-from ocs_design.requirement.spread import Spread
+from ocs_design.requirement.uncertainty import CUT, Constant, Normal, Spread, Uniform
 from ocs_design.requirement.writing import specification_to_toml
-from ocs_design.units import Dimension
 
 ANGLE = Spread(Dimension.ANGLE, "deg")
 finite = st.floats(-1e6, 1e6)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from robots import SOLO12 as ROBOTS_SOLO12
 
-from ocs_design.drive.tilt_inertia import TiltInertia
+from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.requirement.bound import spin_inertia_for
 from ocs_design.requirement.froude import (
     SOLO12,
@@ -19,10 +19,9 @@ from ocs_design.requirement.froude import (
     default_maneuvers,
     standing_height,
 )
-from ocs_design.robot.files.loader import load
-from ocs_design.robot.stance.legs import find_legs
-from ocs_design.robot.stance.stand import stand
-from ocs_design.robot.stance.trunk import find_trunk
+from ocs_design.robot.legs import find_legs, find_trunk
+from ocs_design.robot.reader import load
+from ocs_design.robot.stance import stand
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
 RATIOS = st.floats(0.2, 20.0)
@@ -48,6 +47,16 @@ def test_solo12_has_exactly_its_own_room(solo12):
     assert (room.outer_radius_max, room.inner_radius_min) == (0.05, 0.005)
     assert (room.height_max, room.height_min, room.wall_min) == (0.01, 0.002, 0.002)
     assert (room.mass_max, room.stress_safety) == (0.25, 2.0)
+
+
+def test_the_room_of_a_larger_robot_has_the_same_proportions(make_robot, solo12):
+    larger = make_robot(30.0, (1.0, 2.0, 2.4), 0.6)
+    own, room = default_envelope(solo12), default_envelope(larger)
+    lengths = ("inner_radius_min", "height_max", "height_min", "wall_min")
+    ratio = room.outer_radius_max / own.outer_radius_max
+    assert ratio > 1.5
+    for name in lengths:
+        assert getattr(room, name) == pytest.approx(ratio * getattr(own, name), rel=1e-12), name
 
 
 def test_the_back_flip_asks_most_of_solo12_and_fits_its_room(solo12):

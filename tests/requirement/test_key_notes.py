@@ -1,13 +1,8 @@
 """Every key that there is has its note, and no other."""
 
-from ocs_design.requirement.key_notes import (
-    FIELD_NOTES,
-    KEY_NOTES,
-    MANEUVER_NOTES,
-    field_note,
-)
-from ocs_design.requirement.maneuver_table import MANEUVER_KINDS
+from ocs_design.requirement.maneuver import MANEUVER_KINDS
 from ocs_design.requirement.specification import all_keys
+from ocs_design.requirement.writing import FIELD_NOTES, KEY_NOTES, MANEUVER_NOTES, field_note
 
 
 def test_every_key_is_explained():

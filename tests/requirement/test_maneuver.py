@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ocs_design.drive.tilt_inertia import TiltInertia
-from ocs_design.exceptions import SpecificationError
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import per_wheel
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 

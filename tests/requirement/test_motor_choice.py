@@ -4,12 +4,12 @@ from math import inf
 
 import pytest
 
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import gears, stages
 from ocs_design.catalogue.materials import materials
 from ocs_design.catalogue.motors import motors
-from ocs_design.drive.gear import DIRECT
-from ocs_design.exceptions import SpecificationError
-from ocs_design.requirement.motor_choice import motor_choice
+from ocs_design.common.errors import SpecificationError
+from ocs_design.requirement.choices import motor_choice
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import (
     FlywheelSection,

@@ -7,11 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.exceptions import OcsError, SpecificationError, UsageError
+from ocs_design.common.errors import OcsError, SpecificationError, UsageError
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.requirement.options import specification_from_options
 from ocs_design.requirement.reading import parse_specification, read_specification
-from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.specification import Specification, specification_from_options
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ocs_design.actuation.drive import missing_figures
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import gears, stages
 from ocs_design.catalogue.motors import motors
-from ocs_design.drive.gear import DIRECT
-from ocs_design.drive.line import missing_figures
-from ocs_design.exceptions import SpecificationError
+from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
 from ocs_design.requirement.reading import parse_specification, read_specification

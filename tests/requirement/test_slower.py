@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from specifications import MANEUVERS
 
-from ocs_design.drive.tilt_inertia import TiltInertia
+from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.requirement.maneuver import Flip
-from ocs_design.requirement.slower import slower, told_change
+from ocs_design.requirement.sweep import slower, told_change
 
 HEIGHT = 0.25
 INERTIA = TiltInertia(np.array([0.03, 0.05]), np.array(0.004))

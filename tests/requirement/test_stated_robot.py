@@ -3,9 +3,9 @@
 import pytest
 from commands import SOLO12, run
 
-from ocs_design.exceptions import RobotError
+from ocs_design.common.errors import RobotError
+from ocs_design.requirement.resolving import read_stated_robot
 from ocs_design.requirement.specification import RobotSection, Specification
-from ocs_design.requirement.stated_robot import read_stated_robot
 
 TOLD = "the parts' masses add up to 2.5"
 

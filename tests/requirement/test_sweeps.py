@@ -4,11 +4,10 @@ from math import hypot, radians
 
 import pytest
 
-from ocs_design.exceptions import UsageError
+from ocs_design.common.errors import UsageError
 from ocs_design.requirement.maneuver import Disturbance, Drop
 from ocs_design.requirement.reading import parse_specification
-from ocs_design.requirement.sweep import Task
-from ocs_design.requirement.sweeps import SWEEPS, sweep_of
+from ocs_design.requirement.sweep import SWEEPS, Task, sweep_of
 
 ROLLED = """
 [[maneuver]]
@@ -99,9 +98,11 @@ def test_one_maneuver_alone(task):
 
 def test_what_else_moves_is_said(task):
     remarks = " ".join(SWEEPS["time"].remarks(task(ROLLED)))
-    assert remarks == ("The time is that of 'drop'. In the same ratio: back-flip. As stated: push.")
+    assert remarks == (
+        "The time is that of 'drop'. In the same ratio: back-flip. As specified: push."
+    )
     alone = " ".join(sweep_of("angle", "back-flip").remarks(task(ROLLED)))
-    assert alone == "The angle is that of 'back-flip'. As stated: push, drop."
+    assert alone == "The angle is that of 'back-flip'. As specified: push, drop."
     assert SWEEPS["radius"].remarks(task()) == ()
 
 

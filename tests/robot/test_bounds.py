@@ -7,8 +7,8 @@ from anatomy import stand_of, tree_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ocs_design.robot.bounds import extent, size, trunk_top
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.meshes import extent, size, trunk_top
 from ocs_design.robot.rotations import rotation_from_rpy
 from ocs_design.robot.tree import Shape, ShapeKind
 

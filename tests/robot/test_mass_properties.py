@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.robot.mass_properties import MassProperties, combine, physical_defect
+from ocs_design.robot.mass import MassProperties, combine, physical_defect
 from ocs_design.robot.rotations import rotation_about, rotation_from_quaternion, rotation_from_rpy
 
 seeds = st.integers(min_value=0, max_value=2**32 - 1)

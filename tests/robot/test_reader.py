@@ -6,10 +6,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from anatomy import ANATOMY
-from robots import ROBOTS, SOLO12
+from robots import ROBOTS, SOLO12, one_of_each
 from urdf_text import inertial, link, robot
 
-from ocs_design.exceptions import RobotError
+from ocs_design.common.errors import RobotError
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Format
 
@@ -73,12 +73,12 @@ def test_sideways_and_upright_conventions_are_told():
     assert "--trunk" in lying
 
 
-@pytest.mark.parametrize("name", ANATOMY)
-def test_no_warning_is_told_twice_and_few_doubt_the_frame(name):
+@pytest.mark.parametrize("name", one_of_each(ANATOMY))
+def test_no_warning_is_told_twice_and_few_are_of_the_frame(name):
     warnings = read_robot(ROBOTS / f"{name}.urdf").warnings
     assert len(set(warnings)) == len(warnings)
-    doubts = [text for text in warnings if "frame of the trunk" in text]
-    assert len(doubts) == (1 if "quadruped_desc" in name or "human_desc" in name else 0)
+    of_frame = [text for text in warnings if "frame of the trunk" in text]
+    assert len(of_frame) == (1 if "quadruped_desc" in name or "human_desc" in name else 0)
 
 
 def test_a_robot_without_mass_is_refused(tmp_path):

@@ -4,10 +4,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from robots import SOLO12
 
-from ocs_design.robot.mass_properties import combine
+from ocs_design.robot.mass import combine
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.tree import Joint, JointKind, Placement, joint_motion
-from ocs_design.robot.urdf.reading import read_urdf
+from ocs_design.robot.urdf import read_urdf
 
 TREE = read_urdf(SOLO12.read_bytes(), find_mesh=lambda _: None)
 seeds = st.integers(min_value=0, max_value=2**32 - 1)

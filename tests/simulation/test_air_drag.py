@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from wheels import PAPER_WHEEL
 
-from ocs_design.simulation.air_drag import (
+from ocs_design.simulation.imperfections import (
     AIR_DENSITY,
     AIR_VISCOSITY,
     air_drag,

@@ -5,16 +5,16 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from wheels import motor
 
-from ocs_design.simulation.controller import (
+from ocs_design.device.layout import module_axes
+from ocs_design.simulation.wheel_law import (
     Allocation,
     Gains,
+    MotorLimits,
     Target,
     WheelLaw,
     tilt_error,
 )
-from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.sizing.gyrostat import Gyrostat
-from ocs_design.sizing.incidence import module_axes
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 INERTIA = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])
 UNLIMITED = MotorLimits(np.inf, 0.0, np.inf)

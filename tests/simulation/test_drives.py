@@ -7,8 +7,7 @@ from wheels import paper_device
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.drives import DRIVE, leg_joints
-from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.scene import DRIVE, Wheels, leg_joints
 from ocs_design.simulation.world import World, WorldBuilder
 
 SOME = [

@@ -6,9 +6,9 @@ import pytest
 from wheels import paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.launch import Push
-from ocs_design.simulation.recording import Recording
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder
 

@@ -2,7 +2,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from ocs_design.simulation.ground import FLOOR, add_floor, lowest_point
+from ocs_design.simulation.scene import FLOOR, add_floor, lowest_point
 
 Geom = mujoco.mjtGeom
 SHAPES = {

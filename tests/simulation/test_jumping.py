@@ -8,18 +8,15 @@ import pytest
 from energy import balance
 from wheels import paper_device
 
-from ocs_design.jumping.jump import JumpPlan, JumpPlans
-from ocs_design.jumping.leg_trajectory import LegTrajectory
+from ocs_design.jumping.jump import JumpPlan, JumpPlans, LegTrajectory
 from ocs_design.jumping.planning import plan_jumps
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Shove
-from ocs_design.simulation.drives import DRIVE
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.legs import LegReferences
-from ocs_design.simulation.lift_off import FlightClock
 from ocs_design.simulation.metrics import measure, series_of
 from ocs_design.simulation.scenario import run_scenarios
-from ocs_design.simulation.scene import JUMP_STEP, STEP, Wheels
+from ocs_design.simulation.scene import DRIVE, JUMP_STEP, STEP, Wheels
+from ocs_design.simulation.schedule import FlightClock, LegReferences
 from ocs_design.simulation.world import WorldBuilder
 
 

@@ -7,9 +7,9 @@ import pytest
 from wheels import motor, paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.simulation.controller import Allocation
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scenario import Options, run_scenarios
+from ocs_design.simulation.wheel_law import Allocation
 
 RPM = np.pi / 30.0
 

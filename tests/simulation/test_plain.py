@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from wheels import driven_device
 
+from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.model import build_spec
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 
 DEFAULTS = """<default>

@@ -4,9 +4,8 @@ import pytest
 from wheels import paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.poses import poses_of
-from ocs_design.simulation.recording import pose_stride
+from ocs_design.simulation.batch import pose_stride
+from ocs_design.simulation.engine import poses_of, simulate
 from ocs_design.simulation.scenario import Options, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder

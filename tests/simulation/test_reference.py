@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ocs_design.drive.line import RESERVE
-from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.actuation.drive import RESERVE
+from ocs_design.device.layout import module_axes
 from ocs_design.simulation.reference import (
     Quintic,
     SmoothTrapezoid,
@@ -13,8 +13,8 @@ from ocs_design.simulation.reference import (
     fit_turn,
     utilisation,
 )
-from ocs_design.sizing.gyrostat import Gyrostat
-from ocs_design.sizing.incidence import module_axes
+from ocs_design.simulation.wheel_law import MotorLimits
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 PITCH = np.array([0.0, 1.0, 0.0])
 BODY = Gyrostat(np.diag([0.03, 0.0535, 0.068]), module_axes(np.radians(40.0)), 1e-4)

@@ -4,19 +4,19 @@ import numpy as np
 import pytest
 from wheels import braked_inertia
 
-from ocs_design.assembly import assemble_selected
+from ocs_design.actuation.motor import DIRECT, Gear
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motor
-from ocs_design.drive.gear import DIRECT, Gear
 from ocs_design.requirement.froude import default_envelope, default_maneuvers, standing_height
-from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.maneuver import Requirement
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder
-from ocs_design.sizing.optimal_control.reference import reference
+from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.placement import place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.trajectory.plans import reference
 
 BELT = Gear("belt", 1.2, 0.95, 0.01, 1e-6, np.inf, np.inf, np.inf, reverses=False, source="test")
 CHOICES = {

@@ -9,13 +9,12 @@ from wheels import paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
-from ocs_design.simulation.controller import WheelLaw
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.metrics import measure
+from ocs_design.simulation.metrics import breakdown, drive_growth, measure, objection
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.soundness import breakdown, drive_growth, objection
 from ocs_design.simulation.verdict import judge
+from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import WorldBuilder
 
 

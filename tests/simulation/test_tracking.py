@@ -11,13 +11,18 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.controller import Allocation, Gains, Target, WheelLaw, tilt_error
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.reference import Quintic
+from ocs_design.simulation.reference import Quintic, track
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.tracking import track
+from ocs_design.simulation.wheel_law import (
+    Allocation,
+    Gains,
+    MotorLimits,
+    Target,
+    WheelLaw,
+    tilt_error,
+)
 from ocs_design.simulation.world import WorldBuilder
 
 BODY = robot_by_hand(2.5, (0.030, 0.0535, 0.068, 0.001, 0.003, -0.002))
@@ -73,7 +78,7 @@ def test_on_the_trajectory_the_law_adds_nothing():
         found.vertical, found.rate, np.zeros_like(found.rate), found.torque, stands=flies
     )
     state = trajectory.vertical[:-1], trajectory.rate[:-1], trajectory.wheel_speed[:-1]
-    given = WheelLaw.stack([law] * len(times)).torque(*state, target, period)
+    given = WheelLaw.joined([law] * len(times)).torque(*state, target, period)
     between = 0.5 * (trajectory.wheel_torque[1:] + trajectory.wheel_torque[:-1])
     np.testing.assert_allclose(given, between, rtol=0, atol=1e-12)
 

@@ -8,7 +8,7 @@ import pytest
 from robots import ROBOTS
 from wheels import paper_device
 
-from ocs_design.exceptions import SpecificationError
+from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.maneuver import Shove
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate

@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 from robots import ROBOTS, SOLO12
 
+from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.spec.model import build_spec, trunk_body
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.trunk import TrunkChain
+from ocs_design.simulation.world import TrunkChain
 
 TALOS = ROBOTS / "talos_data" / "robots" / "talos_full_v2.urdf"
 

@@ -5,13 +5,11 @@ import numpy as np
 import pytest
 from wheels import PAPER_WHEEL, paper_device
 
-from ocs_design.exceptions import SpecificationError
+from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
-from ocs_design.robot.mass_properties import MassProperties, combine
-from ocs_design.simulation.drives import set_gains
-from ocs_design.simulation.ground import lowest_point
-from ocs_design.simulation.scene import Wheels, robot_scene
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.simulation.scene import Wheels, lowest_point, robot_scene, set_gains
 from ocs_design.simulation.world import WorldBuilder, wheel_gains
 
 

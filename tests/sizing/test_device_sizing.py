@@ -8,16 +8,14 @@ import pinocchio
 import pytest
 from rims import STEEL, room
 
-from ocs_design.exceptions import Infeasible, UsageError
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.requirement.requirement import Requirement
-from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.device_iteration import DeadEnd, find_fixed_point
-from ocs_design.sizing.device_problem import DeviceProblem
-from ocs_design.sizing.device_relaxation import PRECISION, with_limit
-from ocs_design.sizing.device_sizing import size_device
-from ocs_design.sizing.incidence import Criterion, incidence_by_criterion, module_axes
+from ocs_design.common.errors import Infeasible, UsageError
+from ocs_design.device.layout import Criterion, incidence_by_criterion, module_axes
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.bound.device_problem import DeadEnd, DeviceProblem, find_fixed_point
+from ocs_design.sizing.bound.device_sizing import size_device
 from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED
+from ocs_design.sizing.relaxation import DEVICE_PRECISION, with_limit
 
 SOLO12 = MassProperties(
     2.5,
@@ -217,7 +215,7 @@ def test_infeasible_by_its_robot():
     for name, value in error.relaxations.items():
         mended = with_limit(problem, by_name[name], value)
         size_device(SOLO12, mended.requirement, mended.envelope, STEEL, place)
-        tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * PRECISION))
+        tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * DEVICE_PRECISION))
         assert isinstance(find_fixed_point(with_limit(problem, by_name[name], tighter)), DeadEnd)
 
 

@@ -9,12 +9,19 @@ from robots import ROBOTS
 from sampled import every
 
 from ocs_design.requirement.froude import default_envelope
-from ocs_design.robot.obstacles.motion import drawn, landing_ranges
-from ocs_design.robot.obstacles.obstacles import obstacles_of
-from ocs_design.robot.obstacles.probes import Ball
+from ocs_design.robot.clearance import drawn, landing_ranges
+from ocs_design.robot.collision import collision_model
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.free_place import Sizes, place_free, stated_place
-from ocs_design.sizing.placement import CLEARANCE, Size, place_at, place_on_top
+from ocs_design.robot.tree import Ball
+from ocs_design.sizing.placement import (
+    CLEARANCE,
+    Size,
+    Sizes,
+    place_at,
+    place_free,
+    place_on_top,
+    specified_place,
+)
 
 ON_TOP = {
     "a1",
@@ -101,8 +108,8 @@ def test_nearer_than_the_grid(masted):
 def test_a_stated_position_is_kept(masted):
     robot = masted(0.0)
     envelope = default_envelope(robot)
-    assert stated_place((0.1, 0.2, 0.3), robot, envelope) == place_at((0.1, 0.2, 0.3))
-    assert stated_place(None, robot, envelope) == place_free(robot, envelope).place
+    assert specified_place((0.1, 0.2, 0.3), robot, envelope) == place_at((0.1, 0.2, 0.3))
+    assert specified_place(None, robot, envelope) == place_free(robot, envelope).place
 
 
 def test_twice_the_same():
@@ -119,13 +126,13 @@ def test_every_legged_robot_has_a_free_place(name):
     found = place_free(robot, envelope)
     assert found.free
     assert (found.place == place_on_top(robot)) == (name.rpartition("/")[2] in ON_TOP)
-    obstacles, size = obstacles_of(robot), Sizes.of(envelope).largest
-    others = [part for part in obstacles.parts if part.limb]
+    collision, size = collision_model(robot), Sizes.of(envelope).largest
+    others = [part for part in collision.parts if part.limb]
     x, y, z = found.place.left(size)
-    poses = obstacles.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
+    poses = collision.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):
         # Postures that were not tried find no more than the room around the module.
         assert (
-            obstacles.nearest(Ball(np.array([x, side, z]), size.reach), poses, others, within=0.0)
+            collision.nearest(Ball(np.array([x, side, z]), size.reach), poses, others, within=0.0)
             is None
         )

@@ -8,14 +8,13 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from rims import random_problem, rim_problems, scaled_problem
 
+from ocs_design.parts.module import Printed
+from ocs_design.parts.rim import RimCuts
+from ocs_design.sizing.bound.rim_problem import largest_spin_inertia, lightest_rim
 from ocs_design.sizing.lightest_module import (
     lightest_module,
     lightest_module_at,
-    roomy_module_at,
 )
-from ocs_design.sizing.rim_closed_form import largest_spin_inertia, lightest_rim
-from ocs_design.sizing.rim_cuts import RimCuts
-from ocs_design.sizing.shell import Printed
 
 GRID = 350
 
@@ -63,7 +62,7 @@ def test_never_heavier_than_on_a_grid(web):
 
 
 def meets(shape, inertia, limits):
-    inner, outer, height = (float(value) for value in shape[:3])
+    inner, outer, height = map(float, (shape.inner_radius, shape.outer_radius, shape.height))
     nu, slack = limits.poisson_ratio, 1.0 + 1e-9
     plain = np.pi * limits.density * height * (outer**2 - inner**2)
     mass = plain - limits.cuts.mass(inner, outer, limits.density)
@@ -146,7 +145,7 @@ def test_more_spin_inertia_is_no_lighter(problem, web):
 
 
 def test_of_a_given_radius():
-    """No other radius is lighter, the nearest is taken where none fits, and flatter is heavier."""
+    """No other radius is lighter, and the nearest is taken where none fits."""
     rng = np.random.default_rng(5)
     problem = random_problem(rng)
     while np.isnan(float(lightest_module(problem.spin_inertia, problem.limits, SHELL).mass)):
@@ -157,31 +156,7 @@ def test_of_a_given_radius():
     others = lightest_module_at(inertia, radii, limits, SHELL)
     assert (others.mass >= best.mass * (1.0 - 1e-12)).all()
     for index in (0, -1):
-        meets(_nth(others, index), inertia, limits)
-    flat = lightest_module_at(inertia, best.outer_radius, limits, SHELL, 5.0)
-    assert flat.height <= best.height * (1.0 + 1e-12)
-    assert flat.mass >= best.mass * (1.0 - 1e-12)
-
-
-@pytest.mark.parametrize("cuts", [RimCuts(), RimCuts(2e-4)], ids=["sharp", "broken"])
-def test_where_there_is_room_it_need_not_be_looked_for(cuts):
-    """Quickly or not: the same of every radius with room to spare, and none of the others."""
-    rng, compared = np.random.default_rng(11), 0
-    for _ in range(12):
-        problem = random_problem(rng)
-        limits = replace(with_web(problem.limits, 0.3), cuts=cuts)
-        radii = np.linspace(0.2, 1.1, 40) * limits.outer_radius_max
-        inertia, flatness = np.full(40, problem.spin_inertia), np.ones(40)
-        quick = roomy_module_at(inertia, radii, limits, SHELL, flatness)
-        sure = lightest_module_at(inertia, radii, limits, SHELL, flatness)
-        roomy = quick.mass > 0.0
-        assert (sure.outer_radius[roomy] == radii[roomy]).all()
-        assert (sure.mass[roomy] == quick.mass[roomy]).all()
-        fits = (sure.outer_radius == radii) & (sure.mass > 0.0)
-        # Within a step of either end there is room, but not to spare.
-        assert fits.sum() - roomy.sum() <= 2
-        compared += int(roomy.sum())
-    assert compared > 50
+        meets(others.take(index), inertia, limits)
 
 
 def test_no_rim_has_more_than_the_largest():
@@ -194,10 +169,6 @@ def test_no_rim_has_more_than_the_largest():
         assert not there[2:].any()
         compared += int(there[0])
     assert compared > 0
-
-
-def _nth(shape, index):
-    return type(shape)(*(value[index] for value in shape))
 
 
 @pytest.mark.parametrize("web", [0.0, 0.5])

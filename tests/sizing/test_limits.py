@@ -4,15 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.sizing.limits import (
-    PRECISION,
-    RIM_LIMITS,
-    WHEEL_SPEED,
-    round_outwards,
-    smallest_change,
-    smallest_changes,
-)
+from ocs_design.common.units import round_outwards
+from ocs_design.requirement.froude import Envelope
+from ocs_design.sizing.changes import PRECISION, smallest_change, smallest_changes
+from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED
 
 BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED)}
 

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.momenta import design_momenta
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.sizing.bound.device_problem import design_momenta
 
 STANDING = 0.3
 INERTIA = np.array([[0.03, 0.001, 0.002], [0.001, 0.055, 0.0], [0.002, 0.0, 0.07]])

@@ -4,8 +4,8 @@ import casadi
 import numpy as np
 import pytest
 
+from ocs_design.parts.foot import base_radius
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.sizing.foot import base_radius
 from ocs_design.sizing.placement import (
     CLEARANCE,
     Place,

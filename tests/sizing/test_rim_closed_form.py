@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from rims import STEEL, paper_problem, random_problem
 
-from ocs_design.sizing.cylinder import cylinder_mass, cylinder_spin_inertia, hoop_stress
-from ocs_design.sizing.rim_closed_form import lightest_rim, smallest_spin_inertia
-from ocs_design.sizing.rim_problem import RimLimits
+from ocs_design.parts.rim import cylinder_mass, cylinder_spin_inertia, hoop_stress
+from ocs_design.sizing.bound.rim_problem import RimLimits, lightest_rim, smallest_spin_inertia
 
 POINTS = 500
 

@@ -10,19 +10,18 @@ from naive_wheel import wheel_of
 from selections import has_device, random_problem, with_radius
 from standing_parts import standing_parts
 
-from ocs_design.drive.gear import DIRECT
-from ocs_design.drive.line import armature, drive_line, rotor_share
-from ocs_design.drive.tilt_inertia import TiltInertia
-from ocs_design.drive.wheel_pair import WheelPairTask, pair_slew_time, smallest_spin_inertia
-from ocs_design.exceptions import Infeasible, UsageError
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
-from ocs_design.requirement.requirement import Requirement
+from ocs_design.actuation.drive import armature, drive_line, rotor_share
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_pair import WheelPairTask, pair_slew_time, smallest_spin_inertia
+from ocs_design.common.errors import Infeasible, UsageError
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
-from ocs_design.sizing.selection.changed_limits import with_limit
-from ocs_design.sizing.selection.possibility import Field
+from ocs_design.sizing.selection.advice import PRECISION, single_changes
+from ocs_design.sizing.selection.feasibility import Field
+from ocs_design.sizing.selection.problem import with_limit
 from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.select import select
-from ocs_design.sizing.selection.single_changes import PRECISION, single_changes
 
 MASS_DIGITS = 2e-5
 """To which the lightest device is found."""

@@ -6,31 +6,31 @@ import numpy as np
 import pytest
 from selections import lopsided, random_problem
 
-from ocs_design.drive.line import DriveLine
-from ocs_design.drive.tilt_inertia import TiltInertia
-from ocs_design.drive.wheel_pair import smallest_spin_inertia
-from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.mass_moments import MassMoments, point, round_body, rows_of
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_pair import smallest_spin_inertia
+from ocs_design.parts.moments import Carrier, MassMoments, point, round_body
+from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.placement import Place, Size
 from ocs_design.sizing.selection.bounds import (
+    Cell,
+    Least,
+    LeastInertia,
     RimFloor,
+    bound_task,
+    cells_of,
+    least_composite_inertia,
     least_masses,
     least_spin_inertias,
 )
-from ocs_design.sizing.selection.candidate import braked
-from ocs_design.sizing.selection.cells import Cell, cells_of
-from ocs_design.sizing.selection.demand import bound_task, columns, pair_task, shares_of
-from ocs_design.sizing.selection.drive_table import drive_table
-from ocs_design.sizing.selection.fixed_point import Design, Tolerance, fixed_point
-from ocs_design.sizing.selection.lot import lot_of
-from ocs_design.sizing.selection.trunk import (
-    Least,
-    LeastInertia,
+from ocs_design.sizing.selection.candidates import Candidates, drives_of
+from ocs_design.sizing.selection.composite_inertia import (
     Modules,
-    least_trunk_inertia,
-    trunk_inertia,
+    composite_inertia,
 )
+from ocs_design.sizing.selection.demand import columns, pair_task, shares_of
+from ocs_design.sizing.selection.device import braked
+from ocs_design.sizing.selection.fixed_point import Design, Tolerance, fixed_point
 
 ROBOT = MassProperties(
     5.0, [0.02, 0.003, -0.04], [[0.06, 0.001, 0.004], [0.001, 0.1, -0.003], [0.004, -0.003, 0.13]]
@@ -57,9 +57,9 @@ def whole_of(wheel, motor, depth, foot, size):
 def test_inertia_as_joined_body_by_body():
     whole, modules = whole_of(*random_modules(np.random.default_rng(0), 20))
     angles = np.linspace(0.0, np.pi / 2.0, 7)
-    found = trunk_inertia(ROBOT, PLACE, modules).at(shares_of(np.tile(angles, (20, 1))))
+    found = composite_inertia(ROBOT, PLACE, modules).at(shares_of(np.tile(angles, (20, 1))))
     for row in range(20):
-        body = Carrier.of(rows_of(whole, row))
+        body = Carrier.of(whole.take(row))
         centers = PLACE.centers(Size(*(float(values[row]) for values in modules.size)))
         expected = [braked(ROBOT, (body,), centers, a).inertia for a in angles]
         np.testing.assert_allclose(
@@ -81,9 +81,9 @@ def test_no_larger_or_heavier_module_has_less_inertia():
     grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
     more, ahead = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
     _, modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)
-    bound = least_trunk_inertia(ROBOT, PLACE, least)
+    bound = least_composite_inertia(ROBOT, PLACE, least)
     angles = shares_of(rng.uniform(0.0, np.pi / 2.0, (500, 1)))
-    whole = trunk_inertia(ROBOT, PLACE, modules).at(angles)
+    whole = composite_inertia(ROBOT, PLACE, modules).at(angles)
     assert (bound.inertia.diagonal <= whole.diagonal[:, 0] * (1.0 + 1e-12)).all()
     assert np.median(bound.inertia.diagonal / whole.diagonal[:, 0]) > 0.7
     assert (np.abs(whole.product[:, 0] - bound.inertia.product) <= bound.spread).all()
@@ -101,7 +101,7 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(seed, coupled):
     rng = np.random.default_rng(seed)
     problem = random_problem(seed)
     pairs = np.array([(m, g) for m in range(3) for g in range(3)])
-    drives = drive_table(problem, pairs)
+    drives = drives_of(problem, pairs)
     # With a gear that speeds up, a wheel may do that a larger one does not.
     drives = drives.take(drives.armature >= 0.0)
     n, height = len(drives), problem.requirement.standing_height
@@ -131,7 +131,7 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(seed, coupled):
 
 def test_shares_beyond_the_unit_circle_are_as_on_it():
     problem, cell = random_problem(0), Cell(np.arccos(0.9), np.arcsin(0.8))
-    drives, shares = drive_table(problem, np.array([[0, 0]])), np.array([0.8, 0.9])
+    drives, shares = drives_of(problem, np.array([[0, 0]])), np.array([0.8, 0.9])
     maneuver = problem.requirement.maneuvers[0]
     inertia = TiltInertia.uncoupled([[0.05, 0.05]])
     task = bound_task(
@@ -149,37 +149,36 @@ def test_shares_beyond_the_unit_circle_are_as_on_it():
 
 @pytest.mark.parametrize("seed", range(8))
 def test_no_device_falls_below_its_bound(seed):
-    """Devices of random radii, flatness and incidence, each at its own fixed point."""
+    """Devices of random radii and incidence, each at its own fixed point."""
     rng = np.random.default_rng(100 + seed)
     problem, floor = random_problem(seed), None
     if seed % 2:
         problem = lopsided(problem, seed)
     floor = RimFloor.of(problem)
     pairs = np.array([(m, g) for m in range(3) for g in range(3)])
-    drives = drive_table(problem, pairs)
+    drives = drives_of(problem, pairs)
     spin = np.zeros(len(drives))
     for count in (1, 18, 18):
         cells = cells_of(problem.incidence, count)
-        needed = least_spin_inertias(problem, floor, drives, cells, spin)
+        needed = least_spin_inertias(problem, drives, cells, spin)
         spin = needed.min(axis=1)
     masses = least_masses(floor, drives, spin)
 
     rows = np.repeat(np.arange(len(drives)), 60)
     material = rng.integers(0, 2, rows.size)
-    lot = lot_of(problem, drives.take(rows), material)
+    candidates = Candidates(problem, drives.take(rows), material)
     angle = rng.uniform(0.0, np.pi / 2.0, rows.size)
     if problem.incidence is not None:
         angle[:] = problem.incidence
     design = Design(
         radius=problem.envelope.outer_radius_max * rng.uniform(0.2, 1.0, rows.size),
-        flatness=rng.uniform(1.0, 4.0, rows.size),
         angle=angle,
         width=np.zeros(rows.size),
     )
     start = np.zeros(rows.size)
-    point, _ = fixed_point(problem, lot, start, design, Tolerance(1e-10, 1.0))
-    can = point.possible
-    mass = 2.0 * (lot.drives.mass + point.shapes.mass)
+    point = fixed_point(candidates, start, design, Tolerance(1e-10, 1.0))
+    can = point.feasible
+    mass = 2.0 * (candidates.drives.mass + point.shapes.mass)
     assert (point.spin_inertia[can] >= spin[rows][can] * (1.0 - 1e-9)).all()
     assert (mass[can] >= masses[material, rows][can] * (1.0 - 1e-9)).all()
     cell = np.searchsorted([c.high for c in cells], angle).clip(max=len(cells) - 1)

@@ -6,19 +6,21 @@ from math import ceil, floor, log10
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray
 
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
-"""Between ticks, times a power of ten."""
+"""Distances between ticks, times a power of ten."""
 
 _ANGLES = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
-"""Between ticks of degrees, from that of the first on."""
+"""Distances between ticks of degrees, from the first one on."""
 
 _MOST_DECADES = 6
 
-
 _BEYOND_MEASURE = 1e100
-"""What a run that breaks down ends with, NaN and infinity included, stretches no axis."""
+"""Largest value that stretches an axis: a run that breaks down may end with NaN or more."""
+
+_FLAT = 1e-6
+"""Spread of values, relative to the largest, below which they are equal: rounding is not drawn."""
 
 _FAR = 1e3
 """Lengths of an axis beyond its ends, where lines leave the chart for good."""
@@ -29,7 +31,7 @@ class Axis:
     """One direction of a chart.
 
     Attributes:
-        label: of what. unit: of its values, empty for plain numbers.
+        label: what is measured. unit: of its values, empty for plain numbers.
         low, high: ends. log: equal ratios at equal distances.
     """
 
@@ -43,10 +45,11 @@ class Axis:
     def around(
         cls, label: str, unit: str, values: Iterable[float], *, room: float = 0.06
     ) -> "Axis":
-        """From the least to the largest of the values that can be drawn, with room at both ends."""
+        """Axis over all values that can be drawn, with room at both ends."""
         found = np.array([value for value in values if abs(value) < _BEYOND_MEASURE])
         low, high = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
-        span = (high - low) or abs(high) or 1.0
+        spread = high - low
+        span = spread if spread > _FLAT * abs(high) else abs(high) or 1.0
         return cls(label, unit, low - room * span, high + room * span)
 
     @property
@@ -66,25 +69,23 @@ class Axis:
     def ticks(self, most: int = 7) -> list[float]:
         """Round values between the ends."""
         if self.log:
-            return self._powers()
-        step = self._step((self.high - self.low) / most)
+            first, last = ceil(log10(self.low) - 1e-9), floor(log10(self.high) + 1e-9)
+            stride = max(1, (last - first) // _MOST_DECADES)
+            powers = [10.0**power for power in range(first, last + 1, stride)]
+            if len(powers) > 2:
+                return powers
+            decades = [10.0**power for power in range(first - 1, last + 1)]
+            finer = (digit * decade for decade in decades for digit in (1, 2, 5))
+            return [value for value in finer if self.low <= value <= self.high]
+        least = (self.high - self.low) / most
+        if self.unit == "deg" and least > _ANGLES[0] / 2.0:
+            whole = 360.0 * ceil(least / 360.0)
+            step = next((step for step in _ANGLES if step >= least), whole)
+        else:
+            power = 10.0 ** floor(log10(least))
+            step = next(step * power for step in _STEPS if step * power >= least * (1.0 - 1e-9))
         first, last = ceil(self.low / step - 1e-9), floor(self.high / step + 1e-9)
         return [round(index * step, 12) for index in range(first, last + 1)]
-
-    def _step(self, least: float) -> float:
-        if self.unit == "deg" and least > _ANGLES[0] / 2.0:
-            return next((step for step in _ANGLES if step >= least), 360.0 * ceil(least / 360.0))
-        power = 10.0 ** floor(log10(least))
-        return next(step * power for step in _STEPS if step * power >= least * (1.0 - 1e-9))
-
-    def _powers(self) -> list[float]:
-        first, last = ceil(log10(self.low) - 1e-9), floor(log10(self.high) + 1e-9)
-        stride = max(1, (last - first) // _MOST_DECADES)
-        powers = [10.0**power for power in range(first, last + 1, stride)]
-        if len(powers) > 2:
-            return powers
-        finer = [digit * 10.0**power for power in range(first - 1, last + 1) for digit in (1, 2, 5)]
-        return [value for value in finer if self.low <= value <= self.high]
 
 
 def tick_text(value: float) -> str:
@@ -97,8 +98,5 @@ def tick_text(value: float) -> str:
         return text.replace("-", "\N{MINUS SIGN}").replace(",", "\N{THIN SPACE}")
     mantissa, _, exponent = f"{value:.1e}".partition("e")
     factor = "" if mantissa == "1.0" else f"{mantissa.removesuffix('.0')}·"
-    return f"{factor}10{_raised(int(exponent))}".replace("-", "\N{MINUS SIGN}")
-
-
-def _raised(exponent: int) -> str:
-    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{factor}10{raised}".replace("-", "\N{MINUS SIGN}")

@@ -1,33 +1,72 @@
 """Charts as SVG: inside a page, where the page's style sheet colours them, or as files."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
 from typing import NamedTuple
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.report.charts.chart import Chart, thinned
-from ocs_design.report.charts.legend import Entry, legend, legend_height
-from ocs_design.report.charts.marks import Area, Line, Mark, Points, Rule
+from ocs_design.common.arrays import FloatArray
+from ocs_design.report.charts.chart import (
+    Area,
+    Chart,
+    Ink,
+    Line,
+    Mark,
+    Points,
+    Rule,
+    thinned,
+)
 from ocs_design.report.charts.scales import Axis, tick_text
-from ocs_design.report.charts.style import SHEET
 
 WIDTH = 440.0
-"""Of every chart [px]: legible without zooming on a telephone."""
+"""Width of every chart [px]: legible without zooming on a telephone."""
 
 _LEFT, _RIGHT, _BOTTOM, _TITLE = 62.0, 22.0, 40.0, 22.0
 _LETTER = 6.2
 """Mean width of a letter [px], generously."""
 
+_COLORS = {
+    Ink.BLUE: "#0072b2",
+    Ink.VERMILION: "#d55e00",
+    Ink.GREEN: "#009e73",
+    Ink.PURPLE: "#cc79a7",
+    Ink.ORANGE: "#e69f00",
+    Ink.SKY: "#56b4e9",
+    Ink.PLAIN: "#30343a",
+    Ink.FAINT: "#8a9099",
+}
+
+_SHAPES = (
+    ".chart{font-family:system-ui,'Helvetica Neue',Arial,sans-serif}"
+    ".sheet{fill:#fff}.title{font-size:13px;font-weight:600;fill:#1a1d21}"
+    ".tick,.note{font-size:11px;fill:#4a5058}.note{paint-order:stroke;stroke:#fff;stroke-width:3px}.axis{font-size:11.5px;fill:#30343a}"
+    ".grid{stroke:#e3e6ea;fill:none}.line{fill:none;stroke-width:1.8;stroke-linejoin:round}"
+    ".thin{stroke-width:1.1}.rule{fill:none;stroke-width:1.1}.dashed{stroke-dasharray:5 3}"
+    ".area{fill-opacity:.14}.ring{fill:#fff;stroke-width:2}"
+)
+
+_SHEET = _SHAPES + "".join(
+    f".{ink}{{stroke:{color}}}.fill-{ink}{{fill:{color}}}" for ink, color in _COLORS.items()
+)
+"""Style sheet of files, on white; pages have their own."""
+
 _MOST_ROW = 26
+"""Letters of a row's name that are shown."""
+
+_ROW, _SAMPLE, _APART = 16.0, 20.0, 14.0
+"""Height of a row of the legend, width of a sample, and from one entry to the next [px]."""
+
+_LEGEND_LETTER = 6.0
+"""Mean width of a letter of the legend [px]."""
+
 
 _DOT, _GAP = 4.0, 7.0
 """Radius of a disc, and from its middle to its word [px]."""
 
 _RISES = (0.0, -11.0, 11.0, -22.0, 22.0, -33.0, 33.0)
-"""By which a word gives way to others, the least first [px]."""
+"""Steps by which a word gives way to others, the least first [px]."""
 
 
 class _Box(NamedTuple):
@@ -46,24 +85,21 @@ class _Box(NamedTuple):
 
 def inline_svg(chart: Chart) -> str:
     """An element for a page; its colours are classes."""
-    return _element(chart, "")
+    return _Drawing(chart).text("")
 
 
 def svg_file(chart: Chart) -> bytes:
     """A file of its own, on white."""
-    return _element(chart, f"<style>{SHEET}</style>").encode()
-
-
-def _element(chart: Chart, style: str) -> str:
-    return _Drawing(chart).text(style)
+    return _Drawing(chart).text(f"<style>{_SHEET}</style>").encode()
 
 
 class _Drawing:
     """Places of one chart on its sheet, x to the right and y down."""
 
     def __init__(self, chart: Chart) -> None:
-        self._entries = _entries(chart.marks)
-        self._top = _TITLE + legend_height(self._entries, WIDTH - _RIGHT)
+        self._named = _named(chart.marks)
+        rows = {row for _, _, row in _legend_places(self._named, WIDTH - _RIGHT)}
+        self._top = _TITLE + _ROW * len(rows) + 6.0
         longest = max(map(len, chart.rows), default=0)
         self._left = max(_LEFT, _LETTER * min(longest, _MOST_ROW) + 14.0)
         self._right, self._bottom = WIDTH - _RIGHT, chart.height - _BOTTOM
@@ -81,6 +117,12 @@ class _Drawing:
     def text(self, style: str) -> str:
         """The whole element."""
         chart = self._chart
+        legend = "".join(
+            f"{_sample(mark, x, _TITLE + _ROW * row + 6.0)}"
+            f'<text class="note" x="{x + _SAMPLE + 5.0:.1f}" y="{_TITLE + _ROW * row + 10.0:.1f}">'
+            f"{escape(mark.name)}</text>"
+            for mark, x, row in _legend_places(self._named, self._right)
+        )
         height = f"{chart.height:g}"
         frame = f'data-x="{chart.x.low:.6g} {chart.x.high:.6g} {self._left:g} {self._right:g}"'
         return (
@@ -92,16 +134,17 @@ class _Drawing:
             f'<desc id="{chart.name}-d">{escape(chart.description)}</desc>{style}'
             f'<rect class="sheet" width="{WIDTH:g}" height="{height}"/>'
             f'<text class="title" x="4" y="14">{escape(chart.title)}</text>'
-            f"{legend(self._entries, self._right, _TITLE)}{self._grid()}"
+            f"{legend}{self._grid()}"
             f'<clipPath id="{chart.name}-c"><rect x="{self._left:g}" y="{self._top:g}" '
             f'width="{self._right - self._left:g}" '
             f'height="{self._bottom - self._top:g}"/></clipPath>'
-            f'<g clip-path="url(#{chart.name}-c)">{self._marks(labels=False)}</g>'
-            f"{self._marks(labels=True)}{self._titles()}</svg>"
+            f'<g clip-path="url(#{chart.name}-c)">{"".join(map(self._shape_of, chart.marks))}</g>'
+            # Words lie over everything, and may reach over the frame.
+            f"{''.join(map(self._label_of, chart.marks))}{self._titles()}</svg>"
         )
 
     def _equal(self, chart: Chart) -> Chart:
-        """Stretch the axis that would be too long for its values."""
+        """The chart with the axis stretched that would be too long for its values."""
         wide, tall = self._right - self._left, self._bottom - self._top
         spans = (chart.x.high - chart.x.low) / wide, (chart.y.high - chart.y.low) / tall
         scale = max(spans)
@@ -121,16 +164,18 @@ class _Drawing:
             x = self._at(np.array([value]), np.array([chart.y.low]))[0, 0]
             parts.append(_straight("grid", x, self._top, x, self._bottom))
             parts.append(_word("tick", x, self._bottom + 14.0, tick_text(value), "middle"))
-        for value, text in self._rows():
+        if chart.rows:
+            ticks = [
+                (float(place), name if len(name) <= _MOST_ROW else f"{name[: _MOST_ROW - 1]}…")
+                for place, name in enumerate(chart.rows)
+            ]
+        else:
+            ticks = [(value, tick_text(value)) for value in chart.y.ticks(5)]
+        for value, text in ticks:
             y = self._at(np.array([chart.x.low]), np.array([value]))[0, 1]
             parts.append(_straight("grid", self._left, y, self._right, y))
             parts.append(_word("tick", self._left - 6.0, y + 3.5, text, "end"))
         return "".join(parts)
-
-    def _rows(self) -> Iterable[tuple[float, str]]:
-        if self._chart.rows:
-            return [(float(place), _short(name)) for place, name in enumerate(self._chart.rows)]
-        return [(value, tick_text(value)) for value in self._chart.y.ticks(5)]
 
     def _titles(self) -> str:
         chart = self._chart
@@ -142,20 +187,28 @@ class _Drawing:
         beside = _word("axis", 0.0, 0.0, chart.y.title, "middle")
         return f'{below}<g transform="translate(12 {upright:g}) rotate(-90)">{beside}</g>'
 
-    def _marks(self, *, labels: bool) -> str:
-        """Words lie over everything, and may reach over the frame."""
-        draw = self._label_of if labels else self._shape_of
-        return "".join(draw(mark) for mark in self._chart.marks)
-
     def _shape_of(self, mark: Mark) -> str:
         match mark:
             case Line():
-                return self._line(mark)
+                broken = np.isnan(mark.x) | np.isnan(mark.y)
+                pieces = np.split(np.arange(len(mark.x)), np.flatnonzero(broken))
+                wholes = [piece[~broken[piece]] for piece in pieces]
+                curves = [
+                    self._at(*thinned(mark.x[whole], mark.y[whole]))
+                    for whole in wholes
+                    if len(whole) > 1
+                ]
+                self._curves += curves
+                paths = "".join(map(_path, curves))
+                return f'<path class="{_line_look(mark)}" d="{paths}"/>' if paths else ""
             case Area():
                 path = _path(self._at(mark.x, mark.y), closed=True)
                 return f'<path class="area fill-{mark.ink}" d="{path}"/>'
             case Points():
-                return self._points(mark)
+                return "".join(
+                    f'<circle class="{_disc_look(mark)}" cx="{x:.1f}" cy="{y:.1f}" r="{_DOT:g}"/>'
+                    for x, y in self._at(mark.x, mark.y)
+                )
             case Rule():
                 x1, y1, x2, y2 = self._rule(mark)
                 return _straight(f"rule dashed {mark.ink}", x1, y1, x2, y2)
@@ -171,27 +224,27 @@ class _Drawing:
         return ""
 
     def _along(self, x: float, text: str) -> str:
-        """Beside an upright rule: below, above or in between, where no curve is in the way."""
+        """A word at an upright rule: below, above or in between, where no curve is in the way."""
         low, high = self._bottom - 9.0, self._top + 9.0
         heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
-        places = ((y, self._box(x, y, text)) for y in heights)
-        free = (y for y, box in places if not any(map(box.meets, self._taken + self._met(box))))
-        return self._beside(x, next(free, low), text)
-
-    def _met(self, box: _Box) -> list[_Box]:
-        """What the curves, which are drawn by now, take between the ends of a box."""
-        parts = [
-            curve[(curve[:, 0] >= box.left) & (curve[:, 0] <= box.right), 1]
-            for curve in self._curves
-        ]
-        return [
-            _Box(box.left, float(part.min()), box.right, float(part.max()))
-            for part in parts
-            if part.size
-        ]
+        for y in heights:
+            box = self._box(x, y, text)
+            # The curves are drawn by now.
+            between = (
+                curve[(curve[:, 0] >= box.left) & (curve[:, 0] <= box.right), 1]
+                for curve in self._curves
+            )
+            curves = (
+                _Box(box.left, float(part.min()), box.right, float(part.max()))
+                for part in between
+                if part.size
+            )
+            if not any(map(box.meets, (*self._taken, *curves))):
+                return self._beside(x, y, text)
+        return self._beside(x, low, text)
 
     def _beside(self, x: float, y: float, text: str) -> str:
-        """To the right of a place, or to its left where there is no room, clear of all others."""
+        """A word right of a place, or left of it where there is no room, clear of all others."""
         tried = [self._box(x, y + rise, text) for rise in _RISES]
         box = next((each for each in tried if not any(map(each.meets, self._taken))), tried[0])
         self._taken.append(box)
@@ -199,30 +252,10 @@ class _Drawing:
         return _word("note", far, box.top + 9.5, text, anchor)
 
     def _box(self, x: float, y: float, text: str) -> _Box:
-        """What a word beside a place takes."""
+        """Box of a word beside a place."""
         reach = _LETTER * len(text)
         near = x - _GAP - reach if x + _GAP + reach > WIDTH else x + _GAP
         return _Box(near, y - 6.0, near + reach, y + 5.0)
-
-    def _line(self, mark: Line) -> str:
-        look = f"line {mark.ink}{_dashes(mark.dashed)}" + (" thin" if mark.thin else "")
-        broken = np.isnan(mark.x) | np.isnan(mark.y)
-        pieces = np.split(np.arange(len(mark.x)), np.flatnonzero(broken))
-        wholes = (piece[~broken[piece]] for piece in pieces)
-        curves = [
-            self._at(*thinned(mark.x[whole], mark.y[whole])) for whole in wholes if len(whole) > 1
-        ]
-        self._curves += curves
-        paths = "".join(map(_path, curves))
-        return f'<path class="{look}" d="{paths}"/>' if paths else ""
-
-    def _points(self, mark: Points) -> str:
-        look = f"ring {mark.ink}" if mark.hollow else f"disc fill-{mark.ink}"
-        discs = (
-            f'<circle class="{look}" cx="{x:.1f}" cy="{y:.1f}" r="{_DOT:g}"/>'
-            for x, y in self._at(mark.x, mark.y)
-        )
-        return "".join(discs)
 
     def _rule(self, mark: Rule) -> tuple[float, float, float, float]:
         value = np.array([mark.value])
@@ -233,14 +266,47 @@ class _Drawing:
         return self._left, y, self._right, y
 
 
-def _entries(marks: Sequence[Mark]) -> list[Entry]:
-    """What has a name, once."""
-    found: dict[str, Entry] = {}
+def _named(marks: Sequence[Mark]) -> list[Mark]:
+    """Marks for the legend: the first one of each name."""
+    found: dict[str, Mark] = {}
     for mark in marks:
-        name = getattr(mark, "name", "")
-        if name and name not in found:
-            found[name] = Entry(name, mark)
+        if mark.name:
+            found.setdefault(mark.name, mark)
     return list(found.values())
+
+
+def _legend_places(named: Sequence[Mark], right: float) -> Iterator[tuple[Mark, float, int]]:
+    """Each mark with its x [px] and its row."""
+    x, row = 4.0, 0
+    for mark in named:
+        width = _SAMPLE + 6.0 + _LEGEND_LETTER * len(mark.name) + _APART
+        if x > 4.0 and x + width > right:
+            x, row = 4.0, row + 1
+        yield mark, x, row
+        x += width
+
+
+def _sample(mark: Mark, x: float, y: float) -> str:
+    """A short piece of a mark for the legend."""
+    match mark:
+        case Line():
+            return f'<path class="{_line_look(mark)}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'
+        case Points():
+            place = f'cx="{x + _SAMPLE / 2.0:.1f}" cy="{y:.1f}"'
+            return f'<circle class="{_disc_look(mark)}" {place} r="{_DOT:g}"/>'
+        case Area():
+            box = f'x="{x:.1f}" y="{y - 5.0:.1f}" width="{_SAMPLE:g}" height="10"'
+            return f'<rect class="area fill-{mark.ink}" {box}/>'
+        case Rule():
+            return f'<path class="rule dashed {mark.ink}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'
+
+
+def _line_look(mark: Line) -> str:
+    return f"line {mark.ink}{' dashed' if mark.dashed else ''}{' thin' if mark.thin else ''}"
+
+
+def _disc_look(mark: Points) -> str:
+    return f"ring {mark.ink}" if mark.hollow else f"disc fill-{mark.ink}"
 
 
 def _stretched(axis: Axis, span: float) -> Axis:
@@ -249,17 +315,14 @@ def _stretched(axis: Axis, span: float) -> Axis:
 
 
 def _path(places: FloatArray, *, closed: bool = False) -> str:
-    steps = "L".join(f"{x:.1f} {y:.1f}" for x, y in _bent(places.round(1)).tolist())
-    return f"M{steps}{'Z' if closed else ''}"
-
-
-def _bent(places: FloatArray) -> FloatArray:
-    """Without those in the middle of a level stretch, which say nothing."""
-    steps = np.diff(places, axis=0)
+    rounded = places.round(1)
+    steps = np.diff(rounded, axis=0)
+    # Points in the middle of a level stretch say nothing.
     onwards = steps[1:, 0] * steps[:-1, 0] >= 0.0
     level = (steps[1:, 1] == 0.0) & (steps[:-1, 1] == 0.0)
-    kept: FloatArray = places[np.concatenate([[True], ~(level & onwards), [True]])]
-    return kept
+    kept = rounded[np.concatenate([[True], ~(level & onwards), [True]])]
+    corners = "L".join(f"{x:.1f} {y:.1f}" for x, y in kept.tolist())
+    return f"M{corners}{'Z' if closed else ''}"
 
 
 def _straight(look: str, x1: float, y1: float, x2: float, y2: float) -> str:
@@ -270,11 +333,3 @@ def _word(look: str, x: float, y: float, text: str, anchor: str) -> str:
     return (
         f'<text class="{look}" x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{escape(text)}</text>'
     )
-
-
-def _dashes(dashed: bool) -> str:
-    return " dashed" if dashed else ""
-
-
-def _short(name: str) -> str:
-    return name if len(name) <= _MOST_ROW else name[: _MOST_ROW - 1] + "…"

@@ -1,8 +1,12 @@
 """Elements of HTML. Every text is escaped unless it is `Markup` already."""
 
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable
 from html import escape
+
+from ocs_design.report.charts.chart import Chart
+from ocs_design.report.charts.svg import inline_svg
+from ocs_design.report.table import Column, Table, Toned
 
 _ESCAPED = {
     "<": "\\u003c",
@@ -11,8 +15,7 @@ _ESCAPED = {
     "\u2028": "\\u2028",
     "\u2029": "\\u2029",
 }
-"""What must not stand in a script's element, as JSON may write it too."""
-
+"""Letters that must not stand in a script's element, as JSON may write them too."""
 
 _POWER = re.compile(r"\b(kg m|kg mm|m/s|rad/s)\^?([23])\b")
 
@@ -35,7 +38,7 @@ def void(name: str, **attributes: str | bool) -> Markup:
 
 
 def joined(parts: Iterable[str]) -> Markup:
-    """One behind the other."""
+    """Parts one behind the other."""
     return Markup("".join(map(_safe, parts)))
 
 
@@ -46,29 +49,29 @@ def facts(rows: Iterable[tuple[str, str]]) -> Markup:
 
 
 def items(texts: Iterable[str], *, look: str = "") -> Markup:
-    """A list; nothing where there is nothing in it."""
+    """A list; empty where there is nothing in it."""
     found = [element("li", text) for text in texts]
     return element("ul", *found, class_=look) if found else Markup("")
 
 
-def table(
-    caption: str,
-    columns: Sequence[str],
-    rows: Iterable[Sequence[str]],
-    *,
-    words: Collection[int] = (0,),
-) -> Markup:
-    """With a caption; the columns `words` hold words, the others numbers."""
-
-    def look(column: int) -> str:
-        """Class of a cell."""
-        return "word" if column in words else "number"
-
-    heads = (element("th", name, scope="col", class_=look(i)) for i, name in enumerate(columns))
-    body = (
-        element("tr", *(element("td", cell, class_=look(i)) for i, cell in enumerate(row)))
-        for row in rows
-    )
+def table(caption: str, content: Table) -> Markup:
+    """A table with its caption; units stand in brackets."""
+    heads = []
+    for column in content.columns:
+        name = column.name.replace("\n", " ").strip()
+        head = f"{name} [{column.unit.strip()}]" if column.unit else name
+        heads.append(element("th", head, scope="col", class_=_look(column)))
+    body = []
+    for row in content.rows:
+        cells = []
+        for cell, column in zip(row, content.columns, strict=True):
+            text = (
+                element("span", cell.text, class_=f"mark {cell.tone}")
+                if isinstance(cell, Toned)
+                else cell
+            )
+            cells.append(element("td", text, class_=_look(column)))
+        body.append(element("tr", *cells))
     whole = element(
         "table",
         element("caption", caption),
@@ -77,6 +80,10 @@ def table(
     )
     # Wide tables scroll by themselves on a narrow screen, and by keys too.
     return element("div", whole, class_="scroll", tabindex="0", role="region", aria_label=caption)
+
+
+def _look(column: Column) -> str:
+    return "word" if column.words else "number"
 
 
 def section(name: str, title: str, *content: str) -> Markup:
@@ -90,6 +97,17 @@ def details(summary: str, *content: str) -> Markup:
     return element("details", element("summary", summary), *content)
 
 
+def figures(charts: Iterable[Chart], *, flight: str = "") -> Markup:
+    """Charts, beside each other where there is room.
+
+    Args:
+        charts: to show.
+        flight: number of the maneuver that they are of; empty: of none.
+    """
+    shown = (element("figure", Markup(inline_svg(chart))) for chart in charts)
+    return element("div", *shown, class_="charts", data_flight=flight)
+
+
 def data(name: str, text: str) -> Markup:
     """A text of JSON for scripts and other programs; nothing in it can end the element."""
     for letter, code in _ESCAPED.items():
@@ -98,7 +116,7 @@ def data(name: str, text: str) -> Markup:
 
 
 def _attributes(attributes: dict[str, str | bool]) -> str:
-    """Those that are true have no value, those that are false or empty are left out."""
+    """Attributes as text: no value for what is true, nothing for what is false or empty."""
     named = ((key.rstrip("_").replace("_", "-"), value) for key, value in attributes.items())
     return "".join(
         f" {key}" if value is True else f' {key}="{escape(value)}"'
@@ -108,9 +126,7 @@ def _attributes(attributes: dict[str, str | bool]) -> str:
 
 
 def _safe(content: str) -> str:
-    return content if isinstance(content, Markup) else escape(_typeset(content))
-
-
-def _typeset(text: str) -> str:
-    """Powers of units, which the terminal and the messages spell without raised figures."""
-    return _POWER.sub(lambda found: found[1] + {"2": "²", "3": "³"}[found[2]], text)
+    """Markup as it is; else text that is escaped, with raised figures in its units."""
+    if isinstance(content, Markup):
+        return content
+    return escape(_POWER.sub(lambda found: found[1] + {"2": "²", "3": "³"}[found[2]], content))

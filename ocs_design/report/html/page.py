@@ -5,28 +5,31 @@ import hashlib
 from collections.abc import Iterator
 from pathlib import Path
 
-from ocs_design.design_file import design_to_json
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.device.records import OcsDesign, design_to_json
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.export.templates import template_text
-from ocs_design.report.html.angles import angles_section, bound_section, drive_section
+from ocs_design.report.charts.figures import scenario_charts
+from ocs_design.report.device import has_motor, share_of_robot
+from ocs_design.report.flights import verdict
+from ocs_design.report.html import sections
 from ocs_design.report.html.elements import Markup, data, element, joined
-from ocs_design.report.html.head import page_head, title_of
-from ocs_design.report.html.maneuvers import maneuvers_section
-from ocs_design.report.html.monte_carlo import monte_carlo_section
-from ocs_design.report.html.record import record_section
-from ocs_design.report.html.robot import robot_section
-from ocs_design.report.html.sizes import limits_section, sizes_section
 from ocs_design.report.html.view import view, view_data
+from ocs_design.report.limits import recorded_margins
+from ocs_design.report.quantities import degrees, grams, rpm, tenths
 from ocs_design.report.story import Story
+from ocs_design.report.table import Tone
 from ocs_design.report.viewer.decimation import decimated
+from ocs_design.report.warnings import turned_by_hand
+from ocs_design.sizing.margins import HOOP_STRESS
 
 MOST_TRIANGLES = 30_000
-"""Of the robot in the page: a few hundred kilobytes, and fluent without a graphics card."""
+"""Triangles of the robot: a few hundred kilobytes, and fluent without a graphics card."""
 
 _PARTS = {
     "robot": "Robot and device",
     "sizes": "Sizes and margins",
-    "limits": "What binds",
+    "limits": "Active limits",
     "bound": "Lower bound",
     "angles": "Incidence",
     "drive": "Drive",
@@ -34,7 +37,9 @@ _PARTS = {
     "samples": "Monte Carlo",
     "record": "Provenance",
 }
-"""The contents: sections and their short names."""
+"""Sections and their short names in the contents."""
+
+_VERDICTS = {Tone.PASS: "Pass", Tone.FAIL: "Fail", Tone.OPEN: "Not proved"}
 
 
 def write_report(story: Story, folder: Path) -> Path:
@@ -61,7 +66,13 @@ def report_page(story: Story) -> str:
     return f"<!DOCTYPE html>\n{page}\n"
 
 
+def title_of(design: OcsDesign) -> str:
+    """Title of the page."""
+    return f"Orientation control system for {design.robot.name}"
+
+
 def _body(story: Story) -> Iterator[Markup]:
+    design = story.design
     scenarios = tuple(dict.fromkeys(each.scenario for each in story.flights if each.poses))
     bodies = decimated(story.bodies, MOST_TRIANGLES)
     links = (
@@ -69,32 +80,85 @@ def _body(story: Story) -> Iterator[Markup]:
         for part, name in _PARTS.items()
         if part != "samples" or story.monte_carlo is not None
     )
+    line = verdict([run.passed for run in design.validation if run.ocs])
     yield element("a", "Skip to the content", href="#robot", class_="skip")
-    yield page_head(story.design)
+    yield element(
+        "header",
+        element("p", f"{design.tool.name} {design.tool.version}", class_="eyebrow"),
+        element("h1", title_of(design)),
+        element(
+            "p",
+            element("strong", _VERDICTS[line.tone]),
+            element("span", line.text),
+            *(element("span", each) for each in turned_by_hand(design)),
+            class_=f"verdict {line.tone}",
+        ),
+        _tiles(design),
+    )
     yield element("nav", *links, aria_label="Contents")
     yield element(
         "main",
-        robot_section(story, view(story, bodies, scenarios)),
-        sizes_section(story.design),
-        limits_section(story.design),
-        bound_section(story),
-        angles_section(story),
-        drive_section(story),
-        maneuvers_section(story, scenarios),
-        monte_carlo_section(story.monte_carlo),
-        record_section(story),
+        sections.robot_section(story, view(story, bodies, scenarios)),
+        sections.sizes_section(design),
+        sections.limits_section(design),
+        sections.bound_section(story),
+        sections.angles_section(story),
+        sections.drive_section(story),
+        sections.maneuvers_section(story, dict(scenario_charts(story)), scenarios),
+        sections.monte_carlo_section(story),
+        sections.record_section(story),
     )
-    yield data("design", design_to_json(story.design).decode())
+    yield data("design", design_to_json(design).decode())
     yield view_data(story, bodies, scenarios)
 
 
+def _tiles(design: OcsDesign) -> Markup:
+    """Figures that everyone asks for: a name, a value and a note each."""
+    ocs, wheel = design.ocs, design.ocs.flywheel
+    lengths = " / ".join(map(tenths, (wheel.outer_radius, wheel.inner_radius, wheel.height)))
+    drive = f"at {ocs.motor.bus_voltage:g} V" if has_motor(design) else "no motor chosen"
+    if ocs.motor.gear != DIRECT.name:
+        drive += f", {ocs.motor.gear}"
+    tiles = (
+        ("Total mass", grams(ocs.mass_total), share_of_robot(design)),
+        ("Incidence α*", degrees(ocs.incidence), ocs.incidence_criterion),
+        ("Motor", ocs.motor.name, drive),
+        ("Rim R / r / h", f"{lengths} mm", wheel.material),
+        ("Spin inertia", f"{1e6 * ocs.spin_inertia:.4g} kg mm²", "of each wheel"),
+        ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), _stress(design)),
+    )
+    looks = (("span", "name"), ("strong", "value"), ("span", "note"))
+    return element(
+        "ul",
+        *(
+            element(
+                "li",
+                *(
+                    element(kind, text, class_=look)
+                    for (kind, look), text in zip(looks, tile, strict=True)
+                ),
+            )
+            for tile in tiles
+        ),
+        class_="tiles",
+    )
+
+
+def _stress(design: OcsDesign) -> str:
+    """Margin of the hoop stress: as in the table of margins, else at the design's speed."""
+    stress = next((each for each in recorded_margins(design) if each.name == HOOP_STRESS), None)
+    if stress is not None and stress.factor is not None:
+        return f"stress margin {stress.factor:.2f} {stress.note}"
+    margin = design.ocs.flywheel.stress_margin
+    return "stress not checked" if margin is None else f"stress margin {margin:.2f}"
+
+
 def _policy(style: str, script: str) -> Markup:
-    """Nothing is fetched, and nothing runs but what is here by its hash: no name of a robot can."""
+    """Content policy: nothing is fetched, and nothing runs but what is here by its hash."""
     allowed = {"style-src": style, "script-src": script}
-    rules = [f"{kind} 'sha256-{_digest(text)}'" for kind, text in allowed.items()]
+    rules = []
+    for kind, text in allowed.items():
+        digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
+        rules.append(f"{kind} 'sha256-{digest}'")
     content = "; ".join(["default-src 'none'", "img-src data:", *rules])
     return Markup(f'<meta http-equiv="Content-Security-Policy" content="{content}">')
-
-
-def _digest(text: str) -> str:
-    return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")

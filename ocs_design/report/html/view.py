@@ -1,15 +1,14 @@
 """The view of the robot that can be turned, with a picture in its place where it cannot."""
 
+import base64
 import json
 from collections.abc import Iterator, Sequence
 
 from ocs_design.export.png import png_bytes
-from ocs_design.report.html.elements import Markup, data, element, joined
-from ocs_design.report.html.figure import picture
+from ocs_design.report.bodies import ShownBody
+from ocs_design.report.html.elements import Markup, data, element, joined, void
 from ocs_design.report.story import Story
-from ocs_design.report.viewer.blob import Blob
-from ocs_design.report.viewer.bodies import ShownBody
-from ocs_design.report.viewer.encoding import encoded_scene
+from ocs_design.report.viewer.encoding import Blob, encoded_scene
 from ocs_design.report.viewer.still import HEIGHT, WIDTH, still
 
 _LOOKS = (
@@ -19,7 +18,7 @@ _LOOKS = (
     ("Side", "-1.5708 0"),
     ("Top", "3.1416 1.5"),
 )
-"""Azimuth and elevation of the camera as seen from the robot [rad], or what it looks at."""
+"""Names of views: azimuth and elevation of the camera seen from the robot [rad], or its aim."""
 
 _SPEEDS = (("1/20", "0.05"), ("1/10", "0.1"), ("1/4", "0.25"), ("1/2", "0.5"), ("real time", "1"))
 
@@ -40,7 +39,13 @@ def view(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str]) ->
     name = f"{story.design.robot.name} with its device, oblique view from the front"
     frame = element(
         "div",
-        picture(png_bytes(still(bodies)), name, width=WIDTH, height=HEIGHT),
+        void(
+            "img",
+            src=f"data:image/png;base64,{base64.b64encode(png_bytes(still(bodies))).decode('ascii')}",
+            alt=name,
+            width=str(WIDTH),
+            height=str(HEIGHT),
+        ),
         element(
             "canvas",
             id="viewer",
@@ -57,7 +62,7 @@ def view(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str]) ->
 
 
 def view_data(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str]) -> Markup:
-    """What the script shows: it stands at the end, so that the page is there first."""
+    """Data that the script shows, at the end of the page, so that the page is there first."""
     if not bodies:
         return Markup("")
     blob = Blob()

@@ -12,21 +12,21 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.export.naming import PREFIX
-from ocs_design.report.viewer.bodies import ShownBody, Surface
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.naming import PREFIX
+from ocs_design.report.bodies import ShownBody, Surface
 
 FINEST = 1.0 / 4096.0
-"""Cell that points are merged in at least, over the size of the robot."""
+"""Smallest cell in which points are merged, over the size of the robot."""
 
 DEVICE_GRAIN = 0.2
-"""Of the device's cells, over those of the robot."""
+"""Size of the device's cells over that of the robot's."""
 
 _LEAST_GROWTH = 1.1
-"""Of the cell from one attempt to the next."""
+"""Least growth of the cell from one attempt to the next."""
 
 _BITS = 21
-"""Of the number of a vertex: three of them make the number of a face."""
+"""Bits of the number of a vertex: three of them make the number of a face."""
 
 _FLAT = 0.05
 """Singular values of a quadric below this part of its largest one say nothing of the place."""
@@ -42,22 +42,16 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
     while (count := sum(each.count(cell) for each in chain(*boxed))) > most_triangles:
         # A surface takes as many cells as it has area.
         cell *= max(_LEAST_GROWTH, float(np.sqrt(count / most_triangles)))
-    return tuple(_clustered_body(body, _grain(body) * cell) for body in bodies)
+    made = []
+    for body in bodies:
+        found = (clustered(surface, _grain(body) * cell) for surface in body.surfaces)
+        made.append(replace(body, surfaces=tuple(each for each in found if len(each.faces))))
+    return tuple(made)
 
 
 def _grain(body: ShownBody) -> float:
-    """Of its cells: the device is what one looks for, and keeps its edges."""
+    """Size of a body's cells over the robot's: the device is what one looks for."""
     return DEVICE_GRAIN if body.name.startswith(PREFIX) else 1.0
-
-
-def triangles_of(bodies: Sequence[ShownBody]) -> int:
-    """How many triangles there are."""
-    return sum(len(surface.faces) for body in bodies for surface in body.surfaces)
-
-
-def _clustered_body(body: ShownBody, cell: float) -> ShownBody:
-    found = (clustered(surface, cell) for surface in body.surfaces)
-    return replace(body, surfaces=tuple(surface for surface in found if len(surface.faces)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +85,7 @@ class _Boxed:
         return number if number.max() < 1 << _BITS else _numbered(number)
 
     def count(self, cell: float) -> int:
-        """How many triangles are left."""
+        """Number of triangles that are left."""
         cells = self.cells(self.grain * cell)
         _, key = _keyed(*(cells[column] for column in self.faces))
         key.sort()
@@ -121,7 +115,7 @@ def _distinct(faces: NDArray[np.int64]) -> NDArray[np.int64]:
 def _keyed(
     a: NDArray[np.int64], b: NDArray[np.int64], c: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
-    """Which faces have three corners, and a number for each, the same for the same corners."""
+    """Mask of faces with three corners, and a number for each by its corners in any order."""
     kept = (a != b) & (b != c) & (c != a)
     a, b, c = a[kept], b[kept], c[kept]
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
@@ -129,7 +123,7 @@ def _keyed(
 
 
 def _representatives(surface: Surface, cluster: NDArray[np.intp], cell: float) -> FloatArray:
-    """For each cluster the point nearest to the planes of its triangles, no further than a cell."""
+    """Point of each cluster nearest to the planes of its triangles, no further than a cell [m]."""
     count = int(cluster.max()) + 1
     weight = np.bincount(cluster, minlength=count)[:, None]
     middle = _summed(surface.vertices, cluster, count) / weight

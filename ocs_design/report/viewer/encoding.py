@@ -1,22 +1,28 @@
 """The robot and its flights as the page's viewer takes them."""
 
-from collections.abc import Iterator, Sequence
+import base64
+import zlib
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.export.naming import PREFIX
-from ocs_design.report.flight import Flight
-from ocs_design.report.viewer.blob import Blob, Record
-from ocs_design.report.viewer.bodies import ShownBody, Surface
-from ocs_design.robot.spec.frames import quaternion
-from ocs_design.simulation.poses import Poses
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.naming import PREFIX
+from ocs_design.report.bodies import ShownBody
+from ocs_design.report.story import Flight
+from ocs_design.robot.mujoco_bodies import quaternion
+from ocs_design.simulation.engine import Poses
 from ocs_design.simulation.quaternions import from_axis_angle
 from ocs_design.simulation.quaternions import product as hamilton
 from ocs_design.simulation.scene import FLYWHEELS
 
+Record = dict[str, Any]
+"""Value that becomes an object of JSON."""
+
 _LARGEST = 32767
-"""Of 16 bits with a sign: quaternions."""
+"""Largest number of 16 bits with a sign, for parts of quaternions."""
 
 _MOST_UINT16 = 65535
 
@@ -24,7 +30,26 @@ _FINE = 1e4
 """Positions are kept to a tenth of a millimetre, which packs well."""
 
 _BESIDE = 1.25
-"""From one robot to the other where both are shown, over the width of one."""
+"""Distance between two robots shown side by side, over the width of one."""
+
+
+class Blob:
+    """Arrays one behind the other, which the script in a page unpacks."""
+
+    def __init__(self) -> None:
+        self._content = bytearray()
+
+    def add(self, values: NDArray[Any], kind: str) -> Record:
+        """Append an array as little-endian `f4`, `i2`, `u2` or `u4`; gives where it lies."""
+        content = np.ascontiguousarray(values, dtype=f"<{kind}").tobytes()
+        place = {"at": len(self._content), "kind": kind, "length": int(values.size)}
+        # A view of an array must begin at a multiple of the size of its numbers.
+        self._content += content + b"\0" * (-len(content) % 4)
+        return place
+
+    def text(self) -> str:
+        """All arrays, compressed by zlib, in base64."""
+        return base64.b64encode(zlib.compress(bytes(self._content), 6)).decode("ascii")
 
 
 def encoded_scene(
@@ -42,8 +67,36 @@ def encoded_scene(
     radius = _radius(low, high)
     device = _box([body for body in bodies if body.name.startswith(PREFIX)] or bodies)
     names = [body.name for body in bodies]
+    shown = []
+    for body in bodies:
+        surfaces = []
+        for surface in body.surfaces:
+            points = surface.vertices
+            low_corner, size = points.min(axis=0), np.ptp(points, axis=0)
+            # Coordinates as parts of the surface's box, 0..65535.
+            offsets = points - low_corner
+            parts = np.divide(offsets, size, out=np.zeros_like(points), where=size > 0.0)
+            kind = "u2" if len(points) <= _MOST_UINT16 else "u4"
+            record = {
+                "color": list(surface.color),
+                "low": low_corner.tolist(),
+                "size": size.tolist(),
+                "vertices": blob.add(np.round(_MOST_UINT16 * parts), "u2"),
+                "faces": blob.add(surface.faces, kind),
+            }
+            surfaces.append(record)
+        shown.append(
+            {
+                "name": body.name,
+                "device": body.name.startswith(PREFIX),
+                "wheel": FLYWHEELS.index(body.name) if body.name in FLYWHEELS else None,
+                "position": body.placement.position.tolist(),
+                "attitude": list(map(float, quaternion(body.placement.rotation))),
+                "surfaces": surfaces,
+            }
+        )
     return {
-        "bodies": [_body(body, blob) for body in bodies],
+        "bodies": shown,
         "trunk": 0,
         "middle": ((low + high) / 2.0).tolist(),
         "ground": float(low[2]),
@@ -58,35 +111,6 @@ def encoded_scene(
             if flight.poses is not None and set(names) <= set(flight.poses.bodies)
         ],
     }
-
-
-def _body(body: ShownBody, blob: Blob) -> Record:
-    return {
-        "name": body.name,
-        "device": body.name.startswith(PREFIX),
-        "wheel": FLYWHEELS.index(body.name) if body.name in FLYWHEELS else None,
-        "position": body.placement.position.tolist(),
-        "attitude": list(map(float, quaternion(body.placement.rotation))),
-        "surfaces": [_surface(surface, blob) for surface in body.surfaces],
-    }
-
-
-def _surface(surface: Surface, blob: Blob) -> Record:
-    low, size = surface.vertices.min(axis=0), np.ptp(surface.vertices, axis=0)
-    kind = "u2" if len(surface.vertices) <= _MOST_UINT16 else "u4"
-    return {
-        "color": list(surface.color),
-        "low": low.tolist(),
-        "size": size.tolist(),
-        "vertices": blob.add(_in_box(surface.vertices, low, size), "u2"),
-        "faces": blob.add(surface.faces, kind),
-    }
-
-
-def _in_box(points: FloatArray, low: FloatArray, size: FloatArray) -> FloatArray:
-    """Coordinates as parts of the box, 0..65535."""
-    parts = np.divide(points - low, size, out=np.zeros_like(points), where=size > 0.0)
-    return np.round(_MOST_UINT16 * parts)
 
 
 def _flight(flight: Flight, poses: Poses, names: Sequence[str], blob: Blob) -> Record:
@@ -116,18 +140,17 @@ def _unspun(poses: Poses) -> FloatArray:
 
 
 def _radius(low: FloatArray, high: FloatArray) -> float:
-    """Of the ball around a box."""
+    """Radius of the ball around a box."""
     return float(np.linalg.norm(high - low)) / 2.0
 
 
 def _box(bodies: Sequence[ShownBody]) -> tuple[FloatArray, FloatArray]:
-    """Around all that is shown, in B."""
-    corners = np.concatenate(list(_corners(bodies)))
+    """Lowest and highest corner of all that is shown, in B [m]."""
+    corners = np.concatenate(
+        [
+            surface.vertices @ body.placement.rotation.T + body.placement.position
+            for body in bodies
+            for surface in body.surfaces
+        ]
+    )
     return corners.min(axis=0), corners.max(axis=0)
-
-
-def _corners(bodies: Sequence[ShownBody]) -> Iterator[FloatArray]:
-    for body in bodies:
-        for surface in body.surfaces:
-            place = body.placement
-            yield surface.vertices @ place.rotation.T + place.position

@@ -10,20 +10,20 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.report.viewer.bodies import ShownBody
+from ocs_design.common.arrays import FloatArray
+from ocs_design.report.bodies import ShownBody
 
 WIDTH, HEIGHT = 800, 500
-"""[pixels]"""
+"""Size of the picture [pixels]."""
 
 _OVERSAMPLING = 2
 _AZIMUTH, _ELEVATION = np.radians(-37.0), np.radians(22.0)
-"""Of the camera, seen from the robot: in front of it, on its right, above."""
+"""Direction of the camera, seen from the robot: in front of it, on its right, above [rad]."""
 
 _ROOM = 1.06
 _AMBIENT, _BACKGROUND = 0.42, 255
 _BITS = 24
-"""Of the number of a triangle."""
+"""Bits of the number of a triangle."""
 
 _DEPTHS = float(2**38)
 """Steps of nearness that are told apart."""
@@ -36,11 +36,23 @@ def still(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normal, axis=1)
     seen = length > 0.0
-    shade = np.abs(normal[seen] @ _light(right, up, towards)) / length[seen]
-    plane, depth = _on_screen(corners[seen], right, up, towards)
-    index = _nearest(plane, depth)
+    # Light from over the viewer's left shoulder.
+    light = towards + 0.55 * up - 0.45 * right
+    shade = np.abs(normal[seen] @ light) / np.linalg.norm(light) / length[seen]
+    # Pixels from the upper left, shape (n, 3, 2), and how near each corner is, shape (n, 3).
+    plane = np.stack([corners[seen] @ right, -(corners[seen] @ up)], axis=-1)
+    width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
+    if len(plane):
+        low, high = plane.min(axis=(0, 1)), plane.max(axis=(0, 1))
+        size = _ROOM * np.max((high - low) / (width, height))
+        plane = (plane - (low + high) / 2.0) / size + np.array([width, height]) / 2.0
+    index = _nearest(plane, corners[seen] @ towards)
     lit = colors[seen] * (_AMBIENT + (1.0 - _AMBIENT) * shade)[:, None]
-    return _picture(index, lit)
+    drawn = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)[index]
+    # Each pixel is the mean of those that it was drawn with.
+    k = _OVERSAMPLING
+    total = sum(drawn[row::k, column::k] for row, column in product(range(k), repeat=2))
+    return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)
 
 
 def _camera() -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -57,12 +69,6 @@ def _camera() -> tuple[FloatArray, FloatArray, FloatArray]:
     return right, np.cross(towards, right), towards
 
 
-def _light(right: FloatArray, up: FloatArray, towards: FloatArray) -> FloatArray:
-    """From over the viewer's left shoulder."""
-    light = towards + 0.55 * up - 0.45 * right
-    return np.asarray(light / np.linalg.norm(light))
-
-
 def _triangles(bodies: Sequence[ShownBody]) -> tuple[FloatArray, FloatArray]:
     """Corners in B, shape (n, 3, 3), and colours, shape (n, 3), of what is not glass."""
     corners, colors = [np.empty((0, 3, 3))], [np.empty((0, 3))]
@@ -75,19 +81,6 @@ def _triangles(bodies: Sequence[ShownBody]) -> tuple[FloatArray, FloatArray]:
             corners.append(points[surface.faces])
             colors.append(np.tile(surface.color[:3], (len(surface.faces), 1)))
     return np.concatenate(corners), np.concatenate(colors)
-
-
-def _on_screen(
-    corners: FloatArray, right: FloatArray, up: FloatArray, towards: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Pixels from the upper left, shape (n, 3, 2), and how near each corner is, shape (n, 3)."""
-    flat = np.stack([corners @ right, -(corners @ up)], axis=-1)
-    width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
-    if len(flat):
-        low, high = flat.min(axis=(0, 1)), flat.max(axis=(0, 1))
-        size = _ROOM * np.max((high - low) / (width, height))
-        flat = (flat - (low + high) / 2.0) / size + np.array([width, height]) / 2.0
-    return flat, corners @ towards
 
 
 def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
@@ -140,7 +133,7 @@ def _spans(corners: FloatArray, y: NDArray[np.int64]) -> tuple[NDArray[np.int64]
 def _nearness(
     plane: FloatArray, depth: FloatArray, triangle: NDArray[np.int64], y: NDArray[np.int64]
 ) -> tuple[FloatArray, FloatArray]:
-    """In each row, how near the centre of its pixel 0 would be, and the change per pixel."""
+    """Nearness of each row at the centre of its pixel 0, and its change per pixel."""
     b, c = plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0]
     db, dc = depth[:, 1] - depth[:, 0], depth[:, 2] - depth[:, 0]
     area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
@@ -149,11 +142,3 @@ def _nearness(
     across = scale * (dc * b[:, 0] - db * c[:, 0])
     start = depth[:, 0] + along * (0.5 - plane[:, 0, 0]) - across * plane[:, 0, 1]
     return start[triangle] + across[triangle] * (y + 0.5), along[triangle]
-
-
-def _picture(index: NDArray[np.int64], lit: FloatArray) -> NDArray[np.uint8]:
-    """Each pixel the mean of those that it was drawn with."""
-    colors = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)[index]
-    k = _OVERSAMPLING
-    total = sum(colors[row::k, column::k] for row, column in product(range(k), repeat=2))
-    return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)

@@ -1,17 +1,17 @@
-"""Lower bounds on the mass of every candidate, without a fixed point.
+"""Lower bounds on the mass of every candidate, and where to look for it first.
 
 Each is proved by terms that only grow (docs/theory.md, The selection):
 
 1. A maneuver asks for no less as the inertia grows. With q = h W the momentum of a wheel, h / I_red
    dq/dt is the motor's torque at the speed q / h. More inertia asks for more of q's integral, or
    gives the trunk less way (a larger I_red), or neither; never for less.
-2. It asks for no less over a cell of incidences than with the largest sine and the largest cosine
+2. It asks for no less over a range of incidences than with the largest sine and the largest cosine
    in it, each by itself: |P_x| / s + |P_y| / c falls and, by their balance, kappa = 2 (s |P_x| /
    I_xx + c |P_y| / I_yy) / (|P_x| / s + |P_y| / c) grows with either share. Where roll and pitch
-   are coupled, each of |P_x|, |P_y| and kappa is at its own best (`drive.wheel_pair`).
-3. The inertia of the whole is no less than with the lightest wheel in a plain drum for less spin
-   inertia, and its motor behind it: mass, rim and distance only add to it
-   (`trunk.least_trunk_inertia`).
+   are coupled, each of |P_x|, |P_y| and kappa is at its own best (`actuation.wheel_pair`).
+3. The inertia of the whole is no less than with the smallest drum around the least mass that has
+   the spin inertia within the largest radius, and its motor behind it: mass, rim and distance only
+   add to it.
 4. The lightest module of more spin inertia is no lighter: of a module with the more, take height,
    then wall, then radius away, and every limit still holds. Housing and foot grow with both.
 
@@ -21,214 +21,363 @@ on the spin inertia; each pass tightens them.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.sizing.foot import PLATE_THICKNESS
-from ocs_design.sizing.housing import PlainDrum, half_height
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.actuation.wheel_pair import WheelPairBound, smallest_spin_inertia
+from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.parts.foot import PLATE_THICKNESS
+from ocs_design.parts.housing import PlainDrum, half_height
+from ocs_design.parts.module import Printed
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.rim import WEB_DENSITY, WEB_THICKNESS, hub_of
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.bound.rim_problem import (
+    BORE_SHARE,
+    RimLimits,
+)
+from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.motor_mount import mount_of
-from ocs_design.sizing.placement import module_size
-from ocs_design.sizing.rim_closed_form import BORE_SHARE, smallest_spin_inertia
-from ocs_design.sizing.selection.cells import Cell
-from ocs_design.sizing.selection.demand import bound_by_all
-from ocs_design.sizing.selection.drive_table import DriveTable
-from ocs_design.sizing.selection.lot import rim_limits
+from ocs_design.sizing.module_radii import smallest_radius
+from ocs_design.sizing.placement import Place, Size, module_size
+from ocs_design.sizing.selection.candidates import Candidates, Drives, rim_limits
+from ocs_design.sizing.selection.composite_inertia import pairs_of
+from ocs_design.sizing.selection.demand import column, columns, needed_by_rate
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.trunk import Least, LeastInertia, least_trunk_inertia
-from ocs_design.sizing.shell import Printed
-from ocs_design.sizing.web import WEB_DENSITY, WEB_THICKNESS, hub_of
+
+CELLS = 18
+"""Ranges of the incidence that are bounded one by one: 5 deg each."""
 
 _RIMS = 96
 _OFF_THE_EDGE = 1.0 + 1e-10
+_SURELY = 1.0 - 1e-9
+"""Factor on what is found to nine digits."""
+
+_Range: TypeAlias = tuple[FloatArray, FloatArray]
+"""From and to."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A range of incidences [rad]; a single one if both are equal."""
+
+    low: float
+    high: float
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """The largest sine and the largest cosine in it."""
+        return float(np.sin(self.high)), float(np.cos(self.low))
+
+    @property
+    def least_shares(self) -> tuple[float, float]:
+        """The least sine and the least cosine in it."""
+        return float(np.sin(self.low)), float(np.cos(self.high))
+
+
+def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
+    """All incidences in `count` equal ranges; the one that is stated by itself."""
+    if incidence is not None:
+        return (Cell(incidence, incidence),)
+    edges = np.linspace(0.0, np.pi / 2.0, count + 1)
+    return tuple(Cell(float(a), float(b)) for a, b in pairwise(edges))
 
 
 @dataclass(frozen=True, eq=False)
 class RimFloor:
-    """The least mass of a rim with what stands around it by spin inertia, for every material.
+    """Least mass of a rim with what stands around it by spin inertia, for every material.
 
     Attributes:
         spin_inertia: of the rim [kg m^2], increasing along axis 1, shape (materials, rims).
         mass: of the lightest rim with its housing and foot [kg], never decreasing, inf where there
             is none.
-        about_center: likewise, with a plain drum alone, which stands about the wheel's centre.
     """
 
     spin_inertia: FloatArray
     mass: FloatArray
-    about_center: FloatArray
 
     @classmethod
     def of(cls, problem: SelectionProblem) -> "RimFloor":
-        """Of rims that turn slowly: no hoop stress adds to their mass."""
+        """Rims that turn slowly, around the narrowest hub: no hoop stress adds to their mass."""
         kinds = np.repeat(np.arange(len(problem.materials)), _RIMS)
-        narrow, least_reach = _narrowest_hub(problem), _narrowest_mount(problem)
-        limits = rim_limits(
-            problem,
-            kinds,
-            np.full(kinds.size, 1e-3),
-            np.full(kinds.size, narrow),
-            np.full(kinds.size, least_reach),
-        )
-        least = smallest_spin_inertia(limits) * _OFF_THE_EDGE
+        mounts = [mount_of(motor, None) for motor in problem.motors]
+        geared = any(gear.room is not None for gear in problem.gears)
+        # The holes of no motor's mount are nearer to the axis, and no wheel's hub is narrower.
+        reach = 0.0 if geared else min(mount.holes.reach for mount in mounts)
+        narrow = 0.0
+        if problem.web:
+            held = zip(problem.motors, mounts, strict=True)
+            narrow = min(
+                *(max(hub_of(motor).radius, mount.head_reach) for motor, mount in held),
+                *(hub_of(motor, direct=False).radius for motor in problem.motors),
+            )
+        slow, hub, mount = (np.full(kinds.size, value) for value in (1e-3, narrow, reach))
+        limits = rim_limits(problem, kinds, slow, hub, mount)
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), len(problem.materials))
-        least = np.maximum(least, 1e-9 * disc)
+        least = np.maximum(smallest_rim(limits) * _OFF_THE_EDGE, 1e-9 * disc)
         inertia = least * np.maximum(disc / least, 1.0) ** steps
+        mass = np.nan_to_num(lightest_module(inertia, limits, Printed(reach)).mass, nan=np.inf)
         shape = (len(problem.materials), _RIMS)
-        masses = (
-            np.nan_to_num(lightest_module(inertia, limits, shell).mass, nan=np.inf).reshape(shape)
-            for shell in (Printed(least_reach), PlainDrum())
-        )
-        return cls(inertia.reshape(shape), *masses)
+        return cls(inertia.reshape(shape), mass.reshape(shape))
 
     def at(self, spin_inertia: FloatArray) -> FloatArray:
-        """Mass of no more spin inertia than that, shape (materials, n)."""
-        return self._looked_up(self.mass, spin_inertia)
-
-    def about_center_at(self, spin_inertia: FloatArray) -> FloatArray:
-        """Likewise, of what stands about the wheel's centre."""
-        return self._looked_up(self.about_center, spin_inertia)
-
-    def _looked_up(self, masses: FloatArray, spin_inertia: FloatArray) -> FloatArray:
+        """Mass of no more spin inertia than that [kg], shape (materials, n)."""
         rows = [
             mass[np.maximum(np.searchsorted(grid, spin_inertia, side="right") - 1, 0)]
-            for grid, mass in zip(self.spin_inertia, masses, strict=True)
+            for grid, mass in zip(self.spin_inertia, self.mass, strict=True)
         ]
         beyond = spin_inertia > self.spin_inertia[:, -1:]
         return np.where(beyond, np.inf, np.stack(rows))
 
 
-def _narrowest_hub(problem: SelectionProblem) -> float:
-    """Radius that no wheel's hub is below, on whichever motor and gear [m]."""
-    if not problem.web:
-        return 0.0
-    direct = (
-        max(hub_of(motor).radius, mount_of(motor, None).head_reach) for motor in problem.motors
-    )
-    return min(*direct, *(hub_of(motor, direct=False).radius for motor in problem.motors))
-
-
-def _narrowest_mount(problem: SelectionProblem) -> float:
-    """Reach that the holes of no motor's mount are below [m]."""
-    if any(gear.room is not None for gear in problem.gears):
-        return 0.0
-    return min(mount_of(motor, None).holes.reach for motor in problem.motors)
+def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:
+    """Masses that no device is below [kg] in every material, shape (materials, n); inf: none."""
+    rim = spin_inertia - drives.beside_rim
+    lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
+    return 2.0 * (drives.mass + lightest)
 
 
 def least_spin_inertias(
     problem: SelectionProblem,
-    floor: RimFloor,
-    drives: DriveTable,
+    drives: Drives,
     cells: Sequence[Cell],
     below: FloatArray,
+    limits: RimLimits | None = None,
 ) -> FloatArray:
-    """A better lower bound of what each drive's wheels need in each cell [kg m^2], shape (n, k).
+    """Better lower bounds of what each drive's wheels need in each cell [kg m^2], shape (n, k).
 
     Args:
         problem: robot, requirement, envelope, place.
-        floor: of its rims.
         drives: n of them. cells: k of them.
         below: a lower bound over all cells, as far as it is known [kg m^2], shape (n,).
+        limits: of their rims; None: any of the problem.
     """
-    return needed_in_cells(
-        problem, drives, least_inertia(problem, floor, drives, below), cells, below
-    )
-
-
-def needed_in_cells(
-    problem: SelectionProblem,
-    drives: DriveTable,
-    inertia: LeastInertia,
-    cells: Sequence[Cell],
-    below: FloatArray,
-) -> FloatArray:
-    """What each drive's wheels need in each cell on a trunk of at least that inertia, shape (n, k).
-
-    Args:
-        problem: requirement. drives: n of them.
-        inertia: of each.
-        cells: k of them. below: as for `least_spin_inertias`.
-    """
-    needed = np.maximum(bound_by_all(problem.requirement, drives, inertia, cells), below[:, None])
-    stated = problem.requirement.spin_inertia
+    requirement, least = problem.requirement, least_inertia(problem, drives, below, limits)
+    line, armature = columns(drives.line), drives.armature[:, None]
+    needed = np.broadcast_to(below[:, None], (len(drives), len(cells)))
+    for maneuver in requirement.maneuvers:
+        own = maneuver.incidence
+        at = cells if own is None else [Cell(own, own)]
+        task = bound_task(maneuver, requirement.standing_height, least, at)
+        needed = np.maximum(needed, smallest_spin_inertia(task, line, armature))
+    if requirement.rate_change is not None:
+        shares = np.array([cell.shares for cell in cells])
+        alone = column(TiltInertia.uncoupled(least.inertia.diagonal))
+        by_rate = needed_by_rate(requirement.rate_change, drives, alone, shares)
+        needed = np.maximum(needed, by_rate)
+    stated = requirement.spin_inertia
     if stated is None:
         return needed
     return np.where(needed > stated * _OFF_THE_EDGE, np.inf, stated)
 
 
-def least_inertia(
-    problem: SelectionProblem, floor: RimFloor, drives: DriveTable, spin_inertia: FloatArray
-) -> LeastInertia:
-    """Of the robot with modules of at least that spin inertia, see `least_trunk_inertia`."""
-    rim = np.maximum(spin_inertia - drives.beside_rim, floor.spin_inertia[:, 0].min())
-    known = np.isfinite(rim)
-    about_center = np.where(known, floor.about_center_at(rim).min(axis=0), 0.0)
-    about_center = np.where(np.isfinite(about_center), about_center, 0.0)
-    radius = np.full_like(rim, _smallest_radius(problem.envelope))
-    return least_inertia_around(problem, drives, np.where(known, rim, 0.0), radius, about_center)
+class LeastInertia(NamedTuple):
+    """Inertia about roll and pitch that no device is below, and how much it couples them.
+
+    Attributes:
+        inertia: the least about either axis, coupled as the robot alone, shape (n, 2).
+        spread: that J_xy differs by from that at most [kg m^2], shape (n,).
+    """
+
+    inertia: TiltInertia
+    spread: FloatArray
 
 
-def least_inertia_of_any(problem: SelectionProblem, drives: DriveTable) -> LeastInertia:
-    """Likewise, of modules with any wheel."""
-    nothing = np.zeros(len(drives))
-    radius = np.full(len(drives), _smallest_radius(problem.envelope))
-    return least_inertia_around(problem, drives, nothing, radius, nothing)
+def bound_task(
+    maneuver: Maneuver, standing_height: float, least: LeastInertia, cells: Sequence[Cell]
+) -> WheelPairBound:
+    """A maneuver as what two wheels must do at the least, fields of shape (n, k, ...).
 
-
-def _smallest_radius(room: Envelope) -> float:
-    """That no rim is below [m]."""
-    return max(room.inner_radius_min + room.wall_min, room.wall_min / (1.0 - BORE_SHARE))
-
-
-def least_inertia_around(
-    problem: SelectionProblem,
-    drives: DriveTable,
-    rim: FloatArray,
-    radius: FloatArray,
-    about_center: FloatArray,
-) -> LeastInertia:
-    """Of the robot with modules whose rims have no less, see `least_trunk_inertia`.
+    Shares (s, c) beyond the unit circle, n (s', c') with n > 1, do the same as (s', c') on what is
+    smaller: momenta 1 / n, inertias 1 / n^2 of what they are (`actuation.wheel_pair`).
 
     Args:
-        problem: robot, envelope, place. drives: n of them.
-        rim: spin inertia of rim and web [kg m^2]. radius: of the rim [m].
-        about_center: mass of rim, web and drum [kg].
+        maneuver: to be done.
+        standing_height: of the trunk over the ground [m].
+        least: what they turn, n of them.
+        cells: of the incidence, k of them.
     """
-    room, zero = problem.envelope, np.zeros_like(rim)
+    shares = np.array([cell.shares for cell in cells])
+    stretch = np.hypot(shares[:, 0], shares[:, 1])
+    diagonal, product = column(least.inertia)
+    slew = maneuver.slew(TiltInertia.uncoupled(diagonal), standing_height)
+    return WheelPairBound(
+        swept=slew.swept / stretch[:, None],
+        momentum=slew.momentum / stretch[:, None],
+        duration=slew.duration,
+        inertia=TiltInertia(diagonal / stretch[:, None] ** 2, product / stretch**2),
+        incidence=np.arctan2(shares[:, 0], shares[:, 1]),
+        turn=maneuver.turn * stretch[:, None],
+        spread=least.spread[:, None] / stretch**2,
+        reached=np.array([cell.least_shares for cell in cells]) > OUT_OF_REACH,
+    )
+
+
+class Least(NamedTuple):
+    """What no module of a kind is below, all of shape (n,), and what it is not beyond.
+
+    Attributes:
+        mass: of what stands about the wheel's centre, wheel and drum [kg].
+        inertia: of that about any axis [kg m^2].
+        behind: of what stands behind it [kg].
+        depth, above: of its middle from the wheel's, at most [m].
+        smallest, largest: rooms that modules take.
+        heaviest: [kg].
+    """
+
+    mass: FloatArray
+    inertia: FloatArray
+    behind: FloatArray
+    depth: FloatArray
+    above: FloatArray
+    smallest: Size[FloatArray]
+    largest: Size[FloatArray]
+    heaviest: FloatArray
+
+
+def least_inertia(
+    problem: SelectionProblem,
+    drives: Drives,
+    spin_inertia: FloatArray,
+    limits: RimLimits | None = None,
+) -> LeastInertia:
+    """Inertia of the robot with modules whose wheels have at least that spin inertia [kg m^2].
+
+    Limits of their rims make the bound a better one, at the cost of the lightest rims.
+    """
+    room, density = problem.envelope, max(material.density for material in problem.materials)
+    rim = np.maximum(np.where(np.isfinite(spin_inertia), spin_inertia - drives.beside_rim, 0.0), 0)
+    zero, widest = np.zeros_like(rim), np.full_like(rim, room.outer_radius_max)
+    if limits is None:
+        closed = room.wall_min / (1.0 - BORE_SHARE)
+        radius = zero + max(room.inner_radius_min + room.wall_min, closed)
+        wheel = rim / widest**2 + PlainDrum().mass(radius, zero + room.height_min)
+    else:
+        rim = np.maximum(rim, smallest_rim(limits) * _OFF_THE_EDGE)
+        # A wheel of more spin inertia is no smaller.
+        radius = np.minimum(smallest_radius(rim, limits), widest)
+        wheel = np.nan_to_num(lightest_module(rim, limits, PlainDrum()).mass)
     motor = drives.behind_depth, drives.behind_radius, drives.mount_reach
     behind = drives.behind.mass + drives.mount_mass
     # The holes stand by less than that behind the floor.
     holes = drives.mount_mass * PLATE_THICKNESS
+    fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
+    web = np.pi * WEB_THICKNESS * WEB_DENSITY * widest**2
+    shell = Printed(drives.mount_reach).mass(widest, zero + room.height_max)
     least = Least(
-        mass=np.maximum(about_center + drives.hub_mass - drives.mount_mass, 0.0),
+        mass=np.maximum(wheel + drives.hub_mass - drives.mount_mass, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
         inertia=np.minimum(drives.hub_share, drives.hub_across) + rim / 2.0,
         behind=behind,
         depth=half_height(room.height_max) + (holes - drives.behind.y) / behind,
-        above=(drives.behind.z + zero) / behind,
+        above=drives.behind.z / behind,
         smallest=module_size(radius, zero + room.height_min, *motor),
-        largest=module_size(zero + room.outer_radius_max, zero + room.height_max, *motor),
-        heaviest=_heaviest(problem, drives),
+        largest=module_size(widest, zero + room.height_max, *motor),
+        heaviest=np.asarray(drives.mass + fullest + web + shell),
     )
-    return least_trunk_inertia(problem.robot, problem.place, least)
+    return least_composite_inertia(problem.robot, problem.place, least)
 
 
-def _heaviest(problem: SelectionProblem, drives: DriveTable) -> FloatArray:
-    """That no module is beyond: as wide, as high and as dense as may be [kg], shape (n,)."""
-    room, density = problem.envelope, max(material.density for material in problem.materials)
-    radius, height = np.full(len(drives), room.outer_radius_max), room.height_max
-    rim = np.minimum(room.mass_max, np.pi * density * radius**2 * height)
-    web = np.pi * WEB_THICKNESS * WEB_DENSITY * radius**2
-    shell = Printed(drives.mount_reach).mass(radius, np.full_like(radius, height))
-    return np.asarray(drives.mass + rim + web + shell)
+def least_composite_inertia(robot: MassProperties, place: Place, least: Least) -> LeastInertia:
+    """Inertia that no device is below whose modules are no smaller and no lighter.
+
+    Every term grows with mass, inertia or a distance; each distance is at its own least between
+    where the smallest and where the largest module stands, at any incidence. What is not looked at,
+    the foot, would only add to the inertia about the common centre of mass.
+    """
+    corners = [
+        place.left(Size(reach, standing))
+        for reach in (least.smallest.reach, least.largest.reach)
+        for standing in (least.smallest.standing, least.largest.standing)
+    ]
+    x, y, z = (
+        (np.minimum.reduce(values), np.maximum.reduce(values))
+        for values in zip(*corners, strict=True)
+    )
+    mass = least.mass + least.behind
+    off, risen = least.behind * least.depth / mass, least.behind * least.above / mass
+    forward = _least_square((x[0] - off, x[1]), robot.com[0])
+    up = _least_square((z[0], z[1] + risen), robot.com[2])
+    sideways = least.mass * _least_square(y, 0.0)
+    sideways = sideways + least.behind * _least_square((y[0] - least.depth, y[1]), 0.0)
+    reduced = robot.mass * 2.0 * mass / (robot.mass + 2.0 * mass)
+    own = 2.0 * least.inertia
+    roll = robot.inertia[0, 0] + reduced * (robot.com[1] ** 2 + up) + 2.0 * sideways + own
+    diagonal = pairs_of(roll, robot.inertia[1, 1] + reduced * (forward + up) + own)
+    product = np.full(len(roll), TiltInertia.of(robot.inertia).product)
+    return LeastInertia(TiltInertia(diagonal, product), _coupling_spread(robot, least, x, z))
 
 
-def least_masses(floor: RimFloor, drives: DriveTable, spin_inertia: FloatArray) -> FloatArray:
-    """Of whole devices [kg] in every material, shape (materials, n); inf: there is none."""
-    rim = spin_inertia - drives.beside_rim
-    lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
-    return 2.0 * (drives.mass + lightest)
+def _coupling_spread(robot: MassProperties, least: Least, x: _Range, z: _Range) -> FloatArray:
+    """Most that a device changes J_xy by, term by term [kg m^2], shape (n,).
+
+    A module's own products are no more than its mass times its room around its wheel squared.
+    """
+    reach, standing = least.largest
+    room = reach + standing + np.abs(least.above)
+    mass = 2.0 * least.heaviest
+    reduced = robot.mass * mass / (robot.mass + mass)
+    forward, up = (
+        np.maximum(np.abs(low - about), np.abs(high - about)) + room
+        for (low, high), about in ((x, robot.com[0]), (z, robot.com[2]))
+    )
+    left, (xz, yz) = abs(robot.com[1]), np.abs(robot.inertia[:2, 2])
+    aslant, sideways = reduced * forward * up + mass * room**2, reduced * left * up
+    # Of I_xz I_yz / I_zz, the last term because I_zz grows too.
+    yaw = aslant * yz + xz * sideways + aslant * sideways + xz * yz
+    return np.asarray(reduced * left * forward + yaw / robot.inertia[2, 2])
+
+
+def _least_square(between: _Range, about: float) -> FloatArray:
+    """Least square of the distance from `about` of anything in a range."""
+    low, high = between[0] - about, between[1] - about
+    least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
+    return least
+
+
+@dataclass(frozen=True, eq=False)
+class Guess(Table):
+    """Initial guesses of candidates, shape (n,) each.
+
+    Attributes:
+        spin_inertia: a lower bound [kg m^2].
+        mass: a lower bound, of both modules [kg]; inf: there is none.
+        angle: incidence [rad]. width: how far around it [rad]; 0: there only.
+    """
+
+    spin_inertia: FloatArray
+    mass: FloatArray
+    angle: FloatArray
+    width: FloatArray
+
+
+def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
+    """Bounds of candidates by their own hubs, mounts and stresses, at their best incidences.
+
+    The bounds on masses above hold for every wheel of a problem at once. The lightest module of a
+    single candidate takes a hundredth of the time of its fixed point.
+
+    Args:
+        candidates: n of them.
+        spin_inertia: a lower bound of their wheels' [kg m^2], shape (n,).
+    """
+    cells = cells_of(candidates.problem.incidence)
+    needed = least_spin_inertias(
+        candidates.problem, candidates.drives, cells, spin_inertia, candidates.limits
+    )
+    # Beyond the best range, as a bound need not lie where the best incidence does.
+    low, high = np.array([(cell.low, cell.high) for cell in cells])[needed.argmin(axis=1)].T
+    spin = needed.min(axis=1)
+    known = np.isfinite(spin)
+    least = smallest_rim(candidates.limits) * _OFF_THE_EDGE
+    rim = np.maximum(np.where(known, spin, 0.0) - candidates.drives.beside_rim, least)
+    module = lightest_module(rim, candidates.limits, candidates.shell).mass
+    mass = 2.0 * (candidates.drives.mass + _SURELY * module)
+    mass = np.where(known & (module > 0.0), mass, np.inf)
+    return Guess(spin, mass, (low + high) / 2.0, high - low)

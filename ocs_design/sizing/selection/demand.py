@@ -5,25 +5,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ocs_design.arrays import FloatArray
-from ocs_design.drive.line import DriveLine
-from ocs_design.drive.spin_root import capability, newton_step
-from ocs_design.drive.tilt_inertia import OUT_OF_REACH, TiltInertia
-from ocs_design.drive.wheel_pair import (
-    WheelPairBound,
-    WheelPairTask,
-    smallest_spin_inertia,
-    spin_demand,
-)
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.actuation.spin_root import capability, newton_step
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_pair import WheelPairTask, spin_demand
+from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.bound import rate_momenta
-from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.selection.cells import Cell
-from ocs_design.sizing.selection.drive_table import DriveTable
-from ocs_design.sizing.selection.trunk import LeastInertia, TrunkInertia
+from ocs_design.requirement.maneuver import Maneuver, Requirement
+from ocs_design.sizing.selection.candidates import Drives
+from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 
 
-class Reach(NamedTuple):
+class Margins(NamedTuple):
     """What wheels of some spin inertia come to, by each part of the requirement.
 
     Attributes:
@@ -41,83 +34,62 @@ def shares_of(incidence: FloatArray) -> FloatArray:
     return np.stack([np.sin(incidence), np.cos(incidence)], axis=-1)
 
 
-def reach(
+def margins_of(
     requirement: Requirement,
-    drives: DriveTable,
-    trunk: TrunkInertia,
+    drives: Drives,
+    whole: CompositeInertia,
     spin_inertia: FloatArray,
     angle: FloatArray,
-) -> tuple[Reach, Reach]:
-    """What wheels come to in the worst part that is done at the design's incidence, shape (n, k).
-
-    And in the worst maneuver that has an incidence of its own, shape (n, 1). Where there is no such
-    part, the margin is infinite and nothing is asked for.
+) -> tuple[list[Margins], list[Margins]]:
+    """What wheels come to in each part of the requirement.
 
     Args:
         requirement: maneuvers and rate change.
-        drives: n of them, each on its own `trunk`.
+        drives: n of them, each as part of its own `whole`.
         spin_inertia: of their wheels [kg m^2], shape (n,).
         angle: incidences of the design [rad], shape (n, k).
+
+    Returns:
+        Parts that are done at the design's incidence, shape (n, k), and those that are done at an
+        incidence of their own, shape (n, 1).
     """
-    by_design, turned = _parts(requirement, drives, trunk, spin_inertia, angle)
-    return _worst(by_design, angle.shape), _worst(turned, (len(drives), 1))
-
-
-def margins(
-    requirement: Requirement,
-    drives: DriveTable,
-    trunk: TrunkInertia,
-    spin_inertia: FloatArray,
-    angle: FloatArray,
-) -> FloatArray:
-    """Of each part of the requirement, see `Reach`, shape (n, parts); one incidence per drive.
-
-    Args:
-        requirement: maneuvers and rate change.
-        drives: n of them, each on its own `trunk`.
-        spin_inertia: of their wheels [kg m^2], shape (n,).
-        angle: incidence of the design [rad], shape (n,).
-    """
-    by_design, turned = _parts(requirement, drives, trunk, spin_inertia, angle[:, None])
-    return np.column_stack([part.margin for part in (*by_design, *turned)])
-
-
-def _parts(
-    requirement: Requirement,
-    drives: DriveTable,
-    trunk: TrunkInertia,
-    spin_inertia: FloatArray,
-    angle: FloatArray,
-) -> tuple[list[Reach], list[Reach]]:
-    """Those that are done at the design's incidence, (n, k), and those at their own, (n, 1)."""
     shares, spin = shares_of(angle), spin_inertia[:, None]
-    inertia = trunk.at(shares)
+    inertia = whole.at(shares)
     free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
     height = requirement.standing_height
     by_design = _tried(free, height, drives, spin_inertia=spin, inertia=inertia, shares=shares)
     if requirement.rate_change is not None:
         needed = needed_by_rate(requirement.rate_change, drives, inertia, shares)
-        by_design.append(Reach(spin / needed, needed))
-    turned: list[Reach] = []
+        by_design.append(Margins(spin / needed, needed))
+    turned: list[Margins] = []
     for maneuver in requirement.maneuvers:
         if maneuver.incidence is not None:
             own = shares_of(np.full((len(drives), 1), maneuver.incidence))
             turned += _tried(
-                [maneuver], height, drives, spin_inertia=spin, inertia=trunk.at(own), shares=own
+                [maneuver], height, drives, spin_inertia=spin, inertia=whole.at(own), shares=own
             )
     return by_design, turned
+
+
+def worst(parts: Sequence[Margins], shape: tuple[int, ...]) -> Margins:
+    """Least margin and most that is asked for; infinite and none where there is no part."""
+    margin, following = np.full(shape, np.inf), np.zeros(shape)
+    for part in parts:
+        margin = np.minimum(margin, part.margin)
+        following = np.maximum(following, part.following)
+    return Margins(margin, following)
 
 
 def _tried(
     maneuvers: Sequence[Maneuver],
     standing_height: float,
-    drives: DriveTable,
+    drives: Drives,
     *,
     spin_inertia: FloatArray,
     inertia: TiltInertia,
     shares: FloatArray,
-) -> list[Reach]:
-    """Of each maneuver, shape (n, k)."""
+) -> list[Margins]:
+    """Margins of each maneuver, shape (n, k)."""
     if not maneuvers:
         return []
     task = pair_task(maneuvers, standing_height, inertia, shares)
@@ -126,39 +98,7 @@ def _tried(
     following = newton_step(demand, spin_inertia, can)
     with np.errstate(divide="ignore"):
         margin = can.sweep / demand.sweep
-    return [Reach(*both) for both in zip(margin, following, strict=True)]
-
-
-def _worst(parts: Sequence[Reach], shape: tuple[int, ...]) -> Reach:
-    """The least margin and the most that is asked for."""
-    worst = Reach(np.full(shape, np.inf), np.zeros(shape))
-    for part in parts:
-        margin = np.minimum(worst.margin, part.margin)
-        worst = Reach(margin, np.maximum(worst.following, part.following))
-    return worst
-
-
-def bound_by_all(
-    requirement: Requirement, drives: DriveTable, least: LeastInertia, cells: Sequence[Cell]
-) -> FloatArray:
-    """The spin inertia that everything together needs at the least [kg m^2], shape (n, k).
-
-    Args:
-        requirement: maneuvers and rate change.
-        drives: n of them. least: what they turn.
-        cells: of the design's incidence, k of them.
-    """
-    line, armature = columns(drives.line), drives.armature[:, None]
-    height, needed = requirement.standing_height, np.zeros((len(drives), len(cells)))
-    for maneuver in requirement.maneuvers:
-        own = maneuver.incidence
-        task = bound_task(maneuver, height, least, cells if own is None else [Cell(own, own)])
-        needed = np.maximum(needed, smallest_spin_inertia(task, line, armature))
-    if requirement.rate_change is None:
-        return needed
-    shares = np.array([cell.shares for cell in cells])
-    alone = column(TiltInertia.uncoupled(least.inertia.diagonal))
-    return np.maximum(needed, needed_by_rate(requirement.rate_change, drives, alone, shares))
+    return [Margins(*both) for both in zip(margin, following, strict=True)]
 
 
 def pair_task(
@@ -186,40 +126,10 @@ def pair_task(
     )
 
 
-def bound_task(
-    maneuver: Maneuver, standing_height: float, least: LeastInertia, cells: Sequence[Cell]
-) -> WheelPairBound:
-    """A maneuver as what two wheels must do at the least, fields of shape (n, k, ...).
-
-    Shares (s, c) beyond the unit circle, n (s', c') with n > 1, do the same as (s', c') on what is
-    smaller: momenta 1 / n, inertias 1 / n^2 of what they are (`drive.wheel_pair`).
-
-    Args:
-        maneuver: to be done.
-        standing_height: of the trunk over the ground [m].
-        least: what they turn, n of them.
-        cells: of the incidence, k of them.
-    """
-    shares = np.array([cell.shares for cell in cells])
-    stretch = np.hypot(shares[:, 0], shares[:, 1])
-    diagonal, product = column(least.inertia)
-    slew = maneuver.slew(TiltInertia.uncoupled(diagonal), standing_height)
-    return WheelPairBound(
-        swept=slew.swept / stretch[:, None],
-        momentum=slew.momentum / stretch[:, None],
-        duration=slew.duration,
-        inertia=TiltInertia(diagonal / stretch[:, None] ** 2, product / stretch**2),
-        incidence=np.arctan2(shares[:, 0], shares[:, 1]),
-        turn=maneuver.turn * stretch[:, None],
-        spread=least.spread[:, None] / stretch**2,
-        reached=np.array([cell.least_shares for cell in cells]) > OUT_OF_REACH,
-    )
-
-
 def needed_by_rate(
-    rate_change: float, drives: DriveTable, inertia: TiltInertia, shares: FloatArray
+    rate_change: float, drives: Drives, inertia: TiltInertia, shares: FloatArray
 ) -> FloatArray:
-    """By a change of rate about either axis, one at a time [kg m^2], shape (n, k).
+    """Spin inertia for a change of rate about either axis, one at a time [kg m^2], shape (n, k).
 
     h = d (|J_xi| / s + |J_yi| / c) / (2 W) at the highest speed; no time is set
     (docs/theory.md, Lower bound on the wheels' inertia).
@@ -238,11 +148,11 @@ def held_by_rate(rate_change: float, inertia: TiltInertia, shares: FloatArray) -
 
 
 def column(inertia: TiltInertia) -> TiltInertia:
-    """Of n trunks against a second axis, of incidences."""
+    """Inertia of n trunks against a second axis, of incidences."""
     return TiltInertia(inertia.diagonal[:, None, :], inertia.product[:, None])
 
 
 def columns(line: DriveLine) -> DriveLine:
-    """The same against a second axis, of incidences."""
+    """Lines of n drives against a second axis, of incidences."""
     values = (line.stall_torque, line.no_load_speed, line.torque_limit, line.speed_max)
     return DriveLine(*(np.asarray(value)[:, None] for value in values))

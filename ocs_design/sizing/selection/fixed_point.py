@@ -1,4 +1,4 @@
-"""Wheel, incidence and robot settled together, for many modules at once.
+"""Wheel, incidence and robot at their fixed point, for many candidates at once.
 
 A heavier module asks for a larger wheel. Its spin inertia, the rim and the housing for it, the
 inertia of the whole with them, and the spin inertia that the maneuvers then ask for are iterated to
@@ -6,30 +6,47 @@ their fixed point, from a lower bound up. Each iteration looks at some incidence
 far and takes one step of Newton's method towards what is asked for at the best of them; it closes
 in on the incidence as it goes. What a turn asks of the busier wheel, |P_x| / s + |P_y| / c, has one
 valley over the incidence, and so has the largest of several such.
+
+The lightest module of a given spin inertia has one valley over its radius (`lightest_module`), but
+a smaller one stands nearer to the robot and may ask for less, and where the torque hardly does it
+may be the only one that can be. So masses are compared at their fixed points.
 """
 
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray, put_rows
-from ocs_design.sizing.module_shape import ModuleShape
-from ocs_design.sizing.selection.demand import Reach, reach
-from ocs_design.sizing.selection.lot import Lot
-from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.trunk import trunk_inertia
+from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia
+from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.module_radii import smallest_radius
+from ocs_design.sizing.selection.bounds import Guess
+from ocs_design.sizing.selection.candidates import Candidates
+from ocs_design.sizing.selection.composite_inertia import composite_inertia
+from ocs_design.sizing.selection.demand import margins_of, worst
 
-_ROUNDS = 40
+_ITERATIONS_MAX = 40
 _POINTS = np.linspace(-1.0, 1.0, 5)
-# The next incidences reach a little beyond the neighbours of the best one.
+"""Incidences that one iteration looks at, over the width around the best so far."""
+
 _CLOSE_IN = 0.55
-# Of what is asked for over the spin inertia, up to where a secant is trusted.
+"""Factor on the width: the next incidences reach a little beyond the neighbours of the best."""
+
 _STEEPEST, _STEEPEST_NEAR = 0.9, 0.9995
-# How close to each other two iterations are near, relative.
+"""Slope of what is asked for over the spin inertia up to which a secant is trusted."""
+
 _NEAR = 0.02
-# Beyond any spin inertia [kg m^2], and below any margin.
+"""Relative distance of two iterations that are near each other."""
+
+_SPANS = (1.0, 0.4, 0.15)
+"""Shares of all radii that are searched, each a little beyond the neighbours of the best so far."""
+
+_RADII = 7
 _BEYOND, _NOTHING = 1e9, 1e-9
+"""Beyond any spin inertia [kg m^2] and any mass [kg], and below any margin."""
 
 
 class Design(NamedTuple):
@@ -37,60 +54,16 @@ class Design(NamedTuple):
 
     Attributes:
         radius: outer radius of the rim [m]; the nearest possible is taken.
-        flatness: see `lightest_module_at`.
         angle: incidence [rad]. width: how far around it to look for a better one [rad].
     """
 
     radius: FloatArray
-    flatness: FloatArray
     angle: FloatArray
     width: FloatArray
 
 
-class FixedPoint(NamedTuple):
-    """Candidates of given designs, shape (n,) each.
-
-    Attributes:
-        spin_inertia: of each wheel [kg m^2]; of what cannot be, that of the largest margin.
-        angle: the best incidence [rad].
-        shapes: of rims and housings.
-        possible: whether the candidate can be.
-        margin: of the worst part of the requirement, see `Reach`.
-        residual: relative change of the spin inertia in one more iteration.
-    """
-
-    spin_inertia: FloatArray
-    angle: FloatArray
-    shapes: ModuleShape
-    possible: NDArray[np.bool_]
-    margin: FloatArray
-    residual: FloatArray
-
-    def take(self, rows: NDArray[np.intp]) -> "FixedPoint":
-        """The candidates of these rows."""
-        return FixedPoint(
-            spin_inertia=self.spin_inertia[rows],
-            angle=self.angle[rows],
-            shapes=self.shapes.take(rows),
-            possible=self.possible[rows],
-            margin=self.margin[rows],
-            residual=self.residual[rows],
-        )
-
-    def put(self, rows: NDArray[np.intp], others: "FixedPoint") -> "FixedPoint":
-        """With other candidates in these rows."""
-        return FixedPoint(
-            spin_inertia=put_rows(self.spin_inertia, rows, others.spin_inertia),
-            angle=put_rows(self.angle, rows, others.angle),
-            shapes=self.shapes.put(rows, others.shapes),
-            possible=put_rows(self.possible, rows, others.possible),
-            margin=put_rows(self.margin, rows, others.margin),
-            residual=put_rows(self.residual, rows, others.residual),
-        )
-
-
 class Tolerance(NamedTuple):
-    """When candidates count as settled.
+    """When a fixed point counts as reached.
 
     Attributes:
         residual: of the spin inertia, relative. width: of the incidence, over the first one.
@@ -100,8 +73,105 @@ class Tolerance(NamedTuple):
     width: float
 
 
+_ROUGH = Tolerance(residual=1e-7, width=0.05)
+FINE = Tolerance(residual=1e-12, width=1e-3)
+
+
+@dataclass(frozen=True, eq=False)
+class FixedPoint(Table):
+    """Candidates at their fixed points, shape (n,) each.
+
+    Attributes:
+        spin_inertia: of each wheel [kg m^2]; of what is not feasible, that of the largest margin.
+        radius: outer radius that was asked for [m]; the nearest possible is taken.
+        angle: the best incidence [rad].
+        shapes: rims and housings.
+        feasible: whether the candidate can be.
+        margin: of the worst part of the requirement, see `Margins`.
+        residual: relative change of the spin inertia in one more iteration.
+        iterations: that were taken.
+    """
+
+    spin_inertia: FloatArray
+    radius: FloatArray
+    angle: FloatArray
+    shapes: ModuleShape
+    feasible: NDArray[np.bool_]
+    margin: FloatArray
+    residual: FloatArray
+    iterations: NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Solved(Table):
+    """Candidates about at their best, one per row.
+
+    Attributes:
+        candidates: what they are made of. guess: where they were looked for.
+        point: what they come to.
+    """
+
+    candidates: Candidates
+    guess: Guess
+    point: FixedPoint
+
+    @property
+    def mass(self) -> FloatArray:
+        """Mass of both modules [kg]; inf where the candidate is not feasible."""
+        mass = 2.0 * (self.candidates.drives.mass + self.point.shapes.mass)
+        return np.where(self.point.feasible, mass, np.inf)
+
+    @property
+    def score(self) -> FloatArray:
+        """Mass [kg], or a penalty where it is not feasible that falls as the margin grows."""
+        penalty = _BEYOND / np.maximum(self.point.margin, _NOTHING)
+        return np.where(self.point.feasible, self.mass, penalty)
+
+
+def solve(candidates: Candidates, guess: Guess) -> Solved:
+    """A device of each candidate that does what is required, if one is found.
+
+    It is up to some per cent heavier than it would have to be (`refinement`).
+    """
+    *_, solved = solve_stepwise(candidates, guess)
+    return solved
+
+
+def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
+    """Candidates at the best radius so far, each time that it is better known; rough till last."""
+    start = np.maximum(guess.spin_inertia, candidates.least_spin_inertia)
+    # A larger wheel than that of the start may be needed, and may have a larger radius.
+    rim = np.maximum(start - candidates.drives.beside_rim, smallest_spin_inertia(candidates.limits))
+    high = candidates.problem.envelope.outer_radius_max
+    low = np.minimum(smallest_radius(rim, candidates.limits), high)
+    middle, half = np.sqrt(low * high), np.log(high / low) / 2.0
+    design = Design(middle, guess.angle, guess.width)
+    point = fixed_point(candidates, start, design, _ROUGH)
+    best = Solved(candidates, guess, point)
+    yield best
+    each = best.repeat(_RADII)
+    for span in _SPANS:
+        steps = span * np.linspace(-1.0, 1.0, _RADII)
+        radius = best.point.radius[:, None] * np.exp(np.outer(half, steps))
+        angle, width = np.repeat([best.point.angle, span * guess.width], _RADII, axis=1)
+        design = Design(radius.ravel(), angle, width)
+        point = fixed_point(each.candidates, np.repeat(start, _RADII), design, _ROUGH)
+        tried = replace(each, point=point)
+        rows = np.arange(0, len(each.candidates), _RADII)
+        rows += np.argmin(tried.score.reshape(-1, _RADII), axis=1)
+        better = np.flatnonzero(tried.score[rows] < best.score)
+        best = replace(best, point=best.point.put(better, point.take(rows[better])))
+        yield best
+    design = Design(best.point.radius, best.point.angle, np.zeros_like(start))
+    point = fixed_point(candidates, start, design, FINE)
+    # The lightest radius may be the last that is feasible: there the iteration runs away again.
+    lost = np.flatnonzero(best.point.feasible & ~point.feasible)
+    rough = replace(best.point.take(lost), feasible=np.zeros(lost.size, dtype=np.bool_))
+    yield replace(best, point=point.put(lost, rough))
+
+
 class _Step(NamedTuple):
-    """What one iteration finds: the best incidence, what is asked for there, and the margin."""
+    """Result of one iteration: the best incidence, what is asked for there, and the margin."""
 
     angle: FloatArray
     width: FloatArray
@@ -110,29 +180,31 @@ class _Step(NamedTuple):
 
 
 def fixed_point(
-    problem: SelectionProblem, lot: Lot, start: FloatArray, design: Design, tolerance: Tolerance
-) -> tuple[FixedPoint, int]:
-    """The smallest wheels that do everything that is required, and the iterations it took.
+    candidates: Candidates,
+    start: FloatArray,
+    design: Design,
+    tolerance: Tolerance,
+) -> FixedPoint:
+    """The smallest wheels that do everything that is required.
 
     Args:
-        problem: robot, requirement and place.
-        lot: the candidates.
+        candidates: n of them.
         start: lower bounds of their spin inertias [kg m^2], shape (n,).
         design: of each.
         tolerance: when to stop.
     """
-    stated = problem.requirement.spin_inertia
-    spin = start = np.maximum(start, lot.least_spin_inertia)
+    stated = candidates.problem.requirement.spin_inertia
+    spin = start = np.maximum(start, candidates.least_spin_inertia)
     if stated is not None:
         spin = np.full_like(spin, stated)
-    narrow = tolerance.width * design.width
+    radius, narrow = design.radius, tolerance.width * design.width
     last_spin = last_asked = np.zeros_like(spin)
     best_spin, best_margin = spin, np.zeros_like(spin)
     iterations = 0
     while True:
         iterations += 1
-        shapes = lot.shapes_at(spin, design.radius, design.flatness)
-        step = _step(problem, lot, spin, shapes, design)
+        shapes = candidates.shapes_at(spin, radius)
+        step = _step(candidates, spin, shapes, design)
         design = design._replace(angle=step.angle, width=step.width)
         asked = spin if stated is not None else step.asked
         better = step.margin > best_margin
@@ -143,59 +215,58 @@ def fixed_point(
         possible = (shapes.mass > 0.0) & np.isfinite(asked) & ~runaway
         arrived = possible & (residual <= tolerance.residual)
         ended = (design.width <= narrow) & (arrived | ~possible)
-        if ended.all() or iterations == _ROUNDS:
+        if ended.all() or iterations == _ITERATIONS_MAX:
             break
         last_spin, last_asked = spin, asked
         # At a poor incidence too much is asked for: once it is better, begin anew.
         spin = np.where(ended, spin, np.where(possible, following, start))
     # A residual leaves as much of the margin open.
-    settled = ended & arrived & (step.margin >= 1.0 - 10.0 * tolerance.residual)
-    spin = np.where(settled, spin, best_spin)
-    shapes = lot.shapes_at(spin, design.radius, design.flatness)
-    margin = np.where(settled, step.margin, best_margin)
-    return FixedPoint(spin, design.angle, shapes, settled, margin, residual), iterations
-
-
-def _step(
-    problem: SelectionProblem, lot: Lot, spin: FloatArray, shapes: ModuleShape, design: Design
-) -> _Step:
-    """Look at the incidences around that of the design, and ask for a better spin inertia.
-
-    Turned maneuvers have no say in the incidence of the design.
-    """
-    trunk = trunk_inertia(problem.robot, problem.place, lot.modules(spin, shapes))
-    searched = bool(design.width.any())
-    offsets = design.width[:, None] * (_POINTS if searched else np.zeros(1))
-    angles = np.clip(design.angle[:, None] + offsets, 0.0, np.pi / 2.0)
-    tried, turned = reach(problem.requirement, lot.drives, trunk, spin, angles)
-    best, row = _best(tried), np.arange(spin.size)
-    angle, last = angles[row, best], offsets.shape[1] - 1
-    inside = ((best > 0) & (best < last)) | (angle == 0.0) | (angle == np.pi / 2.0)
-    asked = np.maximum(tried.following[row, best], turned.following[:, 0])
-    return _Step(
-        angle=angle,
-        width=np.where(inside | ~np.isfinite(asked), _CLOSE_IN, 1.0) * design.width,
-        asked=np.maximum(asked, lot.least_spin_inertia),
-        margin=np.minimum(tried.margin[row, best], turned.margin[:, 0]),
+    solved = ended & arrived & (step.margin >= 1.0 - 10.0 * tolerance.residual)
+    spin = np.where(solved, spin, best_spin)
+    return FixedPoint(
+        spin_inertia=spin,
+        radius=radius,
+        angle=design.angle,
+        shapes=candidates.shapes_at(spin, radius),
+        feasible=solved,
+        margin=np.where(solved, step.margin, best_margin),
+        residual=residual,
+        iterations=np.full(spin.size, iterations),
     )
 
 
-def _best(tried: Reach) -> NDArray[np.intp]:
-    """Where the least is asked for; where nothing is enough, what comes closest.
+def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design: Design) -> _Step:
+    """Look at the incidences around the best so far, and ask for a better spin inertia.
 
-    Where nothing is asked for, one is as good as the other, and the middle is kept.
+    Turned maneuvers have no say in the incidence of the design.
     """
-    possible = np.isfinite(tried.following)
-    score = np.where(possible, tried.following, _BEYOND / np.maximum(tried.margin, _NOTHING))
-    middle = score.shape[1] // 2
-    score[:, middle] *= 1.0 - 1e-15
-    return np.asarray(np.argmin(score, axis=1))
+    problem = candidates.problem
+    whole = composite_inertia(problem.robot, problem.place, candidates.modules(spin, shapes))
+    offsets = design.width[:, None] * (_POINTS if design.width.any() else np.zeros(1))
+    angles = np.clip(design.angle[:, None] + offsets, 0.0, np.pi / 2.0)
+    by_design, turned = margins_of(problem.requirement, candidates.drives, whole, spin, angles)
+    tried, fixed = worst(by_design, angles.shape), worst(turned, (spin.size, 1))
+    # The least that is asked for; where nothing is enough, what comes closest. Where nothing is
+    # asked for, one is as good as the other, and the middle is kept.
+    penalty = _BEYOND / np.maximum(tried.margin, _NOTHING)
+    score = np.where(np.isfinite(tried.following), tried.following, penalty)
+    score[:, score.shape[1] // 2] *= 1.0 - 1e-15
+    best, row = np.argmin(score, axis=1), np.arange(spin.size)
+    chosen, last = angles[row, best], offsets.shape[1] - 1
+    inside = ((best > 0) & (best < last)) | (chosen == 0.0) | (chosen == np.pi / 2.0)
+    asked = np.maximum(tried.following[row, best], fixed.following[:, 0])
+    return _Step(
+        angle=chosen,
+        width=np.where(inside | ~np.isfinite(asked), _CLOSE_IN, 1.0) * design.width,
+        asked=np.maximum(asked, candidates.least_spin_inertia),
+        margin=np.minimum(tried.margin[row, best], fixed.margin[:, 0]),
+    )
 
 
 def _along_secant(
     spin: FloatArray, asked: FloatArray, last_spin: FloatArray, last_asked: FloatArray
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """To where what is asked for meets the spin inertia, by the last two; and if it never does.
+    """Spin inertia at which what is asked for meets it, by the last two; whether it never does.
 
     Close to each other, the last two tell how steeply what is asked for rises, which it does ever
     more steeply: a secant from below leads no further than to the fixed point, and none is ahead

@@ -1,42 +1,81 @@
 """Why motors fell out: one reason each, at the most promising gear and incidence, with figures."""
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.drive.line import missing_figures
-from ocs_design.drive.wheel_pair import SlewReason
-from ocs_design.sizing.housing import PlainDrum
+from ocs_design.actuation.drive import missing_figures
+from ocs_design.actuation.wheel_pair import (
+    SlewReason,
+    pair_slew_time,
+    slew_reason,
+    smallest_spin_inertia,
+)
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import format_quantity
+from ocs_design.parts.housing import PlainDrum
+from ocs_design.parts.rim import web_axial_inertia
+from ocs_design.requirement.froude import Envelope
+from ocs_design.sizing.bound.rim_problem import (
+    BORE_SHARE,
+    RimLimits,
+)
+from ocs_design.sizing.bound.rim_problem import (
+    smallest_spin_inertia as smallest_rim,
+)
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.rim_closed_form import smallest_spin_inertia
-from ocs_design.sizing.rim_problem import RimLimits
-from ocs_design.sizing.selection.attempt import Attempt, Part, attempt
-from ocs_design.sizing.selection.drive_table import drive_table
-from ocs_design.sizing.selection.lot import rim_limits
+from ocs_design.sizing.selection.bounds import cells_of, least_inertia
+from ocs_design.sizing.selection.candidates import Drives, drives_of, rim_limits
+from ocs_design.sizing.selection.demand import (
+    column,
+    columns,
+    needed_by_rate,
+    pair_task,
+    shares_of,
+)
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Reason, Rejection
 from ocs_design.sizing.selection.search import Found
-from ocs_design.units import format_quantity
 
-# Beyond any time that is finite.
 _NEVER = 1e9
-# Smaller than any wheel [kg m^2].
+"""Beyond any time that is finite."""
+
 _NOTHING = 1e-15
+"""Spin inertia below that of any wheel [kg m^2]."""
 
 
 def rejections(found: Found, ranked: Collection[int]) -> tuple[Rejection, ...]:
-    """Of all motors but those of these indices, in the order of the problem."""
-    others = [index for index in range(len(found.problem.motors)) if index not in ranked]
-    unknown = [index for index in others if not found.known[index].any()]
-    heavier = [
-        index for index in others if np.isfinite(found.least[index, _lightest_gear(found, index)])
-    ]
-    reasons = {index: _unknown(found.problem, index) for index in unknown}
-    reasons |= {index: _heavier(found, index) for index in heavier}
-    reasons |= _impossible(found, [index for index in others if index not in reasons])
-    return tuple(reasons[index] for index in others)
+    """Reasons of all motors but those of these indices, in the order of the problem."""
+    reasons: dict[int, Rejection | None] = {}
+    for index, motor in enumerate(found.problem.motors):
+        if index in ranked:
+            continue
+        if not found.known[index].any():
+            gears = found.problem.gears
+            fewest = min((missing_figures(motor, gear) for gear in gears), key=len, default=())
+            detail = f"its source gives no {', '.join(fewest)}"
+            reasons[index] = Rejection(motor.name, Reason.FIGURES, detail, np.inf)
+        elif np.isfinite(found.least[index, _lightest_gear(found, index)]):
+            detail = _at_least(found, index)
+            reasons[index] = Rejection(motor.name, Reason.HEAVIER, detail, 0.0)
+        else:
+            reasons[index] = None
+    unable = _unable(found, [index for index, reason in reasons.items() if reason is None])
+    return tuple(reason or unable[index] for index, reason in reasons.items())
+
+
+def _at_least(found: Found, motor: int) -> str:
+    gear = int(np.argmin(found.least[motor]))
+    return f"{1e3 * found.least[motor, gear]:.0f} g at least ({found.problem.gears[gear].name})"
+
+
+def _lightest_gear(found: Found, motor: int) -> int:
+    """Index of the lightest whose figures are known with this motor; as a rule, direct drive."""
+    mass = np.array([gear.mass for gear in found.problem.gears])
+    return int(np.argmin(np.where(found.known[motor], mass, np.inf)))
 
 
 def promising_gears(found: Found, motor: int) -> Iterable[int]:
@@ -51,122 +90,156 @@ def promising_gears(found: Found, motor: int) -> Iterable[int]:
     return {lightest, wheel, gain}
 
 
-def _lightest_gear(found: Found, motor: int) -> int:
-    """Of those whose figures are known with this motor; as a rule, none: direct drive."""
-    mass = np.array([gear.mass for gear in found.problem.gears])
-    return int(np.argmin(np.where(found.known[motor], mass, np.inf)))
+class Part(NamedTuple):
+    """One part of the requirement, as the lightest modules with n drives do it at k incidences.
+
+    Attributes:
+        name: of the maneuver, or "the rate change".
+        incidence: at which it is done [rad], shape (k,).
+        time: asked for [s]; inf: none is set.
+        needed: smallest spin inertia that does it [kg m^2], shape (n, k); inf: none does.
+        late: time with the largest wheel over that asked for, shape (n, k), or momentum asked for
+            over that of the largest wheel.
+        reason: see `SlewReason`, shape (n, k).
+    """
+
+    name: str
+    incidence: FloatArray
+    time: float
+    needed: FloatArray
+    late: FloatArray
+    reason: NDArray[np.int_]
 
 
-def _unknown(problem: SelectionProblem, index: int) -> Rejection:
-    """Its source does not give what any of the gears needs."""
-    motor = problem.motors[index]
-    fewest = min((missing_figures(motor, gear) for gear in problem.gears), key=len, default=())
-    return Rejection(motor.name, Reason.FIGURES, f"its source gives no {', '.join(fewest)}", np.inf)
+class _Obstacle(NamedTuple):
+    """What is in the way of one drive: the fields of the part that is worst, as single figures.
+
+    Attributes:
+        largest: spin inertia of the largest wheel that fits [kg m^2]; 0 where not even a rim does.
+        weighty: the same if rims might weigh anything [kg m^2].
+    """
+
+    name: str
+    incidence: float
+    time: float
+    needed: float
+    late: float
+    reason: int
+    largest: float
+    weighty: float
 
 
-def _heavier(found: Found, index: int) -> Rejection:
-    """It may be able to do it, but not as lightly."""
-    return Rejection(found.problem.motors[index].name, Reason.HEAVIER, _at_least(found, index), 0.0)
-
-
-def _at_least(found: Found, index: int) -> str:
-    gear = int(np.argmin(found.least[index]))
-    mass = 1e3 * found.least[index, gear]
-    return f"{mass:.0f} g at least ({found.problem.gears[gear].name})"
-
-
-def _impossible(found: Found, motors: Sequence[int]) -> dict[int, Rejection]:
-    """Of motors that cannot do it with their lightest gear; what others might weigh is added."""
+def _unable(found: Found, motors: Sequence[int]) -> dict[int, Rejection]:
+    """Reasons of motors that their lightest gears do not help; what others weigh is added."""
     if not motors:
         return {}
-    pairs = [(m, g) for m in motors for g in promising_gears(found, m)]
-    tried = attempt(found.problem, found.floor, drive_table(found.problem, np.array(pairs)))
+    problem = found.problem
+    pairs = [(motor, gear) for motor in motors for gear in promising_gears(found, motor)]
+    drives = drives_of(problem, np.array(pairs))
+    unlimited = replace(problem.envelope, mass_max=np.inf)
+    weighty = largest_wheel(problem, unlimited) + drives.beside_rim
+    largest = largest_wheel(problem, problem.envelope) + drives.beside_rim
+    if problem.requirement.spin_inertia is not None:
+        largest = np.full_like(largest, problem.requirement.spin_inertia)
+    parts = tuple(_parts(problem, drives, largest))
+    late = np.max([part.late for part in parts], axis=0)
+    needed = np.max([part.needed for part in parts], axis=0)
     # The least late; of those that are never in time, what needs the least wheel.
-    score = np.where(np.isfinite(tried.late), tried.late, _NEVER * (1.0 + tried.needed))
+    score = np.where(np.isfinite(late), late, _NEVER * (1.0 + needed))
     reasons = {}
     for motor in motors:
-        rows = np.flatnonzero(tried.drives.motor == motor)
-        row, angle = np.unravel_index(np.argmin(score[rows]), score[rows].shape)
-        reasons[motor] = _rejection(found.problem, tried, int(rows[row]), int(angle))
+        rows = np.flatnonzero(drives.motor == motor)
+        first, angle = np.unravel_index(np.argmin(score[rows]), score[rows].shape)
+        row = int(rows[first])
+        part = max(parts, key=lambda part: float(part.late[row, angle]))
+        obstacle = _Obstacle(
+            name=part.name,
+            incidence=float(part.incidence[angle]),
+            time=part.time,
+            needed=float(part.needed[row, angle]),
+            late=float(part.late[row, angle]),
+            reason=int(part.reason[row, angle]),
+            largest=float(largest[row]) if largest[row] > drives.beside_rim[row] else 0.0,
+            weighty=float(weighty[row]),
+        )
+        reason, detail = _reason(problem, drives.take(np.array([row])), obstacle)
+        detail = f"{detail} ({problem.gears[drives.gear[row]].name})"
         if np.isfinite(found.least[motor]).any():
-            detail = f"{reasons[motor].detail}; {_at_least(found, motor)}"
-            reasons[motor] = replace(reasons[motor], detail=detail)
+            detail = f"{detail}; {_at_least(found, motor)}"
+        beyond = float(needed[row, angle] / max(largest[row], _NOTHING))
+        reasons[motor] = Rejection(
+            motor=problem.motors[motor].name,
+            reason=reason,
+            detail=detail,
+            shortfall=min(float(late[row, angle]), beyond) - 1.0,
+            needed=obstacle.needed if np.isfinite(obstacle.needed) else None,
+            largest=obstacle.largest,
+        )
     return reasons
 
 
-def _rejection(problem: SelectionProblem, tried: Attempt, row: int, angle: int) -> Rejection:
-    """Of the drive of this row at this incidence."""
-    part = max(tried.parts, key=lambda part: float(part.late[row, angle]))
-    reason, detail = _reason(problem, tried, part, row, angle)
-    motor, gear = (problem.motors[tried.drives.motor[row]], problem.gears[tried.drives.gear[row]])
-    beyond = float(tried.needed[row, angle] / max(tried.largest[row], _NOTHING))
-    needed = float(part.needed[row, angle])
-    return Rejection(
-        motor=motor.name,
-        reason=reason,
-        detail=f"{detail} ({gear.name})",
-        shortfall=min(float(tried.late[row, angle]), beyond) - 1.0,
-        needed=needed if np.isfinite(needed) else None,
-        largest=_largest(tried, row),
+def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> Iterator[Part]:
+    """Parts of the requirement with the largest wheels that fit, their spin inertias [kg m^2]."""
+    requirement, cells = problem.requirement, cells_of(problem.incidence)
+    angles = np.array([(cell.low + cell.high) / 2.0 for cell in cells])
+    inertia = column(least_inertia(problem, drives, np.zeros(len(drives))).inertia)
+    line, armature, shape = (
+        columns(drives.line),
+        drives.armature[:, None],
+        (len(drives), len(cells)),
     )
+    for maneuver in requirement.maneuvers:
+        at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
+        shares = np.broadcast_to(shares_of(at), (*shape, 2))
+        task = pair_task([maneuver], requirement.standing_height, inertia, shares)
+        time = float(np.asarray(task.duration).item())
+        needed = smallest_spin_inertia(task, line, armature)[0]
+        taken = pair_slew_time(task, largest[:, None], line, armature)[0]
+        late = np.divide(taken, time, out=np.full(taken.shape, np.inf), where=time > 0.0)
+        yield Part(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
+    if requirement.rate_change is not None:
+        shares = np.broadcast_to(shares_of(angles), (*shape, 2))
+        needed = needed_by_rate(requirement.rate_change, drives, inertia, shares)
+        reason = np.where(np.isinf(needed), SlewReason.AXIS, SlewReason.SPEED)
+        late = needed / largest[:, None]
+        yield Part("the rate change", angles, np.inf, needed, late, reason)
 
 
-def _largest(tried: Attempt, row: int) -> float:
-    """Spin inertia of the largest wheel that fits [kg m^2]; 0 where not even a rim does."""
-    largest = float(tried.largest[row])
-    return largest if largest > float(tried.drives.beside_rim[row]) else 0.0
-
-
-def _reason(
-    problem: SelectionProblem, tried: Attempt, part: Part, row: int, angle: int
-) -> tuple[Reason, str]:
-    """The first thing that is in the way of this part."""
-    needed, late = float(part.needed[row, angle]), float(part.late[row, angle])
-    wheel = f"{part.name} needs a wheel of {needed:.3g} kg m^2"
-    if part.reason[row, angle] == SlewReason.AXIS:
-        at = np.degrees(part.incidence[angle])
+def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[Reason, str]:
+    """The first thing that is in the way, with figures."""
+    wheel = f"{part.name} needs a wheel of {part.needed:.3g} kg m^2"
+    if part.reason == SlewReason.AXIS:
+        at = np.degrees(part.incidence)
         return Reason.INCIDENCE, f"{part.name} asks for an axis out of reach at {at:.4g} deg"
-    if not late > 1.0:
-        return _too_fast_or_heavy(problem, tried, row, wheel, needed)
-    weak = part.reason[row, angle] == SlewReason.TORQUE
-    if np.isfinite(needed) and not weak:
-        light = needed > tried.weighty[row]
-        largest = _largest(tried, row)
-        room = f"{wheel}, " + (f"{largest:.3g} fits" if largest > 0.0 else "and no rim fits at all")
-        return Reason.ENVELOPE if light else Reason.MASS, room
-    best = f"{late * part.time:.3g} s at best" if np.isfinite(late) else "never in time"
+    if not part.late > 1.0:
+        # A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia.
+        kinds = np.arange(len(problem.materials))
+        each = drive.repeat(kinds.size)
+        limits = rim_limits(problem, kinds, each.overspeed, each.hub_radius, each.mount_reach)
+        rims = np.maximum(part.needed - each.beside_rim, smallest_rim(limits) * (1.0 + 1e-9))
+        if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
+            return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{_too_narrow(limits)}"
+        if not _any_rim(rims, limits):
+            rpm = each.overspeed[0] * 30.0 / np.pi
+            return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"
+        return Reason.OWN_WEIGHT, f"{wheel} on the robot alone, and none that fits with its device"
+    weak = part.reason == SlewReason.TORQUE
+    if np.isfinite(part.needed) and not weak:
+        reason = Reason.ENVELOPE if part.needed > part.weighty else Reason.MASS
+        fits = f"{part.largest:.3g} fits" if part.largest > 0.0 else "and no rim fits at all"
+        return reason, f"{wheel}, {fits}"
+    best = f"{part.late * part.time:.3g} s at best" if np.isfinite(part.late) else "never in time"
     detail = f"{best} for {part.name}, {part.time:.3g} s given"
     return Reason.TORQUE if weak else Reason.SPEED, detail
 
 
-def _too_fast_or_heavy(
-    problem: SelectionProblem, tried: Attempt, row: int, wheel: str, needed: float
-) -> tuple[Reason, str]:
-    """A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia."""
-    kinds = np.arange(len(problem.materials))
-    overspeed = np.full(kinds.size, tried.drives.overspeed[row])
-    hub, mount = (
-        np.full(kinds.size, radius[row])
-        for radius in (tried.drives.hub_radius, tried.drives.mount_reach)
-    )
-    limits = rim_limits(problem, kinds, overspeed, hub, mount)
-    least = smallest_spin_inertia(limits) * (1.0 + 1e-9)
-    rims = np.maximum(needed - tried.drives.beside_rim[row], least)
-    if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
-        return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{_too_narrow(limits)}"
-    if not _any_rim(rims, limits):
-        rpm = overspeed[0] * 30.0 / np.pi
-        return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"
-    return Reason.OWN_WEIGHT, f"{wheel} on the robot alone, and none that fits with its device"
-
-
 def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
-    """Of any material."""
+    """Whether there is a rim of any material."""
     return bool((lightest_module(spin_inertia, limits, PlainDrum()).mass > 0.0).any())
 
 
 def _too_narrow(limits: RimLimits) -> str:
-    """What leaves no radius below the largest, as a clause; empty where something does."""
+    """Clause on what leaves no radius below the largest; empty where something does."""
     least, most = np.asarray(limits.outer_radius_min), float(np.asarray(limits.outer_radius_max))
     around = np.asarray(limits.inner_radius_min) + limits.wall_min
     narrowest = {"around its motor's mount": least.min(), "around its hub and bore": around.min()}
@@ -177,3 +250,23 @@ def _too_narrow(limits: RimLimits) -> str:
         f": {where} it has a radius of {format_quantity(float(radius), 'mm')} at the least, r_max "
         f"is {format_quantity(most, 'mm')}"
     )
+
+
+def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
+    """Spin inertia of the largest rim of any material, whatever its hoop stress [kg m^2].
+
+    With its web, without its hub and what is cut off it. As wide and tall as may be, and as thick
+    as its mass allows; if it must be thicker, lower.
+    """
+    density = np.array([material.density for material in problem.materials])
+    outer, layer = room.outer_radius_max, np.pi * density * room.height_max
+    bore = max(room.inner_radius_min, BORE_SHARE * outer)
+    square = np.maximum(outer**2 - room.mass_max / layer, bore**2)
+    inner = np.minimum(np.sqrt(square), outer - room.wall_min)
+    mass = np.minimum(layer * (outer**2 - inner**2), room.mass_max)
+    beside = np.zeros_like(inner)
+    if problem.web:
+        cut = problem.cuts.axial_inertia(inner, np.full_like(inner, outer), 1.0)
+        beside = web_axial_inertia(inner) - density * cut
+    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + beside, 0.0)
+    return float(inertia.max(initial=0.0))

@@ -3,43 +3,22 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ocs_design.arrays import FloatArray
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.catalogue.materials import Material
-from ocs_design.drive.gear import Gear
-from ocs_design.drive.line import DriveLine
-from ocs_design.drive.motor import Motor
-from ocs_design.requirement.envelope import Envelope
-from ocs_design.robot.mass_properties import MassProperties
-from ocs_design.sizing.carrier import Carrier
-from ocs_design.sizing.motor_mount import mount_of
-from ocs_design.sizing.mount import limits_with_mount
-from ocs_design.sizing.rim_cuts import RimCuts
-from ocs_design.sizing.rim_problem import RimLimits, RimProblem
-from ocs_design.sizing.web import Hub, limits_with_web, wheel_body
-
-
-@dataclass(frozen=True)
-class TaskDemand:
-    """What one part of the requirement asks of a drive.
-
-    Attributes:
-        source: name of the maneuver, or `rate change, roll` and `rate change, pitch`.
-        incidence: of the modules during it [rad].
-        spin_inertia: smallest of a wheel with which this drive does it in time [kg m^2].
-        time_needed: at the least, with the wheel as designed, on the reserved share of voltage and
-            current [s]; None: no time is set.
-        time_given: [s]; None likewise.
-        peak_speed: of the busier wheel in that least time [rad/s].
-        peak_torque: of its motor at the wheel, accelerating or braking [N m]; None: no time is set.
-    """
-
-    source: str
-    incidence: float
-    spin_inertia: float
-    time_needed: float | None
-    time_given: float | None
-    peak_speed: float
-    peak_torque: float | None
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.records import TaskDemand
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.rim import Hub, RimCuts, wheel_body
+from ocs_design.requirement.froude import Envelope
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.bound.rim_problem import (
+    RimLimits,
+    RimProblem,
+    limits_with_mount,
+    limits_with_web,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,16 +72,16 @@ class Candidate:
 
     @property
     def mass(self) -> float:
-        """Of both modules: wheels, motors, gears, housings and feet [kg]."""
+        """Mass of both modules: wheels, motors, gears, housings and feet [kg]."""
         return 2.0 * (self.wheel_mass + self.carrier.mass)
 
     @property
     def printed_mass(self) -> float:
-        """Of one housing with its foot, what holds the motor, and all screws [kg]."""
+        """Mass of one housing with its foot, what holds the motor, and all screws [kg]."""
         return self.carrier.mass - (self.motor.mass or 0.0) - self.gear.mass
 
     def limits(self, room: Envelope) -> RimLimits:
-        """Of its rim, scalars, in the room that is specified."""
+        """Limits of its rim, scalars, in the room that is specified."""
         alone = RimProblem(self.spin_inertia, room, self.material, self.overspeed).limits
         mount = mount_of(self.motor, self.gear.room)
         mounted = limits_with_mount(alone, mount.holes.reach)
@@ -112,7 +91,7 @@ class Candidate:
 
     @property
     def wheel_mass(self) -> float:
-        """Of one wheel: rim, web and hub [kg]."""
+        """Mass of one wheel: rim, web and hub [kg]."""
         return self.rim_mass + self.web_mass
 
     @property
@@ -123,7 +102,7 @@ class Candidate:
 
     @property
     def binding_maneuver(self) -> str:
-        """What asks for the most; "smallest rim" if that has more, "" if the inertia is stated."""
+        """Maneuver that asks for the most; "" where the smallest rim or a stated one has more."""
         most = max(self.demands, key=lambda demand: demand.spin_inertia, default=None)
         if most is None or most.spin_inertia < self.spin_inertia * (1.0 - 1e-6):
             return ""

@@ -5,28 +5,31 @@ as what motor, gear and the smallest wheel weigh, is tightened step by step (`bo
 the mass itself where the fixed point is solved (`fixed_point`), for the most promising candidates
 first. A candidate is left out once its bound exceeds the tenth lightest device that is known, and
 is none of a motor that may be among the five with the lightest devices: so the ten lightest and the
-lightest of the five best motors are found whatever the order.
+lightest of the five best motors are found whatever the order. What may be the lightest of all is
+refined in the end.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.arrays import FloatArray
-from ocs_design.sizing.motor_mount import mount_of
+from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.motor_mount import mount_of
 from ocs_design.sizing.selection.bounds import (
+    CELLS,
+    Guess,
     RimFloor,
+    cells_of,
+    initial_guess,
     least_masses,
     least_spin_inertias,
 )
-from ocs_design.sizing.selection.cells import CELLS, cells_of
-from ocs_design.sizing.selection.drive_table import DriveTable, drive_table, known_pairs
-from ocs_design.sizing.selection.lot import lot_of
-from ocs_design.sizing.selection.outset import Outset, outset_of
+from ocs_design.sizing.selection.candidates import Candidates, Drives, drives_of, known_pairs
+from ocs_design.sizing.selection.fixed_point import Solved, solve
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.settling import Settled, refine, settle
+from ocs_design.sizing.selection.refinement import refine
 
 RANKED = 10
 """Devices that a selection lists at least."""
@@ -35,19 +38,23 @@ MOTORS = 5
 """Motors of which it lists the lightest device: not every motor can be bought."""
 
 _BATCH = 24
-# Candidates that are bounded at once before the next are settled.
 _AHEAD = 256
-_CHUNK = 1024
+"""Candidates that are bounded at once before the next are solved."""
 
-Indices = NDArray[np.intp]
+_CHUNK = 1024
+_PROMISING = 0.99
+"""Margin of a candidate that is not feasible where it was solved, but may be nearby."""
+
+_FALL = 0.03
+"""Share of the mass that a refinement may save at most."""
 
 
 @dataclass(frozen=True, order=True)
 class Rank:
-    """One of the lightest devices: its mass [kg], where it is settled, and of which motor."""
+    """Place of one of the lightest devices: mass [kg], batch and row where it is, and motor."""
 
     mass: float
-    lot: int
+    batch: int
     row: int
     motor: int
 
@@ -62,7 +69,7 @@ class Found:
         least: lower bound of the mass of any device of motor and gear [kg], shape (motors, gears);
             inf: there is none.
         spin_inertia: lower bound of that of its wheels [kg m^2], as far as it was looked for.
-        lots: settled candidates. places: of the lightest, lightest first.
+        batches: solved candidates. places: of the lightest, lightest first.
     """
 
     problem: SelectionProblem
@@ -70,12 +77,12 @@ class Found:
     known: NDArray[np.bool_]
     least: FloatArray
     spin_inertia: FloatArray
-    lots: list[Settled] = field(default_factory=list)
+    batches: list[Solved] = field(default_factory=list)
     places: list[Rank] = field(default_factory=list)
 
     @classmethod
     def nothing(cls, problem: SelectionProblem) -> "Found":
-        """Before the search."""
+        """State before the search."""
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
         mounts = np.array([mount_of(motor, None).moments().mass for motor in problem.motors])
@@ -89,35 +96,51 @@ class Found:
 
     @property
     def lightest(self) -> float:
-        """Mass of the lightest device so far [kg]."""
+        """Mass of the lightest device so far [kg]; inf: none."""
         return self.places[0].mass if self.places else np.inf
 
     @property
     def enough(self) -> FloatArray:
         """Mass that a device of each motor must stay below to be listed [kg], shape (motors,)."""
-        masses = np.full(len(self.problem.motors), -np.inf)
         best = _best_of_motors(self.places)
         # A motor is listed below the last that is, and then with what is lighter yet.
-        masses[:] = best[-1].mass if len(best) >= MOTORS else np.inf
+        last = best[-1].mass if len(best) >= MOTORS else np.inf
+        masses = np.full(len(self.problem.motors), last)
         for rank in best:
             masses[rank.motor] = rank.mass
         tenth = self.places[RANKED - 1].mass if len(self.places) >= RANKED else np.inf
         enough: FloatArray = np.maximum(masses, tenth)
         return enough
 
-    def add(self, settled: Settled) -> None:
+    @property
+    def devices(self) -> list[Solved]:
+        """The lightest, lightest first, one row each."""
+        return [self.batches[rank.batch].take(np.array([rank.row])) for rank in self.places]
+
+    def add(self, solved: Solved) -> None:
         """List what belongs among the lightest."""
-        self.lots.append(settled)
-        self._list([*self.places, *_ranks(len(self.lots) - 1, settled)])
+        self.batches.append(solved)
+        self._list([*self.places, *_ranks(len(self.batches) - 1, solved)])
 
     def refine(self) -> None:
-        """Look more closely at what may be the lightest of all, and list anew."""
-        for index, settled in enumerate(self.lots):
-            refined = refine(self.problem, settled, self.lightest)
-            self.lots[index] = refined
-            pair = refined.lot.drives.motor, refined.lot.drives.gear
-            np.minimum.at(self.least, pair, refined.mass)
-        self._list([rank for index, lot in enumerate(self.lots) for rank in _ranks(index, lot)])
+        """Refine what may be the lightest of all, and what may be feasible and lighter."""
+        for index, solved in enumerate(self.batches):
+            self.batches[index] = self._refined(solved)
+        self._list([rank for i, batch in enumerate(self.batches) for rank in _ranks(i, batch)])
+
+    def _refined(self, solved: Solved) -> Solved:
+        near = solved.mass < (1.0 + _FALL) * self.lightest
+        hope = ~solved.point.feasible & (solved.point.margin > _PROMISING)
+        for row in np.flatnonzero((near | hope) & (solved.guess.mass < self.lightest)):
+            at = np.array([row])
+            one = solved.take(at)
+            point = refine(one.candidates, one.point)
+            better = replace(one, point=replace(point, iterations=one.point.iterations))
+            if better.mass[0] < one.mass[0]:
+                solved = solved.put(at, better)
+                pair = one.candidates.drives.motor, one.candidates.drives.gear
+                np.minimum.at(self.least, pair, better.mass)
+        return solved
 
     def _list(self, ranks: Sequence[Rank]) -> None:
         """The lightest of these, and the lightest of each of the best motors."""
@@ -125,9 +148,10 @@ class Found:
         self.places = sorted({*ordered[:RANKED], *_best_of_motors(ordered)})
 
 
-def _ranks(lot: int, settled: Settled) -> Iterator[Rank]:
-    for row in np.flatnonzero(settled.mass < np.inf):
-        yield Rank(float(settled.mass[row]), lot, int(row), int(settled.lot.drives.motor[row]))
+def _ranks(batch: int, solved: Solved) -> Iterator[Rank]:
+    motor = solved.candidates.drives.motor
+    for row in np.flatnonzero(solved.point.feasible):
+        yield Rank(float(solved.mass[row]), batch, int(row), int(motor[row]))
 
 
 def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
@@ -149,7 +173,7 @@ def search(problem: SelectionProblem) -> Found:
     return found
 
 
-def _chunks(found: Found) -> Iterator[Indices]:
+def _chunks(found: Found) -> Iterator[NDArray[np.intp]]:
     """Pairs of motor and gear, shape (n, 2): every motor once with its lightest gear, then all."""
     least = np.where(found.known, found.least, np.nan)
     order = np.argsort(least, axis=None, kind="stable")
@@ -162,45 +186,43 @@ def _chunks(found: Found) -> Iterator[Indices]:
         yield rest[start : start + _CHUNK]
 
 
-def _examine(found: Found, pairs: Indices) -> None:
-    """Bound these pairs, and settle those that may be listed."""
+def _examine(found: Found, pairs: NDArray[np.intp]) -> None:
+    """Bound these pairs, and solve those that may be listed."""
     problem = found.problem
-    drives = drive_table(problem, pairs)
+    drives = drives_of(problem, pairs)
     spin = np.zeros(len(drives))
     bound = np.full((len(problem.materials), len(drives)), -np.inf)
     for count in (1, CELLS, CELLS):
         worth = np.flatnonzero(bound.min(axis=0) < found.enough[drives.motor])
-        cells = cells_of(problem.incidence, count)
-        some = drives.take(worth)
-        needed = least_spin_inertias(problem, found.floor, some, cells, spin[worth])
-        spin[worth] = needed.min(axis=1)
+        cells, some = cells_of(problem.incidence, count), drives.take(worth)
+        spin[worth] = least_spin_inertias(problem, some, cells, spin[worth]).min(axis=1)
         bound[:, worth] = least_masses(found.floor, some, spin[worth])
     found.spin_inertia[drives.motor, drives.gear] = spin
-    _settle_best(found, drives, spin, bound)
+    _solve_best(found, drives, spin, bound)
     found.least[drives.motor, drives.gear] = bound.min(axis=0)
 
 
-def _settle_best(found: Found, drives: DriveTable, spin: FloatArray, bound: FloatArray) -> None:
-    """Settle candidates in the order of their bounds, which become masses in place."""
+def _solve_best(found: Found, drives: Drives, spin: FloatArray, bound: FloatArray) -> None:
+    """Solve candidates in the order of their bounds, which become masses in place."""
     material, row = np.nonzero(bound < found.enough[drives.motor])
-    lot = lot_of(found.problem, drives.take(row), material)
+    candidates = Candidates(found.problem, drives.take(row), material)
     nowhere = np.zeros_like(spin[row])
-    outset = Outset(spin[row], bound[material, row], nowhere, nowhere)
+    guess = Guess(spin[row], bound[material, row], nowhere, nowhere)
     left, rough = np.arange(row.size), np.ones(row.size, dtype=np.bool_)
     while True:
-        left = left[outset.mass[left] < found.enough[lot.drives.motor[left]]]
-        left = left[np.argsort(outset.mass[left], kind="stable")]
+        left = left[guess.mass[left] < found.enough[candidates.drives.motor[left]]]
+        left = left[np.argsort(guess.mass[left], kind="stable")]
         some, ahead = left[:_BATCH], left[:_AHEAD]
         if not some.size:
             break
         if rough[some].any():
             closer = ahead[rough[ahead]]
             rough[closer] = False
-            bounds = outset_of(found.problem, lot.take(closer), outset.spin_inertia[closer])
-            outset = outset.put(closer, bounds)
+            bounds = initial_guess(candidates.take(closer), guess.spin_inertia[closer])
+            guess = guess.put(closer, bounds)
             continue
-        settled = settle(found.problem, lot.take(some), outset.take(some))
-        found.add(settled)
-        outset.mass[some] = settled.mass
+        solved = solve(candidates.take(some), guess.take(some))
+        found.add(solved)
+        guess.mass[some] = solved.mass
         left = left[_BATCH:]
-    bound[material, row] = outset.mass
+    bound[material, row] = guess.mass

@@ -1,4 +1,7 @@
+"""Axes: ticks that people know, and ends that runs which broke down do not stretch."""
+
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -35,9 +38,10 @@ def test_a_narrow_logarithmic_axis_has_ticks_between_the_powers():
 
 
 def test_an_axis_is_not_empty_where_its_values_are_equal_or_none():
-    for values in ([3.0, 3.0], [0.0], [], [np.nan]):
+    for values in ([3.0, 3.0], [3.0, 3.0 + 1e-12], [0.0], [], [np.nan]):
         axis = Axis.around("x", "m", values)
         assert axis.low < axis.high
+        assert len(axis.ticks()) > 1
 
 
 def test_numbers_are_short_and_typeset():
@@ -49,3 +53,13 @@ def test_numbers_are_short_and_typeset():
         5e-5: "5·10⁻⁵",
     }
     assert {value: tick_text(value) for value in texts} == texts
+
+
+@pytest.mark.parametrize("odd", [np.nan, np.inf, -np.inf, 1.7e308, -1.7e308])
+def test_what_is_beyond_measure_stretches_no_axis(odd):
+    axis = Axis.around("tilt", "deg", [0.0, odd, 10.0, -odd])
+    assert (axis.low, axis.high) == pytest.approx((-0.6, 10.6))
+    assert axis.ticks()[-1] == 10.0
+    parts = axis.parts(np.array([odd, 5.0]))
+    assert np.isnan(parts[0]) or abs(parts[0]) <= 1e3
+    assert parts[1] == pytest.approx(0.5)

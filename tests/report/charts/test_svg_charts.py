@@ -3,8 +3,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from ocs_design.report.charts.chart import Chart, thinned
-from ocs_design.report.charts.marks import Area, Ink, Line, Points, Rule
+from ocs_design.report.charts.chart import Area, Chart, Ink, Line, Points, Rule, thinned
 from ocs_design.report.charts.scales import Axis
 from ocs_design.report.charts.svg import inline_svg, svg_file
 

@@ -5,7 +5,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ocs_design.report.html.elements import Markup, data, element, items, table
+from ocs_design.report.table import Table, Tone, Toned, columns
 
+TABLE = Table(columns("<name", "time [s]"), (("torque", Toned("1.2", Tone.OPEN)),))
 TEXT = st.text(st.characters(exclude_categories=["Cs", "Cc"]))
 
 
@@ -62,7 +64,7 @@ def test_lists_without_anything_are_not_there():
 
 
 def test_tables_have_a_caption_and_heads_for_their_columns():
-    page = Reading(table("Margins", ("name", "factor"), [("torque", "1.2")]))
+    page = Reading(table("Margins", TABLE))
     assert page.tags == [
         "div",
         "table",
@@ -75,6 +77,9 @@ def test_tables_have_a_caption_and_heads_for_their_columns():
         "tr",
         "td",
         "td",
+        "span",
     ]
     assert page.attributes.count(("scope", "col")) == 2
-    assert page.texts == ["Margins", "name", "factor", "torque", "1.2"]
+    assert page.texts == ["Margins", "name", "time [s]", "torque", "1.2"]
+    assert page.attributes.count(("class", "number")) == 2
+    assert page.attributes.count(("class", "mark open")) == 1

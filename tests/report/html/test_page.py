@@ -10,7 +10,7 @@ from html.parser import HTMLParser
 import pytest
 from stories import design, story
 
-from ocs_design.design_file import design_to_json
+from ocs_design.device.records import design_to_json
 from ocs_design.report.html.page import report_page
 
 HOSTILE = "</script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&"
@@ -104,4 +104,4 @@ def test_the_verdict_says_for_which_maneuver_the_modules_are_turned_by_hand():
     requirement = replace(told.design.requirement, demands=(turned,))
     page = report_page(replace(told, design=replace(told.design, requirement=requirement)))
     verdict = page.partition('class="verdict')[2].partition("</p>")[0]
-    assert "back-flip: sized and flown with both modules turned by hand" in verdict
+    assert "back-flip: sized and flown with the modules turned by hand" in verdict

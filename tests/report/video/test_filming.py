@@ -10,12 +10,11 @@ import pytest
 from PIL import Image
 from wheels import EC45, driven_device
 
-from ocs_design.exceptions import MissingToolError
+from ocs_design.common.errors import MissingToolError
 from ocs_design.export.film import Take, film_model, render_takes
-from ocs_design.report.video import encoding, filming, flights
-from ocs_design.report.video.captions import BAD, GOOD, Caption, captioned
-from ocs_design.report.video.encoding import encode
-from ocs_design.report.video.filming import film_or_tell
+from ocs_design.report.video import film, pictures
+from ocs_design.report.video.film import film_or_tell
+from ocs_design.report.video.pictures import BAD, GOOD, Caption, captioned, encode
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 
@@ -44,7 +43,7 @@ class FlownSeries:
 
 @dataclass(frozen=True)
 class Flown:
-    """As much of a run as a film needs."""
+    """A run, as much of it as a film needs."""
 
     scenario: str
     ocs: bool
@@ -73,7 +72,7 @@ def rendered(takes):
 
 @pytest.fixture(scope="module")
 def frames():
-    """With the device and without, low and high over the floor."""
+    """Frames with the device and without, low and high over the floor."""
     takes = []
     for ocs in (True, False):
         model = film_model(ROBOT, DEVICE, ocs=ocs)
@@ -84,7 +83,7 @@ def frames():
 
 
 def is_blue(frame):
-    """Where the housing is: nothing else is."""
+    """Pixels of the housing: nothing else is blue."""
     red, _, blue = (frame[..., i].astype(int) for i in range(3))
     return blue - red > 20
 
@@ -135,9 +134,9 @@ def fail(*arguments, **options):
 @pytest.mark.parametrize("without", ["ffmpeg", "the encoder"])
 def test_a_gif_in_real_time_where_there_is_no_mp4(tmp_path, monkeypatch, without):
     if without == "ffmpeg":
-        monkeypatch.setattr(encoding, "ffmpeg_program", lambda: None)
+        monkeypatch.setattr(pictures, "ffmpeg_program", lambda: None)
     else:
-        monkeypatch.setattr(encoding.subprocess, "run", fail)
+        monkeypatch.setattr(pictures.subprocess, "run", fail)
     path = encode(SHADES, 0.03, tmp_path / "film")
     assert [each.name for each in tmp_path.iterdir()] == ["film.gif"]
     with Image.open(path) as image:
@@ -158,8 +157,8 @@ def test_who_is_done_first_waits_for_the_other(tmp_path, monkeypatch):
     def blank(takes):
         return [np.zeros((len(take.qpos), 440, 480, 3), dtype=np.uint8) for take in takes]
 
-    monkeypatch.setattr(flights, "encode", keep)
-    monkeypatch.setattr(flights, "render_takes", blank)
+    monkeypatch.setattr(pictures, "encode", keep)
+    monkeypatch.setattr(film, "render_takes", blank)
     drop = Drop(name="drop", gravity=9.81, incidence=None, height=1.0, pitch=0.5)
     assert film_or_tell(ROBOT, DEVICE, [drop], runs, tmp_path) == ()
     assert len(made["pictures"]) == 5
@@ -176,13 +175,13 @@ def test_without_opengl_or_pillow_the_cure_is_told(tmp_path, monkeypatch):
     (told,) = film_or_tell(ROBOT, DEVICE, [drop], [flown(True, 3)], tmp_path)
     assert told.startswith("no video, because none such:")
     assert "apt install" in told
-    monkeypatch.setattr(filming, "find_spec", lambda name: None)
+    monkeypatch.setattr(film, "find_spec", lambda name: None)
     (told,) = film_or_tell(ROBOT, DEVICE, [drop], [flown(True, 3)], tmp_path)
     assert told == "no video, because Pillow is not installed; pip install 'ocs-design[video]'"
     assert not list(tmp_path.iterdir())
 
 
 def test_a_gif_is_told_of(tmp_path, monkeypatch):
-    monkeypatch.setattr(flights, "film_flights", lambda *given: (tmp_path / "drop.gif",))
+    monkeypatch.setattr(film, "film_flights", lambda *given: (tmp_path / "drop.gif",))
     (told,) = film_or_tell(ROBOT, DEVICE, [], [], tmp_path)
     assert "pip install 'ocs-design[video]'" in told

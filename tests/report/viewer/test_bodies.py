@@ -8,7 +8,7 @@ from wheels import paper_device
 
 from ocs_design.export.glb import export_robot_glb
 from ocs_design.export.robot_model import robot_model
-from ocs_design.report.viewer.bodies import read_bodies
+from ocs_design.report.bodies import read_bodies
 from ocs_design.robot.reader import read_robot
 
 UPRIGHT = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
@@ -22,7 +22,7 @@ def glb(tmp_path_factory):
 
 
 def corners(bodies):
-    """Of all triangles, in B, shape (n, 3, 3)."""
+    """Corners of all triangles, in B, shape (n, 3, 3)."""
     return np.concatenate(
         [
             (s.vertices @ body.placement.rotation.T + body.placement.position)[s.faces]

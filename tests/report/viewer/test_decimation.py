@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from ocs_design.report.viewer.bodies import ShownBody, Surface
-from ocs_design.report.viewer.decimation import clustered, decimated, triangles_of
+from ocs_design.report.bodies import ShownBody, Surface
+from ocs_design.report.viewer.decimation import clustered, decimated
 from ocs_design.robot.tree import Placement
 
 GREY = (0.5, 0.5, 0.5, 1.0)
@@ -17,6 +17,10 @@ def body(mesh, name="link"):
 def mesh_of(shown):
     (surface,) = shown.surfaces
     return trimesh.Trimesh(surface.vertices, surface.faces, process=False)
+
+
+def triangles_of(bodies):
+    return sum(len(surface.faces) for each in bodies for surface in each.surfaces)
 
 
 def box():

@@ -10,10 +10,9 @@ import pytest
 from robots import SOLO12
 from wheels import paper_device
 
-from ocs_design.report.flight import flights_of
-from ocs_design.report.viewer.blob import Blob
-from ocs_design.report.viewer.bodies import ShownBody, Surface
-from ocs_design.report.viewer.encoding import encoded_scene
+from ocs_design.report.bodies import ShownBody, Surface
+from ocs_design.report.story import flights_of
+from ocs_design.report.viewer.encoding import Blob, encoded_scene
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.tree import Placement
@@ -79,7 +78,7 @@ def between(some, others):
 
 
 def spun(quaternion, angle):
-    """By MuJoCo: turned about its own z axis."""
+    """Quaternion turned about its own z axis, by MuJoCo."""
     about_z, result = np.zeros(4), np.zeros(4)
     mujoco.mju_axisAngle2Quat(about_z, np.array([0.0, 0.0, 1.0]), angle)
     mujoco.mju_mulQuat(result, quaternion, about_z)

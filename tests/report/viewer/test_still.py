@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from ocs_design.report.viewer.bodies import ShownBody, Surface
+from ocs_design.report.bodies import ShownBody, Surface
 from ocs_design.report.viewer.still import HEIGHT, WIDTH, still
 from ocs_design.robot.tree import Placement
 

@@ -5,9 +5,9 @@ import pytest
 from driven_wheels import EC45, driven_wheel
 from scipy.spatial.transform import Rotation
 
-from ocs_design.sizing.incidence import module_axes
-from ocs_design.sizing.margins.bearings import bearing_moment
-from ocs_design.sizing.margins.motion import Motion
+from ocs_design.device.layout import module_axes
+from ocs_design.sizing.margins import bearing_moment
+from ocs_design.sizing.motion import Motion
 
 AXES = module_axes(np.radians(35.0))
 

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from driven_wheels import BELT, EC45, STEEL, driven_wheel
 
-from ocs_design.sizing.incidence import module_axes
-from ocs_design.sizing.margins.margin import Margin, worst
-from ocs_design.sizing.margins.margins import margins
-from ocs_design.sizing.margins.motion import Motion
+from ocs_design.device.layout import module_axes
+from ocs_design.sizing.margins import Margin, margins, worst
+from ocs_design.sizing.motion import Motion
 
 AXES = module_axes(np.radians(30.0))
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ocs_design.sizing.margins.motion import Motion, integral
-from ocs_design.sizing.trajectory import Trajectory
+from ocs_design.sizing.motion import Motion, integral
+from ocs_design.sizing.trajectory.flight import Trajectory
 
 
 def trajectory(n=4):

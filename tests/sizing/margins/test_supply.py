@@ -7,12 +7,11 @@ import pytest
 from driven_wheels import BELT, EC45, driven_wheel
 from scipy.integrate import solve_ivp
 
-from ocs_design.drive.gear import DIRECT
-from ocs_design.exceptions import OcsError
-from ocs_design.sizing.gyrostat import Gyrostat
-from ocs_design.sizing.incidence import module_axes
-from ocs_design.sizing.margins.motion import Motion
-from ocs_design.sizing.margins.supply import bus_power, supply, winding_current
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.common.errors import OcsError
+from ocs_design.device.layout import module_axes
+from ocs_design.sizing.motion import Motion, bus_power, supply, winding_current
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 
 def resting_trunk(time, speed, torque):

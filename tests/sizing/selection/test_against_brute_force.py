@@ -17,8 +17,8 @@ from naive_search import Device, refine, search
 from naive_wheel import Rims
 from selections import lopsided, random_problem
 
-from ocs_design.exceptions import Infeasible
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.common.errors import Infeasible
+from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.selection.select import select
 
 FAST = (2, 12)

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from selections import random_problem
 
-from ocs_design.exceptions import Infeasible
+from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Drop, Flip
-from ocs_design.robot.mass_properties import MassProperties
+from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.selection.select import select
-from ocs_design.sizing.selection.sized import sized_selection
+from ocs_design.sizing.sized import sized_selection
 
 DROP = Drop(name="drop", height=3.0, pitch=np.radians(30.0))
 WHOLE = Flip(name="flip", jump_height=3.0, angle=-2.0 * np.pi, duration=2.0)

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from rims import STEEL
 
-from ocs_design.requirement.envelope import Envelope
+from ocs_design.parts.module import Printed
+from ocs_design.parts.rim import LIGAMENT
+from ocs_design.requirement.froude import Envelope
+from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web
 from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
-from ocs_design.sizing.rim_cuts import LIGAMENT
-from ocs_design.sizing.rim_problem import RimProblem
-from ocs_design.sizing.selection.binding import HOUSING, binding_limits
-from ocs_design.sizing.shell import Printed
-from ocs_design.sizing.web import limits_with_web
+from ocs_design.sizing.selection.device import HOUSING, binding_limits
 
 ROOM = Envelope(
     outer_radius_max=0.03, inner_radius_min=0.005, height_max=0.01, height_min=0.002,
@@ -29,7 +28,7 @@ def test_as_wide_and_as_tall_as_may_be():
 
 @pytest.mark.parametrize("off", [4e-6, -4e-6])
 def test_a_dimension_found_to_few_digits_still_touches_its_limit(off):
-    near = MODULE._replace(outer_radius=MODULE.outer_radius * (1.0 + off))
+    near = replace(MODULE, outer_radius=MODULE.outer_radius * (1.0 + off))
     assert "r_max" in binding_limits(near, LIMITS, ROOM, 0)
 
 
@@ -40,8 +39,10 @@ def test_a_dimension_that_is_off_its_limit_is_held_by_its_housing():
 
 def test_hub_and_web_are_named_where_they_ask_for_more_than_was_specified():
     seated = limits_with_web(LIMITS, 0.02 - LIGAMENT)
-    module = lightest_module_at(np.array([2e-5]), 0.03, seated, SHELL)._replace(
-        inner_radius=np.array([0.02]), height=np.atleast_1d(seated.height_min)
+    module = replace(
+        lightest_module_at(np.array([2e-5]), 0.03, seated, SHELL),
+        inner_radius=np.array([0.02]),
+        height=np.atleast_1d(seated.height_min),
     )
     named = binding_limits(module, seated, replace(ROOM, height_min=0.001), 0)
     assert {"hub", "web"} <= set(named)

@@ -9,13 +9,12 @@ from naive_device import Drive
 from naive_inertia import inertia_on
 from naive_wheel import Rims
 
-from ocs_design.drive.tilt_inertia import TiltInertia
-from ocs_design.exceptions import Infeasible
-from ocs_design.sizing.incidence import Criterion
-from ocs_design.sizing.selection import by_criterion
-from ocs_design.sizing.selection.by_criterion import select_by
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.errors import Infeasible
+from ocs_design.device.layout import Criterion
+from ocs_design.sizing.selection import select as selecting
 from ocs_design.sizing.selection.result import Reason
-from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.selection.select import select, select_by
 
 pytestmark = pytest.mark.exhaustive
 
@@ -125,8 +124,8 @@ def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(prob
         return angle, device(winner.motor.name, angle)
 
     lightest = select(replace(problem, incidence=0.5))
-    monkeypatch.setattr(by_criterion, "select", choose)
-    monkeypatch.setattr(by_criterion, "_settled", settled)
+    monkeypatch.setattr(selecting, "select", choose)
+    monkeypatch.setattr(selecting, "_at_own_incidence", settled)
     found = select_by(problem, EQUAL_RATE)
     assert (found.best.motor.name, found.best.incidence) == ("a", 0.4)
     assert found.best.mass == pytest.approx(0.10)

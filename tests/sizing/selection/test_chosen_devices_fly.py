@@ -5,10 +5,10 @@ import pytest
 from drawn_selections import draw
 from sampled import every
 
-from ocs_design.assembly import assemble_selected
-from ocs_design.planning import plan
 from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.trajectory.plans import plan
 
 POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 11)
 

@@ -6,8 +6,8 @@ import pytest
 from drawn_selections import draw
 
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
-from ocs_design.sizing.selection.changed_limits import with_limit
 from ocs_design.sizing.selection.prices import mass_prices
+from ocs_design.sizing.selection.problem import with_limit
 from ocs_design.sizing.selection.select import select
 
 SEED = 5

@@ -9,7 +9,7 @@ import pytest
 from drawn_selections import draw
 from naive_wheel import wheel_of
 
-from ocs_design.exceptions import Infeasible
+from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.selection.select import select
 

@@ -13,7 +13,7 @@ from scipy.optimize import minimize
 
 from ocs_design.requirement.maneuver import Drop, Flip
 from ocs_design.sizing.selection.select import select
-from ocs_design.sizing.selection.sized import sized_selection
+from ocs_design.sizing.sized import sized_selection
 
 FIELD = {
     "r_max": "outer_radius_max",

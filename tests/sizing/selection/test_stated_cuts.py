@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from ocs_design.exceptions import SpecificationError
-from ocs_design.requirement.envelope import Envelope
+from ocs_design.common.errors import SpecificationError
+from ocs_design.parts.rim import NO_CUTS, RimCuts
+from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.reading import parse_specification
-from ocs_design.sizing.rim_cuts import NO_CUTS, RimCuts
-from ocs_design.sizing.selection.stated import stated_cuts
+from ocs_design.sizing.selection.problem import specified_cuts
 
 ROOM = Envelope(
     outer_radius_max=0.05, inner_radius_min=0.01, height_max=0.01, height_min=0.002,
@@ -16,7 +16,7 @@ ROOM = Envelope(
 
 
 def cuts_of(text):
-    return stated_cuts(parse_specification(f"[flywheel]\n{text}", "x").flywheel, ROOM)
+    return specified_cuts(parse_specification(f"[flywheel]\n{text}", "x").flywheel, ROOM)
 
 
 def test_edges_are_broken_where_nothing_is_stated():

@@ -1,0 +1,1 @@
+"""A motor at a voltage behind a gear, and what it can do in a time."""

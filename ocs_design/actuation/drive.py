@@ -1,0 +1,239 @@
+"""What a motor at a bus voltage does at its wheel, behind its gear.
+
+With N = motor speed / wheel speed and the gear's efficiency eta, taken as a loss whichever way the
+power flows, so that braking is not counted stronger than it is:
+
+    tau_s = N eta V k_t / R        w_0 = V / (k_t N)        tau_L = N eta peak torque
+
+(`V = R i + k_t w`, docs/theory.md, What a motor can do).
+"""
+
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, Mounting
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import OcsError
+
+RESERVE = 0.95
+"""Share of voltage and current that a design may use; the rest is left to the feedback."""
+
+FIGURES_HINT = (
+    "Choose another motor, or state its figures in a catalogue file of your own; "
+    "see docs/catalogue.md#motors"
+)
+"""Where a motor's source does not give what is needed."""
+
+
+@dataclass(frozen=True, eq=False)
+class DriveLine:
+    """Voltage line and limits at the wheel: scalars, or arrays that broadcast.
+
+    Attributes:
+        stall_torque: tau_s, of the voltage line at rest [N m]; inf: no line, full torque to w_0.
+        no_load_speed: w_0 [rad/s], finite.
+        torque_limit: tau_L, at the current limit [N m]; inf: not limited.
+        speed_max: mechanical, of wheel, motor and gear [rad/s]; inf: not limited.
+    """
+
+    stall_torque: float | FloatArray
+    no_load_speed: float | FloatArray
+    torque_limit: float | FloatArray
+    speed_max: float | FloatArray
+
+    def reserved(self, share: float | FloatArray = RESERVE) -> "DriveLine":
+        """What a part of voltage and current does; the mechanical limit stays."""
+        return replace(
+            self,
+            stall_torque=self.stall_torque * share,
+            no_load_speed=self.no_load_speed * share,
+            torque_limit=self.torque_limit * share,
+        )
+
+
+def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
+    """The motor at `bus_voltage` [V] behind its gear, all of it; see the module's text.
+
+    Raises:
+        OcsError: figures are missing that this needs; `missing_figures` has them.
+    """
+    k_t, resistance = motor.torque_constant, motor.resistance
+    peak, speed = motor.peak_torque, speed_limit(motor)
+    if k_t is None or resistance is None or peak is None or speed is None:
+        raise OcsError(
+            f"motor {motor.name!r}: its source does not give "
+            f"{', '.join(missing_figures(motor, gear))}",
+            hint=FIGURES_HINT,
+        )
+    gain = gear.ratio * gear.efficiency
+    return DriveLine(
+        stall_torque=gain * bus_voltage * k_t / resistance,
+        no_load_speed=bus_voltage / (k_t * gear.ratio),
+        torque_limit=min(gain * peak, gear.torque_max),
+        speed_max=min(min(speed, gear.motor_speed_max) / gear.ratio, gear.wheel_speed_max),
+    )
+
+
+def speed_limit(motor: Motor) -> float | None:
+    """How fast the motor may turn [rad/s].
+
+    What its maker states; else no faster than without load at its rated voltage, for which it was
+    built. None if the source gives neither.
+    """
+    if motor.speed_max is not None:
+        return motor.speed_max
+    if motor.no_load_speed is not None:
+        return motor.no_load_speed
+    if motor.rated_voltage is None or motor.torque_constant is None:
+        return None
+    return motor.rated_voltage / motor.torque_constant
+
+
+def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
+    """What this motor behind this gear needs and its source does not give, by name.
+
+    The rotor's inertia may be left out where that is conservative: where the rotor turns with the
+    wheel and no faster, it adds at least as much to the momentum as to what must be accelerated.
+    """
+    helps = gear.ratio <= 1.0 and not gear.reverses
+    figures = {
+        "mass": motor.mass,
+        "torque constant": motor.torque_constant,
+        "resistance": motor.resistance,
+        "peak torque or current": motor.peak_torque,
+        "highest speed or rated voltage": speed_limit(motor),
+        "rotor inertia": 0.0 if helps else motor.rotor_inertia,
+    }
+    return tuple(name for name, figure in figures.items() if figure is None)
+
+
+def rotor_share(rotor_inertia: float, gear: Gear) -> float:
+    """Momentum of the rotor per speed of the wheel, s N J_r [kg m^2]; negative if it reverses.
+
+    Part of the spin inertia h = I_rim + s N J_r.
+    """
+    return _sense(gear) * gear.ratio * rotor_inertia
+
+
+def armature(rotor_inertia: float, gear: Gear) -> float:
+    """What the motor accelerates beyond the spin inertia h, N (N - s) J_r + J_gear [kg m^2].
+
+    The motor accelerates I_m = I_rim + N^2 J_r + J_gear = h + armature; zero without a gear,
+    negative where a gear that does not reverse speeds the wheel up.
+    """
+    return gear.ratio * (gear.ratio - _sense(gear)) * rotor_inertia + gear.inertia
+
+
+def _sense(gear: Gear) -> float:
+    """s, -1 if the wheel turns against the motor."""
+    return -1.0 if gear.reverses else 1.0
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Motor at a voltage behind a gear: its voltage line, limits and inertia, all at the wheel.
+
+    `design.json` holds it as it is. None is what is not limited or not known; with the assumed
+    motor that is all but its speed and, where one was specified, its torque.
+
+    Attributes:
+        name: in the catalogue, or "assumed".
+        mass: of the motor alone, without its gear [kg].
+        stall_torque: torque of the voltage line at rest [N m]; None: full torque to the top speed.
+        no_load_speed: of the voltage line [rad/s].
+        torque_limit: at the current limit of motor and drive, or of the gear [N m].
+        rotor_inertia: what the rotor adds to the spin inertia of the wheel [kg m^2]: its own times
+            the gear ratio, negative where the gear reverses.
+        source: where the figures come from.
+        gear: name in the catalogue, or "direct".
+        gear_ratio: motor speed over wheel speed.
+        gear_efficiency: of the torque, 0..1, taken as a loss both ways.
+        gear_mass: [kg].
+        bus_voltage: [V].
+        rated_voltage: that the motor is made for [V].
+        diameter, length: of its body [m].
+        speed_max: mechanical, of wheel, gear and motor [rad/s].
+        armature: what the motor accelerates beyond the spin inertia of the wheel, at the wheel
+            [kg m^2]; 0 without a gear.
+        torque_constant: of the motor itself, six-step, between two lines [N m/A].
+        resistance: of the motor between two lines [ohm].
+        continuous_torque: that the winding stands for good [N m].
+        mounting: its shaft and threads, where the wheel sits on it without a gear and any is known.
+        no_load_current: that the motor itself draws turning freely at its rated voltage [A].
+        gear_room: that its gear takes; None: there is no gear.
+        saturation_torque: at the wheel, above which the motor's k_t falls off [N m].
+    """
+
+    name: str
+    mass: float
+    stall_torque: float | None
+    no_load_speed: float
+    torque_limit: float | None
+    rotor_inertia: float
+    source: str
+    gear: str = DIRECT.name
+    gear_ratio: float = DIRECT.ratio
+    gear_efficiency: float = DIRECT.efficiency
+    gear_mass: float = DIRECT.mass
+    bus_voltage: float | None = None
+    speed_max: float | None = None
+    armature: float = 0.0
+    torque_constant: float | None = None
+    resistance: float | None = None
+    continuous_torque: float | None = None
+    rated_voltage: float | None = None
+    diameter: float | None = None
+    length: float | None = None
+    mounting: Mounting | None = None
+    no_load_current: float | None = None
+    gear_room: GearRoom | None = None
+    saturation_torque: float | None = None
+
+    @classmethod
+    def of(
+        cls, motor: Motor, gear: Gear, bus_voltage: float, line: DriveLine | None = None
+    ) -> "Drive":
+        """The motor behind its gear at `bus_voltage` [V].
+
+        A field that `Motor` has too is copied by its name, unless gear or supply change it.
+
+        Args:
+            line: what the drive may do at the wheel; None: all that motor and gear can.
+
+        Raises:
+            OcsError: the motor lacks a figure that every drive needs.
+        """
+        line = drive_line(motor, gear, bus_voltage) if line is None else line
+        rotor, gain = motor.rotor_inertia or 0.0, gear.ratio * gear.efficiency
+        at_the_wheel: dict[str, Any] = {
+            "mass": motor.mass or 0.0,
+            "stall_torque": _finite(line.stall_torque),
+            "no_load_speed": float(line.no_load_speed),
+            "torque_limit": _finite(line.torque_limit),
+            "speed_max": _finite(line.speed_max),
+            "rotor_inertia": rotor_share(rotor, gear),
+            "armature": armature(rotor, gear),
+            "continuous_torque": _geared(motor.continuous_torque, gain),
+            "saturation_torque": _geared(motor.saturation_torque, gain),
+            "mounting": motor.mounting if gear == DIRECT else None,
+            "gear": gear.name,
+            "gear_ratio": gear.ratio,
+            "gear_efficiency": gear.efficiency,
+            "gear_mass": gear.mass,
+            "gear_room": gear.room,
+            "bus_voltage": bus_voltage,
+        }
+        names = {field.name for field in fields(cls)} & {field.name for field in fields(motor)}
+        return cls(**{name: getattr(motor, name) for name in names} | at_the_wheel)
+
+
+def _finite(limit: float | FloatArray) -> float | None:
+    """Limit as a number; None for what is not limited."""
+    return float(limit) if np.isfinite(limit) else None
+
+
+def _geared(torque: float | None, gain: float) -> float | None:
+    """Torque at the wheel [N m]; None if it is not known."""
+    return None if torque is None else gain * torque

@@ -1,0 +1,184 @@
+"""The root behind the smallest spin inertia: the h with which two wheels sweep enough in time.
+
+Within the time T a wheel of spin inertia h turns by at most Phi(h), ending at its final speed
+W_f = momentum / (2 h), and the pair sweeps M(h) = 2 h Phi. It must sweep P + L T, the excess and
+what the final speed itself sweeps. From `dA/dt = x` (`unit_slew`) the slope is exact,
+
+    dM/dh = 2 Phi + 2 h w_0 T_0 (A - x t) (1 - 2 kappa h) / I_red - 2 w_0 T_0 f (x - f) / b(f).
+
+1/M over 1/h bends upwards from its level of full torque to its slope of full speed, so that
+Newton's method on it climbs from the least h that speed alone would need without overshooting, to
+the smallest root. It is fenced in all the same, by the largest h below and the smallest above.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.actuation.unit_drive import (
+    UnitDrive,
+    farthest_slew,
+    positive,
+    rise_for,
+    risen_speed,
+)
+from ocs_design.common.arrays import FloatArray, Table
+
+_STEPS = 80
+_DIGITS = 1e-14
+# Lanes that are worked on at once: few enough for the processor's cache.
+_BLOCK = 32768
+
+
+@dataclass(frozen=True, eq=False)
+class SpinDemand(Table):
+    """What two wheels must do; all fields broadcast.
+
+    Attributes:
+        sweep: P + L T, momentum over time that must pass the wheels [N m s^2]; inf: out of reach.
+        momentum: L, left in the wheels at the end [N m s].
+        duration: T [s].
+        coupling: kappa [1 / (kg m^2)].
+        armature: I_m - h [kg m^2].
+        least: smallest spin inertia to consider [kg m^2].
+        drive: of each wheel.
+    """
+
+    sweep: FloatArray
+    momentum: FloatArray
+    duration: FloatArray
+    coupling: FloatArray
+    armature: FloatArray
+    least: FloatArray
+    drive: UnitDrive
+
+
+class Capability(NamedTuple):
+    """What two wheels of a spin inertia do in the time of their demand.
+
+    Attributes:
+        sweep: M [N m s^2].
+        slope: dM/dh [rad s].
+    """
+
+    sweep: FloatArray
+    slope: FloatArray
+
+
+def capability(demand: SpinDemand, spin_inertia: FloatArray) -> Capability:
+    """What wheels of that spin inertia sweep; see the module's text.
+
+    Where the final speed is out of reach within the time, they accelerate all the time.
+    """
+    h, drive = spin_inertia, demand.drive
+    reduced = h + demand.armature - demand.coupling * h**2
+    unit = reduced * drive.no_load_speed / drive.torque
+    time = demand.duration / unit
+    final = np.minimum(
+        demand.momentum / (2.0 * h * drive.no_load_speed),
+        risen_speed(drive, rise_for(drive, time)),
+    )
+    slew = farthest_slew(drive, time, final)
+    by_inertia = h * (slew.angle - slew.peak * time) * (1.0 - 2.0 * demand.coupling * h) / reduced
+    by_final_speed = final * (slew.peak - final) / drive.braking(final)
+    slope = slew.angle + by_inertia - by_final_speed
+    scale = 2.0 * drive.no_load_speed * unit
+    return Capability(scale * h * slew.angle, scale * slope)
+
+
+def newton_step(demand: SpinDemand, spin_inertia: FloatArray, can: Capability) -> FloatArray:
+    """Newton's step of 1/M over 1/h [kg m^2]; inf where it would have to go beyond every h.
+
+    Args:
+        demand: to be met.
+        spin_inertia: h where it is tried [kg m^2].
+        can: what wheels of that spin inertia do.
+    """
+    # Where nothing is to be swept the lack is infinitely negative, and the step leads to zero.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        lack = can.sweep * (1.0 - can.sweep / demand.sweep)
+        gain = lack / (can.slope * spin_inertia)
+        ahead = (can.slope > 0.0) & (gain < 1.0)
+        return np.where(ahead, spin_inertia / (1.0 - gain), np.inf)
+
+
+def smallest_root(demand: SpinDemand) -> FloatArray:
+    """The smallest spin inertia that meets each demand [kg m^2]; inf where none does."""
+    drive = vars(demand.drive)
+    own = {name: column for name, column in vars(demand).items() if name != "drive"}
+    shape = np.broadcast_shapes(*(np.shape(column) for column in (*own.values(), *drive.values())))
+
+    def flat(columns: dict[str, FloatArray]) -> dict[str, FloatArray]:
+        """Columns with one row per demand."""
+        return {name: np.broadcast_to(one, shape).reshape(-1) for name, one in columns.items()}
+
+    demands = SpinDemand(**flat(own), drive=UnitDrive(**flat(drive)))
+    answer = np.empty(demands.sweep.size)
+    for start in range(0, answer.size, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        answer[block] = _roots(demands.take(block))
+    return answer.reshape(shape)
+
+
+def _roots(demand: SpinDemand) -> FloatArray:
+    """Smallest root of each demand of one block [kg m^2], shape (n,)."""
+    drive, high = demand.drive, 1.0 / (2.0 * demand.coupling)
+
+    # Below this h the speed alone is too low, or there is nothing to accelerate.
+    by_speed = demand.sweep / (
+        2.0 * drive.highest * drive.no_load_speed * positive(demand.duration)
+    )
+    relief = np.maximum(-demand.armature, 0.0)
+    root = np.sqrt(np.maximum(1.0 - 4.0 * demand.coupling * relief, 0.0))
+    nothing_left = 2.0 * relief / (1.0 + root) * (1.0 + 1e-9)
+    low = np.maximum(np.maximum(by_speed, demand.least), nothing_left)
+
+    asked = (demand.sweep > 0.0) | (demand.momentum > 0.0)
+    answer = np.where(asked, np.inf, demand.least)
+    lane = np.flatnonzero(asked & (demand.duration > 0.0) & (low <= high))
+    start, top = low[lane], high[lane]
+    search = _Search(lane, demand.take(lane), start, start, top, top, np.zeros(lane.shape, bool))
+    for _ in range(_STEPS):
+        if not search.lane.size:
+            break
+        search = search.advance(answer)
+    answer[search.lane] = search.h
+    return answer
+
+
+@dataclass(frozen=True, eq=False)
+class _Search(Table):
+    """Demands that are not met yet, one lane each.
+
+    Attributes:
+        lane: place of each in the answer. demand: of each.
+        h: to be tried. low: largest known to be too small, or the start.
+        high: smallest known to do, or the top. top: largest allowed.
+        found: whether any h is known to do.
+    """
+
+    lane: NDArray[np.intp]
+    demand: SpinDemand
+    h: FloatArray
+    low: FloatArray
+    high: FloatArray
+    top: FloatArray
+    found: NDArray[np.bool_]
+
+    def advance(self, answer: FloatArray) -> "_Search":
+        """Try h, write what is solved or impossible into `answer`, and keep the rest."""
+        can = capability(self.demand, self.h)
+        enough = can.sweep >= self.demand.sweep
+        low, high = np.where(enough, self.low, self.h), np.where(enough, self.h, self.high)
+        found = self.found | enough
+        newton = newton_step(self.demand, self.h, can)
+        inside = (newton > low) & (newton < high)
+        following = np.where(found & ~inside, np.sqrt(low * high), np.minimum(newton, self.top))
+        # Nothing below the start is looked for; and where the fence closes, its upper end does.
+        closed = (enough & (self.h <= low)) | (found & (high - low <= _DIGITS * high))
+        solved = closed | (np.abs(newton - self.h) <= _DIGITS * self.h)
+        answer[self.lane[solved]] = np.where(closed, high, newton)[solved]
+        keep = ~(solved | (~enough & (self.h >= self.top)))
+        return replace(self, h=following, low=low, high=high, found=found).take(keep)

@@ -1,0 +1,99 @@
+"""The inertia about roll and pitch of a body whose heading is left to itself.
+
+Two wheels with horizontal axes command no yaw, and at zero momentum yaw follows roll and pitch
+(docs/theory.md, Heading drift). Eliminated, it leaves the coupling of roll and pitch
+
+    J_xy = I_xy - I_xz I_yz / I_zz
+
+and takes I_xz^2 / I_zz and I_yz^2 / I_zz off I_xx and I_yy, which is left out: no turn about one
+axis is asked for less than it takes (docs/theory.md, Two wheels on a trunk).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ocs_design.common.arrays import FloatArray
+
+OUT_OF_REACH = 1e-9
+"""Sine or cosine of an incidence below which the wheels do not reach an axis; cos(pi/2) is 6e-17.
+"""
+
+STRAY_MAX = float(np.radians(1.0))
+"""By how much a turn may end off level about an axis that the wheels do not reach [rad]."""
+
+
+class TiltInertia(NamedTuple):
+    """Inertia about roll and pitch of one body, or of many, whose heading is free.
+
+    Attributes:
+        diagonal: I_xx and I_yy [kg m^2], shape (..., 2).
+        product: J_xy, the element of the tensor off its diagonal [kg m^2], shape (...).
+    """
+
+    diagonal: FloatArray
+    product: FloatArray
+
+    @classmethod
+    def of(cls, inertia: ArrayLike) -> "TiltInertia":
+        """Tilt inertia from the inertia about the centre of mass in B [kg m^2], shape (3, 3)."""
+        whole = np.asarray(inertia, dtype=np.float64)
+        yaw = whole[0, 2] * whole[1, 2] / whole[2, 2]
+        return cls(np.diag(whole)[:2], np.asarray(whole[0, 1] - yaw))
+
+    @classmethod
+    def uncoupled(cls, diagonal: ArrayLike) -> "TiltInertia":
+        """Tilt inertia of I_xx and I_yy alone, J_xy = 0 [kg m^2], shape (..., 2)."""
+        values = np.asarray(diagonal, dtype=np.float64)
+        return cls(values, np.zeros(values.shape[:-1]))
+
+    def times(self, shape: tuple[int, ...]) -> "TiltInertia":
+        """Tilt inertia broadcast to `shape`."""
+        return TiltInertia(
+            np.broadcast_to(self.diagonal, (*shape, 2)), np.broadcast_to(self.product, shape)
+        )
+
+    def momentum(self, rate: FloatArray) -> FloatArray:
+        """Momentum about roll and pitch at these rates of them [N m s], shape (..., 2)."""
+        across = self.product[..., None] * rate[..., ::-1]
+        return np.asarray(self.diagonal * rate + across)
+
+    @property
+    def share(self) -> FloatArray:
+        """|J_xy| / sqrt(I_xx I_yy), below 1, shape (...)."""
+        return np.asarray(np.abs(self.product) / np.sqrt(self.diagonal.prod(axis=-1)))
+
+    @property
+    def drift(self) -> FloatArray:
+        """Roll per pitch and pitch per roll of a body that nothing holds there, shape (..., 2)."""
+        return np.asarray(np.abs(self.product)[..., None] / self.diagonal)
+
+    def strays(self, stray: float) -> NDArray[np.bool_]:
+        """Whether a turn ends off level about an axis that nothing holds, shape (..., 2).
+
+        Args:
+            stray: by how much it ends off level, per drift [rad].
+        """
+        return np.asarray(self.drift * stray > STRAY_MAX)
+
+    def within_reach(self, shares: FloatArray, stray: float) -> "TiltInertia":
+        """What wheels turn that leave an axis they do not reach to itself, as they leave yaw.
+
+        The body then drifts about that axis by J_xy over its inertia; what is turned about the
+        other one is less by J_xy^2 over it. Where a turn `strays` the coupling stays: it asks for
+        momentum that these wheels cannot take.
+
+        Args:
+            shares: of a wheel's momentum on roll and on pitch, shape (..., 2).
+            stray: by how much a turn ends off level, per drift [rad].
+        """
+        blind = shares <= OUT_OF_REACH
+        if not blind.any():
+            return self
+        free = blind & ~self.strays(stray)
+        given_way = np.abs(self.product)[..., None] * self.drift * free
+        return TiltInertia(
+            np.asarray(self.diagonal - given_way[..., ::-1]),
+            np.where(free.any(axis=-1), 0.0, self.product),
+        )

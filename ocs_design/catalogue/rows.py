@@ -1,0 +1,357 @@
+"""Rows of a catalogue's file: from raw cells to values, and entries by name."""
+
+import csv
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, dataclass, fields
+from difflib import get_close_matches
+from enum import StrEnum
+from functools import cache
+from importlib.resources import as_file
+from importlib.resources import files as resources
+from pathlib import Path
+from reprlib import repr as shortened
+from types import MappingProxyType, UnionType
+from typing import (
+    Annotated,
+    Any,
+    Protocol,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
+
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.files import TextKind
+
+# A thousand motors take a quarter of a mebibyte.
+_FILE = TextKind("catalogue", 1 << 20, 5000, "Check the path.", "maker = 'maxon'")
+
+
+@dataclass(frozen=True)
+class Row:
+    """What one entry states.
+
+    Attributes:
+        where: for people, as in `line 3` or `motor[2]`.
+        cells: column -> text of a CSV file or value of a TOML file; empty ones are left out.
+    """
+
+    where: str
+    cells: Mapping[str, object]
+
+
+def read_rows(path: Path, kind: str, faults: list[str]) -> tuple[Row, ...]:
+    """Every entry of the file, in its order; what is wrong with its shape goes into `faults`.
+
+    Args:
+        path: of a `.csv` file with a line of column names, or of a `.toml` file with one
+            `[[kind]]` table per entry.
+        kind: of entry: `motor` or `gear`.
+        faults: one line is added for each fault.
+
+    Raises:
+        SpecificationError: the file cannot be read or is neither.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in {".csv", ".toml"}:
+        raise SpecificationError(
+            f"{path}: is neither .csv nor .toml", hint="A catalogue is one of these two."
+        )
+    text = _FILE.read(path)
+    if suffix == ".csv":
+        return tuple(_csv_rows(text, str(path), faults))
+    return tuple(_toml_rows(text, str(path), kind, faults))
+
+
+def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
+    """Row of each line but the first, which names the columns."""
+    _FILE.check_lines(text, name)
+    reader = csv.reader(text.splitlines(keepends=True), strict=True)
+    try:
+        columns = [column.strip() for column in next(reader, [])]
+        if not any(columns):
+            raise SpecificationError(
+                f"{name}, line 1: has no column names", hint="Begin with a line of column names."
+            )
+        faults.extend(
+            f"line 1: the column {column!r} stands there twice"
+            for column in dict.fromkeys(columns)
+            if columns.count(column) > 1
+        )
+        for line in reader:
+            cells = [cell.strip() for cell in line]
+            if not any(cells):
+                continue
+            where = f"line {reader.line_num}"
+            if len(cells) > len(columns):
+                faults.append(
+                    f"{where}: has {len(cells)} cells for {len(columns)} columns; "
+                    'text with a comma stands in quotes, "like, this"'
+                )
+            pairs = zip(columns, cells, strict=False)
+            yield Row(where, {column: cell for column, cell in pairs if cell})
+    except csv.Error as error:
+        raise SpecificationError(
+            f"{name}, line {reader.line_num}: is not CSV: {error}",
+            hint='Text with a comma stands in quotes, "like, this".',
+        ) from error
+
+
+def _toml_rows(text: str, name: str, kind: str, faults: list[str]) -> Iterator[Row]:
+    """Row of each `[[kind]]` table."""
+    content = _FILE.parse_toml(text, name)
+    faults.extend(f"{key}: unknown key; known: {kind}" for key in content if key != kind)
+    tables = content.get(kind, [])
+    if not isinstance(tables, list):
+        faults.append(f"{kind}: write each {kind} as a [[{kind}]] table")
+        return
+    for index, table in enumerate(tables, 1):
+        if isinstance(table, Mapping):
+            yield Row(
+                f"{kind}[{index}]", {key: value for key, value in table.items() if value != ""}
+            )
+        else:
+            faults.append(f"{kind}[{index}]: must be a table")
+
+
+Reader = Callable[[object], object]
+"""From a cell to its value; raises ValueError with what is wrong."""
+
+C = TypeVar("C", bound=StrEnum)
+
+
+def text(raw: object) -> str:
+    """Text as it is."""
+    if not isinstance(raw, str):
+        raise ValueError(f"{shortened(raw)} is not text; write it in quotes")  # noqa: TRY004  a Reader raises one kind
+    return raw
+
+
+def positive(raw: object) -> float:
+    """A positive, finite number."""
+    number = _number(raw)
+    if not 0.0 < number < math.inf:
+        raise ValueError(f"{shortened(raw)} is not positive and finite")
+    return number
+
+
+def whole(raw: object) -> int:
+    """A positive whole number."""
+    number = positive(raw)
+    if number != int(number):
+        raise ValueError(f"{shortened(raw)} is not a whole number")
+    return int(number)
+
+
+def fraction(raw: object) -> float:
+    """A number above 0 and up to 1."""
+    number = _number(raw)
+    if not 0.0 < number <= 1.0:
+        raise ValueError(f"{shortened(raw)} is not above 0 and at most 1")
+    return number
+
+
+def switch(raw: object) -> bool:
+    """Yes or no."""
+    if isinstance(raw, bool):
+        return raw
+    words = {"yes": True, "true": True, "no": False, "false": False}
+    if not isinstance(raw, str) or raw.lower() not in words:
+        raise ValueError(f"{shortened(raw)} is neither yes nor no")
+    return words[raw.lower()]
+
+
+def choice(words: type[C]) -> Callable[[object], C]:
+    """One of an enumeration's values."""
+
+    def read(raw: object) -> C:
+        """A `Reader` of these words."""
+        if not isinstance(raw, str) or raw not in set(words):
+            raise ValueError(f"{shortened(raw)} is none of {', '.join(words)}")
+        return words(raw)
+
+    return read
+
+
+def numbers(raw: object) -> tuple[float, ...]:
+    """Positive numbers: a TOML array, or text with a space between them."""
+    listed = raw.split() if isinstance(raw, str) else raw if isinstance(raw, list) else [raw]
+    return tuple(sorted({positive(number) for number in listed}))
+
+
+def tooth_counts(raw: object) -> tuple[int, ...]:
+    """Whole positive numbers, as `numbers`."""
+    counts = numbers(raw)
+    if any(count != int(count) for count in counts):
+        raise ValueError(f"{shortened(raw)} are not whole numbers")
+    return tuple(int(count) for count in counts)
+
+
+_READERS: Mapping[object, Reader] = {
+    str: text,
+    float: positive,
+    int: whole,
+    bool: switch,
+    tuple[float, ...]: numbers,
+    tuple[int, ...]: tooth_counts,
+}
+
+
+@cache
+def columns_of(sheet: type) -> Mapping[str, Reader]:
+    """Reader of each column, by the types of a dataclass's fields; None is left out of a file.
+
+    A field that its type does not say enough of names its reader: `Annotated[float, fraction]`.
+    """
+    found: dict[str, Reader] = {}
+    for name, hint in get_type_hints(sheet, include_extras=True).items():
+        if get_origin(hint) is Annotated:
+            found[name] = get_args(hint)[1]
+            continue
+        kind = get_args(hint)[0] if get_origin(hint) in {Union, UnionType} else hint
+        is_words = isinstance(kind, type) and issubclass(kind, StrEnum)
+        found[name] = choice(kind) if is_words else _READERS[kind]
+    return found
+
+
+def _number(raw: object) -> float:
+    if isinstance(raw, bool) or not isinstance(raw, (int, float, str)):
+        raise ValueError(f"{shortened(raw)} is not a number")  # noqa: TRY004  a Reader raises one kind
+    try:
+        return float(raw)
+    except (ValueError, OverflowError):
+        raise ValueError(f"{shortened(raw)} is not a number") from None
+
+
+T = TypeVar("T")
+
+MOST_SUGGESTED = 3
+# One letter of five or more may be wrong.
+_SAME_MODEL = 0.8
+
+MOST_LISTED = 12
+"""Names in a hint; more are read in the catalogue itself."""
+
+
+def entry(known: Mapping[str, T], name: str, kind: str) -> T:
+    """The entry called `name`; `kind` says of what, for people.
+
+    Raises:
+        SpecificationError: there is none; the hint names the closest.
+    """
+    if name in known:
+        return known[name]
+    if close := _closest(known, name):
+        hint = f"Did you mean {' or '.join(close)}?"
+    elif len(known) <= MOST_LISTED:
+        hint = f"Known: {', '.join(known)}."
+    else:
+        hint = f"`ocs-design catalogue {kind}s` lists all {len(known)}."
+    raise SpecificationError(f"there is no {kind} {name!r}", hint=hint)
+
+
+def _closest(known: Iterable[str], name: str) -> Sequence[str]:
+    """Names that may be meant, three at most, the likeliest first.
+
+    A model without its winding is how people call a motor, misspelt or not.
+    """
+    folded = {candidate.casefold(): candidate for candidate in known}
+    part = name.casefold()
+    longer = [match for match in folded if part and part in match][:MOST_SUGGESTED]
+    if longer:
+        return [folded[match] for match in longer]
+    whole = get_close_matches(part, folded, n=MOST_SUGGESTED)
+    begun = {match[: len(part)] for match in folded}
+    models = get_close_matches(part, begun, n=MOST_SUGGESTED, cutoff=_SAME_MODEL)
+    begin = [match for model in models for match in folded if match.startswith(model)]
+    return [folded[match] for match in (whole or begin)[:MOST_SUGGESTED]]
+
+
+class Named(Protocol):
+    """What a catalogue holds."""
+
+    @property
+    def name(self) -> str:
+        """Unique in its catalogue."""
+
+
+E = TypeVar("E", bound=Named)
+
+
+def load_entries(
+    path: Path,
+    kind: str,
+    sheet: type[E],
+    faults_of: Callable[[E], Iterable[str]] = lambda _: (),
+) -> Mapping[str, E]:
+    """Every entry of a CSV or TOML file by name, sorted (docs/catalogue.md has the columns).
+
+    Args:
+        path: of the file.
+        kind: of entry: `motor` or `gear`.
+        sheet: dataclass whose fields are the columns.
+        faults_of: what is wrong with an entry whose cells can be read, one line each.
+
+    Raises:
+        SpecificationError: it cannot be read, or has faults, all of which are listed.
+    """
+    faults: list[str] = []
+    found: dict[str, E] = {}
+    first: dict[str, str] = {}
+    twice: list[str] = []
+    rows = read_rows(path, kind, faults)
+    for row in rows:
+        name = row.cells.get("name")
+        where = f"{row.where} ({name})" if isinstance(name, str) else row.where
+        if isinstance(name, str) and first.setdefault(name, row.where) != row.where:
+            twice.append(f"{row.where}: {name!r} is already the name of {first[name]}")
+        values = _read_cells(row, where, sheet, faults)
+        if values is not None:
+            read = sheet(**values)
+            faults.extend(f"{where}: {fault}" for fault in faults_of(read))
+            found[read.name] = read
+    faults += twice
+    if faults:
+        count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
+        raise SpecificationError(f"{path} has {count}:", problems=faults)
+    return _by_name(found)
+
+
+def _read_cells(row: Row, where: str, sheet: type, faults: list[str]) -> dict[str, Any] | None:
+    """The value of each column that the row has; None, with every fault kept, if there is any."""
+    before = len(faults)
+    columns, values = columns_of(sheet), {}
+    for column, raw in row.cells.items():
+        if column not in columns:
+            close = get_close_matches(column, columns, n=1)
+            hint = f"Did you mean {close[0]}?" if close else f"Known: {', '.join(columns)}."
+            faults.append(f"{where}, {column}: unknown column. {hint}")
+            continue
+        try:
+            values[column] = columns[column](raw)
+        except ValueError as error:
+            faults.append(f"{where}, {column}: {error}")
+    required = {item.name for item in fields(sheet) if item.default is MISSING}
+    missing = sorted(required - row.cells.keys())
+    faults.extend(f"{where}, {column}: is missing" for column in missing)
+    return values if len(faults) == before else None
+
+
+def packaged(name: str, load: Callable[[Path], Mapping[str, E]]) -> Mapping[str, E]:
+    """Every entry of a file that comes with the package."""
+    with as_file(resources("ocs_design.catalogue").joinpath(name)) as path:
+        return load(path)
+
+
+def extended(
+    known: Mapping[str, E], file: Path | None, load: Callable[[Path], Mapping[str, E]]
+) -> Mapping[str, E]:
+    """These entries and those of a user's file, which replace those of the same name."""
+    return known if file is None else _by_name({**known, **load(file)})
+
+
+def _by_name(entries: Mapping[str, E]) -> Mapping[str, E]:
+    return MappingProxyType(dict(sorted(entries.items())))

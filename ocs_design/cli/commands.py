@@ -1,0 +1,442 @@
+"""The commands `validate`, `pareto`, `export`, `init` and `doctor`: parse, call, print."""
+
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias, TypeVar
+
+import typer
+
+from ocs_design.cli import options as opt
+from ocs_design.cli.options import (
+    stated_package_paths,
+    stated_specification,
+    typed_command,
+    with_options,
+)
+from ocs_design.common.errors import OcsError, UsageError
+from ocs_design.export.formats import FORMATS, USUAL_FORMATS
+
+if TYPE_CHECKING:
+    from ocs_design.requirement.specification import Specification
+    from ocs_design.workflows.init import Start
+
+
+def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
+    """Show what is installed and works, what each thing is for, and how to get what is missing.
+
+    Packages are imported and pictures drawn to see that they can be. Exit codes: 0 all that is
+    required works, 5 something required does not.
+    """
+    from ocs_design.report.text.console import Steps, make_console
+    from ocs_design.report.text.doctor import print_examination
+    from ocs_design.workflows.doctor import examination_to_json, examine
+
+    console = make_console(color=not no_color)
+    with Steps(console, quiet=as_json).step("import every package, draw with OpenGL"):
+        examination = examine()
+    if as_json:
+        sys.stdout.write(examination_to_json(examination))
+    else:
+        print_examination(console, examination)
+    raise typer.Exit(examination.exit_code)
+
+
+Answer = TypeVar("Answer")
+
+SpecificationFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("-o", "--out", metavar="FILE", help="File to write. Default: <name>.toml."),
+]
+Yes: TypeAlias = Annotated[
+    bool, typer.Option("-y", "--yes", help="Ask nothing; as where no terminal is.")
+]
+ReplaceFile: TypeAlias = Annotated[bool, typer.Option("--force", help="Replace a file.")]
+
+ALL = "all"
+
+QUESTIONS: Mapping[str, str] = {
+    "flywheel.r_max": "Largest outer radius of a wheel",
+    "flywheel.h_max": "Largest height of a wheel",
+    "motor.bus_voltage": "Voltage of the battery",
+}
+"""What is asked besides robot and maneuvers, by the path of its key."""
+
+
+@with_options(opt.START_OPTIONS)
+def init(
+    context: typer.Context,
+    yes: Yes = False,
+    out: SpecificationFile = None,
+    force: ReplaceFile = False,
+    as_json: opt.AsJson = False,
+    strict: opt.Strict = False,
+    quiet: opt.Quiet = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """Write a commented specification to start from: every key, its default and why to change it.
+
+    On a terminal it asks for the robot, what it shall do, the room and the battery; an empty answer
+    takes the default. Options are written as stated. With a robot, defaults are scaled to it.
+    """
+    from ocs_design.device.answers import to_json
+    from ocs_design.export.folder import check_file_target
+    from ocs_design.report.text.answers import print_initialized
+    from ocs_design.report.text.console import make_console
+    from ocs_design.workflows.init import read_start, write_start
+
+    packages = stated_package_paths(context)
+
+    def start_from(specification: "Specification") -> "Start":
+        """Read the robot."""
+        return read_start(specification, package_paths=packages, strict=strict)
+
+    asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
+    stated = stated_specification(context)
+    start = _ask_robot(stated, start_from) if asking else start_from(stated)
+    file = out or start.default_file
+    check_file_target(file, force=force)
+    chosen: tuple[str, ...] = ()
+    if asking:
+        start, chosen = _ask_task(start)
+    written = write_start(start, file, chosen=chosen, package_paths=packages, force=force)
+    if as_json:
+        sys.stdout.buffer.write(to_json(written))
+    elif not quiet:
+        print_initialized(make_console(color=not no_color), written)
+
+
+def _ask_robot(
+    stated: "Specification", start_from: Callable[["Specification"], "Start"]
+) -> "Start":
+    """What is stated, with a robot if the user names one."""
+    if any(
+        item is not None for item in (stated.robot.file, stated.robot.mass, stated.robot.inertia)
+    ):
+        return start_from(stated)
+
+    def read(answer: str) -> "Start":
+        """The robot in a file, or none."""
+        file = answer.strip() or None
+        return start_from(replace(stated, robot=replace(stated.robot, file=file)))
+
+    return _ask("Robot file (URDF, xacro or MJCF), or nothing", "", read)
+
+
+def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
+    """The start with what was answered, and the maneuvers that were chosen."""
+    from ocs_design.requirement.specification import NO_MOTOR
+    from ocs_design.requirement.writing import rounded_text
+
+    chosen: tuple[str, ...] = ()
+    if start.stated.takes_default_maneuvers:
+        known = [maneuver.name for maneuver in start.default.maneuvers]
+        chosen = _ask(
+            f"Maneuvers: {', '.join(known)}, with commas, or {ALL}",
+            ALL,
+            partial(_maneuvers, known),
+        )
+    for path, question in QUESTIONS.items():
+        section, _, name = path.partition(".")
+        is_moot = section == "motor" and start.stated.motor.name == NO_MOTOR
+        if not is_moot and getattr(getattr(start.stated, section), name) is None:
+            default = rounded_text(start.default, path)
+            read = partial(_with_key, start, path, default)
+            start = _ask(question, default, read)
+    return start, chosen
+
+
+def _maneuvers(known: list[str], answer: str) -> tuple[str, ...]:
+    """Names of maneuvers; none for all, which are the default.
+
+    Raises:
+        UsageError: there is no such maneuver.
+    """
+    named = tuple(name.strip() for name in answer.split(","))
+    unknown = [name for name in named if name not in (*known, ALL)]
+    if unknown:
+        raise UsageError(f"{', '.join(unknown)}: is none of {', '.join((*known, ALL))}")
+    return () if ALL in named else named
+
+
+def _with_key(start: "Start", path: str, default: str, answer: str) -> "Start":
+    """The start with an answer as that key; a bare number is in the default's unit."""
+    from ocs_design.requirement.specification import merge, specification_from_options
+
+    unit = default.partition(" ")[2] if answer.strip()[-1:].isdigit() else ""
+    given = {} if answer == default else {path: f"{answer} {unit}".rstrip()}
+    return replace(start, stated=merge(start.stated, specification_from_options(given)))
+
+
+def _ask(question: str, default: str, read: Callable[[str], Answer]) -> Answer:
+    """The answer, once it can be read."""
+    while True:
+        answer = typer.prompt(question, default=default, show_default=bool(default), err=True)
+        try:
+            return read(answer)
+        except OcsError as error:
+            typer.echo(f"  {error.message} {error.hint}".rstrip(), err=True)
+
+
+DesignFile: TypeAlias = Annotated[
+    Path, typer.Argument(metavar="DESIGN", help="design.json, or the folder that it lies in.")
+]
+ExportFolder: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("-o", "--out", metavar="DIR", help="Output folder. Default: <name>-ocs-export."),
+]
+Formats: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--formats",
+        metavar="NAMES",
+        help=f"{', '.join(each.name for each in USUAL_FORMATS)} (these are the default), "
+        f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, with "
+        "commas between them; or all.",
+    ),
+]
+OtherRobot: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--robot",
+        metavar="FILE",
+        help="The robot's file, where it has moved or is to be another than was sized for.",
+    ),
+]
+
+
+@opt.with_output
+def export(
+    context: typer.Context,
+    design: DesignFile,
+    out: ExportFolder = None,
+    formats: Formats = None,
+    robot: OtherRobot = None,
+    package_path: opt.PackagePaths = None,
+    *,
+    output: opt.Output,
+) -> None:
+    """Write parts, robot files and snippets again from a design.json.
+
+    They are the files that `ocs-design size` wrote, byte for byte. Files of the whole robot need
+    the robot's own file as it was, and its meshes. In the design's own folder, with --force, only
+    what is made anew is replaced.
+    """
+    from ocs_design.device.answers import to_json
+    from ocs_design.export.formats import formats_named
+    from ocs_design.report.text.answers import print_export
+    from ocs_design.report.text.console import Steps, make_console
+    from ocs_design.workflows.export import ON_DESIGN, export_order, finishing, read_order
+
+    names = [name.strip() for text in formats or () for name in text.split(",")]
+    chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
+    console = make_console(color=not output.no_color)
+    steps = Steps(console, quiet=output.quiet or output.as_json)
+    with steps.step("read the design and its robot") as step:
+        order = read_order(
+            design,
+            chosen,
+            robot_file=robot,
+            package_paths=stated_package_paths(context),
+            strict=output.strict,
+        )
+        step.note = order.subject.name
+    with steps.step("write " + ", ".join(names or (each.name for each in chosen))):
+        exported = export_order(
+            order, out or order.default_folder, force=output.force, finish=finish
+        )
+    if output.as_json:
+        sys.stdout.buffer.write(to_json(exported))
+    elif not output.quiet:
+        print_export(console, exported)
+
+
+Against: TypeAlias = Annotated[
+    str,
+    typer.Option(
+        "--against", metavar="NAME", help="time, angle, radius, height or voltage is varied."
+    ),
+]
+Low: TypeAlias = Annotated[
+    str | None, typer.Option("--from", metavar="VALUE", help="Lowest value, e.g. 300ms.")
+]
+High: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--to",
+        metavar="VALUE",
+        help="Highest value. Default of both: around the specification's own.",
+    ),
+]
+Points: TypeAlias = Annotated[int, typer.Option("--points", metavar="N", help="How many values.")]
+ManeuverName: TypeAlias = Annotated[
+    str,
+    typer.Option(
+        "--maneuver",
+        metavar="NAME",
+        help="Vary the time or angle of this one alone. Default: of all, in one ratio.",
+    ),
+]
+FrontFolder: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--out",
+        metavar="DIR",
+        help="Write the front and the specification of each point into this folder.",
+    ),
+]
+
+
+@with_options(opt.TASK_OPTIONS)
+@opt.with_output
+def pareto(
+    context: typer.Context,
+    against: Against = "time",
+    low: Low = None,
+    high: High = None,
+    points: Points = 9,
+    maneuver: ManeuverName = "",
+    out: FrontFolder = None,
+    *,
+    output: opt.Output,
+) -> None:
+    """Show what the lightest device weighs against time, angle or room.
+
+    Every value is a design of its own, without its proof by simulation: `ocs-design size --spec
+    DIR/points/NN.toml` makes, exports and flies it. Exit code 4: no value has a device.
+    """
+    from ocs_design.device.answers import to_json
+    from ocs_design.export.folder import check_target
+    from ocs_design.report.charts.front import write_front
+    from ocs_design.report.text.console import Steps, make_console
+    from ocs_design.report.text.front import print_front, print_written
+    from ocs_design.requirement.sweep import sweep_of
+    from ocs_design.workflows.pareto import draw_front, front_values, lightest_device, read_task
+
+    sweep = sweep_of(against, maneuver)
+    if out is not None:
+        check_target(out, force=output.force)
+    console = make_console(color=not output.no_color)
+    steps = Steps(console, quiet=output.quiet or output.as_json)
+    specification, paths = stated_specification(context), stated_package_paths(context)
+    with steps.step("read the robot") as step:
+        task = read_task(specification, package_paths=paths, strict=output.strict)
+        step.note = task.robot.name
+    values = front_values(sweep, task, low=low, high=high, points=points)
+    with steps.step(f"choose a device for each of {points} values") as step:
+        front = draw_front(task, sweep, values, lightest_device, step.update)
+    remarks = () if out is None else write_front(front, out, force=output.force)
+    if output.as_json:
+        sys.stdout.buffer.write(to_json(front))
+    elif not output.quiet:
+        print_front(console, front)
+        print_written(console, front, out, remarks)
+    raise typer.Exit(front.exit_code)
+
+
+FlightsFolder: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--out",
+        metavar="DIR",
+        help="Write time series into this folder; with --samples, every sample. There a run that "
+        "was interrupted goes on.",
+    ),
+]
+Samples: TypeAlias = Annotated[
+    int | None,
+    typer.Option("--samples", metavar="N", help="Fly N robots as they might be built."),
+]
+UntilWidth: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--until-width",
+        metavar="SHARE",
+        help="Stop earlier: as soon as each success rate is known to within this, e.g. 5%.",
+    ),
+]
+Scheduler: TypeAlias = Annotated[
+    str | None,
+    typer.Option("--scheduler", metavar="ADDRESS", help="Fly the samples on this Dask cluster."),
+]
+OneSample: TypeAlias = Annotated[
+    int | None, typer.Option("--sample", metavar="K", help="Fly sample K of --seed alone.")
+]
+CaseFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("--replay", metavar="FILE", help="Fly a case from the folder worst/ again."),
+]
+View: TypeAlias = Annotated[
+    bool, typer.Option("--view", help="Show the runs in MuJoCo's viewer, each until it is closed.")
+]
+Desaturate: TypeAlias = Annotated[
+    bool, typer.Option("--desaturate", help="Brake the wheels while the robot stands.")
+]
+
+
+@opt.with_output
+def validate(
+    context: typer.Context,
+    design: DesignFile,
+    samples: Samples = None,
+    seed: opt.Seed = None,
+    until_width: UntilWidth = None,
+    scheduler: Scheduler = None,
+    sample: OneSample = None,
+    replay: CaseFile = None,
+    spec: opt.Spec = None,
+    ballistic: opt.Ballistic = False,
+    desaturate: Desaturate = False,
+    view: View = False,
+    out: FlightsFolder = None,
+    robot_file: OtherRobot = None,
+    package_path: opt.PackagePaths = None,
+    *,
+    output: opt.Output,
+) -> None:
+    """Fly the maneuvers of a design.json again, with the device and without.
+
+    With --samples also many times over with what reality adds: sensors, delay, friction, and a
+    robot, device and motors that are not quite as designed, drawn from [reality] of the
+    specification. The same seed gives the same samples wherever they are flown. Exit code 1: a
+    scenario fails as designed.
+    """
+    from ocs_design.report.text.console import Steps, make_console
+
+    console = make_console(color=not output.no_color)
+    steps = Steps(console, quiet=output.quiet or output.as_json)
+    with steps.step("load the simulator"):
+        from ocs_design.common.units import Dimension, parse_quantity
+        from ocs_design.device.answers import to_json
+        from ocs_design.report.text.validation import print_validated
+        from ocs_design.workflows.validate import Request, validate_design, watch
+    width = None
+    if until_width is not None:
+        width = parse_quantity(until_width, Dimension.RATIO, "--until-width")
+    request = Request(
+        design=design,
+        stated=stated_specification(context),
+        robot_file=robot_file,
+        package_paths=stated_package_paths(context),
+        samples=samples,
+        until_width=width,
+        scheduler=scheduler,
+        sample=sample,
+        replay=replay,
+        out=out,
+        force=output.force,
+        strict=output.strict,
+        view=view,
+    )
+    answer = validate_design(request, steps)
+    if output.as_json:
+        sys.stdout.buffer.write(to_json(answer.found))
+    elif not output.quiet:
+        print_validated(console, answer.found, answer.folder, answer.files)
+    if view:
+        watch(answer)
+    raise typer.Exit(answer.exit_code)

@@ -1,0 +1,95 @@
+"""The array type of the package, read-only arrays, and tables of equal-length columns."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+else:
+    DataclassInstance = object
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]
+
+Number = TypeVar("Number", np.float64, np.bool_)
+
+
+def frozen(values: ArrayLike | Sequence[float]) -> FloatArray:
+    """A read-only copy of `values` as float64, so that frozen dataclasses are frozen throughout."""
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def vector(values: FloatArray) -> Vector:
+    """Three numbers as a tuple."""
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def matrix(values: FloatArray) -> Matrix:
+    """Three rows as tuples."""
+    first, second, third = (vector(row) for row in values)
+    return first, second, third
+
+
+def put_rows(
+    values: NDArray[Number], rows: NDArray[np.intp], others: NDArray[Number]
+) -> NDArray[Number]:
+    """A copy with other values in these rows."""
+    copy = values.copy()
+    copy[rows] = others
+    return copy
+
+
+class Table(DataclassInstance):
+    """Equal-length columns: the base of frozen dataclasses whose arrays have one row per entry.
+
+    A column is an array with the rows along its first axis, or a table itself. Every other field,
+    a number or a sequence that all rows share, is carried along unchanged.
+    """
+
+    def take(self, rows: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Self:
+        """Table of the rows with these indices, of this slice, or of those where a mask holds."""
+        return self._each(lambda column: column[rows], lambda table: table.take(rows))
+
+    @classmethod
+    def joined(cls, parts: Sequence[Self]) -> Self:
+        """Table with the rows of several, one after the other; every field must be an array."""
+        names = [field.name for field in fields(cls)]
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+    def repeat(self, times: int) -> Self:
+        """Table with every row `times` times in a row, shape (n * times,)."""
+        return self._each(
+            lambda column: np.repeat(column, times, axis=0), lambda table: table.repeat(times)
+        )
+
+    def put(self, rows: NDArray[np.intp], others: Self) -> Self:
+        """Copy of the table with the rows of another one in place of these."""
+        columns: dict[str, Any] = {}
+        for field in fields(self):
+            own, other = getattr(self, field.name), getattr(others, field.name)
+            if isinstance(own, Table):
+                columns[field.name] = own.put(rows, other)
+            elif isinstance(own, np.ndarray):
+                columns[field.name] = put_rows(own, rows, other)
+        return replace(self, **columns)
+
+    def _each(
+        self, array: Callable[[NDArray[Any]], NDArray[Any]], table: Callable[["Table"], "Table"]
+    ) -> Self:
+        columns: dict[str, Any] = {}
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, Table):
+                columns[field.name] = table(value)
+            elif isinstance(value, np.ndarray):
+                columns[field.name] = array(value)
+        return replace(self, **columns)

@@ -1,0 +1,124 @@
+"""Files of users, read up to a bounded size, and the processors that a process may use."""
+
+import errno
+import os
+import re
+import stat
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ocs_design.common.errors import SpecificationError
+
+
+def safe_name(name: str) -> str:
+    """The name of a robot or a maneuver as a file name."""
+    return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
+
+
+_UNITS = ((1 << 20, "MiB"), (1 << 10, "KiB"))
+
+
+@dataclass(frozen=True)
+class TextKind:
+    """One kind of file.
+
+    Attributes:
+        name: for people, as in "catalogue".
+        largest: [bytes].
+        longest_line: [characters]; the TOML reader takes minutes for a key of ten thousand dots.
+        path_hint: where to look if there is none. quotes_hint: an example of text in quotes.
+    """
+
+    name: str
+    largest: int
+    longest_line: int
+    path_hint: str
+    quotes_hint: str
+
+    def read(self, path: Path) -> str:
+        """The file's text.
+
+        Raises:
+            SpecificationError: it cannot be opened, is too large or is not UTF-8.
+        """
+        try:
+            with path.open("rb") as stream:
+                content = stream.read(self.largest + 1)
+        except OSError as error:
+            reason = error.strerror or "it cannot be opened"
+            raise SpecificationError(
+                f"cannot read the {self.name} {path}: {reason}", hint=self.path_hint
+            ) from error
+        if len(content) > self.largest:
+            size = next(
+                f"{self.largest // unit} {word}" for unit, word in _UNITS if self.largest >= unit
+            )
+            raise SpecificationError(f"{path} is larger than {size}: that is no {self.name}")
+        try:
+            return content.decode("utf-8-sig")
+        except UnicodeDecodeError as error:
+            line = content[: error.start].count(b"\n") + 1
+            raise SpecificationError(
+                f"{path}, line {line}: not UTF-8", hint="Save the file as UTF-8."
+            ) from error
+
+    def check_lines(self, text: str, name: str) -> None:
+        """Refuse lines that no person writes; `name` says whose text it is.
+
+        Raises:
+            SpecificationError: a line is too long.
+        """
+        for number, line in enumerate(text.splitlines(), 1):
+            if len(line) > self.longest_line:
+                raise SpecificationError(
+                    f"{name}, line {number}: over {self.longest_line} characters long"
+                )
+
+    def parse_toml(self, text: str, name: str) -> dict[str, Any]:
+        """The content of TOML; `name` says whose text it is.
+
+        Raises:
+            SpecificationError: it is none.
+        """
+        self.check_lines(text, name)
+        try:
+            return tomllib.loads(text)
+        except RecursionError as error:
+            raise SpecificationError(f"{name} nests its values too deeply") from error
+        except ValueError as error:
+            # TOMLDecodeError, or the plain ValueError of a whole number with thousands of digits.
+            raise SpecificationError(
+                f"{name} is not TOML: {error}",
+                hint=f"Text stands in quotes, as in {self.quotes_hint}.",
+            ) from error
+
+
+def read_plain_file(path: Path, largest: int) -> bytes:
+    """The bytes of a file that may be whatever a stranger has named.
+
+    A pipe would be waited for without end, and a device may never end.
+
+    Raises:
+        OSError: it cannot be read, is no plain file, or is larger than `largest` [bytes].
+    """
+    # Without waiting for the other end of a pipe.
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(handle, "rb") as stream:
+        status = os.fstat(handle)
+        if stat.S_ISDIR(status.st_mode):
+            raise IsADirectoryError(errno.EISDIR, "it is a folder", str(path))
+        if not stat.S_ISREG(status.st_mode):
+            raise OSError(errno.EINVAL, "it is no plain file", str(path))
+        content = stream.read(largest + 1)
+    if len(content) > largest:
+        raise OSError(errno.EFBIG, f"it is larger than {largest >> 20} MiB", str(path))
+    return content
+
+
+def processors() -> int:
+    """Number of processors that this process may use, at least one."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

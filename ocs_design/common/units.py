@@ -1,0 +1,251 @@
+"""Quantities with units at the edges; SI inside.
+
+A quantity is a bare number in SI, or a number with its unit: `30mm`, `7200rpm`, `7.11e-5 kg m^2`.
+The factors are exact and the product is rounded once, so that `30mm` is the very number 0.03.
+"""
+
+import math
+import re
+from enum import StrEnum
+from fractions import Fraction
+from reprlib import repr as shortened
+
+from ocs_design.common.errors import QuantityError, UsageError
+
+LARGEST = 1e15
+"""In SI; whatever is measured here is far below, and the fifth power of a length must be finite."""
+
+CELL_NOMINAL, CELL_FULL = 3.7, 4.2
+"""Of one cell of lithium polymer [V], as makers of packs state them."""
+
+LONGEST_QUANTITY = 64
+"""Characters; more is not a number, and long exponents would cost time."""
+
+
+class Dimension(StrEnum):
+    """What a quantity measures; the value is its name for people."""
+
+    LENGTH = "length"
+    MASS = "mass"
+    ANGLE = "angle"
+    TIME = "time"
+    SPEED = "speed"
+    ACCELERATION = "acceleration"
+    ANGULAR_SPEED = "angular speed"
+    TORQUE = "torque"
+    ANGULAR_MOMENTUM = "angular momentum"
+    DAMPING = "damping"
+    INERTIA = "moment of inertia"
+    VOLTAGE = "voltage"
+    STRESS = "stress"
+    RATIO = "ratio"
+
+
+_PI = Fraction(math.pi)
+_MILLI = Fraction(1, 1000)
+_CENTI = Fraction(1, 100)
+_MICRO = Fraction(1, 10**6)
+_ONE = Fraction(1)
+
+UNITS: dict[Dimension, dict[str, Fraction]] = {
+    Dimension.LENGTH: {
+        "m": _ONE,
+        "mm": _MILLI,
+        "cm": _CENTI,
+        "um": _MICRO,
+        "in": Fraction("0.0254"),
+    },
+    Dimension.MASS: {"kg": _ONE, "g": _MILLI, "mg": _MICRO, "lb": Fraction("0.45359237")},
+    Dimension.ANGLE: {
+        "rad": _ONE,
+        "deg": _PI / 180,
+        "°": _PI / 180,
+        "mrad": _MILLI,
+        "rev": 2 * _PI,
+    },
+    Dimension.TIME: {"s": _ONE, "ms": _MILLI, "us": _MICRO, "min": Fraction(60)},
+    Dimension.SPEED: {"m/s": _ONE, "mm/s": _MILLI, "cm/s": _CENTI, "km/h": Fraction(5, 18)},
+    Dimension.ACCELERATION: {"m/s2": _ONE, "mm/s2": _MILLI, "cm/s2": _CENTI},
+    Dimension.ANGULAR_SPEED: {
+        "rad/s": _ONE,
+        "rpm": _PI / 30,
+        "deg/s": _PI / 180,
+        "°/s": _PI / 180,
+        "rev/s": 2 * _PI,
+        "rev/min": _PI / 30,
+    },
+    Dimension.TORQUE: {"N m": _ONE, "mN m": _MILLI, "N cm": _CENTI, "N mm": _MILLI},
+    Dimension.ANGULAR_MOMENTUM: {"N m s": _ONE, "mN m s": _MILLI, "kg m2/s": _ONE},
+    Dimension.DAMPING: {"N m s/rad": _ONE, "mN m s/rad": _MILLI, "uN m s/rad": _MICRO},
+    Dimension.INERTIA: {
+        "kg m2": _ONE,
+        "kg cm2": Fraction(1, 10**4),
+        "kg mm2": _MICRO,
+        "g m2": _MILLI,
+        "g cm2": Fraction(1, 10**7),
+        "g mm2": Fraction(1, 10**9),
+    },
+    Dimension.VOLTAGE: {"V": _ONE, "mV": _MILLI},
+    Dimension.STRESS: {
+        "Pa": _ONE,
+        "kPa": Fraction(10**3),
+        "MPa": Fraction(10**6),
+        "GPa": Fraction(10**9),
+        "N/mm2": Fraction(10**6),
+    },
+    Dimension.RATIO: {"%": _CENTI},
+}
+"""Exact SI value of each unit, by dimension, the SI unit first; products have a space."""
+
+
+_UNIT_OF_SPELLING = {
+    spelling: (dimension, unit)
+    for dimension, factors in UNITS.items()
+    for unit in factors
+    for spelling in (unit, unit.replace(" ", ""))
+}
+_QUANTITY = re.compile(
+    r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", re.DOTALL
+)
+
+_PACK = re.compile(r"\s*([0-9]{1,3})\s*[sS]\s*")
+
+
+def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
+    """The SI value of a bare number or of a number with its unit.
+
+    Args:
+        value: a number, or text such as `30mm`.
+        dimension: what the number must measure.
+        where: the option or key that is being read, for the message.
+
+    Raises:
+        QuantityError: no finite number, an unknown unit or one of another dimension, or more than
+            `LARGEST`.
+    """
+    if isinstance(value, str):
+        number = _parse_text(value, dimension, where)
+    elif isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise QuantityError(
+            f"{where}: {shortened(value)} is not a number", hint=f"Write {_example(dimension)}."
+        )
+    else:
+        number = _finite(value, "the number", where)
+    if abs(number) > LARGEST:
+        raise QuantityError(f"{where}: {value} is beyond all measure", hint="Check its unit.")
+    return number
+
+
+def parse_positive(text: str, dimension: Dimension, option: str) -> float:
+    """The SI value of an option that must be positive.
+
+    Raises:
+        QuantityError, UsageError: it cannot be read, or is not positive.
+    """
+    value = parse_quantity(text, dimension, option)
+    if value <= 0.0:
+        raise UsageError(f"{option} {text}: must be positive")
+    return value
+
+
+def written_unit(value: object, dimension: Dimension) -> str:
+    """The unit that a readable `value` was written in; a bare number's is that of SI."""
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    return (match and match[2]) or si_unit(dimension)
+
+
+def si_unit(dimension: Dimension) -> str:
+    """Name of the unit that a bare number is in."""
+    return "parts of 1" if dimension is Dimension.RATIO else next(iter(UNITS[dimension]))
+
+
+def to_unit(value: float, unit: str) -> float:
+    """The SI `value` counted in `unit`."""
+    dimension, name = _UNIT_OF_SPELLING[_normalised(unit)]
+    # Infinite bounds are shown too, and are no fractions.
+    return float(Fraction(value) / UNITS[dimension][name]) if math.isfinite(value) else value
+
+
+def format_quantity(value: float, unit: str, digits: int = 4) -> str:
+    """The SI `value` in `unit`, for people, as in `30 mm`; `parse_quantity` reads it back."""
+    space = "" if unit in {"%", "°"} else " "
+    return f"{to_unit(value, unit):.{digits}g}{space}{unit}"
+
+
+def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:
+    """`value` to that many significant digits, never below it if upwards, never above it if not."""
+    if value == 0.0 or not math.isfinite(value):
+        return value
+    unit = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
+    # A figure that has no more digits than that stays what it is.
+    scaled = round(value / unit, 6)
+    return (math.ceil(scaled) if upwards else math.floor(scaled)) * unit
+
+
+def _parse_text(text: str, dimension: Dimension, where: str) -> float:
+    match = _QUANTITY.fullmatch(text) if len(text) <= LONGEST_QUANTITY else None
+    if match is None:
+        shown = text if len(text) <= LONGEST_QUANTITY else f"{text[:LONGEST_QUANTITY]}..."
+        what = "is empty" if not text.strip() else f"{shown!r} is not a finite number with a unit"
+        raise QuantityError(f"{where}: {what}", hint=f"Write {_example(dimension)}.")
+    number, unit = match.groups()
+    factor = _factor(unit, dimension, text, where) if unit else _ONE
+    rough = _finite(float(number), repr(text), where)
+    # Below the smallest double: as a fraction it would have a giant denominator.
+    return rough if rough == 0.0 else _finite(Fraction(number) * factor, repr(text), where)
+
+
+def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
+    """Exact SI value of `unit`, which must measure `dimension`."""
+    found = _UNIT_OF_SPELLING.get(_normalised(unit))
+    hint = f"Units of {dimension}: {_known(dimension)}; a bare number is in {si_unit(dimension)}."
+    if found is None:
+        pack = _PACK.fullmatch(text) if dimension is Dimension.VOLTAGE else None
+        if pack is not None:
+            count = int(pack[1])
+            nominal, full = (f"{count * volts:.4g} V" for volts in (CELL_NOMINAL, CELL_FULL))
+            cells = f"{count}S is {nominal} nominal, {full} full: state the voltage under load."
+            hint = f"{cells} {hint}"
+        raise QuantityError(f"{where}: {text.strip()!r} has the unknown unit {unit!r}", hint=hint)
+    if found[0] is not dimension:
+        raise QuantityError(
+            f"{where}: {text.strip()!r} has a unit of {found[0]}, not of {dimension}", hint=hint
+        )
+    return UNITS[dimension][found[1]]
+
+
+def _normalised(unit: str) -> str:
+    """One spelling for `kg*m^2`, `kg·m²` and `kg  m**2`."""
+    for written, meant in (("**", "^"), ("^", ""), ("²", "2"), ("µ", "u"), ("μ", "u"), ("º", "°")):
+        unit = unit.replace(written, meant)
+    unit = re.sub(r"\s*/\s*", "/", unit)
+    return re.sub(r"\s*[*·⋅]\s*|\s+", " ", unit).strip()
+
+
+def floored(value: float, digits: int) -> str:
+    """Never more than it is, but for what is missing of the last digit by a thousandth of it."""
+    return f"{math.floor(round(value * 10**digits, 3)) / 10**digits:.{digits}f}"
+
+
+def ceiled(value: float, digits: int) -> str:
+    """Never less than it is, likewise."""
+    return f"{math.ceil(round(value * 10**digits, 3)) / 10**digits:.{digits}f}"
+
+
+def _finite(value: float | Fraction, text: str, where: str) -> float:
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise QuantityError(f"{where}: {text} is not finite", hint="Write a finite number.")
+    return number
+
+
+def _known(dimension: Dimension) -> str:
+    return ", ".join(UNITS[dimension])
+
+
+def _example(dimension: Dimension) -> str:
+    unit = next(iter(UNITS[dimension]))
+    return f"a number in SI or with a unit, as in '1 {unit}' ({_known(dimension)})"

@@ -1,0 +1,1 @@
+"""The device as frozen values, and the records of `design.json`."""

@@ -1,0 +1,181 @@
+"""What the commands answer, as plain values that become JSON documents and tables (SI)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import msgspec
+
+from ocs_design.common.errors import Infeasible
+from ocs_design.device.records import RobotRecord
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoundAnswer:
+    """A bound and where it lies on its curve; SI.
+
+    Attributes:
+        axis: "roll" or "pitch".
+        inertia: of the robot about it. rate_change, wheel_speed_max, incidence: as asked.
+        paper: inertia of the one-wheel model as the paper prints it.
+        required: the same with the paper's sign put right; the tool sizes by this one.
+        spin_inertia: of each of two wheels at the incidence, from `required`.
+        rate_changes, wheel_speeds: of the curve.
+        curve: required over robot's inertia, a row for each wheel speed.
+    """
+
+    schema_version: int
+    axis: str
+    inertia: float
+    rate_change: float
+    wheel_speed_max: float
+    incidence: float
+    paper: float
+    required: float
+    spin_inertia: float
+    rate_changes: tuple[float, ...]
+    wheel_speeds: tuple[float, ...]
+    curve: tuple[tuple[float, ...], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PostureLine:
+    """The robot in one posture: diagonal of its locked inertia, and alpha* (equal-rate)."""
+
+    posture: str
+    inertia_diagonal: tuple[float, float, float]
+    incidence: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inspection:
+    """Everything that is known of a robot without a device."""
+
+    schema_version: int
+    robot: RobotRecord
+    joints: int
+    links: int
+    incidence_by_criterion: Mapping[str, float]
+    heading_drift: tuple[float, float]
+    incidence_by_posture: tuple[PostureLine, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrontDevice:
+    """The lightest device of a point; SI.
+
+    Attributes:
+        mass: of both modules: rims, motors, gears and housings. share: of the robot's.
+        motor, gear, material: names in the catalogue.
+        incidence: of the wheel axes.
+        outer_radius, inner_radius, height, rim_mass: of one rim.
+        spin_inertia: of one wheel, rotor included.
+    """
+
+    mass: float
+    share: float
+    motor: str
+    gear: str
+    material: str
+    incidence: float
+    outer_radius: float
+    inner_radius: float
+    height: float
+    rim_mass: float
+    spin_inertia: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrontPoint:
+    """One value of the figure that is varied.
+
+    Attributes:
+        value: [SI].
+        file: of its specification, below the output folder. specification: its text.
+        device: None: there is none.
+        reason: why there is none; empty if there is one.
+    """
+
+    value: float
+    file: str
+    specification: str
+    device: FrontDevice | None
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Front:
+    """The whole answer; SI.
+
+    Attributes:
+        robot: its name. against: what is varied, by its name and for people.
+        unit: in which people read the values. si_unit: in which they are.
+        own_value: the specification's.
+        remarks: what moves with it, and what does not.
+        assumptions: of the specification as it stands.
+        points: by rising value.
+    """
+
+    schema_version: int
+    robot: str
+    against: str
+    label: str
+    unit: str
+    si_unit: str
+    own_value: float
+    remarks: tuple[str, ...]
+    assumptions: tuple[str, ...]
+    points: tuple[FrontPoint, ...]
+
+    @property
+    def spans_own_value(self) -> bool:
+        """Whether the specification's own value lies among the points."""
+        return self.points[0].value <= self.own_value <= self.points[-1].value
+
+    @property
+    def feasible(self) -> tuple[FrontPoint, ...]:
+        """Points that have a device."""
+        return tuple(point for point in self.points if point.device is not None)
+
+    @property
+    def exit_code(self) -> int:
+        """0, or 4 if no point has a device."""
+        return 0 if self.feasible else Infeasible.exit_code
+
+
+@dataclass(frozen=True, kw_only=True)
+class Initialized:
+    """What was written.
+
+    Attributes:
+        file: the specification.
+        robot: its name; None: none was given.
+        next: the command that designs by it.
+    """
+
+    schema_version: int
+    file: str
+    robot: str | None
+    next: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exported:
+    """What was written.
+
+    Attributes:
+        folder: that it was written to.
+        files: SHA-256 of each file that was made, by its path in the folder.
+        warnings: about the robot or what was not drawn, one sentence each.
+        notes: what else is to be known of the files.
+    """
+
+    schema_version: int
+    folder: str
+    files: Mapping[str, str]
+    warnings: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+
+def to_json(answer: object) -> bytes:
+    """Answer as indented UTF-8 JSON; numbers that are not finite are null."""
+    return msgspec.json.format(msgspec.json.encode(answer), indent=2) + b"\n"

@@ -1,0 +1,128 @@
+"""Faults of a device in a `design.json`, and warnings of one that nobody can want.
+
+Files are made from it without a second look, so what is no length, mass or direction ends here.
+"""
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from math import isfinite
+
+import numpy as np
+
+from ocs_design.common.errors import OcsError, SpecificationError
+from ocs_design.device.device import Device
+from ocs_design.robot.mass import MassProperties
+
+LARGEST = 1e12
+"""Largest figure of a device, SI: stresses reach 1e9."""
+
+LARGEST_LENGTH, SMALLEST_LENGTH = 100.0, 1e-7
+"""Limits of a wheel's dimensions [m]."""
+
+MOST_BOLTS = 100
+"""And holes of any other ring."""
+
+_OR_NONE = (
+    *("inner_radius", "bore_radius", "bolt_circle_radius", "bolt_hole_radius", "length"),
+    *("chamfer", "hole_radius", "hole_depth"),
+)
+_OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "center")
+"""Lengths [m] that are zero where there is no such thing."""
+
+_LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter"}
+_POSITIVE = {"density", "mass", "spin_inertia", "gear_efficiency", "no_load_speed", "speed_max"}
+_POSITIVE |= {
+    "stall_torque",
+    "torque_limit",
+    "saturation_torque",
+    "torque_constant",
+    "resistance",
+    "bus_voltage",
+}
+_POSITIVE |= {"rated_voltage"}
+_ANY_SIGN = {"rotor_inertia", "gear_ratio", "stress_margin", "armature"}
+_ANY_SIGN |= {"along", "up", "product_of_inertia"}
+_MAY_BE_ZERO = {"motor.mass", "carrier.mass"}
+
+_UNIT_TOLERANCE = 1e-6
+
+
+def check_device(device: Device) -> None:
+    """Refuse a device that cannot be made.
+
+    Raises:
+        OcsError: with every fault.
+    """
+    faults = [
+        fault
+        for part in ("flywheel", "motor", "carrier")
+        for fault in _figures(getattr(device, part), part)
+    ]
+    if not isfinite(device.incidence):
+        faults.append(f"ocs.incidence is {device.incidence}")
+    for module in device.modules:
+        axis = module.axis
+        if np.abs(axis).max() > 2.0 or abs(float(axis @ axis) - 1.0) > _UNIT_TOLERANCE:
+            faults.append(f"the axis of module {module.name} is no unit vector")
+        if not (np.abs(module.position) <= LARGEST_LENGTH).all():
+            faults.append(f"the position of module {module.name} is beyond all measure")
+    wheel = device.flywheel
+    if wheel.inner_radius >= wheel.outer_radius:
+        faults.append("flywheel.inner_radius is not below outer_radius")
+    if wheel.web is not None and wheel.web.mass >= wheel.mass:
+        faults.append("flywheel.web.mass is not below the wheel's mass")
+    if faults:
+        raise OcsError(
+            f"the design's device cannot be: {'; '.join(faults)}",
+            hint="run `ocs-design size` again to write the design anew",
+        )
+
+
+def _figures(value: object, path: str) -> Iterator[str]:
+    """Faults of every number at or below a value."""
+    if is_dataclass(value):
+        for each in fields(value):
+            yield from _figures(getattr(value, each.name), f"{path}.{each.name}")
+    elif path.endswith((".bolts", ".holes")) and isinstance(value, int | float):
+        if not 0 <= value <= MOST_BOLTS:
+            yield f"{path} is {value}"
+    elif isinstance(value, float):
+        name = path.rpartition(".")[2]
+        if name in _LENGTHS or path.endswith(_OR_NONE + _OF_GEARS):
+            low, high = SMALLEST_LENGTH, LARGEST_LENGTH
+        elif name in _ANY_SIGN:
+            low, high = -LARGEST, LARGEST
+        else:
+            low, high = (1e-15 if name in _POSITIVE and path not in _MAY_BE_ZERO else 0.0), LARGEST
+        absent = value == 0.0 and path.endswith(_OR_NONE + _OF_GEARS)
+        if not absent and not low <= value <= high:
+            yield f"{path} is {value:g}, not between {low:g} and {high:g}"
+
+
+HEAVY = 0.3
+"""Share of the robot's mass; Solo12's lightest device is at 0.07, the paper's wheels at 0.08."""
+
+
+def device_warnings(
+    device: Device, robot: MassProperties, *, strict: bool = False
+) -> tuple[str, ...]:
+    """One sentence each.
+
+    Args:
+        device: that was designed.
+        robot: without it, in B.
+        strict: they are errors.
+
+    Raises:
+        SpecificationError: `strict`, and there is any.
+    """
+    share = device.mass / robot.mass
+    if share <= HEAVY:
+        return ()
+    heavy = (
+        f"the device weighs {device.mass:.3g} kg, {share:.0%} of the robot: more than {HEAVY:.0%} "
+        "is rarely wanted; its legs must carry it"
+    )
+    if strict:
+        raise SpecificationError(f"--strict: {heavy}", hint="Ask for less, or allow larger wheels.")
+    return (heavy,)

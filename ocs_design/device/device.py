@@ -1,0 +1,133 @@
+"""The designed orientation control system as a frozen value."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ocs_design.actuation.drive import Drive
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.layout import module_axes
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts
+from ocs_design.requirement.maneuver import Maneuver
+
+NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
+"""Of the assumed motor, which weighs nothing."""
+
+
+@dataclass(frozen=True)
+class Web:
+    """What joins a rim to its motor, in one piece: a disc in its middle plane and a hub.
+
+    Attributes:
+        material: name in the catalogue. density: [kg/m^3].
+        thickness: of the disc, which fills the rim's bore [m].
+        mass: with the hub and its holes [kg].
+        hub: in its middle.
+    """
+
+    material: str
+    density: float
+    thickness: float
+    mass: float
+    hub: Hub
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """A hollow cylinder on a web that spins about its z axis.
+
+    Attributes:
+        inner_radius, outer_radius, height: of the rim [m].
+        material: of the rim, name in the catalogue. density: [kg/m^3].
+        mass: of the whole wheel [kg].
+        spin_inertia: angular momentum about the spin axis per speed relative to the trunk, the
+            motor's rotor included [kg m^2].
+        transverse_inertia: of the wheel about any axis across it through its centre of mass,
+            without the rotor [kg m^2].
+        hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
+        stress_margin: yield strength over hoop stress; None if the strength is not known.
+        stored_energy: at the highest wheel speed [J].
+        web: None: massless spokes.
+        cuts: chamfers and balancing holes of the rim.
+    """
+
+    inner_radius: float
+    outer_radius: float
+    height: float
+    material: str
+    density: float
+    mass: float
+    spin_inertia: float
+    transverse_inertia: float
+    hoop_stress: float | None
+    stress_margin: float | None
+    stored_energy: float
+    web: Web | None = None
+    cuts: RimCuts = NO_CUTS
+
+    @property
+    def rim_mass(self) -> float:
+        """Mass of the rim alone [kg]."""
+        return self.mass - (0.0 if self.web is None else self.web.mass)
+
+
+SIDES = ("left", "right")
+"""Of the trunk; where there is one of something for each, in this order."""
+
+
+@dataclass(frozen=True, eq=False)
+class Module:
+    """One flywheel on the trunk.
+
+    Attributes:
+        name: of its side.
+        axis: unit spin axis in B, shape (3,).
+        position: of the wheel's centre of mass in B [m], shape (3,).
+    """
+
+    name: str
+    axis: FloatArray
+    position: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Device:
+    """The orientation control system: two equal modules and what drives them.
+
+    Attributes:
+        incidence: angle between each wheel axis and the lateral direction y [rad].
+        modules: left and right.
+        flywheel: of each module.
+        motor: of each module.
+        carrier: what of each module stands still with the trunk, in the module's own frame
+            (`device.layout.module_frames`).
+    """
+
+    incidence: float
+    modules: tuple[Module, Module]
+    flywheel: Flywheel
+    motor: Drive
+    carrier: Carrier = NO_CARRIER
+
+    @property
+    def mass(self) -> float:
+        """Mass of all modules: wheels, motors, gears, housings and feet [kg]."""
+        return 2.0 * (self.flywheel.mass + self.carrier.mass)
+
+    @property
+    def axes(self) -> FloatArray:
+        """Spin axes as columns, the matrix C of the paper, shape (3, 2)."""
+        return np.column_stack([module.axis for module in self.modules])
+
+    def at_incidence(self, incidence: float) -> "Device":
+        """Device with its modules turned by hand, as the paper does for its back-flip."""
+        axes = module_axes(incidence)
+        turned = [
+            replace(module, axis=axis) for module, axis in zip(self.modules, axes.T, strict=True)
+        ]
+        return replace(self, incidence=incidence, modules=(turned[0], turned[1]))
+
+    def as_flown(self, maneuver: Maneuver) -> "Device":
+        """Device at the maneuver's own incidence, if it has one."""
+        return self if maneuver.incidence is None else self.at_incidence(maneuver.incidence)

@@ -1,0 +1,449 @@
+"""`design.json`: the one artefact that other commands and programs read.
+
+Field names and units are the contract of `docs/output.md`: SI, radians, the base frame B, full
+double precision. The dataclasses are the schema; a change of meaning needs a new `SCHEMA_VERSION`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any, Literal, TypeVar
+
+import msgspec
+
+from ocs_design.actuation.drive import Drive
+from ocs_design.common.arrays import Matrix, Vector, matrix, vector
+from ocs_design.common.errors import OcsError
+from ocs_design.common.files import read_plain_file
+from ocs_design.device.device import NO_CARRIER, Flywheel
+from ocs_design.parts.moments import Carrier
+from ocs_design.robot.robot import Mount, Robot
+
+Record = TypeVar("Record")
+
+
+def recorded(kind: type[Record], live: object, /, **other: object) -> Record:
+    """Record of a live value: its figures of the same names, and `other` in place of the rest."""
+    record: Any = kind
+    names = {each.name for each in fields(record)} - set(other)
+    same = {name: getattr(live, name) for name in names if hasattr(live, name)}
+    return kind(**same, **other)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MountRecord:
+    """How the base frame is fixed to the robot's own link; see `robot.Mount`."""
+
+    link: str
+    rotation: Matrix
+    position: Vector
+
+    @classmethod
+    def of(cls, mount: Mount) -> "MountRecord":
+        """The record of a mount."""
+        place = mount.placement
+        return cls(
+            link=mount.link, rotation=matrix(place.rotation), position=vector(place.position)
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotRecord:
+    """The robot alone, in the frame of its trunk; see `robot.Robot`.
+
+    `package_paths` are the folders that were given for `package://` addresses, by package.
+    """
+
+    name: str
+    source: str
+    sha256: str
+    format: str
+    trunk: str
+    floating_base: str
+    posture_name: str
+    posture: Mapping[str, float]
+    legs: tuple[str, ...]
+    standing_height: float | None
+    mass: float
+    com: Vector
+    inertia: Matrix
+    warnings: tuple[str, ...]
+    mount: MountRecord | None = None
+    package_paths: Mapping[str, str] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, robot: Robot, package_paths: Mapping[str, Path] | None = None) -> "RobotRecord":
+        """The record of a robot that was read."""
+        return recorded(
+            cls,
+            robot,
+            format=str(robot.format),
+            posture=dict(robot.posture),
+            legs=tuple(leg.name for leg in robot.legs),
+            com=vector(robot.com),
+            inertia=matrix(robot.inertia),
+            mount=None if robot.mount is None else MountRecord.of(robot.mount),
+            package_paths={name: str(path) for name, path in (package_paths or {}).items()},
+        )
+
+
+@dataclass(frozen=True)
+class TaskDemand:
+    """What one part of the requirement asks of a drive.
+
+    Attributes:
+        source: name of the maneuver, or `rate change, roll` and `rate change, pitch`.
+        incidence: of the modules during it [rad].
+        spin_inertia: smallest of a wheel with which this drive does it in time [kg m^2].
+        time_needed: at the least, with the wheel as designed, on the reserved share of voltage and
+            current [s]; None: no time is set.
+        time_given: [s]; None likewise.
+        peak_speed: of the busier wheel in that least time [rad/s].
+        peak_torque: of its motor at the wheel, accelerating or braking [N m]; None: no time is set.
+    """
+
+    source: str
+    incidence: float
+    spin_inertia: float
+    time_needed: float | None
+    time_given: float | None
+    peak_speed: float
+    peak_torque: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RankedRecord:
+    """One of the lightest devices; masses are of both modules [kg].
+
+    Attributes:
+        motor, gear, material: names in the catalogues. gear_ratio: motor speed over wheel speed.
+        incidence: [rad].
+        mass, wheels_mass, motors_mass, gears_mass, housings_mass: [kg].
+        spin_inertia: of each wheel [kg m^2].
+        outer_radius, height: of its rim [m].
+    """
+
+    motor: str
+    gear: str
+    gear_ratio: float
+    material: str
+    incidence: float
+    mass: float
+    wheels_mass: float
+    motors_mass: float
+    gears_mass: float
+    housings_mass: float
+    spin_inertia: float
+    outer_radius: float
+    height: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RejectionRecord:
+    """Why a motor has no place among the candidates.
+
+    Attributes:
+        motor: its name. reason: one word. detail: a sentence with figures.
+    """
+
+    motor: str
+    reason: str
+    detail: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoDesignRecord:
+    """What optimal control made of the selected device.
+
+    Attributes:
+        adopted: whether the device is the co-designed one; else the selection stands.
+        status: of the solver. iterations: of the solver.
+        mass: of the co-designed device [kg]; None if there is none.
+        selected_mass: of the selected one [kg].
+        violation: largest of any limit on a ten times finer grid, relative.
+        remark: one sentence.
+    """
+
+    adopted: bool
+    status: str
+    iterations: int
+    mass: float | None
+    selected_mass: float
+    violation: float | None
+    remark: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class PriceRecord:
+    """What one more of a limit buys: see `sizing.selection.prices.Price` (SI)."""
+
+    limit: str
+    value: float
+    changed: float
+    mass_change: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SelectionRecord:
+    """The choice of motor, gear, material and incidence.
+
+    Attributes:
+        bus_voltage: [V]. reserve: share of voltage and current that the design may use.
+        candidates: how many combinations were looked at.
+        binding_maneuver: what asks for the most spin inertia. binding: limits that hold the mass.
+        tasks: of the chosen drive. ranking: lightest first. rejections: by motor.
+        co_design: None if it was not asked for.
+        prices: of the limits, before any co-design; empty where an older version wrote the file.
+    """
+
+    bus_voltage: float
+    reserve: float
+    candidates: int
+    binding_maneuver: str
+    binding: tuple[str, ...]
+    tasks: tuple[TaskDemand, ...]
+    ranking: tuple[RankedRecord, ...]
+    rejections: tuple[RejectionRecord, ...]
+    co_design: CoDesignRecord | None
+    prices: tuple[PriceRecord, ...] = ()
+
+
+SCHEMA_VERSION = 1
+
+LARGEST = 16 << 20
+"""Of a `design.json` [bytes]; that of a humanoid takes a fiftieth."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tool:
+    """Who wrote the file."""
+
+    name: str
+    version: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ManeuverRecord:
+    """A maneuver: its kind, and the fields of that kind (SI)."""
+
+    kind: str
+    name: str
+    gravity: float
+    incidence: float | None
+    parameters: Mapping[str, float | tuple[float, ...]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DemandRecord:
+    """What one source of demand asks at its incidence angle: see `requirement.bound.SpinDemand`."""
+
+    source: str
+    incidence: float
+    roll_momentum: float
+    pitch_momentum: float
+    spin_inertia: float
+    torque: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxisInertia:
+    """Inertia of the one-wheel model that the wheels must present on each axis [kg m^2]."""
+
+    pitch: float
+    roll: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RequirementRecord:
+    """What was asked of the device, and everything that was assumed to ask it."""
+
+    maneuvers: tuple[ManeuverRecord, ...]
+    rate_change: float | None
+    wheel_speed_max: float
+    required_inertia: AxisInertia
+    spin_inertia_by_hand: float | None
+    demands: tuple[DemandRecord, ...]
+    assumptions: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModuleRecord:
+    """One module in B."""
+
+    name: Literal["left", "right"]
+    axis: Vector
+    position: Vector
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """The part that a module is nearest to.
+
+    Attributes:
+        part: name of a body of the robot, or of the other wheel.
+        distance: between the surfaces, negative if they overlap [m].
+    """
+
+    part: str
+    distance: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReachRecord:
+    """Limb that could hit the device (`robot.clearance.Reach`)."""
+
+    part: str
+    joints: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MountingRecord:
+    """How the device sits on its robot (`sizing.mounting.Mounting`)."""
+
+    landing: Clearance | None
+    reachable: tuple[ReachRecord, ...]
+    com_shift: Vector
+    inertia_change: Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsRecord:
+    """The device. `mass_total` is of both modules; `total_...` of robot and braked device.
+
+    `fitting` is what is left to do by hand: see `export.fitting`.
+    """
+
+    incidence: float
+    incidence_criterion: str
+    incidence_by_criterion: Mapping[str, float]
+    incidence_by_criterion_robot_alone: Mapping[str, float]
+    heading_drift: tuple[float, float]
+    spin_inertia: float
+    mass_total: float
+    total_mass: float
+    total_inertia: Matrix
+    total_com: Vector
+    modules: tuple[ModuleRecord, ModuleRecord]
+    clearance: Clearance | None
+    flywheel: Flywheel
+    motor: Drive
+    carrier: Carrier = NO_CARRIER
+    warnings: tuple[str, ...] = ()
+    fitting: tuple[str, ...] = ()
+    mounting: MountingRecord | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizingRecord:
+    """How the optimum was found. Shadow prices: kg of one rim per SI unit of the limit."""
+
+    status: str
+    method: str
+    objective: float
+    binding: tuple[str, ...]
+    shadow_prices: Mapping[str, float]
+    gap: float
+    residual: float
+    iterations: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class MarginRecord:
+    """Demand against capacity; `margin` is capacity over demand, None where there is no limit.
+
+    `maneuver` is the one that sets it, empty if none does; `note` is what the figures rest on.
+    """
+
+    name: str
+    demand: float
+    capacity: float | None
+    unit: str
+    margin: float | None
+    maneuver: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ValidationRecord:
+    """One simulated run. `passed` is None where it could not be judged; `reason` says why.
+
+    `note` says how the turn was changed to suit the wheels; empty if it was not. `can_stand` says
+    whether the legs bear this landing when level; None: no legs, or a file that does not say.
+    """
+
+    scenario: str
+    ocs: bool
+    passed: bool | None
+    reason: str
+    note: str
+    metrics: Mapping[str, float | bool | None]
+    can_stand: bool | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ControlRecord:
+    """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s].
+
+    `ballistic` flights start at lift-off; a design that does not say was flown so.
+    """
+
+    projection: str
+    kp: float
+    kd: float
+    period: float = 0.005
+    desaturate: bool = False
+    ballistic: bool = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsDesign:
+    """A designed, exported and simulated orientation control system."""
+
+    schema_version: int
+    tool: Tool
+    seed: int
+    robot: RobotRecord
+    requirement: RequirementRecord
+    ocs: OcsRecord
+    sizing: SizingRecord
+    selection: SelectionRecord | None = None
+    margins: tuple[MarginRecord, ...]
+    validation: tuple[ValidationRecord, ...]
+    control: ControlRecord | None = None
+    reality: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, str]
+
+
+def design_to_json(design: OcsDesign) -> bytes:
+    """The artefact as indented UTF-8 JSON; numbers that are not finite are null."""
+    return msgspec.json.format(msgspec.json.encode(design), indent=2) + b"\n"
+
+
+def read_design(path: Path) -> OcsDesign:
+    """Read a `design.json`.
+
+    Raises:
+        OcsError: the file cannot be read, or is not a design of this schema version.
+    """
+    try:
+        content = read_plain_file(path, LARGEST)
+        version = msgspec.json.decode(content, type=_Version).schema_version
+    except OSError as error:
+        raise OcsError(
+            f"{path}: {error.strerror}", hint="give the path of a design.json"
+        ) from error
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise OcsError(f"{path}: not a design.json: {error}") from error
+    if version != SCHEMA_VERSION:
+        raise OcsError(
+            f"{path}: schema_version {version}, but this version reads {SCHEMA_VERSION}",
+            hint="run `ocs-design size` again to write it anew",
+        )
+    try:
+        return msgspec.json.decode(content, type=OcsDesign)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise OcsError(f"{path}: {error}", hint="run `ocs-design size` again") from error
+
+
+class _Version(msgspec.Struct):
+    schema_version: int

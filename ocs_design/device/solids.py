@@ -1,0 +1,73 @@
+"""What a module fills, as cylinders in B: for what it is near, and what could hit it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.device.device import Device, Module
+from ocs_design.parts.foot import BASE_THICKNESS, Foot
+from ocs_design.parts.housing import Housing, housing_outer_radius
+from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of
+from ocs_design.parts.printed import WALL
+from ocs_design.robot.tree import Drum
+
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+def motor_mount(device: Device) -> MotorMount:
+    """How the motor is held, as far as that is known and fits the housing's floor."""
+    mount = mount_of(device.motor, device.motor.gear_room)
+    floor = housing_outer_radius(device.flywheel.outer_radius) - 2.0 * WALL
+    return mount if mount.holes.reach <= floor else MotorMount()
+
+
+def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
+    """Gear, motor and cage as far as their sizes are known, behind the foot's plate."""
+    motor, height = device.motor, device.flywheel.height
+    found = drive_cylinders(motor, motor.gear_room, motor_mount(device), height)
+    # Files of older versions do not know where the motor is behind a gear.
+    unknown = motor.gear != DIRECT.name and motor.gear_room is None
+    return tuple(solid for solid in found if not (unknown and solid.name == "motor"))
+
+
+@dataclass(frozen=True)
+class ModuleSolids:
+    """What one module fills.
+
+    Attributes:
+        body: its housing, or its bare wheel where it has none, and what drives it as far as known.
+        foot: the foot's base, which stands on the trunk.
+    """
+
+    body: tuple[Drum, ...]
+    foot: tuple[Drum, ...] = ()
+
+    @property
+    def all(self) -> tuple[Drum, ...]:
+        """Body and foot."""
+        return self.body + self.foot
+
+
+def module_solids(device: Device, module: Module) -> ModuleSolids:
+    """What a module fills at the device's incidence."""
+    wheel = device.flywheel
+    if device.carrier.mass == 0.0:
+        return ModuleSolids((Drum(module.position, module.axis, wheel.outer_radius, wheel.height),))
+    housing = Housing(wheel.outer_radius, wheel.height, motor_mount(device).holes)
+    foot, tall = Foot(housing), 2.0 * housing.half_height
+    down = foot.wheel_height - BASE_THICKNESS / 2.0
+    base = Drum(module.position - down * _UP, _UP, foot.base_radius, BASE_THICKNESS)
+    drum = Drum(module.position, module.axis, housing.radius, tall)
+    # What drives the wheel stands behind the foot's plate; the other module is behind both.
+    outward = module.axis if module.name == "left" else -module.axis
+    driving = [
+        Drum(
+            module.position + (solid.low + solid.high) / 2.0 * outward + solid.up * _UP,
+            module.axis,
+            solid.radius,
+            solid.high - solid.low,
+        )
+        for solid in drive_solids(device)
+    ]
+    return ModuleSolids((drum, *driving), (base,))

@@ -1,1 +1,0 @@
-"""What is installed and works here. Nothing of it needs what may be missing."""

@@ -1,1 +1,0 @@
-"""Technical drawings: lines and texts on a sheet, and two writers that show the same."""

@@ -1,1 +1,0 @@
-"""What drives a wheel: motor, gear, and what both can do in a given time."""

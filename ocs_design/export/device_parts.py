@@ -1,0 +1,73 @@
+"""Parts of a device as they are manufactured: the wheel's pieces, and what is printed around it."""
+
+from collections.abc import Mapping
+
+from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.solids import motor_mount
+from ocs_design.parts.cage import cage_part
+from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.part import Part
+from ocs_design.parts.printed import LID_SCREW
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
+
+
+def wheel_geometry(flywheel: Flywheel) -> Wheel:
+    """Rim, and web with hub where there is one, with the mass and inertia that were sized.
+
+    Raises:
+        PartError: it cannot be made.
+    """
+    cuts, web = flywheel.cuts, flywheel.web
+    middle = (flywheel.inner_radius + flywheel.outer_radius) / 2.0
+    balancing = HoleRing(middle, cuts.holes, cuts.hole_radius, cuts.hole_depth)
+    rim = Rim(
+        flywheel.inner_radius,
+        flywheel.outer_radius,
+        flywheel.height,
+        flywheel.material,
+        flywheel.density,
+        chamfer=cuts.chamfer,
+        balancing=balancing if cuts.holes else None,
+    )
+    if web is None:
+        return Wheel(rim)
+    bolts = HoleRing(web.hub.bolt_circle_radius, web.hub.bolts, web.hub.bolt_hole_radius)
+    hub = Hub(
+        web_thickness=web.thickness,
+        radius=web.hub.radius,
+        height=web.hub.height,
+        bore_radius=web.hub.bore_radius,
+        material=web.material,
+        density=web.density,
+        bolts=bolts if web.hub.bolts else None,
+        chamfer=web.hub.chamfer,
+    )
+    return Wheel(rim, hub)
+
+
+def wheel_pieces(flywheel: Flywheel) -> Mapping[str, Part]:
+    """Pieces of the wheel by the names of their files; a wheel of one piece is the flywheel."""
+    pieces = wheel_parts(wheel_geometry(flywheel))
+    if len(pieces) == 1:
+        return {"flywheel": pieces[0]}
+    return {f"flywheel_{piece.name}": piece for piece in pieces}
+
+
+def printed_foot(device: Device) -> Foot:
+    """Foot of one module, with the housing that it carries."""
+    wheel, mount = device.flywheel, motor_mount(device).holes
+    return Foot(Housing(wheel.outer_radius, wheel.height, mount, LID_SCREW))
+
+
+def printed_parts(device: Device) -> tuple[Part, ...]:
+    """Drum, lid and foot around one wheel, and the cage of a motor that is held by its back.
+
+    They have the motor's holes where these are known and fit.
+
+    Raises:
+        PartError: they cannot be made.
+    """
+    foot, cage = printed_foot(device), motor_mount(device).cage
+    caged = () if cage is None else (cage_part(cage),)
+    return (*housing_parts(foot.housing), foot_part(foot), *caged)

@@ -1,0 +1,208 @@
+"""Sheet of paper with lines, circles and texts [mm], x from its left edge, y down from its top."""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TypeAlias
+
+from reportlab.pdfbase.pdfmetrics import stringWidth
+
+WIDTH, HEIGHT = 297.0, 210.0
+"""Size of A4, landscape [mm]."""
+
+MARGIN_LEFT, MARGIN = 20.0, 10.0
+"""Distance of the frame from the sheet's edges (ISO 5457), wider on the left for filing [mm]."""
+
+FRAME_BOX = (MARGIN_LEFT, MARGIN, WIDTH - MARGIN, HEIGHT - MARGIN)
+"""Left, top, right and bottom of the frame [mm]."""
+
+FONT = "Helvetica"
+"""Typeface of all texts; every PDF reader has it."""
+
+ENCODING = "cp1252"
+"""WinAnsiEncoding of PDF, which has what drawings need, as in `Ø8 H7 ±0.05`."""
+
+CAP_HEIGHT, ASCENT, DESCENT = 0.718, 0.740, 0.212
+"""Height of Helvetica's capitals and brackets, and its depth below the line, per font size."""
+
+Point: TypeAlias = tuple[float, float]
+Box: TypeAlias = tuple[float, float, float, float]
+"""Left, top, right, bottom."""
+
+
+@dataclass(frozen=True)
+class Pen:
+    """A kind of line (ISO 128-2).
+
+    Attributes:
+        width: [mm].
+        dashes: lengths of dashes and gaps in turn [mm]; empty: continuous.
+    """
+
+    width: float
+    dashes: tuple[float, ...] = ()
+
+
+FRAME = Pen(0.7)
+OUTLINE = Pen(0.5)
+THIN = Pen(0.25)
+CENTRE = Pen(0.25, (6.0, 1.0, 0.6, 1.0))
+
+
+class Anchor(StrEnum):
+    """End of a text that its place is; the values are SVG's."""
+
+    START = "start"
+    MIDDLE = "middle"
+    END = "end"
+
+
+_ANCHOR_PART = {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}
+
+
+@dataclass(frozen=True)
+class Line:
+    """A straight line."""
+
+    start: Point
+    end: Point
+    pen: Pen = THIN
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A whole circle."""
+
+    center: Point
+    radius: float
+    pen: Pen = OUTLINE
+
+
+@dataclass(frozen=True)
+class Area:
+    """A black polygon without an outline, such as the head of an arrow."""
+
+    corners: tuple[Point, ...]
+
+
+@dataclass(frozen=True)
+class Text:
+    """One line of lettering.
+
+    Attributes:
+        place: on the baseline, at the anchor.
+        text: printable in Helvetica, see `printable`.
+        height: of its capitals [mm] (ISO 3098: 1.8, 2.5, 3.5, 5).
+        anchor: which end `place` is.
+        upright: whether it is read from the sheet's right side, turned by a quarter to the left.
+    """
+
+    place: Point
+    text: str
+    height: float = 2.5
+    anchor: Anchor = Anchor.START
+    upright: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", printable(self.text))
+
+    @property
+    def size(self) -> float:
+        """Font size [mm]."""
+        return self.height / CAP_HEIGHT
+
+    @property
+    def width(self) -> float:
+        """Length along the baseline [mm]."""
+        return float(stringWidth(self.text, FONT, self.size))
+
+    @property
+    def start(self) -> Point:
+        """Start of its first letter on the baseline."""
+        x, y = self.place
+        back = _ANCHOR_PART[self.anchor] * self.width
+        return (x, y + back) if self.upright else (x - back, y)
+
+    @property
+    def box(self) -> Box:
+        """Rectangle that it covers."""
+        (x, y), above, below = self.start, ASCENT * self.size, DESCENT * self.size
+        if self.upright:
+            return (x - above, y - self.width, x + below, y)
+        return (x, y - above, x + self.width, y + below)
+
+
+Item: TypeAlias = Line | Circle | Area | Text
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Scale of a drawing (ISO 5455).
+
+    Attributes:
+        paper, part: as in `paper:part`; one of them is 1.
+    """
+
+    paper: int
+    part: int
+
+    def __str__(self) -> str:
+        return f"{self.paper}:{self.part}"
+
+    def __call__(self, length: float) -> float:
+        """Length on paper [mm] of a length of the part [m]."""
+        return 1e3 * length * self.paper / self.part
+
+    def length(self, on_paper: float) -> float:
+        """Length of the part [m] of a length on paper [mm]."""
+        return 1e-3 * on_paper * self.part / self.paper
+
+
+_STEPS = (1, 2, 5)
+_ENLARGED = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(_STEPS)]
+_REDUCED = [Scale(1, step * 10**power) for power in range(7) for step in _STEPS][1:]
+
+
+def largest_scale(fits: Callable[[Scale], bool]) -> Scale:
+    """Largest standard scale for which `fits` holds; the smallest if it holds for none."""
+    scales = [*_ENLARGED, *_REDUCED]
+    return next((scale for scale in scales if fits(scale)), scales[-1])
+
+
+def outline(corners: Sequence[Point], pen: Pen = OUTLINE) -> list[Item]:
+    """Lines of a closed polygon."""
+    following = [*corners[1:], corners[0]]
+    return [Line(a, b, pen) for a, b in zip(corners, following, strict=True)]
+
+
+def rectangle(left: float, top: float, right: float, bottom: float) -> tuple[Point, ...]:
+    """Corners of a rectangle, clockwise as seen."""
+    return (left, top), (right, top), (right, bottom), (left, bottom)
+
+
+def printable(text: str) -> str:
+    """Text with a question mark in place of each character that Helvetica does not have."""
+    return re.sub(r"[\x00-\x1f\x7f]", "?", text).encode(ENCODING, "replace").decode(ENCODING)
+
+
+def fitted(text: str, width: float, height: float) -> str:
+    """Text cut to a width [mm], with an ellipsis in place of what does not fit."""
+    text = printable(text)
+    if Text((0.0, 0.0), text, height).width <= width:
+        return text
+    while text and Text((0.0, 0.0), text + "…", height).width > width:
+        text = text[:-1]
+    return text + "…"
+
+
+def wrapped(text: str, width: float, height: float) -> list[str]:
+    """Lines of a text, each at most that wide [mm]; a longer word is cut."""
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and Text((0.0, 0.0), longer, height).width <= width:
+            lines[-1] = longer
+        else:
+            lines.append(fitted(word, width, height))
+    return lines

@@ -1,0 +1,223 @@
+"""Frame, title block, list of parts and notes of a wheel's drawing (ISO 5457, ISO 7200)."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ocs_design.export.drawing.dimensioning import LEADING
+from ocs_design.export.drawing.sheet import (
+    CENTRE,
+    FRAME,
+    FRAME_BOX,
+    HEIGHT,
+    MARGIN,
+    MARGIN_LEFT,
+    THIN,
+    WIDTH,
+    Circle,
+    Item,
+    Line,
+    Scale,
+    Text,
+    fitted,
+    outline,
+    rectangle,
+    wrapped,
+)
+from ocs_design.export.drawing.wheel import (
+    BROKEN_EDGE,
+    Seat,
+    WheelDrawing,
+    lost_by_breaking,
+    permissible_eccentricity,
+    permissible_unbalance,
+    plain,
+    rim_inertia_error,
+    seat,
+)
+from ocs_design.parts.wheel import Wheel
+
+_, _, RIGHT, BOTTOM = FRAME_BOX
+BLOCK_WIDTH, ROW_HEIGHT, ROWS = 180.0, 9.0, 4
+"""Size of the title block [mm]; its width is the standard's."""
+
+BLOCK_LEFT, BLOCK_TOP = RIGHT - BLOCK_WIDTH, BOTTOM - ROWS * ROW_HEIGHT
+
+PARTS_ROW = 5.5
+"""Height of a row of the list of parts, which grows upwards from the title block [mm]."""
+
+_PARTS_COLUMNS = (0.0, 12.0, 62.0, 150.0, BLOCK_WIDTH)
+"""Edges of the columns item, name, material and mass [mm]."""
+
+NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
+"""Place of the notes' first line [mm]."""
+
+NUMBER_WIDTH = 5.0
+"""Width of a note's number before its text [mm]."""
+
+RUN_OUT = 0.05
+"""Permissible run-out of the rim to the bore [mm]."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A field of the title block.
+
+    Attributes:
+        row: from the top. left, width: in the block [mm].
+        caption, value: its two texts.
+        height: of the value's letters [mm].
+    """
+
+    row: int
+    left: float
+    width: float
+    caption: str
+    value: str
+    height: float = 2.5
+
+
+def frame() -> list[Item]:
+    """Frame around the drawing, with a mark at the middle of each side."""
+    left, top, right, bottom = FRAME_BOX
+    across, down = WIDTH / 2.0, HEIGHT / 2.0
+    marks = [
+        ((across, 0.0), (across, MARGIN)),
+        ((across, HEIGHT), (across, HEIGHT - MARGIN)),
+        ((0.0, down), (MARGIN_LEFT, down)),
+        ((WIDTH, down), (WIDTH - MARGIN, down)),
+    ]
+    return [
+        *outline(rectangle(left, top, right, bottom), FRAME),
+        *(Line(start, end, FRAME) for start, end in marks),
+    ]
+
+
+def title_block(drawing: WheelDrawing, scale: Scale) -> list[Item]:
+    """Fields of the title block, and the symbol of first-angle projection."""
+    items = outline(rectangle(BLOCK_LEFT, BLOCK_TOP, RIGHT, BOTTOM), FRAME)
+    for cell in _cells(drawing, scale):
+        left, top = BLOCK_LEFT + cell.left, BLOCK_TOP + cell.row * ROW_HEIGHT
+        items += outline(rectangle(left, top, left + cell.width, top + ROW_HEIGHT), THIN)
+        room, height = cell.width - 3.0, cell.height
+        items.append(Text((left + 1.5, top + 2.9), fitted(cell.caption, room, 1.8), 1.8))
+        items.append(Text((left + 1.5, top + 7.5), fitted(cell.value, room, height), height))
+    # A truncated cone in first-angle projection: its side, and right of it its small end.
+    x, y = BLOCK_LEFT + 167.0, BLOCK_TOP + 4.5
+    cone = ((x - 9.0, y - 1.5), (x - 2.0, y - 3.0), (x - 2.0, y + 3.0), (x - 9.0, y + 1.5))
+    return [
+        *items,
+        *outline(cone),
+        Circle((x + 5.0, y), 3.0),
+        Circle((x + 5.0, y), 1.5),
+        Line((x - 10.0, y), (x + 9.0, y), CENTRE),
+        Line((x + 5.0, y - 4.0), (x + 5.0, y + 4.0), CENTRE),
+    ]
+
+
+def _cells(drawing: WheelDrawing, scale: Scale) -> tuple[Cell, ...]:
+    """Fields row by row. Checker and date are written by hand."""
+    material = (
+        "see list of parts" if seat(drawing.wheel) is Seat.FITTED else drawing.wheel.rim.material
+    )
+    inertia = f"{1e6 * drawing.mass_properties.inertia[2, 2]:.4g} kg mm²"
+    return (
+        Cell(0, 0.0, 64.0, "Title", "OCS flywheel", 3.5),
+        Cell(0, 64.0, 64.0, "Robot", drawing.robot, 3.5),
+        Cell(0, 128.0, 26.0, "Scale", str(scale), 3.5),
+        Cell(0, 154.0, 26.0, "", ""),
+        Cell(1, 0.0, 64.0, "Material", material),
+        Cell(1, 64.0, 32.0, "Mass", f"{1e3 * sum(drawing.masses):.4g} g"),
+        Cell(1, 96.0, 58.0, "Spin inertia about the axis", inertia),
+        Cell(1, 154.0, 26.0, "Dimensions", "all in mm"),
+        Cell(2, 0.0, 40.0, "General tolerances", "ISO 2768-mK"),
+        Cell(2, 40.0, 64.0, "Surface texture", "Ra 3.2, bore Ra 1.6 (ISO 21920)"),
+        Cell(2, 104.0, 50.0, "Drawn by", drawing.tool),
+        Cell(2, 154.0, 26.0, "Sheet", "1 / 1, A4"),
+        Cell(3, 0.0, 104.0, "Design", drawing.identity),
+        Cell(3, 104.0, 40.0, "Checked by", ""),
+        Cell(3, 144.0, 36.0, "Date", ""),
+    )
+
+
+def parts_list(drawing: WheelDrawing) -> list[Item]:
+    """List of rim and web where they are two parts; empty otherwise."""
+    wheel = drawing.wheel
+    if wheel.hub is None or seat(wheel) is not Seat.FITTED:
+        return []
+    rim_mass, hub_mass = drawing.masses
+    rows = (
+        ("2", "Web with hub", wheel.hub.material, f"{1e3 * hub_mass:.4g} g"),
+        ("1", "Rim", wheel.rim.material, f"{1e3 * rim_mass:.4g} g"),
+        ("Item", "Name", "Material", "Mass"),
+    )
+    items: list[Item] = []
+    for place, values in enumerate(rows, start=1):
+        top = BLOCK_TOP - place * PARTS_ROW
+        for value, start, end in zip(values, _PARTS_COLUMNS, _PARTS_COLUMNS[1:], strict=False):
+            left, right = BLOCK_LEFT + start, BLOCK_LEFT + end
+            items += outline(rectangle(left, top, right, top + PARTS_ROW), THIN)
+            items.append(Text((left + 1.5, top + 4.0), fitted(value, right - left - 3.0, 2.5)))
+    return items
+
+
+def notes(drawing: WheelDrawing) -> list[Item]:
+    """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde."""
+    items: list[Item] = []
+    y, room = NOTES_TOP, BLOCK_LEFT - NOTES_LEFT - NUMBER_WIDTH - 2.0
+    for number, sentence in enumerate(_sentences(drawing), start=1):
+        items.append(Text((NOTES_LEFT, y), f"{number}"))
+        for line in wrapped(sentence, room, 2.5):
+            items.append(Text((NOTES_LEFT + NUMBER_WIDTH, y), line.replace("~", " ")))
+            y += LEADING
+    return items
+
+
+def _sentences(drawing: WheelDrawing) -> Iterator[str]:
+    wheel = drawing.wheel
+    balance = f"Balance grade G~{drawing.grade:g} (ISO~21940-11)"
+    if drawing.speed is None:
+        yield f"{balance} at the highest speed in service."
+    else:
+        mass, rpm = sum(drawing.masses), drawing.speed * 30.0 / math.pi
+        unbalance = 1e6 * permissible_unbalance(mass, drawing.grade, drawing.speed)
+        eccentricity = 1e6 * permissible_eccentricity(drawing.grade, drawing.speed)
+        yield (
+            f"{balance} at {rpm:.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
+            f"(e~=~{eccentricity:.3g}~µm), in one plane."
+        )
+    yield (
+        f"Inertia of the rim within ±{_percent(rim_inertia_error(wheel))} over its tolerances; "
+        "the motor's rotor not included."
+    )
+    yield _edges(wheel)
+    yield {
+        Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
+        Seat.ONE_PIECE: "Rim, web and hub turned from one piece.",
+        Seat.FITTED: f"Rim {Seat.FITTED.value} on the web, bonded with retaining compound.",
+    }[seat(wheel)]
+    if wheel.hub is not None:
+        yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
+        if wheel.hub.bolts is None:
+            yield "Bolt circle not in the catalogue: drill to the motor."
+
+
+def _edges(wheel: Wheel) -> str:
+    chamfer, broken = (
+        wheel.rim.made_chamfer,
+        f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
+    )
+    if chamfer > 0.0 and wheel.hub is not None and wheel.hub.chamfer > 0.0:
+        return (
+            f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
+            "others deburred."
+        )
+    if chamfer > 0.0:
+        return f"Edges of the rim {plain(chamfer)}~×~45°; {broken}."
+    mass, share = lost_by_breaking(wheel)
+    lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
+    return f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."
+
+
+def _percent(part: float) -> str:
+    return f"{100.0 * part:.2g} %"

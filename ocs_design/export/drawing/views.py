@@ -1,0 +1,308 @@
+"""Views of a wheel in first-angle projection: the section, and right of it the front."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ocs_design.export.drawing.cut_faces import Profile, cut_faces, half_width, hatching, is_cut
+from ocs_design.export.drawing.dimensioning import (
+    Callout,
+    extension,
+    fits_inside,
+    leader,
+    level_dimension,
+    upright_dimension,
+    viewing_arrow,
+)
+from ocs_design.export.drawing.sheet import (
+    CENTRE,
+    MARGIN,
+    MARGIN_LEFT,
+    OUTLINE,
+    WIDTH,
+    Anchor,
+    Circle,
+    Item,
+    Line,
+    Point,
+    Scale,
+    Text,
+    largest_scale,
+    outline,
+)
+from ocs_design.export.drawing.wheel import (
+    Grade,
+    diameter,
+    diameters,
+    holes,
+    plain,
+    toleranced,
+    widest,
+)
+from ocs_design.parts.wheel import HoleRing, Wheel
+
+AXIS_Y = 82.0
+"""y of the wheel's axis in both views [mm]."""
+
+TALLEST = 98.0
+"""Largest height of a view, between its name and dimensions and the title block [mm]."""
+
+LEFT, BETWEEN, RIGHT = 33.0, 36.0, 51.0
+"""Room for the diameters, for the widths, and for the leaders [mm]."""
+
+_ROOM = WIDTH - MARGIN_LEFT - MARGIN - LEFT - BETWEEN - RIGHT
+
+FIRST_COLUMN, COLUMN = 9.0, 8.0
+"""Distance of the first diameter from the section's outline, and between diameters [mm]."""
+
+ABOVE = 9.0
+"""Distance of the rim's width from the outline below it [mm]."""
+
+CHAMFER_ASIDE, BELOW = 5.0, 7.0
+"""Distance of the chamfer's leader from its edge, and from the outline above it [mm]."""
+
+NEAREST = 4.0
+"""Smallest distance of a width's dimension line from the axis [mm]."""
+
+ASIDE, PAST_ARROWS = 4.0, 7.0
+"""Distance of a width's text from the outline, and from the width that it names [mm]."""
+
+SHELF, ROW = 9.0, 7.0
+"""Distance of the front view's leaders from its outline, and between them [mm]."""
+
+BORE_LEADERS = tuple(math.radians(angle) for angle in range(8, 42, 2))
+"""Directions that the bore's leader may come from [rad]."""
+
+HOLE_ROWS = (14.0, 25.0, 36.0)
+"""Distance below the axis of the leaders to bolt, lightening and balancing holes [mm]."""
+
+HOLE_LEADERS = (math.radians(-25.0), math.radians(-40.0), math.radians(-50.0))
+"""Direction of the hole that each of these leaders points to [rad]."""
+
+NARROWEST = 1.0
+"""Smallest distance of lines in the front view [mm]: narrower chamfers are not drawn there."""
+
+_BEYOND = 3.0
+"""Length of centre lines beyond the front view's outline [mm]."""
+
+_ABOVE, _BELOW = -1.0, 1.0
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Scale and centres of both views [mm].
+
+    Attributes:
+        scale: of both.
+        section: of the cut, seen from the right of the front view, as in first-angle projection.
+        front: of the view along the axis.
+    """
+
+    scale: Scale
+    section: Point
+    front: Point
+
+
+def lay_out(wheel: Wheel) -> Layout:
+    """Place both views side by side, in the middle of the room that they have."""
+
+    def fits(scale: Scale) -> bool:
+        """Whether both views have room at that scale."""
+        across, wide = scale(2.0 * wheel.rim.outer_radius), scale(widest(wheel))
+        return across <= TALLEST and across + wide <= _ROOM
+
+    scale = largest_scale(fits)
+    across, wide = scale(2.0 * wheel.rim.outer_radius), scale(widest(wheel))
+    start = MARGIN_LEFT + LEFT + max(0.0, _ROOM - across - wide) / 2.0
+    section = start + wide / 2.0
+    front = start + wide + BETWEEN + across / 2.0
+    return Layout(scale, (section, AXIS_Y), (front, AXIS_Y))
+
+
+def section_view(wheel: Wheel, layout: Layout) -> list[Item]:
+    """Wheel cut along its axis: cut faces, edges behind them, axes, diameters and widths."""
+    (x, y), scale, rim = layout.section, layout.scale, wheel.rim
+    half, edge = scale(widest(wheel)) / 2.0, scale(rim.outer_radius)
+    items: list[Item] = []
+    for side in (_ABOVE, _BELOW):
+        for profile, mirrored in cut_faces(wheel, above=side == _ABOVE):
+            corners = _placed(profile, layout, side)
+            items += [*outline(corners), *hatching(corners, mirrored=mirrored)]
+    items += _edges_behind(wheel, layout)
+    items.append(Line((x - half - 4.0, y), (x + half + 4.0, y), CENTRE))
+    for ring, width, side in _cut_rings(wheel):
+        beyond = width + scale.length(2.0)
+        start, end = _placed([(-beyond, ring.radius), (beyond, ring.radius)], layout, side)
+        items.append(Line(start, end, CENTRE))
+    items += [*_diameters(wheel, layout), *_widths(wheel, layout)]
+    # The size of the rim's edges, below the view, where it is not too small to be written.
+    chamfer = plain(rim.made_chamfer)
+    if float(chamfer) > 0.0:
+        aside = rim.made_chamfer / 2.0
+        middle = (rim.height / 2.0 - aside, rim.outer_radius - aside)
+        (corner,) = _placed([middle], layout, _BELOW)
+        shelf = (corner[0] + CHAMFER_ASIDE, y + edge + BELOW)
+        items += leader(Callout((f"{chamfer} × 45°",), corner, 0.0), shelf)
+    return [*items, Text((x, y - edge - ABOVE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
+
+
+def _placed(profile: Profile, layout: Layout, side: float) -> list[Point]:
+    (x, y), scale = layout.section, layout.scale
+    return [(x + scale(z), y + side * scale(radius)) for z, radius in profile]
+
+
+def _edges_behind(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+    """Circles behind the plane, edge on: bores, holes and the rim's inside."""
+    rim, hub = wheel.rim, wheel.hub
+    r, half = rim.inner_radius + rim.made_chamfer, rim.height / 2.0
+    # Distance from the wheel's middle, and ends across the axis [m].
+    spans = [(half, -r, r)]
+    if hub is not None:
+        if hub.height > rim.height:
+            spans = [(half, -r, -hub.radius), (half, hub.radius, r)]
+        mouth = hub.bore_radius + hub.chamfer
+        spans.append((hub.height / 2.0, -mouth, mouth))
+    for ring, width, side in _cut_rings(wheel):
+        center = side * ring.radius
+        spans.append((width, center - ring.hole_radius, center + ring.hole_radius))
+    for distance, low, high in spans:
+        for z in (-distance, distance):
+            start, end = _placed([(z, low), (z, high)], layout, _BELOW)
+            yield Line(start, end, OUTLINE)
+
+
+def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
+    """Rings with a hole in the section, half the width that they go through [m], and the side."""
+    rings = [] if wheel.rim.balancing is None else [(wheel.rim.balancing, wheel.rim.height / 2.0)]
+    if wheel.hub is not None:
+        found = (ring for ring in (wheel.hub.bolts, wheel.hub.lightening) if ring is not None)
+        rings += [(ring, half_width(wheel.hub, ring.radius)) for ring in found]
+    for ring, width in rings:
+        for side in (_ABOVE, _BELOW):
+            if is_cut(ring, above=side == _ABOVE):
+                yield ring, width, side
+
+
+def _diameters(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+    """Diameters with room for their text, side by side, the smallest next to the outline."""
+    (x, y), column = layout.section, 0
+    left = x - layout.scale(widest(wheel)) / 2.0 - FIRST_COLUMN
+    for label, radius, width in diameters(wheel):
+        half = layout.scale(radius)
+        if fits_inside(label, 2.0 * half):
+            yield from upright_dimension(
+                label,
+                x=left - COLUMN * column,
+                middle=y,
+                half=half,
+                outline_x=x - layout.scale(width) / 2.0,
+            )
+            column += 1
+
+
+def _widths(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+    """The rim's above the view; web and hub between hub and rim, on either side of the axis."""
+    (_, y), edge, hub = layout.section, layout.scale(wheel.rim.outer_radius), wheel.hub
+    label = toleranced(wheel.rim.height, Grade.IT11)
+    yield from _width(label, wheel.rim.height, wheel, layout, y=y - edge - ABOVE, start=y - edge)
+    if hub is None:
+        return
+    away = max(NEAREST, layout.scale(hub.radius + wheel.rim.inner_radius) / 2.0)
+    yield from _width(plain(hub.web_thickness), hub.web_thickness, wheel, layout, y=y - away)
+    start = y + layout.scale(hub.radius)
+    yield from _width(plain(hub.height), hub.height, wheel, layout, y=y + away, start=start)
+
+
+def _width(
+    label: str,
+    width: float,
+    wheel: Wheel,
+    layout: Layout,
+    *,
+    y: float,
+    start: float | None = None,
+) -> Iterator[Item]:
+    """One width, with extension lines from `start` where the outline does not reach it."""
+    x, half = layout.section[0], layout.scale(width) / 2.0
+    if start is not None:
+        yield from (extension(x + side * half, start, y) for side in (-1.0, 1.0))
+    aside = (
+        layout.scale(widest(wheel)) / 2.0 + ASIDE if start is None or width < widest(wheel) else 0.0
+    )
+    text_x = x + max(half + PAST_ARROWS, aside)
+    yield from level_dimension(label, left=x - half, right=x + half, y=y, text_x=text_x)
+
+
+def front_view(wheel: Wheel, layout: Layout) -> list[Item]:
+    """Wheel along its axis: circles, centre lines, the plane of the section, and leaders."""
+    (x, y), scale, rim, hub = layout.front, layout.scale, wheel.rim, wheel.hub
+    edge, chamfer = scale(rim.outer_radius), rim.made_chamfer
+    radii = [rim.outer_radius, rim.inner_radius]
+    if scale(chamfer) >= NARROWEST:
+        radii += [rim.outer_radius - chamfer, rim.inner_radius + chamfer]
+    if hub is not None:
+        radii += [hub.radius, hub.bore_radius]
+    items: list[Item] = [Circle((x, y), scale(radius)) for radius in radii if radius > 0.0]
+    for ring in filter(None, _rings(wheel)):
+        # Each hole has its centre marked across the circle that they are on.
+        radius, mark = scale(ring.radius), scale(ring.hole_radius) + 1.0
+        items.append(Circle((x, y), radius, CENTRE))
+        for angle in hole_angles(ring):
+            u, v = math.cos(angle), -math.sin(angle)
+            items.append(Circle(_hole(ring, angle, layout), scale(ring.hole_radius), OUTLINE))
+            start = (x + (radius - mark) * u, y + (radius - mark) * v)
+            items.append(Line(start, (x + (radius + mark) * u, y + (radius + mark) * v)))
+    return [
+        *items,
+        Line((x - edge - _BEYOND, y), (x + edge + _BEYOND, y), CENTRE),
+        Line((x, y - edge - _BEYOND), (x, y + edge + _BEYOND), CENTRE),
+        *viewing_arrow("A", x=x, edge=y - edge, down=False),
+        *viewing_arrow("A", x=x, edge=y + edge, down=True),
+        *_leaders(wheel, layout),
+    ]
+
+
+def _rings(wheel: Wheel) -> tuple[HoleRing | None, ...]:
+    """Rings of bolt, lightening and balancing holes."""
+    hub = wheel.hub
+    in_hub = (None, None) if hub is None else (hub.bolts, hub.lightening)
+    return (*in_hub, wheel.rim.balancing)
+
+
+def hole_angles(ring: HoleRing) -> list[float]:
+    """Angles of the holes counter-clockwise from the right; the first is straight up [rad]."""
+    return [math.pi / 2.0 + 2.0 * math.pi * i / ring.count for i in range(ring.count)]
+
+
+def _hole(ring: HoleRing, angle: float, layout: Layout) -> Point:
+    (x, y), radius = layout.front, layout.scale(ring.radius)
+    return x + radius * math.cos(angle), y - radius * math.sin(angle)
+
+
+def _leaders(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+    """Leaders to circles that the section has no room for, and to the holes."""
+    (x, y), edge, hub = layout.front, layout.scale(wheel.rim.outer_radius), wheel.hub
+    shelf = x + edge + SHELF
+    callouts = []
+    if hub is not None and hub.bore_radius > 0.0:
+        bore = f"{diameter(hub.bore_radius)} H7"
+        callouts.append(Callout((bore,), layout.front, layout.scale(hub.bore_radius)))
+    for label, radius, _ in diameters(wheel):
+        on_paper = layout.scale(radius)
+        if not fits_inside(label, 2.0 * on_paper):
+            callouts.append(Callout((label,), layout.front, on_paper))
+    direction = BORE_LEADERS[0]
+    if hub is not None and hub.bolts is not None:
+        # Farthest from all holes, so that the leader crosses none.
+        bolts = hole_angles(hub.bolts)
+        direction = min(BORE_LEADERS, key=lambda each: max(math.cos(each - hole) for hole in bolts))
+    first = (edge + SHELF) * math.tan(direction)
+    for row, callout in enumerate(callouts):
+        yield from leader(callout, (shelf, y - first - ROW * row))
+    for ring, below, aim in zip(_rings(wheel), HOLE_ROWS, HOLE_LEADERS, strict=True):
+        if ring is not None:
+            angles = hole_angles(ring)
+            nearness = [math.cos(each - aim) for each in angles]
+            angle = angles[nearness.index(max(nearness))]
+            at = Callout(holes(ring), _hole(ring, angle, layout), layout.scale(ring.hole_radius))
+            yield from leader(at, (shelf, y + below))

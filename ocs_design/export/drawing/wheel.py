@@ -1,0 +1,181 @@
+"""Content of a wheel's drawing, SI: mass, inertia, balance, and sizes with their tolerances.
+
+Tolerances of sizes are those of ISO 286-1, table 1; balance is that of rigid rotors, ISO 21940-11.
+"""
+
+from bisect import bisect_left
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import cached_property
+from math import isinf
+
+from ocs_design.parts.part import total
+from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
+from ocs_design.robot.mass import MassProperties
+
+FLYWHEEL_GRADE = 6.3
+"""Balance quality grade G 6.3 [mm/s], which the standard's table gives for flywheels."""
+
+BROKEN_EDGE = 0.2e-3
+"""Width of edges without indication, at 45 degrees [m]."""
+
+_STEPS_MM = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000)
+"""Upper ends of the steps of nominal sizes [mm]."""
+
+
+class Grade(Enum):
+    """Widths of the tolerance interval over the steps of nominal sizes [um]."""
+
+    IT7 = (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63, 70, 80, 90)
+    IT9 = (25, 30, 36, 43, 52, 62, 74, 87, 100, 115, 130, 140, 155, 175, 200, 230)
+    IT11 = (60, 75, 90, 110, 130, 160, 190, 220, 250, 290, 320, 360, 400, 440, 500, 560)
+
+
+class Seat(Enum):
+    """Support of the rim; the value stands behind its bore's dimension."""
+
+    FREE = ""
+    ONE_PIECE = "one piece"
+    FITTED = "H7/h6"
+
+
+@dataclass(frozen=True)
+class WheelDrawing:
+    """A wheel with the entries of its title block.
+
+    Attributes:
+        wheel: as it is made.
+        robot: name of the robot that it is made for.
+        identity: of the design, such as the beginning of its hash.
+        tool: program and version.
+        speed: highest in service [rad/s]; None: not limited.
+        grade: of balance [mm/s].
+    """
+
+    wheel: Wheel
+    robot: str
+    identity: str
+    tool: str
+    speed: float | None
+    grade: float = FLYWHEEL_GRADE
+
+    @cached_property
+    def masses(self) -> tuple[float, ...]:
+        """Mass of each piece, the rim first [kg]."""
+        return tuple(part.mass_properties().mass for part in wheel_parts(self.wheel))
+
+    @cached_property
+    def mass_properties(self) -> MassProperties:
+        """Mass properties of the whole wheel, without the motor's rotor."""
+        return total(wheel_parts(self.wheel))
+
+
+def seat(wheel: Wheel) -> Seat:
+    """Support of a wheel's rim."""
+    if wheel.hub is None:
+        return Seat.FREE
+    return Seat.ONE_PIECE if wheel.one_piece else Seat.FITTED
+
+
+def widest(wheel: Wheel) -> float:
+    """Largest extent along the axis [m]."""
+    return max(wheel.rim.height, 0.0 if wheel.hub is None else wheel.hub.height)
+
+
+def tolerance_width(size: float, grade: Grade) -> float:
+    """Width of the tolerance interval of a nominal size [m]; sizes above 1 m as 1 m."""
+    step = bisect_left(_STEPS_MM, round(1e3 * size, 9))
+    return 1e-6 * grade.value[min(step, len(_STEPS_MM) - 1)]
+
+
+def plus_minus(size: float, grade: Grade) -> float:
+    """Half the tolerance width, rounded down to 0.01 mm and at least that [m]."""
+    return 1e-5 * max(1.0, (1e5 * tolerance_width(size, grade) / 2.0 + 1e-9) // 1.0)
+
+
+def permissible_eccentricity(grade: float, speed: float) -> float:
+    """Permissible distance of the centre of mass from the axis, e_per = G / w [m].
+
+    Args:
+        grade: G, the speed of the centre of mass [mm/s], which names the grade.
+        speed: highest in service [rad/s].
+    """
+    return 1e-3 * grade / speed
+
+
+def permissible_unbalance(mass: float, grade: float, speed: float) -> float:
+    """Permissible unbalance U_per = e_per m [kg m] of a rotor of that mass [kg]."""
+    return mass * permissible_eccentricity(grade, speed)
+
+
+def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:
+    """Mass that breaking the rim's sharp edges removes [kg], and its share of the inertia."""
+    sharp, broken = (
+        total(wheel_parts(Wheel(replace(wheel.rim, chamfer=chamfer, balancing=None))))
+        for chamfer in (0.0, BROKEN_EDGE)
+    )
+    whole = total(wheel_parts(wheel)).inertia[2, 2]
+    return sharp.mass - broken.mass, float((sharp.inertia - broken.inertia)[2, 2] / whole)
+
+
+def rim_inertia_error(wheel: Wheel) -> float:
+    """Largest relative error of the rim's spin inertia within the tolerances of its sizes.
+
+    First order of I = pi rho h (R^4 - r^4) / 2: 4 (R^3 dR + r^3 dr) / (R^4 - r^4) + dh / h.
+    """
+    r, R, h = wheel.rim.inner_radius, wheel.rim.outer_radius, wheel.rim.height
+    outer = plus_minus(2.0 * R, Grade.IT9) / 2.0
+    if seat(wheel) is Seat.FITTED:
+        inner = tolerance_width(2.0 * r, Grade.IT7) / 2.0
+    else:
+        inner = plus_minus(2.0 * r, Grade.IT9) / 2.0
+    return 4.0 * (R**3 * outer + r**3 * inner) / (R**4 - r**4) + plus_minus(h, Grade.IT11) / h
+
+
+def plain(length: float) -> str:
+    """Label of a length [m] in mm with at most two decimals; the general tolerance holds."""
+    return f"{1e3 * length:.2f}".rstrip("0").rstrip(".")
+
+
+def toleranced(length: float, grade: Grade) -> str:
+    """Label of a length [m] with half the width of a grade on both sides, as `82.60 ±0.04`."""
+    return f"{1e3 * length:.2f} ±{1e3 * plus_minus(length, grade):.2f}"
+
+
+def diameter(radius: float) -> str:
+    """Label of the diameter of a radius [m]."""
+    return f"Ø{plain(2.0 * radius)}"
+
+
+def rim_diameter(wheel: Wheel) -> str:
+    """Label of the rim's outer diameter."""
+    return f"Ø{toleranced(2.0 * wheel.rim.outer_radius, Grade.IT9)}"
+
+
+def bore_diameter(wheel: Wheel) -> str:
+    """Label of the rim's inner diameter; where it sits on a web, with the fit of both."""
+    if seat(wheel) is Seat.FITTED:
+        return f"Ø{2e3 * wheel.rim.inner_radius:.2f} {Seat.FITTED.value}"
+    return f"Ø{toleranced(2.0 * wheel.rim.inner_radius, Grade.IT9)}"
+
+
+def diameters(wheel: Wheel) -> Iterator[tuple[str, float, float]]:
+    """Turned diameters but the hub's bore, from the inside out.
+
+    Yields the label, the radius [m], and the extent along the axis there [m].
+    """
+    if wheel.hub is not None:
+        yield diameter(wheel.hub.radius), wheel.hub.radius, wheel.hub.height
+    if wheel.rim.inner_radius > 0.0:
+        yield bore_diameter(wheel), wheel.rim.inner_radius, wheel.rim.height
+    yield rim_diameter(wheel), wheel.rim.outer_radius, wheel.rim.height
+
+
+def holes(ring: HoleRing) -> tuple[str, ...]:
+    """Label of a ring of holes, line by line."""
+    number = "" if ring.count == 1 else f"{ring.count} × "
+    size, place = f"{number}{diameter(ring.hole_radius)}", f"on {diameter(ring.radius)} ±0.1"
+    if isinf(ring.depth):
+        return f"{size} through", place
+    return size, place, f"{plain(ring.depth)} deep, both faces"

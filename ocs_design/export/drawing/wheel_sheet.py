@@ -1,0 +1,73 @@
+"""Technical drawing of a design's wheel, as SVG and PDF."""
+
+import hashlib
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from ocs_design import __version__
+from ocs_design.device.device import Device
+from ocs_design.export.device_parts import wheel_geometry
+from ocs_design.export.drawing.sheet import Item
+from ocs_design.export.drawing.title_block import frame, notes, parts_list, title_block
+from ocs_design.export.drawing.views import front_view, lay_out, section_view
+from ocs_design.export.drawing.wheel import WheelDrawing
+from ocs_design.export.drawing.writers import pdf_bytes, svg_bytes
+from ocs_design.export.module_bodies import highest_speed
+
+if TYPE_CHECKING:
+    from ocs_design.export.formats import Notes, Subject
+
+DIGITS = 12
+"""Length of the hash that says which design a sheet belongs to."""
+
+
+def write(subject: "Subject", folder: Path) -> "Notes":
+    """Write `wheel.svg` and `wheel.pdf`, which show the same."""
+    for suffix, content in draw_wheel(wheel_drawing(subject.device, subject.name)).items():
+        (folder / f"wheel.{suffix}").write_bytes(content)
+    return ()
+
+
+def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
+    """Content of the sheet of a device's wheel; all its wheels are equal.
+
+    Args:
+        device: that the wheel belongs to.
+        robot: its name.
+    """
+    speed = highest_speed(device.motor)
+    return WheelDrawing(
+        wheel=wheel_geometry(device.flywheel),
+        robot=robot,
+        identity=device_hash(device),
+        tool=f"ocs-design {__version__}",
+        speed=speed if math.isfinite(speed) else None,
+    )
+
+
+def device_hash(device: Device) -> str:
+    """Hash of wheel, motor and carrier as `design.json` has them: the same for the same parts."""
+    parts = msgspec.json.encode((device.flywheel, device.motor, device.carrier))
+    return hashlib.sha256(parts).hexdigest()[:DIGITS]
+
+
+def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
+    """Section and front view in first-angle projection, notes, list of parts and title block."""
+    layout = lay_out(drawing.wheel)
+    return [
+        *frame(),
+        *section_view(drawing.wheel, layout),
+        *front_view(drawing.wheel, layout),
+        *notes(drawing),
+        *parts_list(drawing),
+        *title_block(drawing, layout.scale),
+    ]
+
+
+def draw_wheel(drawing: WheelDrawing) -> dict[str, bytes]:
+    """Files of the drawing by the suffixes `svg` and `pdf`; the same bytes every time."""
+    items, title = wheel_sheet(drawing), f"Flywheel of {drawing.robot}"
+    return {"svg": svg_bytes(items, title), "pdf": pdf_bytes(items, title)}

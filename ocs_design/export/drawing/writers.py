@@ -1,0 +1,114 @@
+"""Writers of a sheet: SVG and PDF, which show the same, each with the same bytes every time."""
+
+from collections.abc import Iterable
+from io import BytesIO
+from xml.sax.saxutils import escape
+
+from reportlab.pdfgen.canvas import Canvas
+
+from ocs_design.export.drawing.sheet import (
+    FONT,
+    HEIGHT,
+    WIDTH,
+    Area,
+    Circle,
+    Item,
+    Line,
+    Pen,
+    Text,
+    printable,
+)
+
+FONTS = "Helvetica, Arial, 'Liberation Sans', sans-serif"
+"""Typefaces of SVG in order of preference; all but the last have Helvetica's widths."""
+
+POINTS_PER_MM = 72.0 / 25.4
+
+
+def pdf_bytes(items: Iterable[Item], title: str) -> bytes:
+    """PDF of the sheet, one A4 page."""
+    buffer = BytesIO()
+    size = (WIDTH * POINTS_PER_MM, HEIGHT * POINTS_PER_MM)
+    # Invariant: without the clock. Uncompressed it is 17 kB, and a person can read it.
+    canvas = Canvas(buffer, pagesize=size, invariant=1, pageCompression=0)
+    canvas.setTitle(printable(title))
+    canvas.setCreator("ocs-design")
+    canvas.setAuthor("")
+    canvas.setSubject("")
+    canvas.scale(POINTS_PER_MM, POINTS_PER_MM)
+    # PDF counts y upwards.
+    for item in items:
+        match item:
+            case Line((x1, y1), (x2, y2), pen):
+                _take(canvas, pen)
+                canvas.line(x1, HEIGHT - y1, x2, HEIGHT - y2)
+            case Circle((x, y), radius, pen):
+                _take(canvas, pen)
+                canvas.circle(x, HEIGHT - y, radius)
+            case Area(((x, y), *others)):
+                path = canvas.beginPath()
+                path.moveTo(x, HEIGHT - y)
+                for x, y in others:
+                    path.lineTo(x, HEIGHT - y)
+                path.close()
+                canvas.drawPath(path, stroke=0, fill=1)
+            case Text():
+                x, y = item.start
+                text = canvas.beginText()
+                text.setFont(FONT, item.size)
+                turn = (0, 1, -1, 0) if item.upright else (1, 0, 0, 1)
+                text.setTextTransform(*turn, x, HEIGHT - y)
+                text.textOut(item.text)
+                canvas.drawText(text)
+    canvas.save()
+    return buffer.getvalue()
+
+
+def _take(canvas: Canvas, pen: Pen) -> None:
+    canvas.setLineWidth(pen.width)
+    canvas.setDash(list(pen.dashes))
+
+
+def svg_bytes(items: Iterable[Item], title: str) -> bytes:
+    """SVG of the sheet at its size, A4."""
+    elements = []
+    for item in items:
+        match item:
+            case Line((x1, y1), (x2, y2), pen):
+                place = f'x1="{_num(x1)}" y1="{_num(y1)}" x2="{_num(x2)}" y2="{_num(y2)}"'
+                elements.append(f"<line {place}{_stroke(pen)}/>")
+            case Circle((x, y), radius, pen):
+                place = f'cx="{_num(x)}" cy="{_num(y)}" r="{_num(radius)}"'
+                elements.append(f"<circle {place}{_stroke(pen)}/>")
+            case Area(corners):
+                points = " ".join(f"{_num(x)},{_num(y)}" for x, y in corners)
+                elements.append(f'<polygon points="{points}" fill="#000" stroke="none"/>')
+            case Text():
+                x, y = item.start
+                turn = f' transform="rotate(-90 {_num(x)} {_num(y)})"' if item.upright else ""
+                # With its width, it is as long in any font as it was measured.
+                width = f' textLength="{_num(item.width)}" lengthAdjust="spacingAndGlyphs"'
+                elements.append(
+                    f'<text x="{_num(x)}" y="{_num(y)}" font-size="{_num(item.size)}" fill="#000" '
+                    f'stroke="none"{width if item.text else ""}{turn} xml:space="preserve">'
+                    f"{escape(item.text)}</text>"
+                )
+    body = "\n".join(elements)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}mm" height="{HEIGHT:g}mm" '
+        f'viewBox="0 0 {WIDTH:g} {HEIGHT:g}" font-family="{FONTS}" fill="none" stroke="#000">\n'
+        f"<title>{escape(title)}</title>\n"
+        f'<rect width="{WIDTH:g}" height="{HEIGHT:g}" fill="#fff" stroke="none"/>\n'
+        f"{body}\n</svg>\n"
+    ).encode()
+
+
+def _stroke(pen: Pen) -> str:
+    dashes = " ".join(map(_num, pen.dashes))
+    pattern = f' stroke-dasharray="{dashes}"' if dashes else ""
+    return f' stroke-width="{_num(pen.width)}"{pattern}'
+
+
+def _num(value: float) -> str:
+    """Coordinate to the tenth of a micrometre."""
+    return f"{round(value, 4) + 0.0:.10g}"

@@ -1,0 +1,172 @@
+"""Triangle meshes: closed ones of parts, and those of MuJoCo's primitive shapes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate, product
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.flattening import (
+    SECTIONS,
+    circle_radius_factor,
+    flat_outline,
+    ring_points,
+)
+from ocs_design.parts.part import Part
+from ocs_design.parts.solids import Prism, Revolution, Solid
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Surface of triangles.
+
+    Attributes:
+        vertices: [m], shape (n, 3).
+        triangles: indices of vertices, counter-clockwise from outside, shape (m, 3).
+    """
+
+    vertices: FloatArray
+    triangles: NDArray[np.int64]
+
+    @classmethod
+    def of_corners(cls, corners: FloatArray) -> "Mesh":
+        """Mesh of the triangles' corners, shape (m, 3, 3): equal points become one vertex."""
+        # Adding 0 makes one number of both zeros.
+        vertices, places = np.unique(corners.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)
+        triangles = places.reshape(-1, 3)
+        a, b, c = triangles.T
+        return cls(vertices, triangles[(a != b) & (b != c) & (c != a)])
+
+    @property
+    def corners(self) -> FloatArray:
+        """Corners of the triangles [m], shape (m, 3, 3)."""
+        return np.asarray(self.vertices[self.triangles])
+
+
+def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
+    """Part as one closed mesh.
+
+    Args:
+        part: to mesh.
+        sections: chords of a full circle. Polygons inscribed in circles would weigh less than they
+            do: see `circle_radius_factor`.
+    """
+    if len(part.joined) == 1 and not part.cut:
+        return solid_mesh(part.joined[0], sections)
+    found = part_manifold(part, sections).to_mesh64()
+    return Mesh(
+        np.asarray(found.vert_properties, dtype=np.float64),
+        np.asarray(found.tri_verts, dtype=np.int64),
+    )
+
+
+def merged(meshes: Sequence[Mesh]) -> Mesh:
+    """Several surfaces in one."""
+    starts = accumulate((len(mesh.vertices) for mesh in meshes), initial=0)
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate(
+            [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)]
+        ),
+    )
+
+
+def part_manifold(part: Part, sections: int = SECTIONS) -> "Manifold":
+    """Part as a manifold for boolean operations."""
+    # Only parts of several solids need it.
+    from manifold3d import Manifold, Mesh64, OpType  # noqa: PLC0415
+
+    joined, cut = (
+        [
+            Manifold(Mesh64(mesh.vertices, mesh.triangles.astype(np.uint64)))
+            for mesh in (solid_mesh(solid, sections) for solid in solids)
+        ]
+        for solids in (part.joined, part.cut)
+    )
+    whole = Manifold.batch_boolean(joined, OpType.Add)
+    return Manifold.batch_boolean([whole, *cut], OpType.Subtract)
+
+
+def solid_mesh(solid: Solid, sections: int = SECTIONS) -> Mesh:
+    """Solid as a closed mesh."""
+    match solid:
+        case Revolution():
+            factor = np.array([circle_radius_factor(sections), 1.0])
+            return Mesh.of_corners(_revolved(factor * solid.profile, sections))
+        case Prism():
+            from manifold3d import triangulate  # noqa: PLC0415 - robot files need no prisms
+
+            ring = flat_outline(solid.outline, sections)
+            ends = triangulate([ring])
+            low, high = (
+                np.column_stack([ring, np.full(len(ring), height)])
+                for height in (solid.low, solid.high)
+            )
+            sides = _sides(low[None], high[None])
+            corners = np.concatenate([sides, low[ends[:, ::-1]], high[ends]])
+            place = solid.placement
+            return Mesh.of_corners(np.asarray(corners @ place.rotation.T + place.position))
+
+
+def _revolved(profile: FloatArray, sections: int) -> FloatArray:
+    """Corners of the triangles of a closed profile, r and z, turned about z; some may be void."""
+    radii, heights = profile.T
+    ring = ring_points(2.0 * pi * np.arange(sections) / sections)
+    plane = radii[:, None, None] * ring
+    height = np.broadcast_to(heights[:, None, None], (*plane.shape[:2], 1))
+    vertices = np.concatenate([plane, height], axis=2)
+    return _sides(vertices, np.roll(vertices, -1, axis=0))
+
+
+def _sides(lower: FloatArray, upper: FloatArray) -> FloatArray:
+    """Triangles between closed rings of points, each shape (rings, n, 3)."""
+    next_lower, next_upper = (np.roll(ring, -1, axis=1) for ring in (lower, upper))
+    pairs = ((lower, next_lower, next_upper), (lower, next_upper, upper))
+    return np.concatenate([np.stack(three, axis=2).reshape(-1, 3, 3) for three in pairs])
+
+
+PRIMITIVE_SECTIONS, RINGS = 32, 8
+"""Chords of a full circle of MuJoCo's primitive shapes, and of a quarter of a meridian."""
+
+
+def primitive_mesh(kind: int, size: FloatArray) -> Mesh | None:
+    """Surface of a primitive shape of MuJoCo about its own centre; None for other kinds.
+
+    Args:
+        kind: value of `mujoco.mjtGeom`.
+        size: as MuJoCo has it: half extents, radii, or radius and half length along z [m].
+    """
+    # MuJoCo takes a third of a second to import, and parts need no primitives.
+    from mujoco import mjtGeom  # noqa: PLC0415
+
+    quarter = np.linspace(0.0, 0.5 * pi, RINGS + 1)
+    arc = np.column_stack([np.cos(quarter), np.sin(quarter)])
+    # Exactly on the axis, its points are one.
+    arc[-1, 0] = 0.0
+    mirrored = arc[:0:-1] * [1.0, -1.0]
+    r, h = size[0], size[1]
+    match mjtGeom(kind):
+        case mjtGeom.mjGEOM_BOX:
+            signs = np.array(list(product((-1.0, 1.0), repeat=3)))
+            sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4)]
+            sides.append((1, 5, 7, 3))
+            triangles = [three for a, b, c, d in sides for three in ((a, b, c), (a, c, d))]
+            return Mesh(signs * size, np.array(triangles, dtype=np.int64))
+        case mjtGeom.mjGEOM_SPHERE | mjtGeom.mjGEOM_ELLIPSOID as found:
+            radii = size if found == mjtGeom.mjGEOM_ELLIPSOID else np.full(3, r)
+            ball = _revolved(np.concatenate([mirrored, arc]), PRIMITIVE_SECTIONS)
+            return Mesh.of_corners(ball * radii)
+        case mjtGeom.mjGEOM_CYLINDER:
+            profile = np.array([[0.0, -h], [r, -h], [r, h], [0.0, h]])
+            return Mesh.of_corners(_revolved(profile, PRIMITIVE_SECTIONS))
+        case mjtGeom.mjGEOM_CAPSULE:
+            caps = [r * mirrored - [0.0, h], r * arc[:1] - [0.0, h], r * arc + [0.0, h]]
+            return Mesh.of_corners(_revolved(np.concatenate(caps), PRIMITIVE_SECTIONS))
+    return None

@@ -1,0 +1,105 @@
+"""Bodies of a module in robot files: the wheel, its carrier, and the limits of its motor.
+
+Braked, a module is its wheel and its carrier, the rotor held still within the motor. Turning, the
+wheel's body carries all momentum about the spin axis, the rotor's through the gear included: h =
+I_rim + s N J_r. So the carrier's body gives up s N J_r, and the sum stays what the scales and a
+pendulum would say of the braked module. For direct drive this is the rotor itself; behind a gear
+the carrier keeps J_r - s N J_r of it, and the joint's armature holds the rest of its energy.
+"""
+
+import numpy as np
+
+from ocs_design.actuation.drive import Drive
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Device, Module
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.rotations import rotation_from_rpy
+from ocs_design.robot.tree import Placement
+
+WHEEL_CONTACT_BIT = 1 << 16
+"""`conaffinity` of the wheels in MJCF: a floor with this bit in its `contype` meets them."""
+
+_MOST = 0.99
+"""Largest share of its axial inertia that a carrier may give up: the rest must be a possible body.
+
+Beyond that, with a light motor behind a high gear, the files have more inertia than the module.
+"""
+
+_DISC = np.diag([1.0, 0.0, 1.0])
+"""Axes of the module's frame across which a rotor has second moments."""
+
+_FROM_MODULE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""Rotation from the left module's frame, its axis along y, to its wheel's, the axis along z."""
+
+
+def wheel_rpy(axis: FloatArray) -> tuple[float, float, float]:
+    """Roll, pitch and yaw [rad] of the frame whose z axis is the unit vector `axis`.
+
+    Of all such frames the one without pitch: `z = Rz(yaw) Rx(roll) e_z
+    = (sin(yaw) sin(roll), -cos(yaw) sin(roll), cos(roll))`, with roll in -pi..0. For the paper's
+    axes roll is -90 degrees, and yaw is the incidence angle, negative on the left.
+    """
+    x, y, z = (float(value) for value in axis)
+    return -float(np.arctan2(np.hypot(x, y), z)), 0.0, float(np.arctan2(-x, y))
+
+
+def wheel_placement(module: Module) -> Placement:
+    """Frame of the flywheel in the base frame B: at its centre, z along the spin axis."""
+    return Placement(rotation_from_rpy(*wheel_rpy(module.axis)), module.position)
+
+
+def carrier_placement(module: Module) -> Placement:
+    """Frame of the carrier in the wheel's, the motor on the side of the other module.
+
+    All modules are of the same parts: the right one is turned by half a turn about the vertical,
+    and so the mirror image of the left.
+    """
+    if module.name == "left":
+        return Placement.identity()
+    return Placement(np.diag([-1.0, 1.0, -1.0]), np.zeros(3))
+
+
+def largest_torque(motor: Drive) -> float | None:
+    """Torque that the motor gives at rest [N m]; None if it is not limited."""
+    limits = [limit for limit in (motor.torque_limit, motor.stall_torque) if limit is not None]
+    return min(limits, default=None)
+
+
+def highest_speed(motor: Drive) -> float:
+    """Speed of the wheel at which voltage or mechanics end [rad/s]; inf: not limited."""
+    if motor.speed_max is None:
+        return motor.no_load_speed
+    return min(motor.no_load_speed, motor.speed_max)
+
+
+def flywheel_inertial(device: Device) -> MassProperties:
+    """Wheel in its own frame, with the inertia of its rotor: a disc's, half as much across.
+
+    Without that half a thin rim with a rotor would have more inertia about its axis than a flat
+    body can have, and simulators refuse it.
+    """
+    wheel, rotor = device.flywheel, device.motor.rotor_inertia
+    across = wheel.transverse_inertia + 0.5 * rotor
+    inertia = np.diag([across, across, wheel.spin_inertia])
+    return MassProperties(wheel.mass, np.zeros(3), inertia)
+
+
+def carrier_inertial(device: Device, module: Module) -> MassProperties | None:
+    """Carrier (all that stands still) in the frame of the module's wheel; None if massless.
+
+    It lacks what the wheel's body has of the rotor's inertia.
+    """
+    carrier = device.carrier
+    if carrier.mass == 0.0:
+        return None
+    second = np.trace(carrier.inertia) / 2.0 * np.eye(3) - carrier.inertia
+    # A motor of unknown length is a thin disc, which rounding must not make flatter than flat.
+    second[1, 1] = max(second[1, 1], 0.0)
+    # Inertia of the largest rotor that may be taken off.
+    tilt = second[1, 2] ** 2 / second[1, 1] if second[1, 1] > 0.0 else 0.0
+    spare = float(2.0 * min(second[0, 0], second[2, 2] - tilt))
+    second -= min(device.motor.rotor_inertia, _MOST * spare) / 2.0 * _DISC
+    inertia = np.trace(second) * np.eye(3) - second
+    left = MassProperties(carrier.mass, carrier.mass_properties().com, inertia)
+    turn = carrier_placement(module).rotation @ _FROM_MODULE
+    return left.moved(turn, np.zeros(3))

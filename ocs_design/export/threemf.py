@@ -1,0 +1,102 @@
+"""Meshes in 3MF, from which slicers know the unit and the parts' names, unlike from STL.
+
+3MF Consortium, 3D Manufacturing Format, Core Specification 1.3: a zip archive with the model in
+XML, in millimetres. Written here, for the files of trimesh and lib3mf differ from run to run.
+"""
+
+from collections.abc import Mapping
+from io import BytesIO
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+import numpy as np
+
+from ocs_design.export.device_parts import wheel_pieces
+from ocs_design.export.formats import Notes, Subject
+from ocs_design.export.meshes import Mesh
+from ocs_design.export.stl import wheel_meshes
+
+GAP = 0.01
+"""Distance of parts on the printer's bed [m]."""
+
+_MILLIMETRES = 1000.0
+
+_CONTENT_TYPES = """<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+<Default Extension="rels" \
+ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+</Types>
+"""
+
+_RELATIONSHIPS = """<?xml version="1.0" encoding="UTF-8"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+<Relationship Id="model" Target="/3D/3dmodel.model" \
+Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+"""
+
+_MODEL = """<?xml version="1.0" encoding="UTF-8"?>
+<model unit="millimeter" xml:lang="en-US" \
+xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<metadata name="Application">ocs-design</metadata>
+<resources>
+{objects}
+</resources>
+<build>
+{items}
+</build>
+</model>
+"""
+
+
+def write(subject: Subject, folder: Path) -> Notes:
+    """Write `flywheel.3mf` with all pieces of the wheel."""
+    wheel = subject.device.flywheel
+    names = (piece.name for piece in wheel_pieces(wheel).values())
+    meshes = dict(zip(names, wheel_meshes(wheel).values(), strict=True))
+    (folder / "flywheel.3mf").write_bytes(threemf_bytes(meshes))
+    return ()
+
+
+def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
+    """3MF with each mesh as an object of that name, in a row on the bed; the same bytes always."""
+    objects, items, left = [], [], 0.0
+    for number, (name, mesh) in enumerate(meshes.items(), start=1):
+        vertices = "\n".join(
+            f'<vertex x="{x:.6f}" y="{y:.6f}" z="{z:.6f}"/>'
+            for x, y, z in _MILLIMETRES * mesh.vertices
+        )
+        triangles = "\n".join(
+            f'<triangle v1="{first}" v2="{second}" v3="{third}"/>'
+            for first, second, third in mesh.triangles
+        )
+        objects.append(
+            f'<object id="{number}" type="model" name={quoteattr(name)}><mesh>\n'
+            f"<vertices>\n{vertices}\n</vertices>\n"
+            f"<triangles>\n{triangles}\n</triangles>\n"
+            "</mesh></object>"
+        )
+        # Side by side along x, none below the bed.
+        low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+        x, y, z = _MILLIMETRES * (np.array([left, 0.0, 0.0]) - low)
+        items.append(
+            f'<item objectid="{number}" transform="1 0 0 0 1 0 0 0 1 {x:.6f} {y:.6f} {z:.6f}"/>'
+        )
+        left += float(high[0] - low[0]) + GAP
+    model = _MODEL.format(objects="\n".join(objects), items="\n".join(items))
+    buffer = BytesIO()
+    with ZipFile(buffer, "w") as archive:
+        _add(archive, "[Content_Types].xml", _CONTENT_TYPES)
+        _add(archive, "_rels/.rels", _RELATIONSHIPS)
+        _add(archive, "3D/3dmodel.model", model)
+    return buffer.getvalue()
+
+
+def _add(archive: ZipFile, name: str, text: str) -> None:
+    # Without the clock and the machine that the archive is made on.
+    entry = ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
+    entry.create_system = 3
+    entry.compress_type = ZIP_DEFLATED
+    archive.writestr(entry, text)

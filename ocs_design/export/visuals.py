@@ -1,0 +1,155 @@
+"""Visual shapes of a module's carrier, all that stands still: housing, foot, motor, cage, gear.
+
+They have neither mass nor contact, and stand in the frame of the module's wheel.
+"""
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+
+from ocs_design.device.device import Device, Module
+from ocs_design.device.solids import drive_solids, motor_mount
+from ocs_design.export.device_parts import printed_foot
+from ocs_design.export.meshes import Mesh, part_mesh
+from ocs_design.export.module_bodies import carrier_placement
+from ocs_design.export.stl import METRES, stl_bytes, wheel_stl
+from ocs_design.parts.cage import Cage, cage_part
+from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
+from ocs_design.parts.housing import housing_parts
+from ocs_design.parts.part import Part
+from ocs_design.robot.tree import Placement, ShapeKind
+
+WHEEL_MESH = "meshes/ocs_flywheel.stl"
+"""Mesh of the wheel beside every exported robot file."""
+
+HOUSING_MESH, FOOT_MESH = Path("meshes/ocs_housing.stl"), Path("meshes/ocs_foot.stl")
+CAGE_MESH = Path("meshes/ocs_cage.stl")
+"""Meshes in metres beside every exported robot file: drum with lid in the frame of the left wheel,
+foot and cage in their own."""
+
+Color: TypeAlias = tuple[float, float, float, float]
+"""Red, green, blue and opacity, 0..1, as screens take them (sRGB)."""
+
+SHELL: Color = (0.25, 0.45, 0.75, 0.3)
+PRINT: Color = (0.25, 0.45, 0.75, 1.0)
+MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
+GEAR: Color = (0.75, 0.6, 0.3, 1.0)
+_COLORS = {"housing": SHELL, "foot": PRINT, "cage": SHELL, "motor": MOTOR, "gear": GEAR}
+
+_SECTIONS = 64
+"""Chords of a full circle: a quarter of those that are printed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Visual:
+    """Shape without mass and contact.
+
+    Attributes:
+        name: housing, foot, cage, motor or gear.
+        kind, size: see `ShapeKind`: box, cylinder or mesh.
+        place: of the shape's frame in that of the module's wheel.
+        mesh: of `carrier_meshes`; None for the other kinds.
+    """
+
+    name: str
+    kind: ShapeKind
+    size: tuple[float, ...]
+    place: Placement
+    mesh: Path | None = None
+
+    @property
+    def color(self) -> Color:
+        """Red, green, blue and opacity, 0..1."""
+        return _COLORS[self.name]
+
+
+def carrier_meshes(device: Device) -> Mapping[Path, Mesh]:
+    """Meshes that `carrier_visuals` name; none where the carrier weighs nothing."""
+    if device.carrier.mass == 0.0:
+        return {}
+    return _meshes(printed_foot(device), motor_mount(device).cage)
+
+
+def device_meshes(device: Device) -> Mapping[Path, bytes]:
+    """STL of wheel and carrier in metres, by their places beside the robot file."""
+    wheel = {Path(WHEEL_MESH): wheel_stl(device.flywheel, units_per_metre=METRES)}
+    carrier = {
+        path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
+        for path, mesh in carrier_meshes(device).items()
+    }
+    return {**wheel, **carrier}
+
+
+@lru_cache(maxsize=1)
+def _meshes(foot: Foot, cage: Cage | None) -> Mapping[Path, Mesh]:
+    """Meshes by their files; every robot file asks for them."""
+    drum, lid = housing_parts(foot.housing)
+    # As one, for faces that they share would be seen through the shell.
+    housing = Part("housing", drum.density, drum.joined + lid.joined, drum.cut + lid.cut)
+    parts = {HOUSING_MESH: housing, FOOT_MESH: foot_part(foot)}
+    if cage is not None:
+        parts[CAGE_MESH] = cage_part(cage)
+    return {path: part_mesh(part, _SECTIONS) for path, part in parts.items()}
+
+
+def carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
+    """Housing, foot and cage as meshes, and motor and gear where their sizes are known."""
+    if device.carrier.mass == 0.0:
+        return ()
+    foot, turn, cage = printed_foot(device), carrier_placement(module), motor_mount(device).cage
+    visuals = [
+        _mesh("housing", HOUSING_MESH, turn),
+        _mesh("foot", FOOT_MESH, turn @ foot.placement),
+    ]
+    if cage is not None:
+        visuals.append(_mesh("cage", CAGE_MESH, turn @ cage_placement(foot, cage)))
+    return (*visuals, *_drive(device, turn, {"motor", "gear"}))
+
+
+def plain_carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
+    """Carrier of boxes and cylinders, for files that stand alone."""
+    if device.carrier.mass == 0.0:
+        return ()
+    foot, turn = printed_foot(device), carrier_placement(module)
+    half_base, half_plate = BASE_THICKNESS / 2.0, PLATE_THICKNESS / 2.0
+    half_height, behind = (foot.wheel_height - BASE_THICKNESS) / 2.0, half_plate - foot.back
+    base = turn @ foot.placement @ _shifted(0.0, 0.0, half_base)
+    plate, top = turn @ _shifted(0.0, half_height, behind), turn @ _shifted(0.0, 0.0, behind)
+    return (
+        _cylinder("housing", foot.housing.radius, foot.housing.half_height, turn),
+        _cylinder("foot", foot.base_radius, half_base, base),
+        # The plate, and its round top.
+        Visual("foot", ShapeKind.BOX, (foot.half_width, half_height, half_plate), plate),
+        _cylinder("foot", foot.half_width, half_plate, top),
+        *_drive(device, turn, {"cage"}),
+        *_drive(device, turn, {"motor", "gear"}),
+    )
+
+
+def cage_placement(foot: Foot, cage: Cage) -> Placement:
+    """Frame of the cage in the wheel's: its floor away from the foot's plate."""
+    return _shifted(0.0, 0.0, -foot.back - cage.length)
+
+
+def _drive(device: Device, turn: Placement, names: Collection[str]) -> Iterator[Visual]:
+    """Motor, gear and cage as cylinders, those of these names."""
+    for solid in drive_solids(device):
+        if solid.name in names:
+            middle = turn @ _shifted(0.0, -solid.up, (solid.low + solid.high) / 2.0)
+            yield _cylinder(solid.name, solid.radius, (solid.high - solid.low) / 2.0, middle)
+
+
+def _cylinder(name: str, radius: float, half_length: float, place: Placement) -> Visual:
+    return Visual(name, ShapeKind.CYLINDER, (radius, half_length), place)
+
+
+def _mesh(name: str, path: Path, place: Placement) -> Visual:
+    return Visual(name, ShapeKind.MESH, (1.0, 1.0, 1.0), place, path)
+
+
+def _shifted(x: float, y: float, z: float) -> Placement:
+    return Placement(np.eye(3), np.array([x, y, z]))

@@ -1,0 +1,222 @@
+"""Everything that is drawn for a sample, and the simulated world as it was built with it."""
+
+import copy
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from math import inf, isfinite
+from types import MappingProxyType
+
+import mujoco
+import numpy as np
+
+from ocs_design.actuation.drive import Drive
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import SIDES, Device
+from ocs_design.device.naming import PREFIX
+from ocs_design.requirement.froude import standing_height
+from ocs_design.requirement.uncertainty import (
+    Distribution,
+    UncertaintySection,
+    Uniform,
+    default_uncertainty,
+)
+from ocs_design.robot.mujoco_bodies import quaternion
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation import quaternions
+from ocs_design.simulation.imperfections import AirDrag, Imperfections
+from ocs_design.simulation.scene import FLYWHEELS
+from ocs_design.simulation.world import World
+
+PARTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "inertia_error": ("x", "y", "z"),
+        "com_error": ("x", "y", "z"),
+        "incidence_error": SIDES,
+        "torque_constant_error": SIDES,
+        "resistance_error": SIDES,
+        "coulomb_friction": SIDES,
+        "viscous_friction": SIDES,
+        "attitude_bias": ("roll", "pitch"),
+        "gyro_bias": ("x", "y", "z"),
+    }
+)
+"""Keys of `[reality]` that are drawn more than once."""
+
+KEYS = tuple(field.name for field in fields(UncertaintySection))
+NAMES = tuple(f"{key}.{part}" if part else key for key in KEYS for part in PARTS.get(key, ("",)))
+"""Every number that is drawn for a sample, in order."""
+
+FRICTION_SHARE = 0.01
+"""No-load torque over the torque limit of a motor whose maker does not state its current."""
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """The distribution of every key of `[reality]`, nothing left open."""
+
+    spreads: Mapping[str, Distribution]
+
+    @classmethod
+    def of(cls, stated: UncertaintySection, robot: Robot, device: Device) -> "Uncertainty":
+        """What is stated, and the defaults in place of the rest."""
+        coulomb, viscous = _friction(device.motor)
+        default = replace(
+            default_uncertainty(standing_height(robot)),
+            coulomb_friction=coulomb,
+            viscous_friction=viscous,
+        )
+        return cls({key: getattr(stated, key) or getattr(default, key) for key in KEYS})
+
+    @property
+    def by_name(self) -> Mapping[str, Distribution]:
+        """Distribution of every number that is drawn, in the order of `NAMES`."""
+        return {name: self.spreads[key_of(name)] for name in NAMES}
+
+    def written(self) -> Mapping[str, str]:
+        """Text that differs between any two sets of distributions (SI)."""
+        return {key: spread.written() for key, spread in self.spreads.items()}
+
+
+def key_of(name: str) -> str:
+    """The key of `[reality]` that one of `NAMES` is drawn from."""
+    return name.partition(".")[0]
+
+
+def no_load_torque(motor: Drive) -> float:
+    """What a motor gives to turn freely, at its wheel [N m]; 0 where nothing is known of it."""
+    if motor.no_load_current is not None and motor.torque_constant is not None:
+        return motor.gear_ratio * motor.torque_constant * motor.no_load_current
+    return FRICTION_SHARE * (motor.torque_limit or 0.0)
+
+
+def _friction(motor: Drive) -> tuple[Distribution, Distribution]:
+    """Coulomb and viscous: half of the no-load torque each, at the speed that it is stated for.
+
+    How it divides is not in any data sheet; half to one and a half times that is drawn of each.
+    """
+    half = 0.5 * no_load_torque(motor)
+    speed = motor.no_load_speed if isfinite(motor.no_load_speed) else inf
+    if motor.rated_voltage and motor.bus_voltage:
+        speed *= motor.rated_voltage / motor.bus_voltage
+    return Uniform(0.5 * half, 1.5 * half), Uniform(0.5 * half / speed, 1.5 * half / speed)
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """What was drawn, in the order of `NAMES`.
+
+    Attributes:
+        seed, index: which the values follow from, whatever else is drawn with them.
+        values: SI, shape (len(NAMES),).
+    """
+
+    seed: int
+    index: int
+    values: FloatArray
+
+    @classmethod
+    def draw(cls, uncertainty: Uncertainty, seed: int, index: int) -> "Sample":
+        """Sample `index` of `seed`, by a counter-based generator of its own."""
+        generator = np.random.Generator(np.random.Philox(_sequence(seed, index)))
+        parts = generator.random(len(NAMES)).tolist()
+        spreads = uncertainty.by_name.values()
+        values = [spread.at(part) for spread, part in zip(spreads, parts, strict=True)]
+        return cls(seed, index, np.array(values))
+
+    def of(self, key: str) -> FloatArray:
+        """All parts of a key of `[reality]`, shape (parts,)."""
+        return self.values[_PLACES[key]]
+
+    def only(self, key: str) -> float:
+        """Value of a key that has no parts."""
+        return float(self.of(key)[0])
+
+    def noise(self, flight: int) -> np.random.SeedSequence:
+        """Random numbers for the noise of a flight, by the flight's number."""
+        return _sequence(self.seed, self.index, flight)
+
+
+def _sequence(seed: int, *key: int) -> np.random.SeedSequence:
+    return np.random.SeedSequence(seed, spawn_key=key)
+
+
+_ENDS = np.cumsum([len(PARTS.get(key, ("",))) for key in KEYS]).tolist()
+_PLACES = {
+    key: slice(end - len(PARTS.get(key, ("",))), end) for key, end in zip(KEYS, _ENDS, strict=True)
+}
+
+
+_TURNS_WITH_INCIDENCE = np.array([-1.0, 1.0])
+"""About z of B: a larger incidence turns the left axis clockwise as seen from above."""
+
+
+def built(world: World, sample: Sample, flight: int, air: AirDrag) -> World:
+    """Flight of one robot as it was built.
+
+    Args:
+        world: as designed, with its wheels active.
+        sample: see `Sample`.
+        flight: its number, for the noise.
+        air: drag of a wheel, the same for all.
+    """
+    model = copy.copy(world.model)
+    # The robot's masses; the device is made and weighed with more care.
+    own = [
+        index for index in range(1, model.nbody) if not model.body(index).name.startswith(PREFIX)
+    ]
+    model.body_mass[own] *= 1.0 + sample.only("mass_error")
+    model.body_inertia[own] *= 1.0 + sample.only("mass_error")
+    base = quaternions.matrix(world.chain.end)
+    _alter_trunk(model, world.addresses.trunk, base, sample)
+    errors = sample.of("incidence_error") * _TURNS_WITH_INCIDENCE
+    for name, error in zip(FLYWHEELS, errors, strict=True):
+        body = model.body(name).id
+        turn = quaternions.from_axis_angle(base[:, 2], error)
+        model.body_quat[body] = quaternions.product(turn, model.body_quat[body])
+    model.geom_friction[:, 0] = sample.only("contact_friction")
+    # The real motor's limits are those of its drive; friction adds to them when it brakes.
+    motors = list(world.addresses.motors)
+    model.actuator_ctrllimited[motors] = model.actuator_forcelimited[motors] = 0
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+
+    law, constant = world.law, 1.0 + sample.of("torque_constant_error")
+    voltage = 1.0 + sample.only("bus_voltage_error")
+    resistance = 1.0 + sample.of("resistance_error")
+    imperfections = Imperfections(
+        attitude_bias=sample.of("attitude_bias"),
+        gyro_bias=sample.of("gyro_bias"),
+        attitude_noise=sample.only("attitude_noise"),
+        gyro_noise=sample.only("gyro_noise"),
+        stream=sample.noise(flight),
+        torque_gain=constant,
+        # V = R i + k_t w (docs/theory.md, The motor).
+        no_load_speed=law.no_load_speed * voltage / constant,
+        line_slope=law.line_slope * resistance / constant**2,
+        torque_limit=law.torque_limit * constant,
+        coulomb=sample.of("coulomb_friction"),
+        viscous=sample.of("viscous_friction"),
+        air=air,
+        air_factor=sample.only("air_drag"),
+        delay=round(sample.only("torque_delay") / world.model.opt.timestep),
+    )
+    return replace(world, model=model, imperfections=imperfections)
+
+
+def _alter_trunk(model: mujoco.MjModel, trunk: int, base: FloatArray, sample: Sample) -> None:
+    """Second moments of mass and centre of mass along the axes of B.
+
+    The matrix of second moments `S = tr(I)/2 - I` is scaled from both sides, so that an inertia
+    stays one that some distribution of mass has, however far it is off.
+    """
+    model.body_ipos[trunk] += base @ sample.of("com_error")
+    error = sample.of("inertia_error")
+    if error.any():
+        principal = quaternions.matrix(model.body_iquat[trunk])
+        inertia = principal * model.body_inertia[trunk] @ principal.T
+        stretch = base * np.sqrt(1.0 + error) @ base.T
+        moments = stretch @ (0.5 * np.trace(inertia) * np.eye(3) - inertia) @ stretch
+        values, axes = np.linalg.eigh(np.trace(moments) * np.eye(3) - moments)
+        model.body_inertia[trunk] = values
+        model.body_iquat[trunk] = quaternion(axes * np.linalg.det(axes))
+    # MuJoCo takes a short cut where the inertial frame is the body's own.
+    model.body_sameframe[trunk] = 0

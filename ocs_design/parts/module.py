@@ -1,0 +1,118 @@
+"""A module without its wheel: motor, gear, housing and foot, with what holds them together."""
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from ocs_design.actuation.motor import Gear, GearRoom, Motor
+from ocs_design.common.arrays import FloatArray
+from ocs_design.parts import foot as feet
+from ocs_design.parts import housing as housings
+from ocs_design.parts.foot import (
+    TRUNK_SCREWS,
+    Foot,
+    foot_mass_per_height,
+    foot_moments,
+    plate_back,
+    trunk_screw_moments,
+)
+from ocs_design.parts.housing import (
+    LID_SCREWS,
+    Housing,
+    half_height,
+    housing_mass_per_height,
+    housing_moments,
+    lid_screw_moments,
+)
+from ocs_design.parts.moments import Carrier, MassMoments, Real, point, round_body
+from ocs_design.parts.motor_mount import HeldMotor, MotorMount, mount_of
+from ocs_design.parts.printed import LID_SCREW, MountHoles
+
+SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
+"""Mass of the screws of lid and foot [kg]."""
+
+
+class Shell(Protocol):
+    """What stands around a wheel, whose mass grows with the rim's outer radius and height [m]."""
+
+    def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
+        """Mass [kg]."""
+
+    def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
+        """Change of the mass with the height, R held [kg/m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Printed:
+    """Drum, lid and foot, with their screws.
+
+    Attributes:
+        mount_reach: of the holes in floor and plate, which the foot's plate is as wide as [m]; a
+            scalar, or an array that broadcasts. The holes themselves are not in any mass.
+    """
+
+    mount_reach: float | FloatArray
+
+    def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
+        """Mass of all of it [kg]."""
+        foot = _foot(outer_radius, height, np.asarray(self.mount_reach))
+        parts = (*housings.undrilled(foot.housing), feet.undrilled(foot))
+        return sum((part.mass() for part in parts), SHELL_SCREWS + 0.0 * height)
+
+    def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
+        """Change of its mass with the rim's height, R held [kg/m]."""
+        foot = _foot(outer_radius, height, np.asarray(self.mount_reach))
+        return housing_mass_per_height(outer_radius) + foot_mass_per_height(foot)
+
+
+def shell_moments(outer_radius: Real, height: Real, mount_reach: Real) -> MassMoments[Real]:
+    """Moments of drum, lid and foot about the wheel's centre, with screws, no mount's holes."""
+    foot = _foot(outer_radius, height, mount_reach)
+    housing = housing_moments(foot.housing) + lid_screw_moments(foot.housing)
+    return housing + foot_moments(foot) + trunk_screw_moments(foot)
+
+
+def _foot(outer_radius: Real, height: Real, mount_reach: Real) -> Foot[Real]:
+    """The foot under a housing whose mount's holes stay within some radius."""
+    reach: Any = mount_reach
+    return Foot(Housing(outer_radius, height, MountHoles(reach), LID_SCREW))
+
+
+def drive_moments(motor: Motor) -> MassMoments[float]:
+    """Moments of a motor about its middle.
+
+    A solid cylinder; a thin disc if its length is not known, a point without its diameter. Either
+    errs on the side of less inertia, by little: a motor of 0.1 kg and 40 mm has 2e-5 kg m^2 about
+    its axis, Solo12 5e-2 kg m^2.
+    """
+    mass, radius = motor.mass or 0.0, (motor.diameter or 0.0) / 2.0
+    across = mass * (3.0 * radius**2 + (motor.length or 0.0) ** 2) / 12.0
+    return round_body(mass, mass * radius**2 / 2.0, across)
+
+
+def gear_moments(gear: Gear) -> MassMoments[float]:
+    """Moments of a gear as a point, about the middle of the outside of the housing's floor."""
+    room = gear.room or GearRoom()
+    return point(gear.mass).shifted(-(plate_back(0.0) + room.depth / 2.0), room.center)
+
+
+def behind_floor(motor: Motor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
+    """Moments of what is the same for any wheel, about the middle of the outside of the floor.
+
+    The motor stands behind the foot's plate; its mount's holes go through floor and plate.
+    """
+    driving = drive_moments(motor).shifted(motor_middle(motor, mount), mount.up)
+    return driving + gear_moments(gear) + mount.moments()
+
+
+def motor_middle(motor: HeldMotor, mount: MotorMount) -> float:
+    """Place of the motor's middle along the axis from the outside of the housing's floor [m]."""
+    return -(plate_back(0.0) + mount.gap + (motor.length or 0.0) / 2.0)
+
+
+def standing(motor: Motor, gear: Gear, outer_radius: float, height: float) -> Carrier:
+    """All that stands still around a wheel of that outer radius and height [m]."""
+    mount = mount_of(motor, gear.room)
+    behind = behind_floor(motor, gear, mount).shifted(-half_height(height), 0.0)
+    return Carrier.of(behind + shell_moments(outer_radius, height, mount.holes.reach))

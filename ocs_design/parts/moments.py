@@ -1,0 +1,269 @@
+"""Mass with its first and second moments, which add up: of one body, or of many as arrays.
+
+A module's own frame stands at the wheel's centre: x forward across the wheel's axis, y along it
+away from the other module, z up. Both modules are symmetric to their yz plane, and each is the
+other turned about the vertical: left and right are the same parts.
+
+Everything is built of operators alone, for numbers, arrays and CasADi's symbols alike.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from math import cos, sin
+from typing import TYPE_CHECKING, Any, Generic
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.robot.mass import MassProperties
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    Real = TypeVar("Real", float, FloatArray, default=float)
+else:
+    # Python 3.13's own has defaults: a `Part` is a `Part[float]`.
+    from typing import TypeVar
+
+    Real = TypeVar("Real", float, FloatArray)
+
+
+@dataclass(frozen=True, eq=False)
+class MassMoments(Table, Generic[Real]):
+    """Integrals over the mass of a body, about the origin of some frame.
+
+    Attributes:
+        mass: [kg].
+        y, z, x: of the coordinates [kg m].
+        xx, yy, zz, yz, xy, xz: of their products [kg m^2]. Those with a single x are zero in a body
+            that is symmetric to the yz plane.
+    """
+
+    mass: Real
+    y: Real | float
+    z: Real | float
+    xx: Real
+    yy: Real
+    zz: Real | float
+    yz: Real | float
+    x: Real | float = 0.0
+    xy: Real | float = 0.0
+    xz: Real | float = 0.0
+
+    def __add__(self, other: "MassMoments[Real]") -> "MassMoments[Real]":
+        return MassMoments(
+            self.mass + other.mass,
+            self.y + other.y,
+            self.z + other.z,
+            self.xx + other.xx,
+            self.yy + other.yy,
+            self.zz + other.zz,
+            self.yz + other.yz,
+            self.x + other.x,
+            self.xy + other.xy,
+            self.xz + other.xz,
+        )
+
+    def times(self, factor: float) -> "MassMoments[Real]":
+        """Moments of so many equal bodies; -1: of one that is cut out."""
+        return MassMoments(
+            factor * self.mass,
+            factor * self.y,
+            factor * self.z,
+            factor * self.xx,
+            factor * self.yy,
+            factor * self.zz,
+            factor * self.yz,
+            factor * self.x,
+            factor * self.xy,
+            factor * self.xz,
+        )
+
+    def moved(self, x: Real | float, y: Real | float, z: Real | float) -> "MassMoments[Real]":
+        """Moments of the body moved along all three axes [m]."""
+        dx, dy, dz = (product(distance, self.mass) for distance in (x, y, z))
+        new_x, new_y, new_z = self.x + dx, self.y + dy, self.z + dz
+        return MassMoments(
+            mass=self.mass,
+            y=new_y,
+            z=new_z,
+            xx=self.xx + product(x, self.x + new_x),
+            yy=self.yy + product(y, self.y + new_y),
+            zz=self.zz + product(z, self.z + new_z),
+            yz=self.yz + product(z, self.y) + product(y, new_z),
+            x=new_x,
+            xy=self.xy + product(y, self.x) + product(x, new_y),
+            xz=self.xz + product(z, self.x) + product(x, new_z),
+        )
+
+    def shifted(self, along: Real | float, up: Real | float) -> "MassMoments[Real]":
+        """Moments of the body moved along the wheel's axis y and upwards [m]."""
+        return self.moved(0.0, along, up)
+
+    def turned(self, rotation: FloatArray) -> "MassMoments[Real]":
+        """Moments in the axes of another frame, to which `rotation` takes coordinates."""
+        rows = [[(k, entry) for k, entry in enumerate(row) if entry] for row in rotation.tolist()]
+        first = (self.x, self.y, self.z)
+        second = (
+            (self.xx, self.xy, self.xz),
+            (self.xy, self.yy, self.yz),
+            (self.xz, self.yz, self.zz),
+        )
+
+        turned: list[Any] = [sum(entry * first[k] for k, entry in row) for row in rows]
+        products: list[list[Any]] = [
+            [sum(a * b * second[k][m] for k, a in one for m, b in other) for other in rows]
+            for one in rows
+        ]
+        return MassMoments(
+            self.mass,
+            turned[1],
+            turned[2],
+            products[0][0],
+            products[1][1],
+            products[2][2],
+            products[1][2],
+            turned[0],
+            products[0][1],
+            products[0][2],
+        )
+
+    def around(self, count: int, first: float = 0.0) -> "MassMoments[Real]":
+        """Moments of so many equal flat bodies, evenly spaced around the z axis.
+
+        Args:
+            count: of bodies; three and more have the same about every axis across.
+            first: by which the first of them is turned [rad].
+        """
+        if count > 2:
+            across = count * (self.xx + self.yy) / 2.0
+            return MassMoments(count * self.mass, 0.0, 0.0, across, across, 0.0, 0.0)
+        c, s = cos(first), sin(first)
+        one = self if first == 0.0 else self.turned(np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]))
+        return one if count == 1 else one + replace(one, x=-one.x, y=-one.y)
+
+
+def product(one: Real | float, other: Real | float) -> Real | float:
+    """Product of two; nothing of anything is the number nothing, and costs no array."""
+    return 0.0 if isinstance(one, float) and one == 0.0 else one * other
+
+
+def stacked(bodies: Sequence[MassMoments[float]]) -> MassMoments[FloatArray]:
+    """Moments of many bodies as arrays, shape (n,) each."""
+    names = [field.name for field in fields(MassMoments)]
+    rows = [[getattr(body, name) for name in names] for body in bodies]
+    return MassMoments(*np.array(rows, dtype=np.float64).reshape(-1, len(names)).T)
+
+
+def mass_properties(moments: MassMoments[Any]) -> MassProperties:
+    """Mass, centre of mass and the inertia about it, in the same frame."""
+    com = np.array([moments.x, moments.y, moments.z]) / moments.mass
+    about = np.array(
+        [
+            [moments.xx, moments.xy, moments.xz],
+            [moments.xy, moments.yy, moments.yz],
+            [moments.xz, moments.yz, moments.zz],
+        ]
+    ) - moments.mass * np.outer(com, com)
+    return MassProperties(float(moments.mass), com, np.trace(about) * np.eye(3) - about)
+
+
+def nothing() -> MassMoments[float]:
+    """Moments of no body at all."""
+    return MassMoments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def point(mass: Real) -> MassMoments[Real]:
+    """Moments of a point at the origin [kg]."""
+    zero = 0.0 * mass
+    return MassMoments(mass, zero, zero, zero, zero, zero, zero)
+
+
+def round_body(mass: Real, axial_inertia: Real, transverse_inertia: Real) -> MassMoments[Real]:
+    """Moments of a body of revolution about y with its centre of mass at the origin.
+
+    Args:
+        mass: [kg].
+        axial_inertia, transverse_inertia: about y, and about any axis across it [kg m^2].
+    """
+    zero = 0.0 * mass
+    across, along = axial_inertia / 2.0, transverse_inertia - axial_inertia / 2.0
+    return MassMoments(mass, zero, zero, across, along, across, zero)
+
+
+def ring(mass: Real, radius: Real, count: int = 4) -> MassMoments[Real]:
+    """Moments of equal points on a circle around y, the first straight up, in its plane.
+
+    Args:
+        mass: of all of them [kg].
+        radius: of the circle [m].
+        count: of points; from three on it makes no difference.
+    """
+    zero, both = 0.0 * mass * radius, mass * radius**2
+    mass = mass + zero
+    if count <= 2:
+        up = mass * radius if count == 1 else zero
+        return MassMoments(mass, zero, up, zero, zero, both, zero)
+    return MassMoments(mass, zero, zero, both / 2.0, zero, both / 2.0, zero)
+
+
+def flat_ring(mass: Real, radius: Real) -> MassMoments[Real]:
+    """Moments of points evenly on a circle around the vertical, in its plane [kg, m]."""
+    zero, across = 0.0 * mass * radius, mass * radius**2 / 2.0
+    return MassMoments(mass + zero, zero, zero, across, across, zero, zero)
+
+
+@dataclass(frozen=True)
+class Carrier:
+    """What of a module stands still with the trunk, as one body.
+
+    It is symmetric to the vertical plane through the wheel's axis. With the mass and both inertias
+    alone it is a body of revolution at the wheel's centre.
+
+    Attributes:
+        mass: [kg].
+        axial_inertia: about the axis through its centre of mass that is parallel to the wheel's,
+            the rotor held still [kg m^2].
+        transverse_inertia: about the horizontal one across it [kg m^2].
+        vertical_inertia: about the vertical one [kg m^2]; None: as about the other across.
+        product_of_inertia: entry yz of its inertia tensor, y along the wheel's axis away from the
+            other module, z up [kg m^2].
+        along, up: of its centre of mass from the wheel's centre [m]; negative: towards the other
+            module, below the axis.
+    """
+
+    mass: float
+    axial_inertia: float
+    transverse_inertia: float
+    vertical_inertia: float | None = None
+    product_of_inertia: float = 0.0
+    along: float = 0.0
+    up: float = 0.0
+
+    @classmethod
+    def of(cls, moments: MassMoments[float]) -> "Carrier":
+        """Carrier with these mass and moments about the wheel's centre."""
+        mass = moments.mass
+        along, up = (moments.y / mass, moments.z / mass) if mass else (0.0, 0.0)
+        xx, yy, zz = moments.xx, moments.yy - mass * along**2, moments.zz - mass * up**2
+        return cls(
+            mass=float(mass),
+            axial_inertia=float(xx + zz),
+            transverse_inertia=float(yy + zz),
+            vertical_inertia=float(xx + yy),
+            product_of_inertia=float(mass * along * up - moments.yz),
+            along=float(along),
+            up=float(up),
+        )
+
+    @property
+    def inertia(self) -> FloatArray:
+        """Inertia about its centre of mass in the module's frame [kg m^2], shape (3, 3)."""
+        across, upright = self.transverse_inertia, self.vertical_inertia
+        found = np.diag([across, self.axial_inertia, across if upright is None else upright])
+        found[1, 2] = found[2, 1] = self.product_of_inertia
+        return found
+
+    def mass_properties(self) -> MassProperties:
+        """Mass properties in the module's frame."""
+        return MassProperties(self.mass, np.array([0.0, self.along, self.up]), self.inertia)

@@ -1,0 +1,99 @@
+"""What all printed parts share: their walls, ears for screws, and the holes around a motor.
+
+Sizes may be arrays or CasADi's symbols: outlines of them can be weighed, not drawn.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import reduce
+from operator import add
+from typing import Any
+
+import numpy as np
+
+from ocs_design.actuation.fasteners import Screw, screw
+from ocs_design.actuation.motor import BoltCircle
+from ocs_design.parts.moments import MassMoments, Real, nothing
+from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
+from ocs_design.parts.solids import HERE, Prism
+from ocs_design.robot.tree import Placement
+
+WALL = 1.6e-3
+"""[m], four lines of a 0.4 mm nozzle: walls and floors that hold screws without infill."""
+
+CLEARANCE = 2.0e-3
+"""[m], between rim and shell on all sides: ten times what a printer is out over 100 mm (0.2 %), and
+room for a screw's head."""
+
+DENSITY = 1270.0
+"""[kg/m^3], of PETG: tougher than PLA, prints without a heated chamber. Prusament PETG, technical
+data sheet, Prusa Polymers, 2020: 1.27 g/cm^3."""
+
+LID_SCREW = screw("M2")
+
+UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""Takes coordinates of the wheel's frame, z along its axis and y down, to the module's own."""
+
+
+def ear_radius(held: Screw) -> float:
+    """Radius of an ear's round end: a wall around the widest hole [m]."""
+    return held.clearance_hole / 2.0 + WALL
+
+
+def ear_axis(radius: Real, held: Screw) -> Real:
+    """Radius that an ear's hole is on, so that it stays outside a band of that radius [m]."""
+    return radius + held.clearance_hole / 2.0
+
+
+def eared(radius: Real, held: Screw, first: float) -> Eared[Real]:
+    """The disc of a band with ears that are made for a screw.
+
+    Args:
+        radius: of the band, outside [m].
+        held: the screw.
+        first: angle of the first ear [rad].
+    """
+    return Eared(radius, ear_axis(radius, held), ear_radius(held), first)
+
+
+def ear_holes(band: Eared[Real], diameter: float, low: Real, high: Real) -> Prism[Real]:
+    """Holes in the ears of a band between two heights [m]."""
+    radius: Any = diameter / 2.0
+    hole: Disc[Real] = Disc(radius, (band.axis, 0.0))
+    return Prism(hole, low, high, count=EAR_COUNT, first=band.first)
+
+
+@dataclass(frozen=True)
+class MountHoles:
+    """Through holes around the wheel's axis, which motor, housing and foot share.
+
+    The motor stands outside, on the foot's plate, or in a cage there; the screws of either go
+    through the housing's floor and the plate, with their heads inside.
+
+    Attributes:
+        pilot_radius: of the hole in the middle, for shaft and centring collar [m]; 0: none.
+        screws: around it, the first of them straight up; None: no others.
+    """
+
+    pilot_radius: float = 0.0
+    screws: BoltCircle | None = None
+
+    @property
+    def reach(self) -> float:
+        """Radius that the holes stay within [m]."""
+        return self.pilot_radius if self.screws is None else self.screws.reach
+
+    def prisms(
+        self, low: float, high: float, placement: Placement = HERE
+    ) -> Iterator[Prism[float]]:
+        """The holes along the z axis of `placement`, between two heights on it [m]."""
+        if self.pilot_radius > 0.0:
+            yield Prism(Disc(self.pilot_radius), low, high, placement)
+        if self.screws is not None:
+            hole = Disc(self.screws.hole_radius, (0.0, -self.screws.radius))
+            yield Prism(hole, low, high, placement, self.screws.bolts)
+
+    def cut_out(self, thickness: float) -> MassMoments[float]:
+        """Moments of what they take of a printed plate [m], about its middle."""
+        holes = (hole.moments() for hole in self.prisms(-thickness / 2.0, thickness / 2.0))
+        return reduce(add, holes, nothing()).turned(UPRIGHT).times(-DENSITY)

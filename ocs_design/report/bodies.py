@@ -1,0 +1,122 @@
+"""Bodies of the robot and its device, as a GLB of ours shows them."""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.export.visuals import Color
+from ocs_design.robot.rotations import rotation_from_quaternion
+from ocs_design.robot.tree import Placement
+
+_HEADER, _CHUNK = 12, 8
+"""Sizes of the heads of a GLB and of its chunks [bytes] (glTF 2.0, section 4)."""
+
+_TYPES = {5123: "<u2", 5125: "<u4", 5126: "<f4"}
+"""NumPy types of the components of an accessor; others are not written."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Triangles in one colour.
+
+    Attributes:
+        vertices: in the frame of their body [m], shape (n, 3).
+        faces: corners of each triangle, shape (m, 3).
+        color: see `Color`.
+    """
+
+    vertices: FloatArray
+    faces: NDArray[np.int64]
+    color: Color
+
+
+@dataclass(frozen=True, eq=False)
+class ShownBody:
+    """Surfaces that move as one.
+
+    Attributes:
+        name: of the body in MuJoCo.
+        placement: of its frame in B, in the posture of the file.
+        surfaces: one for each colour.
+    """
+
+    name: str
+    placement: Placement
+    surfaces: tuple[Surface, ...]
+
+
+def read_bodies(glb: bytes) -> tuple[ShownBody, ...]:
+    """Every body that has something to show, in the order of the tree."""
+    return tuple(body for body in _Reading(glb).bodies() if body.surfaces)
+
+
+class _Reading:
+    """One file, written by `export.glb`: nodes with a mesh are geoms, the others bodies."""
+
+    def __init__(self, glb: bytes) -> None:
+        length = int.from_bytes(glb[_HEADER : _HEADER + 4], "little")
+        start = _HEADER + _CHUNK
+        self._document: Mapping[str, Any] = json.loads(glb[start : start + length])
+        self._buffer = glb[start + length + _CHUNK :]
+
+    def bodies(self) -> Iterator[ShownBody]:
+        """All bodies; the root only stands the base frame upright, what hangs on it is in B."""
+        (root,) = self._document["scenes"][0]["nodes"]
+        for child in self._document["nodes"][root].get("children", ()):
+            yield from self._below(child, Placement.identity())
+
+    def _below(self, index: int, parent: Placement) -> Iterator[ShownBody]:
+        node = self._document["nodes"][index]
+        place = parent @ _placement(node)
+        children = node.get("children", ())
+        geoms = [child for child in children if "mesh" in self._document["nodes"][child]]
+        yield ShownBody(node["name"], place, tuple(self._surfaces(geoms)))
+        for child in children:
+            if child not in geoms:
+                yield from self._below(child, place)
+
+    def _surfaces(self, geoms: list[int]) -> Iterator[Surface]:
+        """Surfaces of a body, one for all geoms of one colour."""
+        by_color: dict[Color, list[tuple[FloatArray, NDArray[np.int64]]]] = {}
+        for geom in geoms:
+            node = self._document["nodes"][geom]
+            place = _placement(node)
+            for part in self._document["meshes"][node["mesh"]]["primitives"]:
+                points = self._values(part["attributes"]["POSITION"]).reshape(-1, 3)
+                moved = points.astype(np.float64) @ place.rotation.T + place.position
+                faces = self._values(part["indices"]).reshape(-1, 3).astype(np.int64)
+                by_color.setdefault(self._color(part["material"]), []).append((moved, faces))
+        for color, pieces in by_color.items():
+            counts = np.cumsum([0, *(len(points) for points, _ in pieces)])
+            shifted = [faces + first for (_, faces), first in zip(pieces, counts, strict=False)]
+            vertices = np.concatenate([points for points, _ in pieces])
+            yield Surface(vertices, np.concatenate(shifted), color)
+
+    def _values(self, accessor: int) -> NDArray[Any]:
+        entry = self._document["accessors"][accessor]
+        view = self._document["bufferViews"][entry["bufferView"]]
+        first = view["byteOffset"]
+        content = self._buffer[first : first + view["byteLength"]]
+        return np.frombuffer(content, dtype=_TYPES[entry["componentType"]])
+
+    def _color(self, material: int) -> Color:
+        look = self._document["materials"][material]["pbrMetallicRoughness"]
+        red, green, blue, opacity = look["baseColorFactor"]
+        return _screen(red), _screen(green), _screen(blue), opacity
+
+
+def _placement(node: Mapping[str, Any]) -> Placement:
+    x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
+    rotation = rotation_from_quaternion(np.array([w, x, y, z]))
+    return Placement(rotation, np.array(node.get("translation", (0.0, 0.0, 0.0))))
+
+
+def _screen(part: float) -> float:
+    """Code of an intensity in sRGB (IEC 61966-2-1), inverse of what the GLB was written by."""
+    code = 12.92 * part if part <= 0.0031308 else 1.055 * part ** (1.0 / 2.4) - 0.055
+    return float(round(code, 4))

@@ -1,0 +1,96 @@
+"""The torque-speed plane of the drive, with the maneuvers drawn into it."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.actuation.drive import RESERVE, Drive
+from ocs_design.common.arrays import FloatArray
+from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Rule
+from ocs_design.report.charts.scales import Axis
+from ocs_design.report.quantities import in_unit
+from ocs_design.report.story import Flight
+
+_SAMPLES = 121
+
+
+@dataclass(frozen=True)
+class _Plane:
+    """Limits of a drive at its wheel; infinite where it has none [N m, rad/s]."""
+
+    stall: float
+    no_load: float
+    limit: float
+
+    @classmethod
+    def of(cls, motor: Drive) -> "_Plane":
+        """Plane of a recorded motor, which has None for what is not limited."""
+        stall = np.inf if motor.stall_torque is None else motor.stall_torque
+        limit = np.inf if motor.torque_limit is None else motor.torque_limit
+        return cls(stall, motor.no_load_speed, limit)
+
+    def highest(self, speed: FloatArray, share: float) -> FloatArray:
+        """Largest torque forwards at a speed, on a share of voltage and current."""
+        if np.isinf(self.stall):
+            line = np.where(np.abs(speed) <= share * self.no_load, np.inf, 0.0)
+        else:
+            line = self.stall * (share - speed / self.no_load)
+        return np.asarray(np.minimum(share * self.limit, np.maximum(line, 0.0)))
+
+
+def torque_speed_chart(motor: Drive, flights: Sequence[Flight]) -> Chart | None:
+    """Torque and speed in all four quadrants; None where nothing was flown with the device."""
+    driven = [flight for flight in flights if flight.ocs]
+    if not driven:
+        return None
+    plane = _Plane.of(motor)
+    # The path of each wheel up to touchdown; what follows is no part of the maneuver.
+    paths = [
+        Line(
+            in_unit(flight.wheel_speed(wheel)[flight.driven], "rpm"),
+            flight.wheel_torque(wheel)[flight.driven],
+            ink,
+            "" if index else flight.scenario,
+            dashed=index > 0,
+        )
+        for flight, ink in zip(driven, SERIES * 2, strict=False)
+        for index, wheel in enumerate(flight.wheels)
+    ]
+    reach = max(float(np.nanmax(np.abs(path.x))) for path in paths)
+    torque = max(float(np.nanmax(np.abs(path.y))) for path in paths)
+    widest = max(reach, in_unit(min(plane.no_load, 3.0 * np.pi / 30.0 * reach), "rpm"))
+    tallest = 1.15 * max(torque, plane.limit if np.isfinite(plane.limit) else 0.0) or 1.0
+    fastest = np.inf if motor.speed_max is None else in_unit(motor.speed_max, "rpm")
+    top = min(widest, fastest)
+    marks: list[Mark] = list(_limits(plane, np.linspace(-top, top, _SAMPLES), tallest))
+    if fastest <= 1.05 * widest:
+        marks.append(Rule(-fastest, upright=True, ink=Ink.PLAIN))
+        marks.append(Rule(fastest, upright=True, label="top speed", ink=Ink.PLAIN))
+    return Chart(
+        name="torque_speed",
+        title="Torque and speed of a wheel",
+        description="What the drive can give at each speed of the wheel, at full voltage and "
+        f"current and at the {RESERVE:.0%} that the design may use, with the path of each maneuver "
+        "up to touchdown; solid for the first wheel, dashed for the others.",
+        x=Axis("wheel speed", "rpm", -1.05 * widest, 1.05 * widest),
+        y=Axis("torque on the wheel", "N m", -tallest, tallest),
+        marks=(*marks, *paths),
+        height=330.0,
+    )
+
+
+def _limits(plane: _Plane, speed_rpm: FloatArray, tallest: float) -> Iterator[Mark]:
+    """Whole range of the drive, and the edge of what the design may use."""
+    if np.isinf(plane.stall) and np.isinf(plane.limit):
+        return
+    speed = speed_rpm * np.pi / 30.0
+    for share in (1.0, RESERVE):
+        high = np.minimum(plane.highest(speed, share), 2.0 * tallest)
+        low = -np.minimum(plane.highest(-speed, share), 2.0 * tallest)
+        x = np.concatenate([speed_rpm, speed_rpm[::-1], speed_rpm[:1]])
+        y = np.concatenate([high, low[::-1], high[:1]])
+        if share == 1.0:
+            yield Area(x, y, Ink.FAINT, "range of the drive")
+        else:
+            yield Line(x, y, Ink.FAINT, f"{share:.0%} of it", dashed=True, thin=True)

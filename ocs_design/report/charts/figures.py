@@ -1,0 +1,54 @@
+"""Every figure of a report: of the design, of its drive, of each maneuver."""
+
+from collections.abc import Iterator, Mapping
+
+from ocs_design.common.files import safe_name
+from ocs_design.report.charts.chart import Chart
+from ocs_design.report.charts.drive import torque_speed_chart
+from ocs_design.report.charts.flights import distribution_charts, time_charts
+from ocs_design.report.charts.incidence import criterion_chart, posture_chart
+from ocs_design.report.charts.momentum import bound_charts, ellipsoid_chart, momentum_chart
+from ocs_design.report.story import Story
+
+FOLDER = "figures"
+"""Subfolder of an output folder."""
+
+
+def incidence_charts(story: Story) -> Iterator[Chart]:
+    """Inertia and momenta in the plane of the wheel axes, and how the axes could stand."""
+    yield ellipsoid_chart(story.design)
+    yield momentum_chart(story)
+    yield criterion_chart(story.design)
+    if story.postures:
+        yield posture_chart(story.design, story.postures)
+
+
+def drive_charts(story: Story) -> Iterator[Chart]:
+    """Torque and speed that the motors are asked for."""
+    chart = torque_speed_chart(story.design.ocs.motor, story.flights)
+    if chart is not None:
+        yield chart
+
+
+def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
+    """Time series of each maneuver, by its name."""
+    scenarios = dict.fromkeys(flight.scenario for flight in story.flights)
+    return {
+        scenario: time_charts(
+            scenario,
+            safe_name(scenario),
+            [flight for flight in story.flights if flight.scenario == scenario],
+        )
+        for scenario in scenarios
+    }
+
+
+def all_charts(story: Story) -> Iterator[Chart]:
+    """Every chart that has a file of its own."""
+    yield from bound_charts(story)
+    yield from incidence_charts(story)
+    yield from drive_charts(story)
+    for charts in scenario_charts(story).values():
+        yield from charts
+    if story.monte_carlo is not None:
+        yield from distribution_charts(story.monte_carlo)

@@ -1,0 +1,193 @@
+"""Time series of a maneuver with the device and without it, and histograms of many flights."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.files import safe_name
+from ocs_design.common.units import to_unit
+from ocs_design.monte_carlo.summary import MonteCarloRecord, Spread
+from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Rule
+from ocs_design.report.charts.scales import Axis
+from ocs_design.report.quantities import in_unit
+from ocs_design.report.story import Flight
+from ocs_design.simulation.verdict import LANDING_TOLERANCE
+
+_HEIGHT, _HISTOGRAM = 236.0, 200.0
+"""Heights of the charts [px]."""
+
+_AXES = (("pitch", "y", Ink.BLUE), ("roll", "x", Ink.VERMILION))
+
+
+def time_charts(scenario: str, name: str, flights: Sequence[Flight]) -> tuple[Chart, ...]:
+    """Attitude, rates, and speed and torque of the wheels over time.
+
+    Args:
+        scenario: name of the maneuver.
+        name: the same, fit for file names and elements.
+        flights: of this maneuver, with the device first where there is one.
+    """
+    tolerance = to_unit(LANDING_TOLERANCE, "deg")
+    allowed = [
+        Rule(side * tolerance, upright=False, ink=Ink.FAINT, name="allowed at touchdown")
+        for side in (-1.0, 1.0)
+    ]
+    angles = _about_axes(flights, "{axis}_rad", "deg", thin=False)
+    tilt = Chart(
+        name=f"tilt_{name}",
+        title=f"{scenario}: attitude of the trunk",
+        description="Pitch and roll over time, solid with the device, dashed without it; rules "
+        f"at {tolerance:.0f} degrees either side of level are the landing tolerance.",
+        x=_time(flights),
+        y=Axis.around("angle", "deg", [-2.0 * tolerance, 2.0 * tolerance, *_ends(angles)]),
+        marks=(*angles, *allowed, *_events(flights)),
+        height=_HEIGHT,
+    )
+    lines = _about_axes(flights, "rate_{letter}_rad_s", "deg/s", thin=True)
+    rates = Chart(
+        name=f"rates_{name}",
+        title=f"{scenario}: rates of the trunk",
+        description="Pitch and roll rate over time, solid with the device, dashed without it.",
+        x=_time(flights),
+        y=Axis.around("rate", "deg/s", _ends(lines)),
+        marks=(*lines, *_events(flights)),
+        height=_HEIGHT,
+    )
+    speeds, torques = [], []
+    for flight in flights:
+        if not flight.ocs:
+            continue
+        lines = _of_wheels(flight, flight.wheel_speed, "rpm", "wheel", thin=False)
+        speed = Chart(
+            name=f"wheel_speed_{name}",
+            title=f"{scenario}: speed of the wheels",
+            description="Speed of each wheel relative to the trunk over time.",
+            x=_time([flight]),
+            y=Axis.around("wheel speed", "rpm", _ends(lines)),
+            marks=(*lines, *_events([flight])),
+            height=_HEIGHT,
+        )
+        limits = _limits(flight)
+        lines = _of_wheels(flight, flight.wheel_torque, "N m", "motor", thin=True)
+        torque = Chart(
+            name=f"wheel_torque_{name}",
+            title=f"{scenario}: torque of the motors",
+            description="Torque of each motor on its wheel over time, within the shaded range that "
+            "the first one can give at its speed.",
+            x=_time([flight]),
+            y=Axis.around("torque", "N m", _ends([*limits, *lines])),
+            marks=(*limits, *lines, *_events([flight])),
+            height=_HEIGHT,
+        )
+        speeds.append(speed)
+        torques.append(torque)
+    return (tilt, rates, *speeds, *torques)
+
+
+def _about_axes(flights: Sequence[Flight], column: str, unit: str, *, thin: bool) -> list[Line]:
+    """Curves of pitch and roll of each flight, dashed where it has no device."""
+    return [
+        Line(
+            flight.time,
+            in_unit(flight.columns[column.format(axis=axis, letter=letter)], unit),
+            ink,
+            f"{axis} {'with' if flight.ocs else 'without'}",
+            dashed=not flight.ocs,
+            thin=thin,
+        )
+        for flight in flights
+        for axis, letter, ink in _AXES
+    ]
+
+
+def _of_wheels(
+    flight: Flight, series: Callable[[str], FloatArray], unit: str, part: str, *, thin: bool
+) -> list[Line]:
+    """Curve of each wheel or motor, every other one dashed."""
+    return [
+        Line(
+            flight.time,
+            in_unit(series(wheel), unit),
+            ink,
+            f"{wheel} {part}",
+            dashed=index % 2 == 1,
+            thin=thin,
+        )
+        for index, (wheel, ink) in enumerate(zip(flight.wheels, SERIES, strict=False))
+    ]
+
+
+def _limits(flight: Flight) -> list[Area]:
+    """Range of the first motor; nothing where its torque is not limited."""
+    lowest, highest = (
+        flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
+        for end in ("lowest", "highest")
+    )
+    if lowest is None or highest is None:
+        return []
+    there_and_back = np.concatenate([flight.time, flight.time[::-1]])
+    outline = np.concatenate([highest, lowest[::-1]])
+    return [Area(there_and_back, outline, Ink.FAINT, "range of the motor")]
+
+
+def _events(flights: Sequence[Flight]) -> list[Rule]:
+    """Rules where the last flight leaves the ground, or is pushed, and the first comes down."""
+    left = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
+    down = [each.touchdown for each in flights if each.flies and each.touchdown is not None]
+    first = "lift-off" if any(flight.flies for flight in flights) else "push"
+    times = [(left, first)] if left > 0.0 else []
+    times += [(min(down), "touchdown")] if down else []
+    return [Rule(time, upright=True, label=label, ink=Ink.FAINT) for time, label in times]
+
+
+def _time(flights: Sequence[Flight]) -> Axis:
+    return Axis("time", "s", 0.0, max(float(flight.time[-1]) for flight in flights) or 1.0)
+
+
+def _ends(lines: Sequence[Line | Area]) -> FloatArray:
+    return np.concatenate([[np.nanmin(line.y), np.nanmax(line.y), 0.0] for line in lines])
+
+
+def distribution_charts(record: MonteCarloRecord) -> Iterator[Chart]:
+    """Attitude at touchdown, peak speed and peak torque of each scenario."""
+    for each in record.scenarios:
+        spreads = (
+            ("off_level", "off level at touchdown", "deg", each.attitude_error, LANDING_TOLERANCE),
+            ("peak_speed", "highest wheel speed", "rpm", each.peak_wheel_speed, None),
+            ("peak_torque", "highest torque", "N m", each.peak_wheel_torque, None),
+        )
+        for name, label, unit, spread, limit in spreads:
+            if spread is not None:
+                yield _histogram(each.scenario, name, label, unit, spread=spread, limit=limit)
+
+
+def _histogram(
+    scenario: str, name: str, label: str, unit: str, *, spread: Spread, limit: float | None
+) -> Chart:
+    low, high = in_unit(spread.quantiles[0], unit), in_unit(spread.quantiles[-1], unit)
+    # All flights alike: one narrow bin.
+    width = max(high - low, 1e-3 * max(abs(high), 1.0))
+    edges = np.linspace(low, low + width, len(spread.counts) + 1)
+    x = np.repeat(edges, 2)
+    y = np.concatenate([[0.0], np.repeat(spread.counts, 2), [0.0]]).astype(float)
+    median = in_unit(spread.quantiles[len(spread.quantiles) // 2], unit)
+    marks: list[Mark] = [
+        Area(x, y, Ink.BLUE),
+        Line(x, y, Ink.BLUE),
+        Rule(median, upright=True, label="median"),
+    ]
+    ends = [low, low + width]
+    if limit is not None:
+        allowed = in_unit(limit, unit)
+        marks.append(Rule(allowed, upright=True, label="allowed", ink=Ink.VERMILION))
+        ends.append(allowed)
+    return Chart(
+        name=f"{name}_{safe_name(scenario)}",
+        title=f"{scenario}: {label}",
+        description=f"Histogram over all samples of what was {label}, with its median.",
+        x=Axis.around(label, unit, ends),
+        y=Axis("flights", "", 0.0, 1.1 * max(spread.counts)),
+        marks=tuple(marks),
+        height=_HISTOGRAM,
+    )

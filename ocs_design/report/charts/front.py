@@ -1,0 +1,110 @@
+"""Mass of the lightest device against one figure of the specification: a chart, and a folder."""
+
+import csv
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.answers import Front, FrontPoint, to_json
+from ocs_design.export.folder import FRONT_FILE, staged_folder
+from ocs_design.report.charts.chart import SERIES, Chart, Ink, Line, Mark, Points, Rule
+from ocs_design.report.charts.files import write_charts
+from ocs_design.report.charts.scales import Axis
+from ocs_design.report.quantities import in_unit
+
+_HEIGHT = 300.0
+"""Height of the chart [px]."""
+
+COLUMNS: Mapping[str, str] = {
+    "mass": "mass_kg",
+    "share": "share_of_robot",
+    "motor": "motor",
+    "gear": "gear",
+    "material": "material",
+    "incidence": "incidence_rad",
+    "outer_radius": "outer_radius_m",
+    "inner_radius": "inner_radius_m",
+    "height": "height_m",
+    "rim_mass": "rim_mass_kg",
+    "spin_inertia": "spin_inertia_kg_m2",
+}
+"""Headings of the columns, by the fields of a device."""
+
+
+def front_chart(front: Front) -> Chart:
+    """A line, broken where there is no device, and points in the colours of their drives."""
+    values = _values(front, front.points)
+    masses = np.array([1e3 * p.device.mass if p.device else np.nan for p in front.points])
+    y = Axis.around("mass of both modules", "g", masses, room=0.1)
+    marks: list[Mark] = [Line(values, masses, Ink.FAINT), *_drives(front)]
+    without = [point for point in front.points if point.device is None]
+    if without:
+        # Rings at the foot.
+        foot = np.full(len(without), y.low)
+        marks.append(Points(_values(front, without), foot, Ink.PLAIN, "no device", hollow=True))
+    if front.spans_own_value:
+        own = in_unit(front.own_value, front.unit)
+        marks.insert(0, Rule(own, upright=True, label="as specified", ink=Ink.FAINT))
+    return Chart(
+        name="front",
+        title=f"{front.robot}: lightest device",
+        description=f"Mass of the lightest device against {front.label}; each point is a design of "
+        "its own, and has the colour of its motor and gear.",
+        x=Axis.around(front.label, front.unit, values, room=0.04),
+        y=y,
+        marks=tuple(marks),
+        height=_HEIGHT,
+    )
+
+
+def _drives(front: Front) -> Iterator[Points]:
+    """Points of each motor and gear; once all colours are taken, as rings."""
+    drives: dict[str, list[FrontPoint]] = {}
+    for point in front.feasible:
+        if point.device is not None:
+            drives.setdefault(f"{point.device.motor}, {point.device.gear}", []).append(point)
+    for index, (name, points) in enumerate(drives.items()):
+        hollow = index // len(SERIES) % 2 == 1
+        masses = np.array([1e3 * point.device.mass for point in points if point.device])
+        ink = SERIES[index % len(SERIES)]
+        yield Points(_values(front, points), masses, ink, name, hollow=hollow)
+
+
+def _values(front: Front, points: Sequence[FrontPoint]) -> FloatArray:
+    return in_unit(np.array([point.value for point in points]), front.unit)
+
+
+def write_front(front: Front, folder: Path, *, force: bool = False) -> tuple[str, ...]:
+    """Write all of it or nothing.
+
+    Returns:
+        What could not be written, and the cure.
+
+    Raises:
+        OutputError: see `staged_folder`.
+    """
+    with staged_folder(folder, force=force) as staging:
+        (staging / "points").mkdir()
+        for point in front.points:
+            (staging / point.file).write_text(point.specification, encoding="utf-8")
+        (staging / "front.csv").write_text(front_csv(front), encoding="utf-8", newline="")
+        remarks = write_charts([front_chart(front)], staging)
+        (staging / FRONT_FILE).write_bytes(to_json(front))
+    return remarks
+
+
+def front_csv(front: Front) -> str:
+    """A row for each point, SI, all digits; a point without a device has its reason."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    value = f"{front.against}_{front.si_unit}"
+    writer.writerow([value, *COLUMNS.values(), "specification", "reason"])
+    for point in front.points:
+        device = {} if point.device is None else asdict(point.device)
+        cells = [device.get(name, "") for name in COLUMNS]
+        writer.writerow([point.value, *cells, point.file, point.reason])
+    return text.getvalue()

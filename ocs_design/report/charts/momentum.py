@@ -1,0 +1,223 @@
+"""Momentum that the wheels take: in the plane of their axes, and against the lower bound."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.layout import module_axes
+from ocs_design.device.records import OcsDesign
+from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Points
+from ocs_design.report.charts.scales import Axis
+from ocs_design.report.quantities import degrees, rpm
+from ocs_design.report.story import Story
+from ocs_design.requirement.bound import AXES, authority, bound_curve
+
+_SIDE = 300.0
+"""Height of charts in the plane of the axes [px]."""
+
+_SPEEDS = (0.25, 0.5, 1.0, 2.0)
+"""Wheel speeds of the curves of the bound, over the highest one of the design."""
+
+_SAMPLES = 160
+
+_HARDLY = 0.02
+"""A maneuver that takes less than this part of the largest momentum about an axis is left out."""
+
+
+@dataclass(frozen=True, eq=False)
+class Taken:
+    """Momentum of the wheels in one maneuver.
+
+    Attributes:
+        source: name of the maneuver, or of what else asks for it.
+        incidence: of the modules in it [rad].
+        path: roll and pitch momentum of all wheels together [N m s], shape (n, 2).
+    """
+
+    source: str
+    incidence: float
+    path: FloatArray
+
+    def largest(self, axis: int) -> float:
+        """Largest momentum about roll (0) or pitch (1) [N m s]."""
+        return float(np.abs(self.path[:, axis]).max())
+
+
+def taken(story: Story) -> tuple[Taken, ...]:
+    """Momenta of each flight with the device up to touchdown; if none was flown, those asked for.
+
+    A motor's choice may turn a robot with less momentum than constant torque one way and then the
+    other would take, which is what the demands count: then only flights tell.
+    """
+    ocs = story.design.ocs
+    own = {each.name: each.incidence for each in story.design.requirement.maneuvers}
+    flown = []
+    for flight in story.flights:
+        if flight.ocs:
+            specified = own.get(flight.scenario)
+            incidence = ocs.incidence if specified is None else specified
+            speeds = np.stack([flight.wheel_speed(wheel) for wheel in flight.wheels], axis=1)
+            along = ocs.spin_inertia * speeds[flight.driven]
+            path = along @ module_axes(incidence)[:2].T
+            flown.append(Taken(flight.scenario, incidence, path))
+    if flown or story.design.selection is not None:
+        return tuple(flown)
+    return tuple(
+        Taken(
+            demand.source,
+            demand.incidence,
+            np.array([[demand.roll_momentum, demand.pitch_momentum]]),
+        )
+        for demand in story.design.requirement.demands
+    )
+
+
+def ellipsoid_chart(design: OcsDesign) -> Chart:
+    """The inertia's ellipse from above, with the wheel axes at alpha* (paper, figures 3 and 4).
+
+    As in the paper, its half axes are the eigenvalues of the inertia in the horizontal plane.
+    Forward is up, left is left.
+    """
+    total = np.array(design.ocs.total_inertia)[:2, :2]
+    alone = np.array(design.robot.inertia)[:2, :2]
+    reach = 1.15 * float(max(np.linalg.eigvalsh(total)[-1], np.linalg.eigvalsh(alone)[-1]))
+    arc = np.linspace(0.0, design.ocs.incidence, 40)
+    marks: list[Mark] = [
+        Area(*_seen(_ellipse(total)), Ink.BLUE, "robot with device"),
+        Line(*_seen(_ellipse(total)), Ink.BLUE),
+        Line(*_seen(_ellipse(alone)), Ink.FAINT, "robot alone", dashed=True),
+    ]
+    inks = (Ink.VERMILION, Ink.PURPLE, Ink.GREEN, Ink.ORANGE)
+    for index, (module, ink) in enumerate(zip(design.ocs.modules, inks, strict=False)):
+        end = reach * np.array(module.axis[:2])
+        line = _seen(np.stack([-end, end], axis=1))
+        marks.append(Line(*line, ink, f"axis of the {module.name} wheel", dashed=index % 2 == 1))
+    # From the lateral direction to the axis at alpha*.
+    marks.append(
+        Line(*_seen(0.5 * reach * np.stack([np.sin(arc), np.cos(arc)])), Ink.PLAIN, thin=True)
+    )
+    return Chart(
+        name="inertia_ellipsoid",
+        title=f"Inertia from above, wheel axes at α* = {degrees(design.ocs.incidence)}",
+        description="Ellipse whose half axes are the principal inertias in the horizontal plane, "
+        "forward is up and left is left, with the spin axes of the wheels at the incidence "
+        f"angle of {degrees(design.ocs.incidence)} to the lateral direction.",
+        x=Axis("inertia, lateral direction", "kg m²", -reach, reach),
+        y=Axis("inertia, forward", "kg m²", -reach, reach),
+        marks=tuple(marks),
+        equal=True,
+        height=_SIDE,
+    )
+
+
+def _ellipse(inertia: FloatArray) -> FloatArray:
+    """Points in B, forward and left, shape (2, n)."""
+    values, axes = np.linalg.eigh(inertia)
+    angle = np.linspace(0.0, 2.0 * np.pi, 121)
+    return np.asarray(axes @ (values[:, None] * np.stack([np.cos(angle), np.sin(angle)])))
+
+
+def _seen(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Coordinates on the sheet of points in B: forward is up, left is left."""
+    return -points[1], points[0]
+
+
+def momentum_chart(story: Story) -> Chart:
+    """Momenta that the wheels can take at once, and those that they took.
+
+    What n wheels can take is the zonotope of their axes; of a pair it is the rhombus
+    `|L_x| / sin a + |L_y| / cos a <= 2 I_w w_max` (docs/theory.md, Incidence angle). There is one
+    for each incidence that a maneuver is flown at.
+    """
+    ocs, found = story.design.ocs, taken(story)
+    each_wheel = ocs.spin_inertia * story.design.requirement.wheel_speed_max
+    incidences = dict.fromkeys([ocs.incidence, *(each.incidence for each in found)])
+    marks: list[Mark] = []
+    for incidence, dashed in zip(incidences, (False, True, True, True), strict=False):
+        x, y = _zonotope(each_wheel * module_axes(incidence)[:2])
+        name = f"reach at {degrees(incidence)}"
+        marks += [Area(x, y, Ink.FAINT), Line(x, y, Ink.FAINT, name, dashed=dashed)]
+    for each, ink in zip(found, SERIES * 2, strict=False):
+        roll, pitch = each.path.T
+        most = int(np.argmax(np.hypot(roll, pitch)))
+        # The way there, and a ring where it was most.
+        marks.append(Line(roll, pitch, ink, each.source))
+        marks.append(Points(roll[most : most + 1], pitch[most : most + 1], ink, hollow=True))
+    largest = len(ocs.modules) * each_wheel
+    reach = 1.15 * max([largest, *(each.largest(axis) for each in found for axis in (0, 1))])
+    return Chart(
+        name="momentum",
+        title="Momentum that the wheels can take, and took",
+        description="Outline of the roll and pitch momenta that the wheels take together at their "
+        "highest speed, and the momenta that they took in each maneuver up to touchdown.",
+        x=Axis("roll momentum", "N m s", -reach, reach),
+        y=Axis("pitch momentum", "N m s", -reach, reach),
+        marks=tuple(marks),
+        equal=True,
+        height=_SIDE,
+    )
+
+
+def _zonotope(sides: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Closed outline of all sums of the columns times -1..1, shapes (2 n + 1,), from (2, n)."""
+    upwards = sides * np.where(sides[1] < 0.0, -1.0, 1.0)
+    turned = upwards[:, np.argsort(np.arctan2(upwards[1], upwards[0]))]
+    steps = 2.0 * np.concatenate([turned, -turned], axis=1)
+    corners = np.cumsum(steps, axis=1) - turned.sum(axis=1)[:, None]
+    return np.append(corners[0], corners[0, 0]), np.append(corners[1], corners[1, 0])
+
+
+def bound_charts(story: Story) -> Iterator[Chart]:
+    """Lower bound on the device's inertia and where the design lies, for each axis (figure 2)."""
+    found, design = taken(story), story.design
+    speeds = [part * design.requirement.wheel_speed_max for part in _SPEEDS]
+    for axis, name in reversed(list(enumerate(AXES))):
+        asked = _bound_points(design, axis, found)
+        if not asked:
+            continue
+        changes = np.array([change for _, change, _ in asked])
+        present = np.array([each for _, _, each in asked])
+        rates = np.linspace(1e-3, 1.25 * changes.max(), _SAMPLES)
+        bound = design.robot.inertia[axis][axis] * bound_curve(rates, speeds)
+        curves = np.where(np.isfinite(bound), bound, np.nan)
+        lines = [
+            # That of the design's own speed is solid.
+            Line(rates, curve, ink, rpm(speed), dashed=part != 1.0)
+            for part, speed, curve, ink in zip(_SPEEDS, speeds, curves, SERIES, strict=False)
+        ]
+        # Nearer to zero the curves fall without end.
+        least = min(float(line.y[int(0.15 * len(line.y))]) for line in lines)
+        ends = (0.3 * min(least, present.min()), 3.0 * max(present.max(), lines[1].y[-1]))
+        labels = tuple(source for source, _, _ in asked)
+        yield Chart(
+            name=f"bound_{name}",
+            title=f"Lower bound on the device's inertia, {name}",
+            description=f"Inertia that the wheels must present about {name} against the change of "
+            "rate, one curve for each highest wheel speed, and what the design has for the change "
+            "that each maneuver's momentum is worth. A point over the solid curve of the design's "
+            "own wheel speed has inertia to spare.",
+            x=Axis("change of rate", "rad/s", 0.0, float(rates[-1])),
+            y=Axis("inertia required", "kg m²", float(ends[0]), float(ends[1]), log=True),
+            marks=(*lines, Points(changes, present, Ink.PLAIN, "the design", labels=labels)),
+            height=290.0,
+        )
+
+
+def _bound_points(
+    design: OcsDesign, axis: int, found: Sequence[Taken]
+) -> list[tuple[str, float, float]]:
+    """Name, change of rate [rad/s] and inertia of the device for it [kg m^2], by maneuver.
+
+    The change of rate is what the maneuver's momentum is worth; maneuvers that hardly turn about
+    this axis are left out.
+    """
+    total = design.ocs.total_inertia[axis][axis]
+    most = max((each.largest(axis) for each in found), default=0.0)
+    points = []
+    for each in found:
+        momentum, share = each.largest(axis), float(authority(each.incidence)[axis])
+        if momentum > _HARDLY * max(most, each.largest(1 - axis)) and share > 0.0:
+            points.append((each.source, momentum / total, 2.0 * share * design.ocs.spin_inertia))
+    return points

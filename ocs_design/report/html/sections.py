@@ -1,0 +1,266 @@
+"""Sections of the page: the facts of the report beside its charts."""
+
+import platform
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, version
+
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.catalogue.gears import known_gears
+from ocs_design.catalogue.materials import materials
+from ocs_design.device.records import OcsDesign
+from ocs_design.export.device_parts import wheel_geometry
+from ocs_design.export.drawing.wheel import (
+    Grade,
+    bore_diameter,
+    plain,
+    rim_diameter,
+    rim_inertia_error,
+    toleranced,
+)
+from ocs_design.report import limits, selection, warnings
+from ocs_design.report.charts.chart import Chart
+from ocs_design.report.charts.figures import drive_charts, incidence_charts
+from ocs_design.report.charts.flights import distribution_charts
+from ocs_design.report.charts.momentum import bound_charts
+from ocs_design.report.device import device_facts, robot_facts
+from ocs_design.report.flights import device_table, landing_remarks, run_sentence
+from ocs_design.report.html.elements import (
+    Markup,
+    details,
+    element,
+    facts,
+    figures,
+    items,
+    section,
+    table,
+)
+from ocs_design.report.monte_carlo import campaign_title, success_table
+from ocs_design.report.quantities import BOUND_NOTE
+from ocs_design.report.story import Story
+from ocs_design.report.table import Table, columns, counted
+
+PAPER = (
+    "F. Roscia, A. Cumerlotti, A. Del Prete, C. Semini, M. Focchi, “Orientation Control System: "
+    "Enhancing Aerial Maneuvers for Quadruped Robots”, Sensors 23(3):1234, 2023"
+)
+
+_LIBRARIES = ("numpy", "scipy", "cvxpy", "clarabel", "casadi", "mujoco", "trimesh")
+
+
+def robot_section(story: Story, view: Markup) -> Markup:
+    """View, facts and warnings of the robot with its device."""
+    design = story.design
+    return section(
+        "robot",
+        "Robot and device",
+        view,
+        element(
+            "div",
+            element("div", element("h3", "Robot"), facts(robot_facts(design.robot))),
+            element("div", element("h3", "Device"), facts(device_facts(design))),
+            class_="halves",
+        ),
+        items((*design.ocs.warnings, *warnings.device_warnings(design)), look="warnings"),
+    )
+
+
+def sizes_section(design: OcsDesign) -> Markup:
+    """Sizes of the wheel with their tolerances, and the margins."""
+    wheel, margins = wheel_geometry(design.ocs.flywheel), limits.recorded_margins(design)
+    rows = [("outer diameter, 2 R", rim_diameter(wheel))]
+    if wheel.rim.inner_radius > 0.0:
+        rows.append(("bore of the rim, 2 r", bore_diameter(wheel)))
+    rows.append(("height of the rim, h", toleranced(wheel.rim.height, Grade.IT11)))
+    if wheel.hub is not None:
+        rows.append(("hub, diameter", f"Ø{plain(2.0 * wheel.hub.radius)}"))
+        rows.append(("hub, height", plain(wheel.hub.height)))
+    inertia_note = (
+        "Within these tolerances the rim's spin inertia stays within "
+        f"±{rim_inertia_error(wheel):.1%} (to first order)."
+    )
+    return section(
+        "sizes",
+        "Sizes, tolerances and margins",
+        table("Wheel, as on its drawing", Table(columns("<size", "mm"), tuple(rows))),
+        element("p", inertia_note, class_="note"),
+        table("Margins", limits.margin_table(margins)),
+        element("p", limits.MARGIN_NOTE, class_="note"),
+        items(limits.margin_notes(margins), look="note"),
+    )
+
+
+def limits_section(design: OcsDesign) -> Markup:
+    """Active limits, and what moving each of them saves."""
+    names, meaning = limits.active_limits(design)
+    more = (
+        element(
+            "p",
+            "How the mass changes with room, voltage or time, drive and all, is drawn by ",
+            element("code", "ocs-design pareto --against radius|height|voltage|time|angle"),
+            ".",
+            class_="note",
+        )
+        if design.selection is not None
+        else Markup("")
+    )
+    return section(
+        "limits",
+        "Active limits, and what moving them saves",
+        element("p", "The mass is set by: ", element("strong", names), ". ", meaning),
+        table("Each limit moved alone", limits.saving_table(design)),
+        element("p", limits.saving_notes(design), class_="note"),
+        more,
+    )
+
+
+def bound_section(story: Story) -> Markup:
+    """The paper's lower bound and where the design lies."""
+    return section(
+        "bound",
+        "The lower bound, and where the design lies",
+        figures(bound_charts(story)),
+        element("p", BOUND_NOTE, class_="note"),
+    )
+
+
+def angles_section(story: Story) -> Markup:
+    """Inertia and momenta in the plane of the axes, and incidence by criterion and posture."""
+    return section(
+        "angles",
+        "Incidence of the wheel axes",
+        figures(incidence_charts(story)),
+        items(warnings.shortfalls(story.design), look="warnings"),
+        items(warnings.coupling_notes(story.design)),
+    )
+
+
+def drive_section(story: Story) -> Markup:
+    """Torque and speed of the wheels, and how the drive was chosen."""
+    chosen = story.design.selection
+    parts = [figures(drive_charts(story))]
+    if chosen is None:
+        return section("drive", "Drive", *parts)
+    drives = selection.best_drives(chosen.ranking)
+    parts += [
+        element("p", f"Chosen from {selection.choice_title(chosen)}."),
+        table("What is asked of the drive", selection.task_table(chosen)),
+        element("p", selection.task_note(chosen), class_="note"),
+        table("The lightest drives", selection.drive_table(drives)),
+    ]
+    co_design = selection.co_design_facts(chosen)
+    if co_design:
+        parts.append(element("h3", "Co-design: all dimensions together with the maneuvers, in 3-D"))
+        parts.append(facts(co_design))
+    reasons = selection.rejection_details(chosen)
+    if reasons:
+        ruled_out = f"{counted(len(reasons), 'motor')} ruled out, and why"
+        parts.append(details(ruled_out, items(reasons)))
+    return section("drive", "Drive", *parts)
+
+
+def maneuvers_section(
+    story: Story, charts: dict[str, Sequence[Chart]], scenarios: Sequence[str]
+) -> Markup:
+    """A part for each maneuver, flown with the device and without.
+
+    Args:
+        story: of the report.
+        charts: of each maneuver by its name.
+        scenarios: maneuvers that can be shown again, in the order of the viewer.
+    """
+    names = dict.fromkeys(run.scenario for run in story.design.validation)
+    if not names:
+        return section("maneuvers", "Maneuvers", element("p", "No flight was simulated."))
+    parts = []
+    for name in names:
+        runs = [run for run in story.design.validation if run.scenario == name]
+        number = str(scenarios.index(name)) if name in scenarios else ""
+        again = element("button", "Show it in the view", type="button", data_replay=number)
+        parts.append(
+            element(
+                "article",
+                element("h3", name, " ", again if number else ""),
+                table(f"{name}: outcome", device_table(runs)),
+                *(element("p", run_sentence(run), class_="note") for run in runs),
+                figures(charts[name], flight=number) if charts.get(name) else "",
+            )
+        )
+    remarks = items(landing_remarks(story.design), look="warnings")
+    return section("maneuvers", "Maneuvers, with the device and without", remarks, *parts)
+
+
+def monte_carlo_section(story: Story) -> Markup:
+    """How often many flights pass and how they spread; nothing where none were flown."""
+    record = story.monte_carlo
+    if record is None:
+        return Markup("")
+    return section(
+        "samples",
+        "Monte Carlo",
+        element("p", f"{campaign_title(record)}."),
+        table("How often they pass", success_table(record)),
+        *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
+        figures(distribution_charts(record)),
+        details("What was drawn", facts(record.reality.items())),
+    )
+
+
+def record_section(story: Story) -> Markup:
+    """Assumptions, warnings, sources, versions and hashes: what a reviewer asks for."""
+    design = story.design
+    assumed = items(design.requirement.assumptions)
+    read = items(design.robot.warnings, look="warnings")
+    hashes = Table(columns("<file", "<SHA-256"), tuple(design.files.items()))
+    lines = (element("span", name) for name in ("Designed by", "Reviewed by", "Date"))
+    return section(
+        "record",
+        "Assumptions, sources and provenance",
+        element("h3", "Assumed, because nothing else was specified"),
+        assumed or element("p", "Nothing: everything was specified."),
+        *((element("h3", "Warnings about the robot's file"), read) if read else ()),
+        element("h3", "Sources"),
+        facts(_sources(design)),
+        element("h3", "Provenance"),
+        facts(_provenance(story)),
+        details(
+            "Files of this design, SHA-256", element("div", table("Files", hashes), class_="sums")
+        ),
+        element(
+            "p",
+            "All numbers are in this file too: the element ",
+            element("code", 'script#design[type="application/json"]'),
+            " holds the design.json that it was made from, in SI units and full precision.",
+            class_="note",
+        ),
+        element("div", *lines, class_="signature"),
+    )
+
+
+def _sources(design: OcsDesign) -> Iterator[tuple[str, str]]:
+    yield "method", PAPER
+    motor, wheel = design.ocs.motor, design.ocs.flywheel
+    yield "motor", f"{motor.name}: {motor.source}"
+    gear = known_gears(None).get(motor.gear) if motor.gear != DIRECT.name else None
+    if gear is not None:
+        yield "gear", f"{gear.name}: {gear.source}"
+    used = [wheel.material] + ([] if wheel.web is None else [wheel.web.material])
+    for name in dict.fromkeys(used):
+        material = materials().get(name)
+        if material is not None:
+            yield "material", f"{name}: {material.source}"
+
+
+def _provenance(story: Story) -> Iterator[tuple[str, str]]:
+    design = story.design
+    yield "robot", f"{design.robot.source}, SHA-256 {design.robot.sha256 or 'none: by hand'}"
+    if story.command:
+        yield "made by", story.command
+    yield "program", f"{design.tool.name} {design.tool.version}"
+    yield "seed", str(design.seed)
+    libraries = []
+    for name in _LIBRARIES:
+        with suppress(PackageNotFoundError):
+            libraries.append(f"{name} {version(name)}")
+    yield "report with", f"Python {platform.python_version()}, {', '.join(libraries)}"
+    yield "machine", f"{platform.system()} {platform.machine()}"

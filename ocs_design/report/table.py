@@ -1,0 +1,79 @@
+"""Plain values that facts are given in: names with values, tables, words with a tone.
+
+Each renderer has a look of its own for them.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TypeAlias
+
+
+class Tone(StrEnum):
+    """Meaning of a word, from which renderers take its colour."""
+
+    PLAIN = "plain"
+    PASS = "pass"
+    FAIL = "fail"
+    OPEN = "open"
+
+
+@dataclass(frozen=True)
+class Toned:
+    """A short text with its tone."""
+
+    text: str
+    tone: Tone
+
+
+Cell: TypeAlias = str | Toned
+
+Rows: TypeAlias = tuple[tuple[str, str], ...]
+"""Names and their values, in the order in which they are shown."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """Heading of one column.
+
+    Attributes:
+        name: what it holds; lines where a narrow heading has several.
+        unit: of all values; empty: there is none, or each value has its own.
+        words: whether it holds words, which are aligned at the left.
+    """
+
+    name: str
+    unit: str = ""
+    words: bool = False
+
+
+_HEADING = re.compile(r"(<?)(.*?)(?: \[(.*)\])?", re.DOTALL)
+
+
+def columns(*headings: str) -> tuple[Column, ...]:
+    """Columns from headings such as `mass [g]`; a `<` stands before the name of words."""
+    parts = (_HEADING.fullmatch(heading) for heading in headings)
+    return tuple(Column(each[2], each[3] or "", bool(each[1])) for each in parts if each)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns and rows of cells, as many in each row as there are columns."""
+
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+    def first(self, columns: int) -> "Table":
+        """Table of the first columns alone."""
+        return Table(self.columns[:columns], tuple(row[:columns] for row in self.rows))
+
+
+def counted(count: int, noun: str, plural: str = "") -> str:
+    """Number and noun, as in `1 note` and `3 notes`."""
+    return f"{count:,} {noun if count == 1 else plural or noun + 's'}"
+
+
+def listed(texts: Sequence[str]) -> str:
+    """Texts in one sentence, as in `a, b and c`."""
+    return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))

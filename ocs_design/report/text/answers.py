@@ -1,0 +1,46 @@
+"""Answers of the smaller commands in the terminal: bound, init and export."""
+
+import numpy as np
+from rich.console import Console
+
+from ocs_design.device.answers import BoundAnswer, Exported, Initialized
+from ocs_design.report.quantities import BOUND_NOTE, degrees, inertia, rpm
+from ocs_design.report.table import Table, columns
+from ocs_design.report.text.layout import facts, files_written, heading, note, show, warn
+
+
+def print_bound(console: Console, answer: BoundAnswer) -> None:
+    """Bound as printed in the paper and as it should be, for each wheel, and its curve."""
+    heading(console, f"Lower bound on the device's inertia about {answer.axis}")
+    facts(
+        console,
+        [
+            ("robot", inertia(answer.inertia)),
+            ("rate change d", f"{answer.rate_change:.4g} rad/s"),
+            ("wheel speed gamma", rpm(answer.wheel_speed_max)),
+            ("one wheel, required", f"{answer.required:.5e} kg m2"),
+            ("one wheel, as the paper prints it", f"{answer.paper:.5e} kg m2"),
+            (f"each of two at {degrees(answer.incidence)}", f"{answer.spin_inertia:.5e} kg m2"),
+        ],
+    )
+    note(console, BOUND_NOTE)
+    heading(console, "Required over robot's inertia: wheel speed against rate change")
+    rates = columns("<", *(f"{rate:.3g} [rad/s]" for rate in answer.rate_changes))
+    rows = tuple(
+        (rpm(speed), *(f"{share:.2e}" if np.isfinite(share) else "-" for share in row))
+        for speed, row in zip(answer.wheel_speeds, answer.curve, strict=True)
+    )
+    show(console, Table(rates, rows))
+
+
+def print_initialized(console: Console, initialized: Initialized) -> None:
+    """File that was written, and the command that designs by it."""
+    facts(console, [("written", initialized.file), ("next", initialized.next)])
+
+
+def print_export(console: Console, exported: Exported) -> None:
+    """Warnings, files by their folders, and notes on them."""
+    warn(console, exported.warnings)
+    files_written(console, exported.folder, exported.files, "the design as it was")
+    for each in exported.notes:
+        note(console, each)

@@ -1,0 +1,197 @@
+"""Catalogues in the terminal: tables of motors, gears and materials, with their sources."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from rich.console import Console
+
+from ocs_design.actuation.drive import missing_figures, speed_limit
+from ocs_design.actuation.motor import DIRECT, Motor, Mounting
+from ocs_design.catalogue.gears import GearSheet, gears_to_json, known_gears
+from ocs_design.catalogue.materials import Material, materials, materials_to_json
+from ocs_design.catalogue.motors import known_motors, motors_to_json
+from ocs_design.common.errors import UsageError
+from ocs_design.common.units import format_quantity, to_unit
+from ocs_design.report.table import Table, columns
+from ocs_design.report.text.layout import heading, items, note, show
+
+BASIS_MARK = {"peak current": "+", "stall torque": "*"}
+"""Mark behind a short-term torque that is not the maker's own."""
+
+KINDS = ("motors", "gears", "materials")
+"""Names of the catalogues."""
+
+MOST_NAMES = 8
+"""Entries that are spelt out before a source they share."""
+
+
+class Row(Protocol):
+    """An entry of any catalogue."""
+
+    @property
+    def name(self) -> str:
+        """Name that is unique in its catalogue."""
+
+    @property
+    def source(self) -> str:
+        """Document that its figures come from."""
+
+
+@dataclass(frozen=True)
+class Listing:
+    """One catalogue, ready to be printed.
+
+    Attributes:
+        rows: every entry.
+        to_json: as one document.
+        print_table: for people.
+    """
+
+    rows: Sequence[Row]
+    to_json: Callable[[], bytes]
+    print_table: Callable[[Console], None]
+
+    def show(self, console: Console, *, verbose: bool) -> None:
+        """Print the table and the sources, with `verbose` of each row."""
+        self.print_table(console)
+        heading(console, "Sources")
+        items(console, _sources(self.rows, verbose=verbose))
+
+
+def listing(what: str, files: Mapping[str, str | None]) -> Listing:
+    """The catalogue `what`, with the user's file of its kind, if there is one.
+
+    Raises:
+        UsageError: there is no such catalogue, or a file of another kind is given.
+        SpecificationError: the file cannot be read or has faults.
+    """
+    if what not in KINDS:
+        known = ", ".join(f"catalogue {name}" for name in KINDS)
+        raise UsageError(f"there is no catalogue of {what}", hint=f"try: {known}")
+    for kind, file in files.items():
+        if file is not None and kind != what:
+            raise UsageError(f"--{kind} says nothing of {what}", hint=f"try: catalogue {kind}")
+    given = files.get(what)
+    path = None if given is None else Path(given)
+    if what == "motors":
+        motors = tuple(known_motors(path).values())
+        return Listing(motors, lambda: motors_to_json(motors), lambda c: print_motors(c, motors))
+    if what == "gears":
+        gears = tuple(known_gears(path).values())
+        return Listing(gears, lambda: gears_to_json(gears), lambda c: print_gears(c, gears))
+    found = tuple(materials().values())
+    return Listing(found, materials_to_json, lambda c: print_materials(c, found))
+
+
+def _sources(rows: Sequence[Row], *, verbose: bool) -> Iterator[str]:
+    """Each source with the entries that rest on it; with `verbose` each entry by itself."""
+    if verbose:
+        for row in rows:
+            mounting = motor_mounting(row.mounting) if isinstance(row, Motor) else ""
+            # Materials have no remarks.
+            said = (row.source, mounting, str(getattr(row, "remark", "")))
+            yield f"{row.name}: " + "; ".join(part for part in said if part)
+        return
+    by_source: dict[str, list[str]] = {}
+    for row in rows:
+        by_source.setdefault(row.source, []).append(row.name)
+    for source, names in by_source.items():
+        several = f"{len(names)} of the above"
+        yield f"{several if len(names) > MOST_NAMES else ', '.join(names)}: {source}"
+
+
+def motor_mounting(mounting: Mounting | None) -> str:
+    """Shaft and threads of a motor, as in `shaft 4 mm, rotor 3 x M3 on 17 mm`; empty: unknown."""
+    if mounting is None:
+        return ""
+    clauses = []
+    if mounting.shaft_diameter is not None:
+        length = mounting.shaft_length
+        by = "" if length is None else f" x {format_quantity(length, 'mm')}"
+        clauses.append(f"shaft {format_quantity(mounting.shaft_diameter, 'mm')}{by}")
+    if mounting.rotor is not None:
+        clauses.append(f"rotor {mounting.rotor}")
+    if mounting.stator is not None:
+        clauses.append(f"stator {mounting.stator} ({mounting.stator_face})")
+    return ", ".join(clauses)
+
+
+def print_motors(console: Console, found: Sequence[Motor]) -> None:
+    """Every motor with what a choice goes by, the lightest first; then what some lack."""
+    heading(console, "Motors")
+    heads = columns(
+        "<name", "mass [g]", "rated [V]", "max [rpm]", "peak  [N m ]", "k_t [mN m/A]", "R [ohm]"
+    )
+    rows = tuple(
+        (
+            motor.name,
+            _figure(motor.mass, "g", ".0f"),
+            _figure(motor.rated_voltage, "V", ".4g"),
+            _figure(speed_limit(motor), "rpm", ".0f"),
+            _figure(motor.peak_torque, "N m", ".3g") + BASIS_MARK.get(motor.peak_basis, " "),
+            _figure(motor.torque_constant, "mN m", ".3g"),
+            "-" if motor.resistance is None else f"{motor.resistance:.3f}",
+        )
+        for motor in sorted(found, key=lambda motor: (motor.mass or math.inf, motor.name))
+    )
+    show(console, Table(heads, rows))
+    note(console, "+ k_t times the peak current   * stall torque, for want of a rating")
+    lacking = {motor.name: missing_figures(motor, DIRECT) for motor in found}
+    _print_lacking(console, lacking)
+
+
+def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
+    """Every stage that the gears offer; then the gears that offer none, with what they lack."""
+    heading(console, "Gears")
+    heads = columns(
+        "<name", "ratio", "mass [g]", "at wheel [g cm2]", "peak [N m]", "motor [rpm]", "wheel [rpm]"
+    )
+    rows = tuple(
+        (
+            gear.name,
+            f"{gear.ratio:.3f}",
+            _figure(gear.mass, "g", ".0f"),
+            _figure(gear.inertia, "g cm2", ".4g"),
+            _figure(gear.torque_max, "N m", ".3g"),
+            _figure(gear.motor_speed_max, "rpm", ".0f"),
+            _figure(gear.wheel_speed_max, "rpm", ".0f"),
+        )
+        for sheet in found
+        for gear in sheet.stages()
+    )
+    show(console, Table(heads, rows))
+    note(console, "ratio: motor speed over wheel speed. Without a gear it is 1: direct.")
+    _print_lacking(console, {sheet.name: sheet.missing for sheet in found})
+
+
+def print_materials(console: Console, found: Sequence[Material]) -> None:
+    """Every material with its figures."""
+    heading(console, "Materials")
+    heads = columns("<name", "density [kg/m3]", "yield [MPa]", "ultimate [MPa]", "Poisson")
+    rows = tuple(
+        (
+            material.name,
+            f"{material.density:.0f}",
+            _figure(material.yield_strength, "MPa", ".0f"),
+            _figure(material.ultimate_strength, "MPa", ".0f"),
+            "-" if material.poisson_ratio is None else f"{material.poisson_ratio:.2f}",
+        )
+        for material in found
+    )
+    show(console, Table(heads, rows))
+
+
+def _print_lacking(console: Console, lacking: Mapping[str, Sequence[str]]) -> None:
+    """What cannot be chosen, and which figures it lacks."""
+    lines = [f"{name}: no {', '.join(lacks)}" for name, lacks in lacking.items() if lacks]
+    if lines:
+        heading(console, "Cannot be chosen")
+        items(console, lines)
+
+
+def _figure(value: float | None, unit: str, form: str) -> str:
+    """SI value in `unit`; a dash for what is not known or not limited."""
+    return "-" if value is None or math.isinf(value) else f"{to_unit(value, unit):{form}}"

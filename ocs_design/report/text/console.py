@@ -1,0 +1,153 @@
+"""A console on standard error, at any width, with or without colour, and progress on it."""
+
+import os
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from datetime import timedelta
+
+from rich.console import (
+    Console,
+    ConsoleOptions,
+    ConsoleRenderable,
+    RenderHook,
+    RenderResult,
+)
+from rich.measure import Measurement
+from rich.panel import Panel
+from rich.progress import (
+    BarColumn,
+    Progress,
+    ProgressColumn,
+    SpinnerColumn,
+    Task,
+    TaskID,
+    TextColumn,
+    TimeElapsedColumn,
+)
+from rich.segment import Segment
+from rich.text import Text
+
+NARROWEST = 60
+WIDEST = 110
+
+_CONTROL = [*range(0x20), *range(0x7F, 0xA0), *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
+_REPLACED = {code: "\ufffd" for code in (*_CONTROL, 0x2028, 0x2029) if chr(code) not in "\n\t"}
+"""Characters that terminals obey (ECMA-48) or that turn a line around (Unicode), and their mark.
+
+Names come from robot files, catalogues and `design.json`.
+"""
+
+
+def cleaned(text: str) -> str:
+    """The text with a mark in place of each control character but tabs and ends of lines."""
+    return text.translate(_REPLACED)
+
+
+class CleanHook(RenderHook):
+    """Cleans whatever a console prints; colours and the like are no part of the texts."""
+
+    def process_renderables(self, renderables: list[ConsoleRenderable]) -> list[ConsoleRenderable]:
+        """Called by rich before it prints."""
+        return [_Clean(each) for each in renderables]
+
+
+class _Clean:
+    """Something to print, its texts cleaned."""
+
+    def __init__(self, inner: ConsoleRenderable) -> None:
+        self._inner = inner
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        for segment in console.render(self._inner, options):
+            if segment.control:
+                yield segment
+            else:
+                yield Segment(cleaned(segment.text), segment.style)
+
+    def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
+        return Measurement.get(console, options, self._inner)
+
+
+def make_console(*, color: bool = True) -> Console:
+    """A console on standard error; without colour there is no bold or dim text either."""
+    plain = not color or bool(os.environ.get("NO_COLOR"))
+    console = Console(stderr=True, color_system=None if plain else "auto", highlight=False)
+    console.width = min(max(console.width, NARROWEST), WIDEST)
+    console.push_render_hook(CleanHook())
+    return console
+
+
+def error_panel(lines: Sequence[str], hint: str, *, color: bool = True) -> None:
+    """One panel with what is wrong and how to mend it."""
+    console = make_console(color=color)
+    text = Text("\n".join(lines))
+    if hint:
+        text.append("\n\n" + hint, style="bold")
+    console.print(Panel(text, title="error", title_align="left", border_style="red"))
+
+
+class Steps:
+    """Progress of a command: each step is shown while it runs and kept with its time when done.
+
+    On a terminal a spinner or bar moves; in a pipe each finished step is one plain line.
+    """
+
+    def __init__(self, console: Console, *, quiet: bool = False) -> None:
+        self._console = console
+        self._quiet = quiet
+
+    @classmethod
+    def silent(cls) -> "Steps":
+        """Nothing is printed."""
+        return cls(make_console(), quiet=True)
+
+    @contextmanager
+    def step(self, label: str) -> Iterator["Step"]:
+        """One step; `Step.update` moves its bar."""
+        start = time.perf_counter()
+        if self._quiet or not self._console.is_terminal:
+            current = Step()
+            yield current
+        else:
+            with Progress(
+                SpinnerColumn(),
+                TextColumn("{task.description}", markup=False),
+                BarColumn(bar_width=24),
+                TimeElapsedColumn(),
+                _Left(),
+                console=self._console,
+                transient=True,
+            ) as progress:
+                task = progress.add_task(label, total=None)
+                current = Step(progress, task)
+                yield current
+        if not self._quiet:
+            seconds = time.perf_counter() - start
+            note = f"  {current.note}" if current.note else ""
+            line = Text.assemble((f"{seconds:6.2f} s", "dim"), f"  {label}{note}")
+            self._console.print(line, soft_wrap=True)
+
+
+class Step:
+    """Handle of a running step. `note` is appended to its line when it is done."""
+
+    def __init__(self, progress: Progress | None = None, task: TaskID | None = None) -> None:
+        self.note = ""
+        self._progress = progress
+        self._task = task
+
+    def update(self, fraction: float) -> None:
+        """Move the bar to `fraction` of the step."""
+        if self._progress is not None and self._task is not None:
+            self._progress.update(self._task, total=1.0, completed=fraction)
+
+
+class _Left(ProgressColumn):
+    """The time that is left, once it is known how far a step is."""
+
+    def render(self, task: Task) -> Text:
+        """Time left of one step; empty while nothing is known."""
+        left = task.time_remaining
+        known = left is not None and not task.finished
+        return Text(f"{timedelta(seconds=int(left or 0))} left" if known else "", style="dim")

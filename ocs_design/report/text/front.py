@@ -1,0 +1,146 @@
+"""A front in the terminal: table, plot, and why some points have no device."""
+
+import shlex
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.padding import Padding
+from rich.text import Text
+
+from ocs_design.common.units import format_quantity, to_unit
+from ocs_design.device.answers import Front
+from ocs_design.report.quantities import grams, tenths
+from ocs_design.report.table import Cell, Table, Tone, Toned, columns
+from ocs_design.report.text.layout import INDENT, facts, heading, items, note, show
+from ocs_design.report.text.plots import Canvas, Scale, frame
+
+PLOT_HEIGHT = 12
+"""Rows of the plot's area."""
+
+MARGIN = 14
+"""Columns beside the plot's area, for indent and names."""
+
+OWN, NONE = "┴", "×"
+"""Marks on the plot's axis: the specification's own value, and a value without a device."""
+
+
+def print_front(console: Console, front: Front) -> None:
+    """Everything that the terminal shows of a front."""
+    heading(console, f"Lightest device against {front.label}: {front.robot}")
+    same = [f"{name} {value}" for name, value in _same(front).items()]
+    facts(
+        console,
+        [
+            ("as specified", _value(front, front.own_value)),
+            *([("in every device", ", ".join(same))] if same else []),
+        ],
+    )
+    items(console, front.remarks)
+    if front.feasible:
+        show(console, _table(front))
+        _print_plot(console, front)
+    without = [point for point in front.points if point.device is None]
+    if without:
+        heading(console, "No device")
+        reasons = (f"{_value(front, point.value)}: {point.reason}" for point in without)
+        items(console, reasons, style="yellow")
+
+
+def _same(front: Front) -> Mapping[str, str]:
+    """Gear and material where all devices have the same."""
+    found = {
+        name: {getattr(point.device, name) for point in front.feasible}
+        for name in ("gear", "material")
+    }
+    return {name: values.pop() for name, values in found.items() if len(values) == 1}
+
+
+def _table(front: Front) -> Table:
+    """Mass, rim, incidence and drive at each value; a value without a device says so."""
+    names = [name for name in ("motor", "gear", "material") if name not in _same(front)]
+    heads = columns(
+        f" [{front.unit}]", "mass [g]", "of robot [%]", "R [mm]", "r [mm]", "h [mm]", "alpha [deg]",
+        f"<{', '.join(names)}",
+    )  # fmt: skip
+    rows: list[tuple[Cell, ...]] = []
+    for point in front.points:
+        value, device = f"{to_unit(point.value, front.unit):.4g}", point.device
+        if device is None:
+            texts = (value, "none", *[""] * (len(heads) - 3), "see below")
+            rows.append(tuple(Toned(text, Tone.PLAIN) for text in texts))
+            continue
+        lengths = (device.outer_radius, device.inner_radius, device.height)
+        rows.append(
+            (
+                value,
+                f"{1e3 * device.mass:.1f}",
+                f"{100.0 * device.share:.1f}",
+                *map(tenths, lengths),
+                f"{np.degrees(device.incidence):.1f}",
+                ", ".join(getattr(device, name) for name in names),
+            )
+        )
+    return Table(heads, tuple(rows))
+
+
+def _print_plot(console: Console, front: Front) -> None:
+    """Mass against the value, where the terminal has Braille."""
+    if not console.encoding.startswith("utf"):
+        return
+    heading(console, f"Mass of the device against {front.label}")
+    canvas = Canvas(max(console.width - MARGIN, 20), PLOT_HEIGHT)
+    across = Scale.of([point.value for point in front.points])
+    up = Scale.of([point.device.mass for point in front.points if point.device], room=0.05)
+    places = [
+        (across.part(point.value), up.part(point.device.mass)) if point.device else None
+        for point in front.points
+    ]
+    for one, other in pairwise(places):
+        if one and other:
+            canvas.line(one, other)
+    for place in filter(None, places):
+        canvas.dot(*place)
+    marks = {
+        canvas.column(across.part(point.value)): NONE
+        for point in front.points
+        if point.device is None
+    }
+    if front.spans_own_value:
+        marks[canvas.column(across.part(front.own_value))] = OWN
+    ends = (_value(front, across.low), _value(front, across.high))
+    rows = frame(
+        canvas,
+        x_ends=ends,
+        y_ends=(grams(up.low), grams(up.high)),
+        marks=marks,
+    )
+    console.print(Padding(Text("\n".join(rows), no_wrap=True), INDENT))
+    note(console, f"{OWN} as specified, {NONE} no device")
+
+
+def print_written(
+    console: Console, front: Front, folder: Path | None, remarks: Sequence[str]
+) -> None:
+    """Files of the front, and the command that makes a whole device of a point."""
+    heading(console, "Any point as a whole design")
+    if folder is None:
+        note(console, "-o DIR writes the specification of each point for `ocs-design size --spec`")
+        return
+    items(console, remarks, style="yellow")
+    names = ", ".join(sorted(path.name for path in folder.glob("front.*")))
+    chosen = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
+    command = shlex.join(["ocs-design", "size", "--spec", str(folder / chosen.file)])
+    facts(
+        console,
+        [
+            ("front", f"{folder}/: {names}"),
+            (_value(front, chosen.value), command),
+        ],
+    )
+
+
+def _value(front: Front, value: float) -> str:
+    return format_quantity(value, front.unit)

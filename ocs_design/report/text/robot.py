@@ -1,0 +1,79 @@
+"""The robot in the terminal: what was read of it, as `inspect` and `size` show it."""
+
+from collections.abc import Iterable
+
+from rich.console import Console
+
+from ocs_design.device.answers import Inspection
+from ocs_design.device.records import RobotRecord
+from ocs_design.report.device import heading_drift, joint_table, robot_facts
+from ocs_design.report.quantities import degrees_number
+from ocs_design.report.table import Table, columns
+from ocs_design.report.text.layout import facts, heading, note, show, warn
+
+PAPER_ANGLE = (
+    "The paper states about 40 deg for Solo12; its own formula gives that only with the legs "
+    "spread by about 0.75 to 1 rad."
+)
+
+SAME_RATE = (
+    "Here weighted and simultaneous are for the same rate on both axes; `size` takes what is asked "
+    "of each axis."
+)
+
+
+def print_inspection(console: Console, inspection: Inspection, *, verbose: bool = False) -> None:
+    """Mass, posture, inertia, incidence angles and how they change with the posture."""
+    robot = inspection.robot
+    print_robot(
+        console,
+        robot,
+        [
+            ("read from", f"{robot.source} ({robot.format})"),
+            ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
+            ("legs", ", ".join(robot.legs) or "none found"),
+            ("heading drift", heading_drift(inspection.heading_drift)),
+        ],
+    )
+    heading(console, "Incidence angle alpha* of the robot alone, by criterion")
+    criteria = inspection.incidence_by_criterion.items()
+    show(
+        console,
+        Table(
+            columns("<criterion", "deg"),
+            tuple((name, degrees_number(angle, 3)) for name, angle in criteria),
+        ),
+    )
+    note(console, SAME_RATE)
+    heading(console, "Incidence angle (equal-rate) over postures")
+    show(
+        console,
+        Table(
+            columns("<posture", "Ixx [kg m2]", "Iyy [kg m2]", "Izz [kg m2]", "alpha* [deg]"),
+            tuple(
+                (
+                    line.posture,
+                    *(f"{moment:#.4g}" for moment in line.inertia_diagonal),
+                    degrees_number(line.incidence, 2),
+                )
+                for line in inspection.incidence_by_posture
+            ),
+        ),
+    )
+    if "solo12" in robot.name.lower():
+        note(console, PAPER_ANGLE)
+    if robot.posture and verbose:
+        print_joints(console, robot)
+
+
+def print_joints(console: Console, robot: RobotRecord) -> None:
+    """Value of every joint in the nominal posture."""
+    heading(console, f"Joints at {robot.posture_name}")
+    show(console, joint_table(robot))
+
+
+def print_robot(console: Console, robot: RobotRecord, more: Iterable[tuple[str, str]] = ()) -> None:
+    """What was read of a robot, and more of it; then the warnings about its file."""
+    heading(console, f"Robot: {robot.name}")
+    facts(console, [*robot_facts(robot), *more])
+    warn(console, robot.warnings)

@@ -1,0 +1,104 @@
+"""The whole report of `size` in the terminal: what was read, asked, found, proved and written."""
+
+from pathlib import Path
+
+from rich.console import Console
+
+from ocs_design.device.records import OcsDesign, SelectionRecord
+from ocs_design.report import limits, selection, warnings
+from ocs_design.report.device import criterion_table, device_facts, device_title
+from ocs_design.report.flights import landing_remarks
+from ocs_design.report.text.layout import (
+    facts,
+    files_written,
+    heading,
+    items,
+    note,
+    show,
+    warn,
+)
+from ocs_design.report.text.robot import print_joints, print_robot
+from ocs_design.report.text.validation import print_runs, print_verdict
+
+_FEWEST = 2
+"""Columns of the ranking that the narrowest terminal shows: drive and mass."""
+
+
+def print_design(console: Console, design: OcsDesign) -> None:
+    """Everything about a design and its flights."""
+    print_robot(console, design.robot)
+    heading(console, limits.requirement_title(design))
+    show(console, limits.demand_table(design))
+    note(console, limits.demand_note(design))
+    items(console, warnings.shortfalls(design), style="yellow")
+    items(console, warnings.coupling_notes(design))
+    if design.requirement.assumptions:
+        heading(console, "Assumed, because nothing else was specified")
+        items(console, design.requirement.assumptions)
+    if design.selection is not None:
+        print_selection(console, design.selection)
+    heading(console, device_title(design))
+    facts(console, device_facts(design))
+    warn(console, design.ocs.warnings)
+    items(console, warnings.device_warnings(design), style="yellow")
+    show(console, criterion_table(design.ocs))
+    names, meaning = limits.active_limits(design)
+    heading(console, f"Active limits: {names}")
+    if meaning:
+        note(console, meaning)
+    show(console, limits.saving_table(design))
+    note(console, limits.saving_notes(design))
+    margins = limits.recorded_margins(design)
+    heading(console, "Margins")
+    show(console, limits.margin_table(margins))
+    note(console, limits.MARGIN_NOTE)
+    items(console, limits.margin_notes(margins))
+    if design.ocs.flywheel.stress_margin is None:
+        items(console, [warnings.unchecked_stress(design.ocs)], style="yellow")
+    if design.validation:
+        print_runs(console, design.validation)
+    items(console, landing_remarks(design), style="yellow")
+
+
+def print_solution(console: Console, design: OcsDesign) -> None:
+    """Posture joint by joint, and how the optimum was found."""
+    if design.robot.posture:
+        print_joints(console, design.robot)
+    sizing, chosen = design.sizing, design.selection is not None
+    heading(console, "Solution")
+    facts(
+        console,
+        [
+            ("status", sizing.status),
+            ("method", sizing.method),
+            ("objective", f"{sizing.objective!r} kg, {'whole device' if chosen else 'one rim'}"),
+            *(() if chosen else (("relative duality gap", f"{sizing.gap:.1e}"),)),
+            ("fixed point", f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"),
+            *((f"price of {name}", f"{price!r}") for name, price in sizing.shadow_prices.items()),
+        ],
+    )
+
+
+def print_selection(console: Console, chosen: SelectionRecord, *, verbose: bool = False) -> None:
+    """What the drive is asked for, the lightest ones, and how many were ruled out."""
+    heading(console, f"Choice: {selection.choice_title(chosen)}")
+    show(console, selection.task_table(chosen))
+    note(console, selection.task_note(chosen))
+    drives = selection.best_drives if verbose else selection.shown_drives
+    show(console, selection.drive_table(drives(chosen.ranking)), fewest=_FEWEST)
+    ruled_out = selection.ruled_out(chosen)
+    if ruled_out:
+        note(console, ruled_out)
+    if verbose:
+        items(console, selection.rejection_details(chosen))
+    co_design = selection.co_design_facts(chosen)
+    if co_design:
+        heading(console, "Co-design: all dimensions together with the maneuvers, in 3-D")
+        facts(console, co_design)
+
+
+def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
+    """What was written, and the verdict in one line."""
+    files_written(console, str(folder), design.files, "everything in this report")
+    console.print()
+    print_verdict(console, design.validation)

@@ -1,0 +1,79 @@
+"""Flights in the terminal: as `size` and `validate` show them, one by one and many at once."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.text import Text
+
+from ocs_design.common.units import format_quantity
+from ocs_design.device.records import ValidationRecord
+from ocs_design.monte_carlo.summary import Validated
+from ocs_design.monte_carlo.uncertainty import key_of
+from ocs_design.report.flights import flight_table, run_sentence, verdict
+from ocs_design.report.monte_carlo import (
+    campaign_remarks,
+    campaign_title,
+    spread_table,
+    success_table,
+)
+from ocs_design.report.text.layout import (
+    STYLES,
+    facts,
+    files_written,
+    heading,
+    items,
+    note,
+    show,
+    warn,
+)
+from ocs_design.requirement.uncertainty import spreads
+
+
+def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
+    """Flights with and without the device: verdicts, attitudes, wheels, and why."""
+    heading(console, "Flights in MuJoCo, with the device and without")
+    show(console, flight_table(runs))
+    items(console, map(run_sentence, runs))
+
+
+def print_verdict(console: Console, runs: Sequence[ValidationRecord], *more: Text) -> None:
+    """Flights with the device in one line, and more on it."""
+    line = verdict([run.passed for run in runs if run.ocs])
+    console.print(Text(line.text, style=f"bold {STYLES[line.tone]}"), *more)
+
+
+def print_validated(
+    console: Console, found: Validated, folder: Path | None, files: Sequence[str]
+) -> None:
+    """Warnings, flights as `size` prints them, what many samples show, and the verdict.
+
+    Args:
+        console: to print on.
+        found: what came of it.
+        folder: that was written to, if any. files: in it.
+    """
+    warn(console, found.warnings)
+    if found.sample is not None:
+        heading(console, f"Sample {found.sample.index} of seed {found.sample.seed}")
+        units = {key: spread.unit for key, spread in spreads().items()}
+        values = (
+            (name.replace("_", " ").replace(".", " "), format_quantity(value, units[key_of(name)]))
+            for name, value in found.sample.values.items()
+        )
+        facts(console, values)
+    print_runs(console, found.validation)
+    record = found.monte_carlo
+    if record is not None:
+        heading(console, f"Monte Carlo: {campaign_title(record)}")
+        show(console, success_table(record))
+        console.print()
+        spread = spread_table(record)
+        show(console, spread, fewest=len(spread.columns) - 1)
+        items(console, campaign_remarks(record))
+        again = f"ocs-design validate {found.design} --seed {record.seed} --sample N"
+        note(console, f"Fly one again: {again}")
+    if folder is not None:
+        files_written(console, str(folder), files)
+    console.print()
+    print_verdict(console, found.validation)

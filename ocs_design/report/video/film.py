@@ -1,0 +1,110 @@
+"""Each maneuver as a film: with the device and without it, side by side, in real time."""
+
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+
+from ocs_design.common.errors import MissingToolError
+from ocs_design.common.files import safe_name
+from ocs_design.device.device import Device
+from ocs_design.export.ffmpeg import FFMPEG_HINT
+from ocs_design.export.film import Frames, Take, film_model, render_takes
+from ocs_design.report.flights import off_level
+from ocs_design.report.quantities import degrees, rpm
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.engine import Poses
+from ocs_design.simulation.scenario import Run
+
+EXTRA = "pip install 'ocs-design[video]'"
+
+STRIDE = 2
+"""Poses from one frame to the next: 33 frames a second of 67 poses."""
+
+
+def film_or_tell(
+    robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
+) -> tuple[str, ...]:
+    """Write the films of `film_flights` where they can be made: never a reason to fail.
+
+    Args:
+        robot, device, maneuvers, runs, folder: see there.
+
+    Returns:
+        Remarks on them, one sentence each.
+    """
+    if find_spec("PIL") is None:
+        return (f"no video, because Pillow is not installed; {EXTRA}",)
+    try:
+        films = film_flights(robot, device, maneuvers, runs, folder)
+    except MissingToolError as error:
+        return (f"{error}; {error.hint}" if error.hint else str(error),)
+    if any(film.suffix == ".gif" for film in films):
+        return (f"the video is a GIF, because there is no ffmpeg that makes H.264; {FFMPEG_HINT}",)
+    return ()
+
+
+def film_flights(
+    robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
+) -> tuple[Path, ...]:
+    """A film of each maneuver, `<name>.mp4` or `.gif`.
+
+    Args:
+        robot, device: that flew.
+        maneuvers: that were flown.
+        runs: with their poses.
+        folder: that takes the films.
+
+    Raises:
+        MissingToolError: OpenGL does not work here.
+    """
+    films = []
+    for maneuver in maneuvers:
+        pair = [run for run in runs if run.scenario == maneuver.name and run.poses is not None]
+        if pair:
+            films.append(_film(robot, device.as_flown(maneuver), pair, folder))
+    return tuple(films)
+
+
+def _film(robot: Robot, device: Device, runs: Sequence[Run], folder: Path) -> Path:
+    """Film of one maneuver; who is done first stands still until the other is."""
+    # Pillow is an extra.
+    from ocs_design.report.video import pictures  # noqa: PLC0415
+
+    poses = [run.poses for run in runs if run.poses is not None]
+    takes = [
+        Take(film_model(robot, device, ocs=run.ocs), pose.qpos[::STRIDE])
+        for run, pose in zip(runs, poses, strict=True)
+    ]
+    sides = []
+    for run, pose, frames in zip(runs, poses, render_takes(takes), strict=True):
+        captions = _captions(run, pose)
+        sides.append(
+            [
+                pictures.captioned(frame, pictures.Caption(*caption))
+                for frame, caption in zip(frames, captions, strict=True)
+            ]
+        )
+    longest = max(map(len, sides))
+    film: list[Frames] = [
+        np.concatenate([side[min(k, len(side) - 1)] for side in sides], axis=1)
+        for k in range(longest)
+    ]
+    seconds = STRIDE * float(poses[0].time[1] - poses[0].time[0])
+    return pictures.encode(film, seconds, folder / safe_name(runs[0].scenario))
+
+
+def _captions(run: Run, poses: Poses) -> Iterator[tuple[str, bool | None, tuple[str, ...]]]:
+    """Title, verdict and lines of each frame."""
+    title = f"{run.scenario}, {'with' if run.ocs else 'without'} the device"
+    series = run.series
+    for time in poses.time[::STRIDE]:
+        at = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
+        tilt = float(off_level(series.roll[at], series.pitch[at]))
+        lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
+        if run.ocs:
+            speeds = (rpm(float(speed)) for speed in series.wheel_speed[at])
+            lines.append(f"wheels {', '.join(speeds)}")
+        yield title, run.passed, tuple(lines)

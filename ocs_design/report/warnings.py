@@ -1,0 +1,191 @@
+"""Everything that could make a design another than its reader thinks it is, a sentence each."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ocs_design.actuation.drive import Drive
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.device.records import DemandRecord, ManeuverRecord, OcsDesign, OcsRecord
+from ocs_design.export.bill_of_materials import controller_rating
+from ocs_design.report.flights import flight_remarks
+from ocs_design.report.quantities import degrees
+from ocs_design.report.table import counted
+from ocs_design.requirement.bound import AXES, authority
+
+SAME_ANGLE = 1e-9
+"""Incidences that differ by less are equal [rad]."""
+
+WORTH_TELLING = 0.02
+"""Coupling below this share of what the turn alone asks is left out.
+
+30 of 31 public robots with legs couple both axes by less than 0.9 % of their inertia, which is this
+much only at small incidences.
+"""
+
+_SHOWN_LINKS = 2
+"""Links whose joints are spelt out where they can hit a module."""
+
+_NOT_DESIGNED = "not designed"
+"""Words in notes for the workshop that ask for a part of one's own."""
+
+
+def all_warnings(design: OcsDesign) -> Iterator[str]:
+    """Warnings for the summary: about the robot's file, the device, its motor and its flights."""
+    ocs = design.ocs
+    yield from (*design.robot.warnings, *ocs.warnings)
+    yield from shortfalls(design)
+    yield from _overvoltage(ocs.motor)
+    yield from _motor_notes(design)
+    # A robot by hand has no shape, and nobody thinks that it was looked at.
+    if ocs.clearance is None and design.robot.sha256:
+        yield (
+            "clearance NOT checked: no geometry of the robot could be read, so its parts may be "
+            "where the device is; make sure that its meshes are found (--package-path NAME=DIR)"
+        )
+    found = () if ocs.mounting is None else ocs.mounting.reachable
+    if found:
+        names = ", ".join(dict.fromkeys(reach.part for reach in found))
+        yield f"links that can hit a module within their joints' limits: {names}"
+    left = [note for note in ocs.fitting if _NOT_DESIGNED in note]
+    yield from left
+    more = len(ocs.fitting) - len(left)
+    if more:
+        yield f"{counted(more, 'note')} on making and assembling the parts: shown with -v"
+    if ocs.flywheel.stress_margin is None:
+        yield unchecked_stress(ocs)
+    yield from flight_remarks(design)
+
+
+def unchecked_stress(ocs: OcsRecord) -> str:
+    """Sentence for a rim whose material has no known strength."""
+    return f"the stress is NOT checked: no strength of {ocs.flywheel.material} is known"
+
+
+def device_warnings(design: OcsDesign) -> tuple[str, ...]:
+    """Warnings beside the device's facts: what can hit it, how it is assembled, its motor."""
+    ocs = design.ocs
+    return (
+        *_reachable(ocs),
+        *ocs.fitting,
+        *_overvoltage(ocs.motor),
+        *_motor_notes(design),
+    )
+
+
+def _reachable(ocs: OcsRecord) -> Iterator[str]:
+    """Links that can hit a module, with the joint values at which they do."""
+    found = () if ocs.mounting is None else ocs.mounting.reachable
+    if not found:
+        return
+    named = []
+    for reach in found[:_SHOWN_LINKS]:
+        joints = ", ".join(f"{name} {value:.2f}" for name, value in reach.joints.items())
+        named.append(f"{reach.part} ({joints})")
+    if len(found) > _SHOWN_LINKS:
+        named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
+    yield f"links that can hit a module within their joints' limits: {'; '.join(named)}"
+
+
+def _overvoltage(motor: Drive) -> Iterator[str]:
+    """Warning about a motor at more volts than it is made for."""
+    if motor.bus_voltage is None or motor.rated_voltage is None:
+        return
+    if motor.bus_voltage > motor.rated_voltage:
+        yield (
+            f"{motor.name} is rated for {motor.rated_voltage:g} V and fed with "
+            f"{motor.bus_voltage:g} V: ask the makers of motor and controller whether they stand it"
+        )
+
+
+def _motor_notes(design: OcsDesign) -> Iterator[str]:
+    """Notes on the motor's figures and its controllers; none where no motor was chosen."""
+    motor = design.ocs.motor
+    if motor.bus_voltage is None:
+        return
+    torques = (each.demand for each in design.margins if each.name.startswith("torque"))
+    asked, starts = max(torques, default=0.0), motor.saturation_torque
+    if starts is not None and asked > starts:
+        yield (
+            f"{motor.name} saturates from {starts:.3g} N m at the wheel and is asked for "
+            f"{asked:.3g}: it takes more current and voltage than its k_t says, and the margins of "
+            "both are too good"
+        )
+    if motor.rotor_inertia == 0.0 and motor.gear == DIRECT.name:
+        yield "rotor inertia is unknown and taken as 0: wheels turn slower, never faster"
+    rating = controller_rating(motor)
+    if rating:
+        count = counted(len(design.ocs.modules), "motor controller")
+        yield f"not in the mass: cables, and {count}, each for {rating}"
+
+
+def shortfalls(design: OcsDesign) -> Iterator[str]:
+    """What the design cannot do, or does in another state than it is delivered in."""
+    limit, specified = design.ocs.motor.torque_limit, design.requirement.spin_inertia_by_hand
+    for demand in design.requirement.demands:
+        if limit is not None and demand.torque > limit:
+            yield (
+                f"{demand.source}: needs at least {demand.torque:.3g} N m a wheel, more than the "
+                f"{limit:.3g} N m allowed: no wheel, however large, makes this turn in time"
+            )
+        if specified is not None and demand.spin_inertia > specified:
+            yield f"{demand.source}: asks for more than the {specified:.3e} kg m2 specified"
+        yield from _turned_by_hand(demand, design)
+
+
+def turned_by_hand(design: OcsDesign) -> tuple[str, ...]:
+    """Maneuvers for which somebody has to turn the modules first."""
+    return tuple(
+        each for demand in design.requirement.demands for each in _turned_by_hand(demand, design)
+    )
+
+
+def _turned_by_hand(demand: DemandRecord, design: OcsDesign) -> Iterator[str]:
+    if abs(demand.incidence - design.ocs.incidence) > SAME_ANGLE:
+        yield (
+            f"{demand.source}: sized and flown with the modules turned by hand to "
+            f"{degrees(demand.incidence)}; the files have them at {degrees(design.ocs.incidence)}"
+        )
+
+
+def coupling_notes(design: OcsDesign) -> Iterator[str]:
+    """What it costs that a robot which pitches also rolls, where it is not symmetric."""
+    maneuvers = {maneuver.name: maneuver for maneuver in design.requirement.maneuvers}
+    whole = TiltInertia.of(design.ocs.total_inertia)
+    for demand in design.requirement.demands:
+        axis = _only_axis(maneuvers.get(demand.source))
+        if axis is not None:
+            yield from _coupling(demand, axis, float(whole.drift[1 - axis]))
+
+
+def _only_axis(maneuver: ManeuverRecord | None) -> int | None:
+    """Index in `AXES` of the one axis that a maneuver turns about; None: both, or it is no turn."""
+    if maneuver is None:
+        return None
+    roll, pitch = (maneuver.parameters.get(axis, 0.0) != 0.0 for axis in AXES)
+    if maneuver.kind == "flip":
+        pitch = True
+    return None if roll == pitch else int(pitch)
+
+
+def _coupling(demand: DemandRecord, axis: int, drift: float) -> Iterator[str]:
+    """What a turn about one axis takes of the other one."""
+    shares = authority(demand.incidence)
+    about, across = AXES[axis], AXES[1 - axis]
+    if shares[1 - axis] <= OUT_OF_REACH:
+        if drift > WORTH_TELLING:
+            yield (
+                f"{demand.source}: at {degrees(demand.incidence)} the wheels cannot turn the robot "
+                f"in {across}. Robot and device are not symmetric, and drift by {drift:.2f} deg of "
+                f"{across} per degree of {about}, there and back in a whole turn"
+            )
+        return
+    asked = np.array([demand.roll_momentum, demand.pitch_momentum]) / shares
+    more = asked[1 - axis] / asked[axis]
+    if more > WORTH_TELLING:
+        yield (
+            f"{demand.source}: robot and device are not symmetric: to {about} alone takes momentum "
+            f"about {across} too, {more:.0%} more from the busier wheel at "
+            f"{degrees(demand.incidence)}; the device is sized for it"
+        )

@@ -1,0 +1,193 @@
+"""Keys of a specification that contradict each other, or cannot be meant for the robot."""
+
+from collections.abc import Iterable, Iterator
+
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.catalogue.materials import material
+from ocs_design.common.errors import OcsError, SpecificationError
+from ocs_design.common.units import format_quantity
+from ocs_design.requirement.choices import unknown_names
+from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
+from ocs_design.requirement.maneuver import (
+    Disturbance,
+    Drop,
+    Flip,
+    Maneuver,
+    Requirement,
+    Unforeseen,
+)
+from ocs_design.requirement.specification import (
+    AUTO,
+    LIGHTEST,
+    NO_MOTOR,
+    NO_WEB,
+    FlywheelSection,
+    Specification,
+)
+from ocs_design.robot.robot import Robot
+
+OF_WEBS = ("chamfer", "balancing_holes", "balancing_hole_diameter", "balancing_hole_depth")
+"""Keys of `[flywheel]` that plain rims on massless spokes have nothing of."""
+
+FEWEST_HOLES, MOST_HOLES = 3, 100
+"""In a face: fewer leave a rim with two inertias across its axis."""
+
+
+def contradictions(specification: Specification) -> Iterator[str]:
+    """What no single key shows: keys that do not go together, one line each."""
+    flywheel, robot = specification.flywheel, specification.robot
+    bore, radius = flywheel.r_min, flywheel.r_max
+    if bore is not None and radius is not None and bore >= radius:
+        yield f"flywheel.r_min: {bore:g} m must be below r_max, {radius:g} m"
+    low, high = flywheel.h_min, flywheel.h_max
+    if low is not None and high is not None and low > high:
+        yield f"flywheel.h_min: {low:g} m must not be above h_max, {high:g} m"
+
+    if (robot.mass is None) != (robot.inertia is None):
+        yield "robot: mass and inertia come together"
+    if robot.file is not None and robot.mass is not None:
+        yield "robot: state either a file or mass and inertia, not both"
+
+    yield from without_motor(specification)
+    holes = flywheel.balancing_holes
+    if holes is not None and holes != 0 and not FEWEST_HOLES <= holes <= MOST_HOLES:
+        yield f"flywheel.balancing_holes: {holes} is not {FEWEST_HOLES} to {MOST_HOLES}, or 0"
+    if flywheel.web == NO_WEB:
+        for key in OF_WEBS:
+            if getattr(flywheel, key) is not None:
+                yield f"flywheel.{key}: says nothing where flywheel.web is {NO_WEB!r}"
+
+    if specification.maneuvers and specification.requirement.maneuvers is not None:
+        yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
+    yield from _too_short_flights(specification.maneuvers)
+
+
+def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
+    """Jumps that end before what they are for."""
+    for maneuver in maneuvers:
+        match maneuver:
+            case Disturbance(onset=needed):
+                what = "its torque starts"
+            case Flip(duration=needed):
+                what = "its turn ends"
+            case _:
+                continue
+        if needed >= maneuver.flight_time:
+            flight = max(maneuver.flight_time, 0.0)
+            yield (
+                f"maneuver.{maneuver.name}: {what} {needed:.3g} s after lift-off, "
+                f"but the flight lasts {flight:.3g} s"
+            )
+
+
+def without_motor(specification: Specification) -> Iterator[str]:
+    """What only a motor gives a meaning to, where none is wanted, one line each."""
+    if specification.motor.name != NO_MOTOR:
+        return
+    for key in ("bus_voltage", "gear", "motors", "gears"):
+        if getattr(specification.motor, key) is not None:
+            yield f"motor.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+    for key in OF_WEBS:
+        if getattr(specification.flywheel, key) is not None:
+            yield f"flywheel.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+    if specification.ocs.alpha_criterion == LIGHTEST:
+        yield f"ocs.alpha_criterion: {LIGHTEST!r} needs a motor: motor.name is {NO_MOTOR!r}"
+    if specification.ocs.co_design:
+        yield f"ocs.co_design: needs a motor: motor.name is {NO_MOTOR!r}"
+
+
+def unfit_for_robot(
+    specification: Specification,
+    robot: Robot,
+    robot_size: float,
+    requirement: Requirement,
+    envelope: Envelope,
+) -> Iterator[str]:
+    """Faults of a specification that its robot reveals, one line each.
+
+    `requirement` and `envelope` have their defaults filled in.
+    """
+    position, name = specification.ocs.position, specification.flywheel.material
+    yield from _oversized(specification, robot, robot_size)
+    if position is not None and position[1] <= 0.0:
+        yield (
+            f"ocs.position: y = {format_quantity(position[1], 'mm')} is not on the left side: "
+            "the left wheel needs y > 0"
+        )
+    yield from _empty_room(specification.flywheel, envelope)
+    yield from _impossible(requirement, robot)
+    try:
+        if name not in {None, AUTO}:
+            material(name)
+    except SpecificationError as error:
+        yield f"flywheel.material: {error.message}. {error.hint}"
+    yield from unknown_names(specification)
+    yield from without_motor(specification)
+
+
+def _oversized(specification: Specification, robot: Robot, size: float) -> Iterator[str]:
+    """Bare numbers that were meant in another unit: larger than the robot itself."""
+    for key in ("r_max", "r_min", "h_max", "h_min", "wall_min"):
+        length = getattr(specification.flywheel, key)
+        if length is not None and length > size:
+            yield (
+                f"flywheel.{key}: {length:g} m is larger than the robot ({size:.2g} m): "
+                f"did you mean {length:g}mm?"
+            )
+    for axis, coordinate in zip("xyz", specification.ocs.position or (), strict=False):
+        if abs(coordinate) > size:
+            yield (
+                f"ocs.position: {axis} = {coordinate:g} m is off the robot ({size:.2g} m): "
+                f"did you mean {coordinate:g}mm?"
+            )
+    mass = specification.flywheel.wheel_mass_max
+    if mass is not None and mass > robot.mass:
+        yield (
+            f"flywheel.wheel_mass_max: {mass:g} kg is more than the robot ({robot.mass:.3g} kg): "
+            f"did you mean {mass:g}g?"
+        )
+
+
+def _empty_room(specified: FlywheelSection, envelope: Envelope) -> Iterator[str]:
+    """Limits, specified or assumed, that leave no room between them."""
+
+    def limit(key: str) -> str:
+        """Key and figure, with a note where it was assumed."""
+        figure = format_quantity(getattr(envelope, LIMIT_OF_KEY[key]), "mm")
+        note = " (assumed: state it too)" if getattr(specified, key) is None else ""
+        return f"{key}, {figure}{note}"
+
+    if envelope.inner_radius_min >= envelope.outer_radius_max:
+        yield f"flywheel: {limit('r_max')}, leaves no room over {limit('r_min')}"
+    if envelope.height_min > envelope.height_max:
+        yield f"flywheel: {limit('h_max')}, is below {limit('h_min')}"
+
+
+def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:
+    """Maneuvers that this robot cannot be asked for, or nothing asked at all."""
+    for maneuver in requirement.maneuvers:
+        try:
+            maneuver.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
+        except OcsError as error:
+            yield error.message
+    if requirement.rate_change is not None or requirement.spin_inertia is not None:
+        return
+    if not requirement.maneuvers:
+        yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
+    idle = {maneuver.name: _zeros(maneuver) for maneuver in requirement.maneuvers}
+    if all(idle.values()):
+        for name, zeros in idle.items():
+            yield f"maneuver.{name}: {zeros}: this asks nothing of the device"
+
+
+def _zeros(maneuver: Maneuver) -> str:
+    """Which keys are zero, so that nothing is asked; empty: something is. Yaw never is."""
+    match maneuver:
+        case Drop(roll=0.0, pitch=0.0):
+            return "roll and pitch are 0"
+        case Flip(angle=0.0):
+            return "angle is 0"
+        case Unforeseen(torque=(0.0, 0.0, _)):
+            return "torque about roll and pitch is 0"
+        case _:
+            return ""

@@ -1,0 +1,278 @@
+"""Distances between solids on a robot's trunk and its links at any values of its joints.
+
+MuJoCo measures them (`mj_geomDistance`), with everything placed in the trunk's frame B.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.robot.links import Warnings
+from ocs_design.robot.meshes import solid_shapes
+from ocs_design.robot.mjcf import UNBOUNDED
+from ocs_design.robot.mujoco_bodies import body_names, quaternion
+from ocs_design.robot.mujoco_model import compile_spec, plain_spec, posture_qpos, trunk_body
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.tree import Ball, Drum, Tree
+
+Probe = Ball | Drum
+"""Solid on the trunk, of which distances are measured."""
+
+BASE = "ocs_probe_base"
+"""Site at the frame B."""
+
+BALL = "ocs_probe_ball"
+DRUMS = ("ocs_probe_left", "ocs_probe_right")
+PROBES = (BALL, *DRUMS)
+"""Geoms on the trunk that stand in for solids."""
+
+
+def solid_model(robot: Robot, warnings: Warnings) -> mujoco.MjModel:
+    """Compiled model of the robot with the probes on its trunk.
+
+    A body collides with its collision shapes, or, where it has none, with what it shows; meshes
+    count as their convex hulls. Geoms of an MJCF model are all there: see `parts_of`.
+
+    Args:
+        robot: as read.
+        warnings: takes meshes that cannot be read.
+    """
+    bodies = []
+    for body in robot.tree.bodies:
+        shapes = tuple(replace(shape, collides=True) for shape in solid_shapes(body))
+        bodies.append(replace(body, shapes=shapes))
+    solid = replace(robot, tree=replace(robot.tree, bodies=tuple(bodies)))
+    spec = plain_spec(solid, warnings, visuals=False)
+    trunk, base = trunk_body(spec, solid)
+    trunk.add_site(name=BASE, pos=base.position, quat=quaternion(base.rotation))
+    for name in PROBES:
+        kind = mujoco.mjtGeom.mjGEOM_SPHERE if name == BALL else mujoco.mjtGeom.mjGEOM_CYLINDER
+        trunk.add_geom(name=name, type=kind, size=(1, 1, 1), mass=0, contype=0, conaffinity=0)
+    return compile_spec(spec, robot, warnings)
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Moving body with a shape.
+
+    Attributes:
+        name: of the body.
+        limb: name of the first body on the way to it from the trunk; empty for the trunk itself.
+        joints: driven joints that move it against the trunk, from the trunk outwards.
+        geoms: that can be hit, in the model.
+    """
+
+    name: str
+    limb: str
+    joints: tuple[str, ...]
+    geoms: NDArray[np.int64]
+
+
+def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[Part, ...]:
+    """Every body with a shape, in tree order.
+
+    Args:
+        robot: that the model was made from.
+        model: of `solid_model`.
+    """
+    tree = robot.tree
+    index_of = {name: index for index, name in enumerate(body_names(tree))}
+    index_of |= tree.body_of_link
+    probes = {model.geom(name).id for name in PROBES}
+    geoms_of: dict[int, list[int]] = {}
+    for geom in range(model.ngeom):
+        body = index_of.get(model.body(int(model.geom_bodyid[geom])).name)
+        if body is not None and geom not in probes and model.geom_type[geom] not in UNBOUNDED:
+            geoms_of.setdefault(body, []).append(geom)
+    touching = (model.geom_contype | model.geom_conaffinity) != 0
+    parts = []
+    for body, geoms in sorted(geoms_of.items()):
+        path = path_between(tree, tree.body_of_link[robot.trunk], body)
+        joints: dict[str, None] = {}
+        for mover in path:
+            joint = tree.bodies[mover].joint
+            if joint is not None:
+                joints[joint.name if joint.mimic is None else joint.mimic[0]] = None
+        limb = tree.bodies[path[0]].name if path else ""
+        # An MJCF model has geoms that only show beside those that touch.
+        solid = [geom for geom in geoms if touching[geom]] or geoms
+        parts.append(Part(tree.bodies[body].name, limb, tuple(joints), np.array(solid)))
+    return tuple(parts)
+
+
+def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
+    """Bodies whose joints move `body` against the trunk, from the trunk outwards."""
+
+    def to_root(index: int) -> list[int]:
+        """The body and those above it, without the root."""
+        path = []
+        while index > 0:
+            path.append(index)
+            index = tree.bodies[index].parent
+        return path
+
+    up, down = to_root(trunk), to_root(body)
+    shared = set(up) & set(down)
+    return [i for i in up if i not in shared] + [i for i in reversed(down) if i not in shared]
+
+
+_FARTHEST = 10.0
+"""Largest distance that is looked for [m]."""
+
+Posture = Mapping[str, float]
+"""Values of driven joints [rad or m]; all others are at the nominal posture."""
+
+
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """Places of all geoms in several postures, in B.
+
+    Attributes:
+        postures: n of them.
+        positions: [m], shape (n, ngeom, 3). axes: rotations row by row, shape (n, ngeom, 9).
+    """
+
+    postures: Sequence[Posture]
+    positions: FloatArray
+    axes: FloatArray
+
+    def __getitem__(self, index: int) -> "Poses":
+        """The posture with this number alone."""
+        one = slice(index, index + 1)
+        return Poses(self.postures[one], self.positions[one], self.axes[one])
+
+
+@dataclass(frozen=True, eq=False)
+class Nearest:
+    """Part that comes nearest to a solid, and how near.
+
+    Attributes:
+        part: see `Part`.
+        distance: between the surfaces, negative where they overlap [m].
+        posture: in which it comes so near.
+    """
+
+    part: Part
+    distance: float
+    posture: Posture
+
+
+class CollisionModel:
+    """A robot's solid parts, and the distances of solids on its trunk from them.
+
+    Attributes:
+        robot: see `Robot`.
+        parts: see `Part`; empty for a robot without any shape.
+        nominal: the nominal posture alone.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        # Exporting the robot warns of meshes that cannot be read.
+        self._model = solid_model(robot, Warnings())
+        self._data = mujoco.MjData(self._model)
+        self.parts = parts_of(robot, self._model)
+        self._part_of = {int(geom): part for part in self.parts for geom in part.geoms}
+        self._fromto = np.zeros(6)
+        self._base = self._model.site(BASE).id
+        self._nominal = posture_qpos(self._model, robot)
+        # Coordinates that go with each driven joint: address, factor and offset.
+        self._moved_by: dict[str, list[tuple[int, float, float]]] = {}
+        for name, joint in robot.tree.joints.items():
+            leader, factor, offset = joint.mimic or (name, 1.0, 0.0)
+            address = int(self._model.joint(name).qposadr[0])
+            self._moved_by.setdefault(leader, []).append((address, factor, offset))
+        self.nominal = self.poses([{}])
+
+    def poses(self, postures: Sequence[Posture]) -> Poses:
+        """Places of all geoms in these postures; joints that mimic others follow them."""
+        model, data, count = self._model, self._data, len(postures)
+        origin, base = np.empty((count, 1, 3)), np.empty((count, 1, 3, 3))
+        positions = np.empty((count, model.ngeom, 3))
+        axes = np.empty((count, model.ngeom, 3, 3))
+        for index, posture in enumerate(postures):
+            data.qpos[:] = self._nominal
+            for name, value in posture.items():
+                for address, factor, offset in self._moved_by.get(name, ()):
+                    data.qpos[address] = factor * value + offset
+            mujoco.mj_kinematics(model, data)
+            origin[index], positions[index] = data.site_xpos[self._base], data.geom_xpos
+            base[index].flat, axes[index].flat = data.site_xmat[self._base], data.geom_xmat
+        return Poses(
+            postures,
+            (base.swapaxes(2, 3) @ (positions - origin)[..., None])[..., 0],
+            (base.swapaxes(2, 3) @ axes).reshape(count, model.ngeom, 9),
+        )
+
+    def nearest(
+        self, probe: Probe, poses: Poses, parts: Sequence[Part], *, within: float = _FARTHEST
+    ) -> Nearest | None:
+        """Part that comes nearest to a solid in any of the postures; None beyond `within`.
+
+        Balls around both tell which pairs need to be looked at.
+        """
+        geoms = np.array([geom for part in parts for geom in part.geoms], dtype=np.int64)
+        if not len(geoms):
+            return None
+        apart = np.linalg.norm(poses.positions[:, geoms] - probe.center, axis=2)
+        at_least = apart - self._model.geom_rbound[geoms] - probe.reach
+        rows, columns = np.nonzero(at_least < within)
+        order = np.argsort(at_least[rows, columns], kind="stable")
+        best, least = None, within
+        where = self._put(probe, 0)
+        for row, column in zip(rows[order], columns[order], strict=True):
+            if at_least[row, column] >= least:
+                break
+            geom = int(geoms[column])
+            self._data.geom_xpos[geom] = poses.positions[row, geom]
+            self._data.geom_xmat[geom] = poses.axes[row, geom]
+            distance = self._distance(where, geom, least)
+            if distance < least:
+                best, least = (int(row), geom), distance
+        if best is None:
+            return None
+        return Nearest(self._part_of[best[1]], least, poses.postures[best[0]])
+
+    def between(self, left: Drum, right: Drum) -> float:
+        """Distance of two solids on the trunk [m]."""
+        return self._distance(self._put(left, 0), self._put(right, 1), _FARTHEST)
+
+    def _distance(self, first: int, second: int, within: float) -> float:
+        return float(
+            mujoco.mj_geomDistance(self._model, self._data, first, second, within, self._fromto)
+        )
+
+    def _put(self, probe: Probe, which: int) -> int:
+        """Put the geom that stands in for `probe` in its place; the geom's number."""
+        axes = np.eye(3).ravel()
+        match probe:
+            case Ball():
+                name, size = BALL, (probe.radius, 0.0, 0.0)
+            case Drum():
+                name, size = DRUMS[which], (probe.radius, 0.5 * probe.height, 0.0)
+                # Any rotation that takes z to the axis will do.
+                quaternion = np.empty(4)
+                mujoco.mju_quatZ2Vec(quaternion, probe.axis)
+                mujoco.mju_quat2Mat(axes, quaternion)
+        geom = int(self._model.geom(name).id)
+        self._model.geom_size[geom] = size
+        self._model.geom_rbound[geom] = probe.reach
+        self._data.geom_xpos[geom] = probe.center
+        self._data.geom_xmat[geom] = axes
+        return geom
+
+
+@lru_cache(maxsize=1)
+def collision_model(robot: Robot) -> CollisionModel:
+    """Collision model of a robot, made once: the hulls of its meshes take most of the time."""
+    return CollisionModel(robot)
+
+
+def forget_collision_model() -> None:
+    """Free the memory of the last robot's model: large meshes take hundreds of megabytes."""
+    collision_model.cache_clear()

@@ -1,0 +1,154 @@
+"""Base frame B and the legs in it: their chains, their planes and the upward axis."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.chain import Chain, neutral_posture
+from ocs_design.robot.legs import LegPlane, leg_chain, leg_plane, trunk_body
+from ocs_design.robot.robot import Leg, Mount
+from ocs_design.robot.tree import Placement, Tree
+
+SIDEWAYS = 0.9
+"""Smallest product of a knee's axis with the x axis of a frame whose x points sideways."""
+
+
+@dataclass(frozen=True, eq=False)
+class LegGeometry:
+    """One leg in the base frame B, joints of no leg at rest.
+
+    Attributes:
+        leg: as found in the tree.
+        chain: from the body where the legs branch to the foot, in B.
+        plane: in which the leg bends, in B.
+    """
+
+    leg: Leg
+    chain: Chain
+    plane: LegPlane
+
+
+def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeometry, ...]:
+    """Chain and plane of each leg in B."""
+    up = up_axis(tree, trunk, legs)
+    return tuple(
+        LegGeometry(leg, chain, leg_plane(chain, leg.foot, up))
+        for leg, chain in zip(legs, _chains(tree, trunk, legs), strict=True)
+    )
+
+
+def up_axis(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
+    """The axis of B, either way, along which the legs hang when all joints are at zero, shape (3,).
+
+    It is z, unless B follows another convention.
+    """
+    hang = np.zeros(3)
+    for chain, leg in zip(_chains(tree, trunk, legs), legs, strict=True):
+        rest = chain.pose(chain.neutral())
+        hang += rest.origins[0] - rest.point(leg.foot)
+    axis = int(np.argmax(np.abs(hang)))
+    return np.asarray(np.eye(3)[axis] * np.sign(hang[axis]))
+
+
+def standing_height(
+    tree: Tree, trunk: str, legs: Sequence[Leg], posture: Mapping[str, float]
+) -> float:
+    """Height of the trunk frame's origin over its lowest sole at `posture` [m]."""
+    up = up_axis(tree, trunk, legs)
+    placements = tree.placements_from(trunk, posture)
+    return max(
+        leg.foot_radius
+        - float(up @ (placements[leg.body].rotation @ leg.foot + placements[leg.body].position))
+        for leg in legs
+    )
+
+
+def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str]:
+    """Warnings that B may not have x forward and z up, from how the legs hang and bend."""
+    if not legs:
+        return []
+    cure = "fix a link with x forward and z up to the trunk and name it with --trunk"
+    up = up_axis(tree, trunk, legs)
+    if up[2] < 1.0:
+        return [
+            f"the legs do not hang along -z of the trunk frame '{trunk}' but along "
+            f"{axis_name(-up)}, so roll and pitch are about other axes than they should: {cure}"
+        ]
+    axes = [geometry.plane.axis for geometry in leg_geometries(tree, trunk, legs)]
+    if all(abs(axis[0]) > SIDEWAYS for axis in axes):
+        return [
+            f"the knees turn about the x axis of the trunk frame '{trunk}', so x seems to point "
+            f"sideways, and roll and pitch are swapped: {cure}"
+        ]
+    return []
+
+
+def axis_name(direction: FloatArray) -> str:
+    """Name of the axis that a direction is nearest to, such as `+x`."""
+    axis = int(np.argmax(np.abs(direction)))
+    return f"{'-' if direction[axis] < 0.0 else '+'}{'xyz'[axis]}"
+
+
+def _chains(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[Chain]:
+    placements = tree.placements_from(trunk, neutral_posture(tree))
+    base = trunk_body(tree, legs)
+    return [leg_chain(tree, leg, base, placements) for leg in legs]
+
+
+BASE_FRAME = "ocs_base"
+"""Name of the link that is fixed to the trunk where no link of the file has such a frame."""
+
+
+def with_base_frame(
+    tree: Tree, trunk: str, legs: Sequence[Leg]
+) -> tuple[Tree, Mount | None, tuple[str, ...]]:
+    """The tree with a base frame fixed to `trunk`, if the trunk's own frame is none.
+
+    Up follows from how the legs hang, sideways from the axes that they bend about. Front and back
+    look alike: the one nearer to the trunk's own x axis is taken as front.
+
+    Returns:
+        The tree; how B is fixed to the trunk, None if the trunk's own frame is B; the warnings.
+
+    Raises:
+        RobotError: the frame would be needed, but the file has a link of that name.
+    """
+    rotation = _base_rotation(tree, trunk, legs) if legs else np.eye(3)
+    if np.array_equal(rotation, np.eye(3)):
+        return tree, None, ()
+    if BASE_FRAME in tree.body_of_link:
+        raise RobotError(
+            f"the robot already has a link named {BASE_FRAME!r}, which the base frame needs",
+            hint="rename that link, or name a link with x forward and z up with --trunk",
+        )
+    mount = Mount(trunk, Placement(rotation, np.zeros(3)))
+    warning = (
+        f"the frame of the trunk '{trunk}' does not have x forward and z up: forward is its "
+        f"{axis_name(rotation[:, 0])} axis and up its {axis_name(rotation[:, 2])} axis, "
+        f"judged by the legs; "
+        f"the base frame '{BASE_FRAME}' is fixed to it accordingly"
+    )
+    index = tree.body_of_link[trunk]
+    body = tree.bodies[index]
+    carrier = replace(
+        body,
+        links={**body.links, BASE_FRAME: body.links[trunk] @ mount.placement},
+        link_masses={**body.link_masses, BASE_FRAME: 0.0},
+    )
+    bodies = (*tree.bodies[:index], carrier, *tree.bodies[index + 1 :])
+    return replace(tree, bodies=bodies), mount, (warning,)
+
+
+def _base_rotation(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
+    """Axes of B in the trunk's frame, turned by right angles, as columns, shape (3, 3)."""
+    up = up_axis(tree, trunk, legs)
+    knees = [geometry.plane.axis for geometry in leg_geometries(tree, trunk, legs)]
+    if up[2] == 1.0 and not all(abs(axis[0]) > SIDEWAYS for axis in knees):
+        return np.eye(3)
+    sideways = np.sum(np.abs(knees), axis=0) * (up == 0.0)
+    left = np.eye(3)[int(np.argmax(sideways))]
+    both = [np.column_stack([np.cross(y, up), y, up]) for y in (left, -left)]
+    return max(both, key=np.trace)

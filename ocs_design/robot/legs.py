@@ -1,0 +1,403 @@
+"""Legs of any legged robot, their feet, the plane in which each bends, and the trunk."""
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.robot.chain import Chain, ChainPose, chain_of, neutral_posture
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.meshes import extent, extent_of, solid_shapes
+from ocs_design.robot.robot import Leg
+from ocs_design.robot.tree import Body, JointKind, Placement, ShapeKind, Tree
+
+ANKLED_JOINTS = 5
+"""A leg with at least so many joints, its wheel not counted, can keep its sole flat."""
+
+_BALL_SHARE = 0.25
+"""Largest radius of a foot, as a share of the shank."""
+
+
+@dataclass(frozen=True, eq=False)
+class Foot:
+    """The end of a limb.
+
+    Attributes:
+        link: that touches the ground.
+        point: in the last body's frame [m], shape (3,).
+        radius: of the ball or wheel around `point`; 0 for a sole or a bare point [m].
+    """
+
+    link: str
+    point: FloatArray
+    radius: float
+
+
+def find_foot(chain: Chain, up: FloatArray) -> Foot:
+    """The point of a limb that touches the ground when the limb reaches down.
+
+    * A last body that is round about its endless joint is a wheel: the point is its centre.
+    * A limb with ankles (five joints or more) has a sole, flat when all joints are at zero: the
+      point is the middle of the lowest surface.
+    * Else the foot is the end of the shank: its lowest collision sphere; else the farthest fixed
+      link, with the shapes' reach beyond its origin as radius; else the lowest surface.
+
+    Args:
+        chain: the limb.
+        up: unit vector against gravity in the chain's reference frame, shape (3,).
+    """
+    body = chain.bodies[-1]
+    if body.joint is not None and is_wheel(body):
+        axis, com = body.joint.axis, body.mass_properties.com
+        reaches = [extent_of(solid_shapes(body), side) or 0.0 for side in _across(axis)]
+        return Foot(body.name, axis * (axis @ com), max(reaches))
+    if len(chain.driven) >= ANKLED_JOINTS:
+        zero = chain.pose(np.zeros(len(chain.driven)))
+        return _lowest_surface(body, -zero.end.rotation.T @ up)
+    stretched = chain.pose(chain.stretched(farthest_frame(body), -up))
+    return _shank_end(body, -stretched.end.rotation.T @ up)
+
+
+def farthest_frame(body: Body) -> FloatArray:
+    """The farthest from a body's joint of its link origins and centre of mass [m], shape (3,)."""
+    points = [*(place.position for place in body.links.values()), body.mass_properties.com]
+    return max(points, key=lambda point: float(point @ point))
+
+
+def is_wheel(body: Body) -> bool:
+    """Whether a body is round about its endless joint, with its mass on the axis."""
+    joint = body.joint
+    if (
+        joint is None
+        or joint.kind is not JointKind.REVOLUTE
+        or np.isfinite(joint.upper - joint.lower)
+    ):
+        return False
+    reaches = [extent_of(solid_shapes(body), side) for side in _across(joint.axis)]
+    known = [reach for reach in reaches if reach is not None]
+    if not known or min(known) <= 0.0:
+        return False
+    com = body.mass_properties.com
+    eccentricity = np.linalg.norm(com - joint.axis * (joint.axis @ com))
+    return max(known) < 1.1 * min(known) and bool(eccentricity < 0.1 * min(known))
+
+
+def _across(axis: FloatArray) -> Sequence[FloatArray]:
+    """Four directions across an axis, along the frame's own axes where it is one of them."""
+    across = np.eye(3) - np.outer(axis, axis)
+    sides = [across[i] / np.linalg.norm(across[i]) for i in np.argsort(np.abs(axis))[:2]]
+    return [*sides, *(-side for side in sides)]
+
+
+def _shank_end(body: Body, down: FloatArray) -> Foot:
+    lowest = extent_of(solid_shapes(body), down)
+    balls = [s for s in body.shapes if s.kind is ShapeKind.SPHERE and s.collides]
+    if balls and lowest is not None:
+        ball = max(balls, key=lambda shape: float(down @ shape.position) + shape.size[0])
+        if down @ ball.position + ball.size[0] > 0.95 * lowest:
+            return Foot(ball.link, ball.position, ball.size[0])
+    link = max(body.links, key=lambda name: float(down @ body.links[name].position))
+    origin = body.links[link].position
+    length = float(np.linalg.norm(origin))
+    if length < 1e-3:
+        return _lowest_surface(body, down)
+    # Along the shank and not straight down: a mesh counts as a box, which is exact along its sides.
+    beyond = (extent_of(solid_shapes(body), origin / length) or length) - length
+    return Foot(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
+
+
+def _lowest_surface(body: Body, down: FloatArray) -> Foot:
+    """The middle of what lies within a centimetre of the body's lowest point."""
+    shapes = solid_shapes(body)
+    lowest = extent_of(shapes, down)
+    if lowest is None:
+        link = max(body.links, key=lambda name: float(down @ body.links[name].position))
+        return Foot(link, body.links[link].position, 0.0)
+    # With huge shapes a centimetre less is the same number.
+    reaches = ((shape, extent(shape, down)) for shape in shapes)
+    touching = [shape for shape, reach in reaches if reach is not None and reach >= lowest - 0.01]
+    middle = lowest * down
+    for side in _across(down)[:2]:
+        ahead, behind = extent_of(touching, side), extent_of(touching, -side)
+        if ahead is not None and behind is not None:
+            middle = middle + 0.5 * (ahead - behind) * side
+    return Foot(touching[0].link, middle, 0.0)
+
+
+_PARALLEL = 0.97
+"""Joint axes whose unit vectors have at least this product count as parallel (14 degrees)."""
+
+
+@dataclass(frozen=True, eq=False)
+class LegPlane:
+    """Geometry of a leg with all its joints at zero, in the chain's reference frame.
+
+    Attributes:
+        pitch: columns of the driven joints whose axes are parallel and bend the leg, hip first.
+        axis: unit vector along them, shape (3,).
+        hip: where the plane through the foot, across `axis`, meets the hip's axis [m], shape (3,).
+        forward: unit vector in the plane, level, with its largest component positive, shape (3,).
+        columns: columns of the driven joints that place the foot: all but a wheel's.
+        flat: whether the leg has ankles that can keep its sole level.
+        length: of the stretched leg within its limits, hip to foot [m]; 0 for slides alone.
+    """
+
+    pitch: tuple[int, ...]
+    axis: FloatArray
+    hip: FloatArray
+    forward: FloatArray
+    columns: tuple[int, ...]
+    flat: bool
+    length: float
+
+
+def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
+    """Plane in which a leg bends.
+
+    The joints that bend a leg (hip pitch, knee and, in legs with ankles, ankle pitch) have parallel
+    axes when all joints are at zero: the largest such set is taken, a wheel left out.
+
+    Args:
+        chain: the leg.
+        foot: its foot in the last body's frame [m], shape (3,).
+        up: unit vector against gravity in the chain's reference frame, shape (3,).
+    """
+    count = len(chain.driven)
+    columns = tuple(range(count - 1 if is_wheel(chain.bodies[-1]) else count))
+    zero = chain.pose(np.zeros(count))
+    pitch = _pitch_joints(chain, zero, columns, up)
+    flat = len(columns) >= ANKLED_JOINTS
+    row = chain.driven[pitch[0]]
+    axis, origin = zero.axes[row], zero.origins[row]
+    hip = origin + axis * (axis @ (zero.point(foot) - origin))
+    length = 0.0
+    if chain.joints[row].kind is not JointKind.PRISMATIC:
+        stretched = chain.pose(chain.stretched(foot, -up, pitch[:2] if flat else pitch))
+        length = float(up @ (hip - stretched.point(foot)))
+    forward = np.cross(axis, up)
+    level = float(np.linalg.norm(forward))
+    if level < 1e-9:
+        forward = np.zeros(3)
+    else:
+        forward = np.sign(forward[np.argmax(np.abs(forward))]) * forward / level
+    return LegPlane(pitch, axis, hip, forward, columns, flat, length)
+
+
+def _pitch_joints(
+    chain: Chain, zero: ChainPose, columns: Sequence[int], up: FloatArray
+) -> tuple[int, ...]:
+    """Columns of the largest set of parallel hinges; of equal sets, the one spread widest."""
+    sets = []
+    rows = {column: chain.driven[column] for column in columns}
+    hinges = [c for c in columns if chain.joints[rows[c]].kind is JointKind.REVOLUTE]
+    for column in columns:
+        axis = zero.axes[rows[column]]
+        alike = tuple(c for c in hinges if abs(zero.axes[rows[c]] @ axis) > _PARALLEL)
+        if alike and abs(axis @ up) < _PARALLEL:
+            spread = np.ptp([up @ zero.origins[rows[c]] for c in alike])
+            sets.append((len(alike), float(spread), alike))
+    return max(sets)[2] if sets else (columns[0],)
+
+
+_SHARE_BELOW_TRUNK = 0.6
+_SHARE_AT_REST = 0.2
+_LARGEST_HEIGHT = 3.0
+_LARGEST_DEVIATION = 0.2
+_TWINS = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class _Limb:
+    """A limb for some direction as up. Its tip is the farthest point known by its frames.
+
+    Attributes:
+        last: index of its last body.
+        chain: in the root's frame.
+        depth: of the stretched limb's tip below the root's origin [m].
+        reach: of the stretched limb's tip below the limb's first joint [m].
+        at_rest: of the tip below the first joint with all joints at zero [m].
+    """
+
+    last: int
+    chain: Chain
+    depth: float
+    reach: float
+    at_rest: float
+
+
+def find_legs(tree: Tree) -> tuple[Leg, ...]:
+    """The legs of a robot, in file order; empty if it has none.
+
+    A limb is the chain from a child of some body to the farthest end below it. Legs are two or
+    more limbs that
+
+    * branch from the same body (the trunk) and have the same number of joints, two or more,
+      a wheel at the end not counted;
+    * hang: with all joints at zero their tip is below their first joint, by 20 % of their reach;
+    * can lift the robot off the ground: stretched downwards within their limits they reach below
+      the centre of mass of the robot, of the trunk, and of each body that carries the trunk, by
+      60 % of their reach, and the robot's is not higher above their tips than thrice their reach;
+    * reach equally deep, to 20 %;
+    * are all of their kind: no other limb of the same trunk has as many joints and the same length.
+      With a wrong direction for up, two legs of a quadruped may hang by chance.
+
+    If several sets qualify, the one that reaches deepest wins: a humanoid's arms lose to its legs.
+    Arms on a torso or a wheeled base, fingers on a palm and the one arm below a drone fail one of
+    the conditions, and so does a hopper: one leg cannot be told from one arm. No shapes are looked
+    at, for they may be missing or mere placeholders. Up is the root frame's z axis; if nothing
+    stands along it, y and then x are tried, for files of other conventions.
+    """
+    placements = tree.placements(neutral_posture(tree))
+    masses = [
+        body.mass_properties.moved(place.rotation, place.position)
+        for body, place in zip(tree.bodies, placements, strict=True)
+    ]
+    for up in np.eye(3)[[2, 1, 0]]:
+        legs = _legs_along(tree, placements, masses, up)
+        if legs:
+            return legs
+    return ()
+
+
+def trunk_body(tree: Tree, legs: Sequence[Leg]) -> int:
+    """Index of the body that the legs branch from: the last that all their chains share."""
+    shared = set.intersection(*(set(_ancestors(tree, leg.body)) for leg in legs))
+    return max(shared)
+
+
+def leg_chain(tree: Tree, leg: Leg, trunk: int, placements: Sequence[Placement]) -> Chain:
+    """The leg's chain from body `trunk` on, seen from the frame that `placements` are given in."""
+    first = next(i for i in _ancestors(tree, leg.body) if tree.bodies[i].parent == trunk)
+    return chain_of(tree, first, leg.body, placements)
+
+
+def _ancestors(tree: Tree, body: int) -> Iterator[int]:
+    """The body itself, its parent and so on to the root."""
+    while body >= 0:
+        yield body
+        body = tree.bodies[body].parent
+
+
+def _legs_along(
+    tree: Tree, placements: Sequence[Placement], masses: Sequence[MassProperties], up: FloatArray
+) -> tuple[Leg, ...]:
+    best: list[_Limb] = []
+    robot = combine(masses)
+    for trunk, ends in _alike(tree):
+        limbs = [_limb(chain_of(tree, *each, placements), each[1], up) for each in ends]
+        hanging = [limb for limb in limbs if limb is not None]
+        carriers = [masses[i] for i in _ancestors(tree, trunk) if masses[i].mass > 0.0]
+        legs = _standing(hanging, robot, carriers, up)
+        if _leave_twins(tree, ends, {leg.last for leg in legs}):
+            continue
+        if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
+            best = legs
+    found = []
+    for limb in best:
+        foot = find_foot(limb.chain, up)
+        length = leg_plane(limb.chain, foot.point, up).length
+        point, names = frozen(foot.point), limb.chain.names
+        found.append(Leg(foot.link, limb.last, names, point, foot.radius, length))
+    # Slides alone, as of a gantry, do not make a leg: nothing bends between hip and foot.
+    return tuple(found) if all(leg.length > 0.0 for leg in found) else ()
+
+
+def _alike(tree: Tree) -> Iterator[tuple[int, list[tuple[int, int]]]]:
+    """Trunks, each with limbs of the same number of joints, as first and last body."""
+    ends, driven = _far_ends(tree), _driven_joints(tree)
+    sets: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for first, body in enumerate(tree.bodies[1:], start=1):
+        last = ends[first]
+        hinges = driven[last] - driven[body.parent] - is_wheel(tree.bodies[last])
+        sets.setdefault((body.parent, hinges), []).append((first, last))
+    for (trunk, hinges), limbs in sets.items():
+        if hinges >= 2 and len(limbs) >= 2:
+            yield trunk, limbs
+
+
+def _leave_twins(tree: Tree, limbs: Sequence[tuple[int, int]], chosen: Collection[int]) -> bool:
+    """Whether a limb that was not chosen is as long as one that was; each is first and last."""
+    lengths = {}
+    for first, last in limbs:
+        body, length = last, float(np.linalg.norm(farthest_frame(tree.bodies[last])))
+        while body != first:
+            length += float(np.linalg.norm(tree.bodies[body].placement.position))
+            body = tree.bodies[body].parent
+        lengths[last] = length
+    return any(
+        abs(lengths[one] - lengths[other]) < _TWINS * lengths[one]
+        for one in chosen
+        for other in lengths.keys() - chosen
+    )
+
+
+def _far_ends(tree: Tree) -> list[int]:
+    """Index of the descendant at the end of the longest path below each body, or of itself."""
+    ends = list(range(len(tree.bodies)))
+    lengths = [0.0] * len(tree.bodies)
+    for index in range(len(tree.bodies) - 1, 0, -1):
+        body = tree.bodies[index]
+        length = lengths[index] + float(np.linalg.norm(body.placement.position))
+        # At equal lengths the first in the file, which is met last, as a reader would expect.
+        if length >= lengths[body.parent]:
+            lengths[body.parent], ends[body.parent] = length, ends[index]
+    return ends
+
+
+def _driven_joints(tree: Tree) -> list[int]:
+    """Joints that move by themselves, from the root to each body."""
+    counts = [0]
+    for body in tree.bodies[1:]:
+        moves = body.joint is not None and body.joint.mimic is None
+        counts.append(counts[body.parent] + moves)
+    return counts
+
+
+def _limb(chain: Chain, last: int, up: FloatArray) -> _Limb | None:
+    """The limb, or None if it does not hang at all, as most arms and fingers do not."""
+    tip = farthest_frame(chain.bodies[-1])
+    rest = chain.pose(chain.neutral())
+    hip = float(up @ rest.origins[0])
+    at_rest = hip - float(up @ rest.point(tip))
+    if at_rest <= 0.0:
+        return None
+    lowest = float(up @ chain.pose(chain.stretched(tip, -up)).point(tip))
+    return _Limb(last, chain, -lowest, hip - lowest, at_rest)
+
+
+def _standing(
+    limbs: Sequence[_Limb],
+    robot: MassProperties,
+    carriers: Sequence[MassProperties],
+    up: FloatArray,
+) -> list[_Limb]:
+    """The limbs that hang low, can lift the robot off the ground, and do so to the same height."""
+    legs = [
+        limb
+        for limb in limbs
+        if limb.at_rest > _SHARE_AT_REST * limb.reach
+        and limb.depth + up @ robot.com < _LARGEST_HEIGHT * limb.reach
+        and all(
+            limb.depth + up @ each.com > _SHARE_BELOW_TRUNK * limb.reach
+            for each in (robot, *carriers)
+        )
+    ]
+    return [leg for leg in legs if _depth(legs) - leg.depth < _LARGEST_DEVIATION * leg.reach]
+
+
+def _depth(limbs: Sequence[_Limb]) -> float:
+    return max(limb.depth for limb in limbs)
+
+
+def find_trunk(tree: Tree, legs: Sequence[Leg]) -> str:
+    """The link whose frame is the base frame B: where the legs branch, else the heaviest body's.
+
+    For a humanoid that is the pelvis: the device belongs where the legs' reaction arrives, and the
+    chest turns against it. Of the links that are joined into the body, the first is taken, whose
+    frame is the body's own; for usual robots it is the root link, the frame of Pinocchio's
+    free-flyer.
+    """
+    if legs:
+        return tree.bodies[trunk_body(tree, legs)].name
+    return max(tree.bodies, key=lambda body: body.mass_properties.mass).name

@@ -1,0 +1,253 @@
+"""From the links and joints of a file to moving bodies, and whether these can be a robot.
+
+Bodies are judged after rigidly joined links are merged: a link by itself is often a dummy that
+holds no mass, or all of it.
+"""
+
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.mass import MassProperties, combine, physical_defect, solid_defect
+from ocs_design.robot.tree import Body, Joint, Placement, Shape, Tree
+
+
+class Warnings:
+    """Warnings about a robot; equal ones on several links or joints become one sentence."""
+
+    def __init__(self) -> None:
+        self._subjects: dict[str, list[str]] = {}
+
+    def add(self, what: str, subject: str = "") -> None:
+        """Warn of `what`, with the link, joint or file that it is about."""
+        self._subjects.setdefault(what, []).append(subject)
+
+    def sentences(self) -> tuple[str, ...]:
+        """One sentence each, with the names and, where there are many, their number."""
+        return tuple(
+            f"{what}: {listed(subjects)}" if subjects[0] else what
+            for what, subjects in self._subjects.items()
+        )
+
+
+def listed(names: Sequence[str], most: int = 4) -> str:
+    """Names with commas between them; beyond `most` only how many more there are."""
+    shown = ", ".join(names[:most])
+    return shown if len(names) <= most else f"{shown} and {len(names) - most} more"
+
+
+def unused_name(stem: str, suffix: str, taken: Container[str]) -> str:
+    """Stem and suffix together, with the first number between them that makes the name new."""
+    name, number = stem + suffix, 2
+    while name in taken:
+        name, number = f"{stem}_{number}{suffix}", number + 1
+    return name
+
+
+MOST_LINKS = 2000
+"""Largest number of links; public robots have up to 150, and time grows with the square."""
+
+
+def check_number_of_links(count: int) -> None:
+    """Refuse a file that is no robot but would be computed for minutes.
+
+    Raises:
+        RobotError: there are too many.
+    """
+    if count > MOST_LINKS:
+        raise RobotError(
+            f"the file has {count} links, more than {MOST_LINKS}",
+            hint="remove what is not part of the robot, or merge links that move as one",
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """Link of a URDF, or body of an MJCF model.
+
+    Attributes:
+        name: unique in the file.
+        mass_properties: raw, in the link's frame; None where the file states none.
+        shapes: in the link's frame.
+    """
+
+    name: str
+    mass_properties: MassProperties | None
+    shapes: tuple[Shape, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Connection:
+    """Joint by which a link hangs on another.
+
+    Attributes:
+        name: unique in the file.
+        parent, child: links.
+        placement: of the joint's frame in the parent's frame at zero.
+        joint: None if the two are rigidly joined.
+        child_in_joint: the child's frame in the joint's frame.
+        held: what the file calls a joint that is held still for want of a single coordinate; else
+            empty.
+    """
+
+    name: str
+    parent: str
+    child: str
+    placement: Placement
+    joint: Joint | None = None
+    child_in_joint: Placement = field(default_factory=Placement.identity)
+    held: str = ""
+
+
+Children = Mapping[str, Sequence[Connection]]
+"""Connections below each link, in file order."""
+
+
+@dataclass
+class _MergedBody:
+    """A body in the making: its links so far, and what they weigh and show."""
+
+    name: str
+    parent: int
+    placement: Placement
+    joint: Joint | None
+    links: dict[str, Placement] = field(default_factory=dict)
+    link_masses: dict[str, float] = field(default_factory=dict)
+    parts: list[MassProperties] = field(default_factory=list)
+    shapes: list[Shape] = field(default_factory=list)
+
+    def add(self, link: Link, place: Placement) -> None:
+        """Join a link that stands at `place` in the body's frame."""
+        weighed = link.mass_properties or MassProperties.zero()
+        self.links[link.name] = place
+        self.link_masses[link.name] = weighed.mass
+        self.parts.append(weighed.moved(place.rotation, place.position))
+        for shape in link.shapes:
+            position = place.rotation @ shape.position + place.position
+            rotation = place.rotation @ shape.rotation
+            self.shapes.append(replace(shape, position=position, rotation=rotation))
+
+    def body(self) -> Body:
+        """The finished body."""
+        return Body(
+            self.name,
+            self.parent,
+            self.placement,
+            self.joint,
+            combine(self.parts),
+            self.links,
+            self.link_masses,
+            tuple(self.shapes),
+        )
+
+
+def make_tree(
+    name: str, root: str, links: Mapping[str, Link], children: Children, warnings: Warnings
+) -> Tree:
+    """Tree of a robot whose base is the link `root`, with mass properties that can exist.
+
+    Raises:
+        RobotError: the robot as a whole cannot exist.
+    """
+    bodies = resolve_mimics(merge_fixed_links(root, links, children, warnings), warnings)
+    tree = Tree(name, bodies)
+    check_mass_properties(tree, warnings)
+    return tree
+
+
+def merge_fixed_links(
+    root: str, links: Mapping[str, Link], children: Children, warnings: Warnings
+) -> tuple[Body, ...]:
+    """Moving bodies from `root` down, depth first in file order, parents before children."""
+    merged = [_MergedBody(root, -1, Placement.identity(), None)]
+    merged[0].add(links[root], Placement.identity())
+    home = {root: (0, Placement.identity())}
+    # A stack of our own: chains of thousands of links would exhaust Python's.
+    stack = list(reversed(children.get(root, ())))
+    while stack:
+        connection = stack.pop()
+        index, place = home[connection.parent]
+        place = place @ connection.placement
+        if connection.held:
+            warnings.add(f"{connection.held} joints, held at zero", connection.name)
+        if connection.joint is not None:
+            merged.append(_MergedBody(connection.child, index, place, connection.joint))
+            index, place = len(merged) - 1, Placement.identity()
+        place = place @ connection.child_in_joint
+        merged[index].add(links[connection.child], place)
+        home[connection.child] = (index, place)
+        stack.extend(reversed(children.get(connection.child, ())))
+    return tuple(each.body() for each in merged)
+
+
+def resolve_mimics(bodies: Sequence[Body], warnings: Warnings) -> tuple[Body, ...]:
+    """The bodies with every follower tied to the joint at the end of its chain of leaders."""
+    joints = {body.joint.name: body.joint for body in bodies if body.joint is not None}
+
+    def resolved(joint: Joint) -> Joint:
+        """The joint with its last leader, or free where there is none."""
+        multiplier, offset, leader = 1.0, 0.0, joint
+        seen = set[str]()
+        while leader.mimic is not None:
+            seen.add(leader.name)
+            name, factor, shift = leader.mimic
+            if name not in joints or name in seen:
+                why = "each other in a circle" if name in seen else "a joint which does not move"
+                warnings.add(f"joints that mimic {why}, read as free", joint.name)
+                return replace(joint, mimic=None)
+            multiplier, offset = multiplier * factor, offset + multiplier * shift
+            leader = joints[name]
+        return replace(joint, mimic=(leader.name, multiplier, offset))
+
+    return tuple(
+        body
+        if body.joint is None or body.joint.mimic is None
+        else replace(body, joint=resolved(body.joint))
+        for body in bodies
+    )
+
+
+def check_mass_properties(tree: Tree, warnings: Warnings) -> None:
+    """Refuse a massless base or a robot that cannot exist; warn of odd bodies.
+
+    Raises:
+        RobotError: the robot as a whole cannot exist.
+    """
+    base = tree.bodies[0]
+    if base.mass_properties.mass == 0.0:
+        links = listed([repr(name) for name in base.links])
+        raise RobotError(
+            f"the floating base has no mass: no <inertial> with a mass in {links}",
+            hint=f"give link {base.name!r} its mass and inertia; if it only holds the robot in the "
+            "world, remove it together with its joint, or make that joint floating; "
+            "see docs/howto-inertials.md",
+        )
+    check_whole(tree.locked_mass_properties({}, base.name), tree)
+    for body in tree.bodies:
+        defect = physical_defect(body.mass_properties)
+        if defect is not None:
+            warnings.add(f"link {body.name!r} {defect}; its numbers are used as they are")
+    # A chain without mass gives one warning, with its first body.
+    carried = [body.mass_properties.mass for body in tree.bodies]
+    for index in range(len(tree.bodies) - 1, 0, -1):
+        carried[tree.bodies[index].parent] += carried[index]
+    for body, mass in zip(tree.bodies, carried, strict=True):
+        if mass == 0.0 and carried[body.parent] > 0.0:
+            warnings.add("moving links without mass at the end of a chain", body.name)
+
+
+def check_whole(weighed: MassProperties, tree: Tree) -> None:
+    """Refuse a robot that cannot exist, or that nothing can turn.
+
+    Args:
+        weighed: the robot as a whole, in any frame.
+        tree: of the robot, to name the links at fault.
+    """
+    defect = solid_defect(weighed)
+    if defect is not None:
+        worst = [each.name for each in tree.bodies if physical_defect(each.mass_properties)]
+        first = f", first of {listed([repr(name) for name in worst])}" if worst else ""
+        raise RobotError(
+            f"the robot as a whole {defect}",
+            hint=f"correct the inertias in the file{first}; see docs/howto-inertials.md",
+        )

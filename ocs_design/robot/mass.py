@@ -1,0 +1,108 @@
+"""Mass, centre of mass and inertia of rigid bodies: transport, sum and physical conditions.
+
+Source of the transport and sum rules: Featherstone, Rigid Body Dynamics Algorithms (2008),
+section 2.13; of the physical conditions: Traversaro et al., IROS 2016.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray, frozen
+
+
+@dataclass(frozen=True, eq=False)
+class MassProperties:
+    """Rigid-body mass properties in some frame.
+
+    Attributes:
+        mass: [kg].
+        com: centre of mass in the frame [m], shape (3,).
+        inertia: about the centre of mass, in the frame's axes [kg m^2], shape (3, 3).
+    """
+
+    mass: float
+    com: FloatArray
+    inertia: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "com", frozen(self.com))
+        object.__setattr__(self, "inertia", frozen(self.inertia))
+
+    @classmethod
+    def zero(cls) -> "MassProperties":
+        """A body without mass."""
+        return cls(0.0, np.zeros(3), np.zeros((3, 3)))
+
+    def moved(self, rotation: FloatArray, position: FloatArray) -> "MassProperties":
+        """Mass properties in a frame where the present one stands at `rotation`, `position`."""
+        return MassProperties(
+            self.mass,
+            rotation @ self.com + position,
+            rotation @ self.inertia @ rotation.T,
+        )
+
+    def inertia_about(self, point: FloatArray) -> FloatArray:
+        """Inertia about `point` of the frame (parallel axes) [kg m^2], shape (3, 3)."""
+        offset = self.com - point
+        return self.inertia + self.mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
+
+
+def combine(parts: Iterable[MassProperties]) -> MassProperties:
+    """Mass properties of several bodies of one frame, rigidly joined."""
+    bodies = list(parts)
+    mass = sum(body.mass for body in bodies)
+    if mass == 0.0:
+        inertia = sum((body.inertia for body in bodies), np.zeros((3, 3)))
+        return MassProperties(0.0, np.zeros(3), inertia)
+    com = sum((body.mass * body.com for body in bodies), np.zeros(3)) / mass
+    inertia = sum((body.inertia_about(com) for body in bodies), np.zeros((3, 3)))
+    return MassProperties(mass, com, inertia)
+
+
+NEGLIGIBLE_MOMENT = 1e-15
+"""Rounding of a moment that is zero [kg m^2]: a milligram 0.1 mm away has ten times as much."""
+
+
+def physical_defect(body: MassProperties, tolerance: float = 1e-9) -> str | None:
+    """Why no distribution of positive mass has these properties, or None if one has.
+
+    Principal moments must be positive and obey the triangle inequality; `tolerance` is relative
+    to the largest moment, for files that round.
+    """
+    if not (
+        np.isfinite(body.mass) and np.isfinite(body.com).all() and np.isfinite(body.inertia).all()
+    ):
+        return "holds a number that is not finite"
+    if body.mass < 0.0:
+        return f"has the negative mass {body.mass:g} kg"
+    moments = np.linalg.eigvalsh(body.inertia)
+    slack = max(tolerance * max(abs(moments[2]), abs(moments[0])), NEGLIGIBLE_MOMENT)
+    if moments[0] < -slack:
+        return f"has the negative principal moment {moments[0]:.3g} kg m^2"
+    if moments[2] > moments[0] + moments[1] + slack:
+        return (
+            "has principal moments that break the triangle inequality "
+            f"({moments[0]:.4g} + {moments[1]:.4g} < {moments[2]:.4g} kg m^2)"
+        )
+    return None
+
+
+def solid_defect(body: MassProperties) -> str | None:
+    """Why these are not the properties of a body that a torque can turn, or None if they are.
+
+    They must be physical, with a mass above zero and an inertia about every axis.
+    """
+    defect = physical_defect(body)
+    if defect is not None:
+        return defect
+    if body.mass == 0.0:
+        return "has no mass"
+    smallest = np.linalg.eigvalsh(body.inertia)[0]
+    if smallest <= 0.0:
+        return (
+            f"has no inertia about one of its axes (its least principal moment is {smallest:.3g} "
+            "kg m^2)"
+        )
+    return None

@@ -1,0 +1,263 @@
+"""Extents of meshes, and with them of a robot's shapes and bodies."""
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.tree import Body, Shape, ShapeKind, Tree
+
+if TYPE_CHECKING:
+    import trimesh
+
+BoundsReader = Callable[[Path], FloatArray | None]
+"""Reads the lower and upper corner of a mesh, shape (2, 3); None for kinds of another reader."""
+
+MESHES = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf")
+"""Suffixes that are read. Archives are not: they grow without bound when unpacked."""
+
+LARGEST_MESH, LARGEST_BINARY_STL = 28 << 20, 128 << 20
+"""Largest files [bytes]: a .dae takes 25 times its size of memory to read, a binary STL thrice."""
+
+LARGEST_MESH_LENGTH = 1e30
+"""Largest coordinate in the mesh's own unit; a mesh with a larger one, or no number, is broken."""
+
+_STL_HEADER, _STL_FACET = 84, 50
+"""Sizes of a binary STL's header and of each of its facets [bytes]."""
+
+_QUICK_STL, _QUICK_OBJ = 8 << 20, 1 << 16
+"""Largest binary STL and OBJ that are read in some ten milliseconds [bytes]."""
+
+
+def mesh_bounds(path: Path, scale: tuple[float, ...]) -> FloatArray | None:
+    """Lower and upper corner of a mesh [m] in its own frame, shape (2, 3); None if unreadable."""
+    return _scaled(_raw_bounds(path), scale)
+
+
+def quick_mesh_bounds(path: Path, scale: tuple[float, ...]) -> FloatArray | None:
+    """Corners as of `mesh_bounds` for a mesh that is read in milliseconds; None for all others."""
+    return _scaled(_quick_bounds(path), scale)
+
+
+def check_mesh_file(path: Path) -> None:
+    """Refuse a mesh that would take more memory or time than any robot is worth.
+
+    Raises:
+        RobotError: it is too large, or of a kind that is not read.
+    """
+    if path.suffix.lower() not in MESHES:
+        raise RobotError(
+            f"{path.name} is not a mesh that can be read",
+            hint=f"convert it to one of {', '.join(MESHES)}",
+        )
+    largest = LARGEST_BINARY_STL if binary_stl_facets(path) else LARGEST_MESH
+    if path.stat().st_size > largest:
+        raise RobotError(
+            f"{path.name} is larger than {largest >> 20} MiB",
+            hint="reduce its number of facets, or export it as binary STL",
+        )
+
+
+def binary_stl_facets(path: Path) -> int:
+    """Number of facets of a binary STL; 0 for every other file.
+
+    It is binary if its length is what the number of facets says.
+    """
+    if path.suffix.lower() != ".stl":
+        return 0
+    with path.open("rb") as stream:
+        header = stream.read(_STL_HEADER)
+    facets = int.from_bytes(header[80:], "little")
+    return facets if path.stat().st_size == _STL_HEADER + _STL_FACET * facets else 0
+
+
+def _scaled(bounds: FloatArray | None, scale: tuple[float, ...]) -> FloatArray | None:
+    if bounds is None:
+        return None
+    corners = bounds * np.asarray(scale)
+    return np.array([corners.min(axis=0), corners.max(axis=0)])
+
+
+@cache
+def _raw_bounds(path: Path) -> FloatArray | None:
+    quick = _quick_bounds(path)
+    readers = (_binary_stl_bounds, _obj_bounds, _trimesh_bounds)
+    return _read_bounds(path, readers) if quick is None else quick
+
+
+@cache
+def _quick_bounds(path: Path) -> FloatArray | None:
+    def small(reader: BoundsReader, largest: int) -> BoundsReader:
+        """The reader, for files up to so many bytes."""
+        return lambda path: reader(path) if path.stat().st_size <= largest else None
+
+    return _read_bounds(
+        path, (small(_binary_stl_bounds, _QUICK_STL), small(_obj_bounds, _QUICK_OBJ))
+    )
+
+
+def _read_bounds(path: Path, readers: Iterable[BoundsReader]) -> FloatArray | None:
+    """Corners by the first reader that knows the kind of mesh; None if it is broken."""
+    try:
+        check_mesh_file(path)
+        answers = (read(path) for read in readers)
+        bounds = next((each for each in answers if each is not None), None)
+    except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
+        return None
+    if bounds is None or bounds.shape != (2, 3):
+        return None
+    return frozen(bounds) if (np.abs(bounds) < LARGEST_MESH_LENGTH).all() else None
+
+
+def _binary_stl_bounds(path: Path) -> FloatArray | None:
+    """Corners without trimesh, whose import takes longer than reading a whole robot."""
+    count = binary_stl_facets(path)
+    if not count:
+        return None
+    facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    facets = np.frombuffer(path.read_bytes(), facet, count, offset=_STL_HEADER)
+    # Along rows it takes a thirtieth of the time.
+    coordinates = np.ascontiguousarray(facets["corners"].reshape(-1, 3).T)
+    return np.array([coordinates.min(axis=1), coordinates.max(axis=1)], dtype=np.float64)
+
+
+def _obj_bounds(path: Path) -> FloatArray | None:
+    """Corners of the vertices that a face names: files hold others too."""
+    if path.suffix.lower() != ".obj":
+        return None
+    vertices: list[list[str]] = []
+    used: set[int] = set()
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        keyword, *words = line.split() or [""]
+        if keyword == "v":
+            vertices.append(words[:3])
+        elif keyword == "f":
+            corners = [int(word.partition("/")[0]) for word in words]
+            # Counted from one, or backwards from the last vertex so far.
+            used.update(i - 1 if i > 0 else len(vertices) + i for i in corners)
+    points = np.array([vertices[index] for index in used], dtype=np.float64)
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+def _trimesh_bounds(path: Path) -> FloatArray | None:
+    bounds = load_with_trimesh(path).bounds
+    return None if bounds is None else np.array(bounds, dtype=np.float64)
+
+
+def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
+    """A mesh of any kind, in metres if the file states its unit."""
+    import trimesh  # noqa: PLC0415 - takes 1.7 s, and only few meshes need it
+
+    mesh = trimesh.load_mesh(path)
+    if mesh.units is not None:
+        mesh.convert_units("meters")
+    return mesh
+
+
+_CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+
+
+def extent(shape: Shape, direction: FloatArray) -> float | None:
+    """Support function of a shape: its farthest point along a unit vector of its body's frame [m].
+
+    Exact for primitives. A mesh counts as its bounding box in its own frame; None if its file is
+    missing or cannot be read.
+    """
+    own = shape.rotation.T @ direction
+    if shape.kind is ShapeKind.MESH:
+        bounds = None if shape.mesh is None else mesh_bounds(shape.mesh, shape.size)
+        if bounds is None:
+            return None
+        reach = float((np.where(_CORNERS, bounds[1], bounds[0]) @ own).max())
+    else:
+        reach = _primitive_extent(shape, own)
+    return float(direction @ shape.position + reach)
+
+
+def half_extents(shape: Shape) -> FloatArray:
+    """Half the sides of the box around a primitive along the axes of its own frame [m], (3,)."""
+    return np.array([_primitive_extent(shape, axis) for axis in np.eye(3)])
+
+
+def _primitive_extent(shape: Shape, direction: FloatArray) -> float:
+    """Farthest point of a primitive along a unit vector of its own frame [m]."""
+    size = shape.size
+    match shape.kind:
+        case ShapeKind.BOX:
+            return float(np.abs(direction) @ np.array(size))
+        case ShapeKind.SPHERE:
+            return size[0]
+        case ShapeKind.CYLINDER:
+            return float(size[0] * np.hypot(*direction[:2]) + size[1] * abs(direction[2]))
+        case ShapeKind.CAPSULE:
+            return float(size[0] + size[1] * abs(direction[2]))
+    raise ValueError(f"a {shape.kind} is no primitive")
+
+
+def extent_of(shapes: Iterable[Shape], direction: FloatArray) -> float | None:
+    """Farthest point of several shapes along `direction` [m]; None if none can be measured."""
+    reaches = [reach for shape in shapes if (reach := extent(shape, direction)) is not None]
+    return max(reaches, default=None)
+
+
+def solid_shapes(body: Body) -> tuple[Shape, ...]:
+    """Collision shapes of a body that can be measured, else its visual ones."""
+    up = np.array([0.0, 0.0, 1.0])
+    for collides in (True, False):
+        # Visual meshes are large: they are opened only where there is nothing else.
+        shapes = [shape for shape in body.shapes if shape.collides is collides]
+        known = tuple(shape for shape in shapes if extent(shape, up) is not None)
+        if known:
+            return known
+    return ()
+
+
+def reach_of_body(body: Body, direction: FloatArray) -> float:
+    """Farthest point of a body along `direction` of its frame [m].
+
+    Without a shape that can be measured: the farthest of its link origins and its centre of mass.
+    """
+    reach = extent_of(solid_shapes(body), direction)
+    if reach is not None:
+        return reach
+    points = [place.position for place in body.links.values()] + [body.mass_properties.com]
+    return max(float(direction @ point) for point in points)
+
+
+def trunk_top(tree: Tree, trunk: str) -> float:
+    """Highest z in B of the trunk body's shapes, where the device stands [m].
+
+    Without shapes: the height of the trunk body's centre of mass.
+    """
+    return trunk_extent(tree, trunk, np.array([0.0, 0.0, 1.0]))
+
+
+def trunk_extent(tree: Tree, trunk: str, direction: FloatArray) -> float:
+    """Farthest point of the trunk body's shapes along a unit vector of B [m].
+
+    Without shapes: its centre of mass.
+    """
+    body = tree.bodies[tree.body_of_link[trunk]]
+    base = body.links[trunk]
+    along = base.rotation @ direction
+    reach = extent_of(solid_shapes(body), along)
+    farthest = float(along @ body.mass_properties.com) if reach is None else reach
+    return farthest - float(along @ base.position)
+
+
+def size(tree: Tree, posture: Mapping[str, float], trunk: str) -> float:
+    """Longest side of the box along B's axes that holds the robot at `posture` [m]."""
+    placements = tree.placements_from(trunk, posture)
+
+    def farthest(direction: FloatArray) -> float:
+        """Farthest point of all bodies [m]."""
+        return max(
+            float(direction @ place.position) + reach_of_body(body, place.rotation.T @ direction)
+            for body, place in zip(tree.bodies, placements, strict=True)
+        )
+
+    return max(farthest(axis) + farthest(-axis) for axis in np.eye(3))

@@ -1,0 +1,304 @@
+"""Reads an MJCF model into a tree of moving bodies, through MuJoCo's own compiler.
+
+Several joints of one body act one after the other, each about its own anchor; see MuJoCo's
+documentation, chapter Modeling, `body/joint`.
+
+Masses, frames and joints are those of the compiled model, so that defaults, included files, units
+and inertias from geoms count exactly as MuJoCo counts them.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.links import (
+    Connection,
+    Link,
+    Warnings,
+    check_number_of_links,
+    make_tree,
+)
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.mjcf_spec import mujoco_refusal, mujoco_warnings_to, parse_mjcf
+from ocs_design.robot.rotations import rotation_from_quaternion
+from ocs_design.robot.tree import (
+    LARGEST_NUMBER,
+    Joint,
+    JointKind,
+    Placement,
+    Shape,
+    ShapeKind,
+    Tree,
+    joint_motion,
+)
+
+_FREE = mujoco.mjtJoint.mjJNT_FREE
+
+
+def find_base(model: mujoco.MjModel, warnings: Warnings) -> int:
+    """Index of the floating base: the body with a free joint, of several the robot's.
+
+    A robot is told from a loose object by its joints, then by its mass. In a world where nothing
+    is free the robot's own joints to the world, if any, are dropped.
+    """
+    candidates = [
+        body
+        for body in range(1, model.nbody)
+        if model.body_parentid[body] == 0 and model.body_mocapid[body] < 0
+    ]
+    if not candidates:
+        raise RobotError("the model has no bodies", hint="check that this is the robot's file")
+
+    def rank(body: int) -> tuple[bool, float]:
+        """Whether something below the body moves, and the mass of it all [kg]."""
+        moves = any(model.body_jntnum[each] for each in bodies_of(model, body) if each != body)
+        return moves, float(model.body_subtreemass[body])
+
+    # A free joint is the only one of its body.
+    free = [
+        body
+        for body in candidates
+        if model.body_jntnum[body] and model.jnt_type[model.body_jntadr[body]] == _FREE
+    ]
+    base = max(free or candidates, key=rank)
+    if not free:
+        warnings.add("no body has a free joint: taken as the floating base", model.body(base).name)
+    for body in free:
+        if body != base:
+            warnings.add("other free bodies, left out", model.body(body).name)
+    return base
+
+
+def bodies_of(model: mujoco.MjModel, base: int) -> Sequence[int]:
+    """The base and all bodies below it, parents first."""
+    return [int(body) for body in np.flatnonzero(model.body_rootid == base)]
+
+
+_ON_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+
+
+def effort_limit(model: mujoco.MjModel, joint: int) -> float:
+    """Largest torque or force that a joint's actuators give [N m or N]; inf if none states one."""
+    efforts = [
+        abs(float(model.actuator_gear[actuator, 0])) * _largest_force(model, actuator)
+        for actuator in range(model.nu)
+        if int(model.actuator_trntype[actuator]) in _ON_JOINT
+        and model.actuator_trnid[actuator, 0] == joint
+    ]
+    total = sum(efforts) if efforts else np.inf
+    if model.jnt_actfrclimited[joint]:
+        total = min(total, float(np.abs(model.jnt_actfrcrange[joint]).max()))
+    return total if total > 0.0 else np.inf
+
+
+def _largest_force(model: mujoco.MjModel, actuator: int) -> float:
+    """Largest force in front of the gear: the stated range, or that of a motor's control."""
+    if model.actuator_forcelimited[actuator]:
+        return float(np.abs(model.actuator_forcerange[actuator]).max())
+    is_motor = (
+        model.actuator_gaintype[actuator] == mujoco.mjtGain.mjGAIN_FIXED
+        and model.actuator_biastype[actuator] == mujoco.mjtBias.mjBIAS_NONE
+    )
+    if is_motor and model.actuator_ctrllimited[actuator]:
+        gain = abs(float(model.actuator_gainprm[actuator, 0]))
+        return gain * float(np.abs(model.actuator_ctrlrange[actuator]).max())
+    return np.inf
+
+
+def leader_of(
+    model: mujoco.MjModel, joint: int, warnings: Warnings
+) -> tuple[str, float, float] | None:
+    """(joint, multiplier, offset) if a linear joint equality makes this joint follow another.
+
+    MuJoCo holds `q1 - ref1 = a0 + a1 (q2 - ref2) + ...`; curves are not followed.
+    """
+    for index in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
+        leader = int(model.eq_obj2id[index])
+        if model.eq_obj1id[index] != joint or leader < 0 or not model.eq_active0[index]:
+            continue
+        constant, slope, *curved = model.eq_data[index, :5]
+        if np.any(curved):
+            name = model.joint(joint).name
+            warnings.add("joints that follow another by a curve, read as free", name)
+            continue
+        offset = constant + _reference(model, joint) - slope * _reference(model, leader)
+        return model.joint(leader).name, float(slope), float(offset)
+    return None
+
+
+def _reference(model: mujoco.MjModel, joint: int) -> float:
+    """Value of a joint at which its body stands as the file places it [rad or m]."""
+    return float(model.qpos0[model.jnt_qposadr[joint]])
+
+
+_KINDS = {
+    int(mujoco.mjtJoint.mjJNT_HINGE): JointKind.REVOLUTE,
+    int(mujoco.mjtJoint.mjJNT_SLIDE): JointKind.PRISMATIC,
+}
+
+
+def connections_to(model: mujoco.MjModel, body: int, warnings: Warnings) -> Iterator[Connection]:
+    """Connections of a body to its parent: one for each of its joints, or a rigid one."""
+    name = model.body(body).name
+    parent = model.body(int(model.body_parentid[body])).name
+    place = Placement(rotation_from_quaternion(model.body_quat[body]), model.body_pos[body])
+    first = int(model.body_jntadr[body])
+    joints = []
+    for index in range(first, first + int(model.body_jntnum[body])):
+        if int(model.jnt_type[index]) in _KINDS:
+            joints.append(index)
+        else:
+            warnings.add("ball joints, held at their reference", model.joint(index).name)
+    if not joints:
+        yield Connection(name, parent, name, place)
+    for index in joints:
+        joint = _joint(model, index, warnings)
+        anchor = Placement(np.eye(3), model.jnt_pos[index])
+        # MuJoCo's joint does not move its body at `ref`; a joint of the tree does not at zero.
+        at_zero = joint_motion(joint, -_reference(model, index))
+        child = name if index == joints[-1] else f"{name}:{joint.name}"
+        yield Connection(
+            joint.name,
+            parent,
+            child,
+            place @ anchor @ at_zero,
+            joint,
+            child_in_joint=anchor.inverse(),
+        )
+        parent, place = child, Placement.identity()
+
+
+def _joint(model: mujoco.MjModel, index: int, warnings: Warnings) -> Joint:
+    degree = int(model.jnt_dofadr[index])
+    lower, upper = model.jnt_range[index] if model.jnt_limited[index] else (-np.inf, np.inf)
+    return Joint(
+        model.joint(index).name,
+        _KINDS[int(model.jnt_type[index])],
+        np.array(model.jnt_axis[index]),
+        float(lower),
+        float(upper),
+        effort=effort_limit(model, index),
+        damping=float(np.ravel(model.dof_damping[degree])[0]),
+        friction=float(model.dof_frictionloss[degree]),
+        armature=float(model.dof_armature[degree]),
+        mimic=leader_of(model, index, warnings),
+    )
+
+
+_PRIMITIVES = {
+    int(mujoco.mjtGeom.mjGEOM_BOX): (ShapeKind.BOX, 3),
+    int(mujoco.mjtGeom.mjGEOM_SPHERE): (ShapeKind.SPHERE, 1),
+    int(mujoco.mjtGeom.mjGEOM_CYLINDER): (ShapeKind.CYLINDER, 2),
+    int(mujoco.mjtGeom.mjGEOM_CAPSULE): (ShapeKind.CAPSULE, 2),
+}
+UNBOUNDED = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))
+"""Geoms of the ground, which no link has."""
+
+
+def shapes_of(model: mujoco.MjModel, body: int) -> Iterator[Shape]:
+    """Shapes of a body in its frame; meshes and ellipsoids as the boxes around them."""
+    first = int(model.body_geomadr[body])
+    for geom in range(first, first + int(model.body_geomnum[body])):
+        kind = int(model.geom_type[geom])
+        if kind in UNBOUNDED:
+            continue
+        place = Placement(rotation_from_quaternion(model.geom_quat[geom]), model.geom_pos[geom])
+        if kind in _PRIMITIVES:
+            shape, count = _PRIMITIVES[kind]
+            size = model.geom_size[geom, :count]
+        else:
+            shape, size = ShapeKind.BOX, model.geom_aabb[geom, 3:]
+            place = place @ Placement(np.eye(3), model.geom_aabb[geom, :3])
+        yield Shape(
+            shape,
+            tuple(float(length) for length in size),
+            place.position,
+            place.rotation,
+            model.body(body).name,
+            bool(model.geom_contype[geom] or model.geom_conaffinity[geom]),
+        )
+
+
+_LOOPS = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
+
+
+def read_mjcf(content: bytes, folder: Path | None) -> Tree:
+    """The robot of an MJCF model; what else stands in its world is left out.
+
+    Args:
+        content: the file, unzipped.
+        folder: that includes and meshes are relative to; None for the current folder.
+    """
+    warnings = Warnings()
+    try:
+        with mujoco_warnings_to(warnings):
+            spec = parse_mjcf(content, folder or Path.cwd(), warnings)
+            model = spec.compile()
+    except ValueError as error:
+        raise mujoco_refusal(error) from error
+    except RecursionError as error:
+        raise RobotError(
+            "the model's bodies are nested too deeply", hint="a thousand levels are too many"
+        ) from error
+    check_number_of_links(model.nbody)
+    _check_numbers(model)
+    base = find_base(model, warnings)
+    links: dict[str, Link] = {}
+    children: dict[str, list[Connection]] = {}
+    for body in bodies_of(model, base):
+        link = _link(model, body)
+        links[link.name] = link
+        for connection in connections_to(model, body, warnings) if body != base else ():
+            children.setdefault(connection.parent, []).append(connection)
+            # In front of the last of several joints stand links without mass.
+            links.setdefault(connection.child, Link(connection.child, None))
+    for index in np.flatnonzero(np.isin(model.eq_type, _LOOPS)):
+        name = model.eq(index).name or str(index)
+        warnings.add("loops closed by connect or weld, not enforced", name)
+    tree = make_tree(spec.modelname, model.body(base).name, links, children, warnings)
+    # Each keyframe has values of the tree's joints among others.
+    addresses = {name: int(model.jnt_qposadr[model.joint(name).id]) for name in tree.joints}
+    keyframes = {
+        model.key(index).name or f"keyframe_{index}": {
+            name: float(model.key_qpos[index, address]) for name, address in addresses.items()
+        }
+        for index in range(model.nkey)
+    }
+    return replace(tree, named_postures=keyframes, warnings=warnings.sentences())
+
+
+_NUMBERS = {
+    "body": ("pos", "quat", "ipos", "iquat", "mass", "inertia"),
+    "geom": ("pos", "quat", "size", "aabb"),
+    "jnt": ("pos", "axis"),
+    "key": ("qpos",),
+}
+"""Numbers of a compiled model that are computed with, by the kind of element that has them."""
+
+
+def _check_numbers(model: mujoco.MjModel) -> None:
+    """Refuse numbers that MuJoCo compiles but that nothing can be computed from."""
+    named = [(kind, each) for kind, quantities in _NUMBERS.items() for each in quantities]
+    for kind, quantity in named:
+        numbers = np.asarray(getattr(model, f"{kind}_{quantity}"))
+        if not (np.abs(numbers) <= LARGEST_NUMBER).all():
+            raise RobotError(
+                f"the {quantity} of a {kind} is not finite or far too large",
+                hint="lengths are in metres, masses in kilograms, angles in radians or degrees",
+            )
+
+
+def _link(model: mujoco.MjModel, body: int) -> Link:
+    principal = MassProperties(
+        float(model.body_mass[body]), np.zeros(3), np.diag(model.body_inertia[body])
+    )
+    axes = rotation_from_quaternion(model.body_iquat[body])
+    return Link(
+        model.body(body).name,
+        principal.moved(axes, model.body_ipos[body]),
+        tuple(shapes_of(model, body)),
+    )

@@ -1,0 +1,240 @@
+"""A user's MJCF model as an MjSpec that needs no other file: includes expanded, assets inside."""
+
+import math
+import re
+import warnings as python_warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TypeAlias
+from xml.etree import ElementTree as ET
+
+import mujoco
+
+from ocs_design.common.errors import RobotError
+from ocs_design.common.files import read_plain_file
+from ocs_design.robot.links import Warnings, unused_name
+from ocs_design.robot.packages import is_below, roots_of
+from ocs_design.robot.source import MAX_BYTES
+from ocs_design.robot.xml import parse_xml
+
+
+@contextmanager
+def mujoco_warnings_to(warnings: Warnings) -> Iterator[None]:
+    """Add what MuJoCo warns of while parsing and compiling to `warnings`.
+
+    By itself MuJoCo prints some of it and writes MUJOCO_LOG.TXT into the current folder; its
+    bindings make Python warnings of the rest.
+    """
+
+    def add(text: str) -> None:
+        """Warn on one line."""
+        warnings.add(f"MuJoCo: {' '.join(text.split())}")
+
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(add)
+    try:
+        with python_warnings.catch_warnings(record=True) as caught:
+            python_warnings.simplefilter("always")
+            yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+    for warning in caught:
+        add(str(warning.message))
+
+
+def require_inertial(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, file: str) -> None:
+    """Refuse a model of which a body's inertia would come from the missing mesh `file`."""
+    body, compiler = geom.parent, spec.compiler
+    # Geoms that are only to look at state that they have no mass.
+    massless = geom.mass == 0.0 or (math.isnan(geom.mass) and geom.density == 0.0)
+    first, last = compiler.inertiagrouprange
+    if body == spec.worldbody or massless or not first <= geom.group <= last:
+        return
+    always_from_geoms = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
+    if body.explicitinertial and compiler.inertiafromgeom != always_from_geoms:
+        return
+    depth = 0
+    while not body.name:
+        body, depth = body.parent, depth + 1
+    nameless = "a body without a name below " * depth
+    raise RobotError(
+        f"{nameless}body {body.name!r} takes its inertia from the mesh {file}, which was not found",
+        hint="put the mesh where the model expects it, or give the body an <inertial>",
+    )
+
+
+Asset: TypeAlias = "mujoco.MjsMesh | mujoco.MjsTexture | mujoco.MjsHField | mujoco.MjsSkin"
+
+LARGEST_ASSET = 128 << 20
+"""Largest file that a model may refer to [bytes]."""
+
+
+def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> None:
+    """Read every file that the model refers to, so that it compiles anywhere.
+
+    Files then have names without folders in the model.
+
+    Args:
+        spec: parsed, not compiled yet.
+        folder: of the model's file.
+        warnings: takes the names of files that are not there.
+    """
+    # Assets of each kind, the folder that they lie in, and what to do without one.
+    kinds: tuple[tuple[list[Asset], str, Callable[[mujoco.MjSpec, Asset], None]], ...] = (
+        (spec.meshes, spec.meshdir, _drop_mesh),
+        (spec.skins, spec.meshdir, lambda spec, skin: spec.delete(skin)),
+        (spec.hfields, spec.meshdir, _drop_height_field),
+        (spec.textures, spec.texturedir, _drop_texture),
+    )
+    names: dict[Path, str] = {}
+    for assets, subfolder, drop in kinds:
+        for asset in list(assets):
+            missing = _embed(spec, asset, folder / subfolder, names)
+            if missing is not None:
+                warnings.add("files not found, what needs them is left out", missing)
+                drop(spec, asset)
+    spec.meshdir = spec.texturedir = ""
+    spec.strippath = False
+
+
+def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, str]) -> str | None:
+    """Read an asset's files into the model; the first that is not there, or None."""
+    sides = list(getattr(asset, "cubefiles", ()))
+    for file in filter(None, (asset.file, *sides)):
+        path = folder / (Path(file).name if spec.strippath else file)
+        if not path.is_file():
+            return str(file)
+        if path not in names:
+            try:
+                content = read_plain_file(path, LARGEST_ASSET)
+            except OSError as error:
+                raise RobotError(
+                    f"the file {path} cannot be read: {error.strerror}",
+                    hint="reduce its size, or take it out of the model",
+                ) from error
+            names[path] = unused_name(path.stem, path.suffix, spec.assets)
+            spec.assets[names[path]] = content
+        asset.file = names[path] if asset.file == file else asset.file
+        sides = [names[path] if side == file else side for side in sides]
+    if any(sides):
+        asset.cubefiles = sides
+    return None
+
+
+def _drop_mesh(spec: mujoco.MjSpec, mesh: mujoco.MjsMesh) -> None:
+    for geom in [geom for geom in spec.geoms if geom.meshname == mesh.name]:
+        require_inertial(spec, geom, mesh.file)
+        delete_geom(spec, geom)
+    spec.delete(mesh)
+
+
+def _drop_height_field(spec: mujoco.MjSpec, field: mujoco.MjsHField) -> None:
+    for geom in [geom for geom in spec.geoms if geom.hfieldname == field.name]:
+        delete_geom(spec, geom)
+    spec.delete(field)
+
+
+def _drop_texture(spec: mujoco.MjSpec, texture: mujoco.MjsTexture) -> None:
+    for material in spec.materials:
+        material.textures = ["" if used == texture.name else used for used in material.textures]
+    spec.delete(texture)
+
+
+def delete_geom(spec: mujoco.MjSpec, geom: mujoco.MjsGeom) -> None:
+    """Delete a geom with the contact pairs and sensors that name it, which could not compile."""
+    if geom.name:
+        for pair in [p for p in spec.pairs if geom.name in {p.geomname1, p.geomname2}]:
+            spec.delete(pair)
+        measured = (mujoco.mjtObj.mjOBJ_GEOM, geom.name)
+        for sensor in list(spec.sensors):
+            if measured in {(sensor.objtype, sensor.objname), (sensor.reftype, sensor.refname)}:
+                spec.delete(sensor)
+    spec.delete(geom)
+
+
+def parse_mjcf(content: bytes, folder: Path, warnings: Warnings) -> mujoco.MjSpec:
+    """The model of an MJCF file; its bodies, joints and actuators all have names.
+
+    Args:
+        content: the file, unzipped, in any encoding that XML knows.
+        folder: that its includes and assets are relative to.
+        warnings: takes the names of missing files; what needs them is left out.
+    """
+    root = parse_xml(content, warnings)
+    _expand_includes(root, folder, seen=set())
+    try:
+        with mujoco_warnings_to(warnings):
+            spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"))
+    except ValueError as error:
+        raise mujoco_refusal(error) from error
+    # Bodies that are fused lose their names, and the trunk may be one of them.
+    spec.compiler.fusestatic = False
+    embed_assets(spec, folder, warnings)
+    _name(spec.bodies, "body")
+    _name(spec.joints, "joint")
+    _name(spec.actuators, "actuator")
+    return spec
+
+
+def _name(elements: Sequence["mujoco.MjsBody | mujoco.MjsJoint"], kind: str) -> None:
+    """Name what has no name, so that a tree and a model made from the same file agree."""
+    taken = {element.name for element in elements}
+    for number, element in enumerate(elements):
+        if not element.name:
+            element.name = unused_name(f"{kind}{number}", "", taken)
+
+
+def compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:
+    """The compiled model; what MuJoCo will not compile is an error of the robot's file."""
+    try:
+        # The reader has compiled the user's model before, and passed on the warnings.
+        with mujoco_warnings_to(Warnings()):
+            return spec.compile()
+    except ValueError as error:
+        raise mujoco_refusal(error) from error
+
+
+def mujoco_refusal(error: ValueError) -> RobotError:
+    """Error that tells in MuJoCo's words why it does not compile a model."""
+    # Its line numbers are those of the model with its includes expanded, not the user's.
+    reason = re.sub(r",? line \d+", "", " ".join(str(error).split()))
+    return RobotError(
+        f"MuJoCo refuses the model: {reason}",
+        hint="open it in MuJoCo's viewer (python -m mujoco.viewer --mjcf FILE) and correct it",
+    )
+
+
+def _expand_includes(parent: ET.Element, folder: Path, seen: set[Path]) -> None:
+    """Put the contents of each included file where its `<include>` stands."""
+    for child in list(parent):
+        if child.tag != "include":
+            _expand_includes(child, folder, seen)
+            continue
+        included = _read_include(folder / child.get("file", ""), folder, seen)
+        _expand_includes(included, folder, seen)
+        place = list(parent).index(child)
+        parent[place : place + 1] = list(included)
+
+
+def _read_include(path: Path, folder: Path, seen: set[Path]) -> ET.Element:
+    if not is_below(path, roots_of(folder / "model.xml")):
+        raise RobotError(
+            f"the included file {path} lies outside of the model's folder and repository",
+            hint="put it into the model's folder",
+        )
+    if path.resolve() in seen:
+        raise RobotError(
+            f"{path} is included twice", hint="MJCF allows each file to be included once"
+        )
+    seen.add(path.resolve())
+    try:
+        return parse_xml(read_plain_file(path, MAX_BYTES))
+    except OSError as error:
+        raise RobotError(
+            f"the included file {path} cannot be read: {error.strerror}",
+            hint="keep the model's files together; a model from standard input "
+            "finds its includes in the current folder",
+        ) from error
+    except RobotError as error:
+        raise RobotError(f"the included file {path}: {error.message}", hint=error.hint) from error

@@ -1,0 +1,198 @@
+"""Posture that the robot is measured in, and its inertia in others."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+
+import numpy as np
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.chain import neutral_posture
+from ocs_design.robot.leg_geometry import (
+    leg_geometries,
+    standing_height,
+    up_axis,
+)
+from ocs_design.robot.links import listed
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.robot import Leg, Robot
+from ocs_design.robot.stance import SHARE_OF_LEG, stand
+from ocs_design.robot.tree import LARGEST_NUMBER, Tree
+
+ZERO = "zero"
+STAND = "stand"
+_LIMIT_TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Posture:
+    """Posture of a robot, with the name that it was asked for by.
+
+    Attributes:
+        values: of every moving joint [rad or m].
+        name: `zero`, `stand` or the name in the file, with ` + joints` if some were set one by one.
+        standing_height: of the trunk frame's origin over the lowest sole [m]; None without legs.
+        warnings: what is odd about it, one sentence each.
+    """
+
+    values: Mapping[str, float]
+    name: str
+    standing_height: float | None
+    warnings: tuple[str, ...]
+
+
+def resolve_posture(
+    tree: Tree,
+    trunk: str,
+    legs: Sequence[Leg],
+    name: str | None,
+    joints: Mapping[str, float],
+) -> Posture:
+    """The posture that the user asks for.
+
+    Args:
+        tree: of the robot.
+        trunk: link whose frame is B.
+        legs: of the robot; may be empty.
+        name: `zero`, `stand`, or a posture named in the file, whose missing joints are at zero or
+            at the limit nearest to it; None: `stand` for a robot with legs, else `zero`.
+        joints: values that replace the posture's [rad or m].
+    """
+    chosen = _named(tree, trunk, legs, name or (STAND if legs else ZERO))
+    for joint, value in joints.items():
+        if joint not in tree.joints:
+            raise unknown_name("moving joint", joint, tree.joints)
+        if not abs(value) <= LARGEST_NUMBER:
+            raise RobotError(f"joint '{joint}' cannot be at {value}", hint="give a finite number")
+        mimic = tree.joints[joint].mimic
+        if mimic is not None and mimic[0] in tree.joints:
+            raise RobotError(
+                f"joint '{joint}' follows joint '{mimic[0]}'", hint=f"set '{mimic[0]}' instead"
+            )
+    values = tree.complete({**chosen.values, **joints})
+    outside = [
+        joint
+        for joint, each in tree.joints.items()
+        if not each.lower - _LIMIT_TOLERANCE <= values[joint] <= each.upper + _LIMIT_TOLERANCE
+    ]
+    warnings = chosen.warnings
+    if outside:
+        warnings += (f"the posture is outside the limits of: {listed(outside)}",)
+    height = standing_height(tree, trunk, legs, values) if legs else None
+    return replace(
+        chosen,
+        values=values,
+        name=f"{chosen.name} + joints" if joints else chosen.name,
+        standing_height=height,
+        warnings=warnings,
+    )
+
+
+def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
+    """The error for a name that the robot does not have, with what it has, closest first."""
+    every = sorted(known)
+    close = get_close_matches(name, every, n=len(every) or 1, cutoff=0.5)
+    ordered = [*close, *(each for each in every if each not in close)]
+    available = listed(ordered, most=12) if ordered else "none"
+    return RobotError(f"the robot has no {kind} '{name}'", hint=f"available: {available}")
+
+
+def _named(tree: Tree, trunk: str, legs: Sequence[Leg], name: str) -> Posture:
+    """A posture by its name, without the checks."""
+    if name == ZERO:
+        return Posture(tree.complete({}), ZERO, None, _hidden(tree, ZERO))
+    if name == STAND:
+        found = stand(tree, trunk, legs)
+        if found is None:
+            raise RobotError(
+                "no legs were found, so there is no posture 'stand'",
+                hint="use --posture zero, a posture named in the file, or --joint NAME=VALUE",
+            )
+        return Posture(found.posture, STAND, None, (*found.warnings, *_hidden(tree, STAND)))
+    if name not in tree.named_postures:
+        raise unknown_name(
+            "posture", name, [ZERO, *([STAND] if legs else []), *tree.named_postures]
+        )
+    values = tree.complete({**neutral_posture(tree), **tree.named_postures[name]})
+    return Posture(values, name, None, ())
+
+
+def _hidden(tree: Tree, name: str) -> tuple[str, ...]:
+    if name not in tree.named_postures:
+        return ()
+    return (f"the file's own posture '{name}' is not used: the built-in one has the same name",)
+
+
+_SHARES = (0.6, 0.7, 0.8, 0.9)
+_ABDUCTIONS = (0.25, 0.5, 0.75, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class PostureRow:
+    """Mass properties of the robot in one posture.
+
+    Attributes:
+        label: what the posture is.
+        mass_properties: of the whole robot with its joints held, in B.
+    """
+
+    label: str
+    mass_properties: MassProperties
+
+
+def posture_sensitivity(robot: Robot) -> tuple[PostureRow, ...]:
+    """Locked mass properties of the robot in plausible postures.
+
+    They are the nominal one, all joints at zero, standing at 60 to 90 % of the stretched legs,
+    standing with the legs spread sideways by 0.25 to 1 rad, and what the file names. Postures that
+    joint limits forbid are left out.
+    """
+    return tuple(
+        PostureRow(label, robot.tree.locked_mass_properties(values, robot.trunk))
+        for label, values in _postures(robot)
+    )
+
+
+def _postures(robot: Robot) -> Iterator[tuple[str, Mapping[str, float]]]:
+    yield f"nominal ({robot.posture_name})", robot.posture
+    yield ZERO, {}
+    for share in _SHARES if robot.legs else ():
+        found = stand(robot.tree, robot.trunk, robot.legs, share)
+        if found is not None and found.share == share and not found.warnings:
+            yield f"{STAND} at {share:.0%} of the leg", found.posture
+    yield from _spread(robot)
+    yield from robot.tree.named_postures.items()
+
+
+def _spread(robot: Robot) -> Iterator[tuple[str, Mapping[str, float]]]:
+    """Standing postures with every leg turned outwards about its abduction joint."""
+    found = stand(robot.tree, robot.trunk, robot.legs, SHARE_OF_LEG)
+    if found is None:
+        return
+    outwards = _outward_joints(robot)
+    for angle in _ABDUCTIONS if outwards else ():
+        turned = {name: found.posture[name] + sign * angle for name, sign in outwards.items()}
+        joints = robot.tree.joints
+        if all(joints[name].lower <= value <= joints[name].upper for name, value in turned.items()):
+            yield f"legs spread by {angle:g} rad", {**found.posture, **turned}
+
+
+def _outward_joints(robot: Robot) -> Mapping[str, float]:
+    """Abduction joint of each leg and the sign that turns it outwards; empty if a leg has none."""
+    up = up_axis(robot.tree, robot.trunk, robot.legs)
+    geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
+    middle = np.mean([each.plane.hip for each in geometries], axis=0)
+    found = {}
+    for each in geometries:
+        plane, chain = each.plane, each.chain
+        zero = chain.pose(np.zeros(len(chain.driven)))
+        knee = plane.pitch[min(1, len(plane.pitch) - 1)]
+        outwards = plane.axis * (plane.axis @ (plane.hip - middle))
+        # The first joint above the knee whose axis points forward.
+        axes = ((column, zero.axes[chain.driven[column]]) for column in plane.columns[:knee])
+        first = next((pair for pair in axes if abs(pair[1] @ plane.forward) > 0.9), None)
+        if first is None:
+            return {}
+        column, axis = first
+        found[chain.names[column]] = float(np.sign(np.cross(axis, -up) @ outwards))
+    return found

@@ -1,0 +1,120 @@
+"""Bytes of a robot file from a path or from standard input, gzipped or not."""
+
+import gzip
+import hashlib
+import io
+import sys
+import zlib
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import BinaryIO
+
+from ocs_design.common.errors import RobotError
+
+STANDARD_INPUT = "-"
+MAX_BYTES = 64 * 2**20
+"""Largest robot file, zipped and unzipped; a thousand links take about one megabyte."""
+
+_GZIP_MAGIC = b"\x1f\x8b"
+
+
+@dataclass(frozen=True)
+class Source:
+    """A robot file's bytes.
+
+    Attributes:
+        path_text: as the user wrote it; `-` for standard input.
+        folder: that the file lies in; None for standard input.
+        content: unzipped.
+        sha256: hexadecimal, of the bytes as they were read, before unzipping.
+    """
+
+    path_text: str
+    folder: Path | None
+    content: bytes
+    sha256: str
+
+    @property
+    def shown(self) -> str:
+        """Name of the file in messages."""
+        return _shown(self.path_text)
+
+
+def read_source(source: str | Path) -> Source:
+    """Bytes of the file at a path, or of standard input for `-`."""
+    path_text = str(source)
+    if path_text == STANDARD_INPUT:
+        if sys.stdin is None or sys.stdin.isatty():
+            raise RobotError(
+                "standard input holds no robot", hint="pipe a file into it: cat robot.urdf | ..."
+            )
+        folder, raw = None, _read_bounded(sys.stdin.buffer, STANDARD_INPUT)
+    else:
+        path = Path(source)
+        folder, raw = path.absolute().parent, _read_file(path)
+    content = _unzipped(raw, path_text) if raw.startswith(_GZIP_MAGIC) else raw
+    if not content.strip():
+        raise RobotError(f"{_shown(path_text)} is empty", hint="give a URDF or MJCF file")
+    return Source(path_text, folder, content, hashlib.sha256(raw).hexdigest())
+
+
+def _read_file(path: Path) -> bytes:
+    try:
+        with path.open("rb") as stream:
+            return _read_bounded(stream, str(path))
+    except FileNotFoundError as error:
+        hint = "check the path"
+        try:
+            name_of_stem = {each.stem: each.name for each in path.absolute().parent.iterdir()}
+        except OSError:
+            hint = f"the folder {path.parent} does not exist either"
+        else:
+            close = get_close_matches(path.stem, name_of_stem, n=1)
+            if close:
+                hint = f"did you mean {path.with_name(name_of_stem[close[0]])}?"
+        raise RobotError(f"{path} does not exist", hint=hint) from error
+    except IsADirectoryError as error:
+        suffixes = {".urdf", ".xacro", ".xml", ".gz"}
+        found = sorted(each for each in path.iterdir() if each.suffix in suffixes)
+        hint = f"give a file, such as {found[0]}" if found else "give the URDF or MJCF file itself"
+        raise RobotError(f"{path} is a folder", hint=hint) from error
+    except PermissionError as error:
+        raise RobotError(
+            f"{path} may not be read: permission denied", hint=f"try: chmod u+r {path}"
+        ) from error
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise RobotError(
+            f"{str(path)!r} cannot be read: {reason}", hint="check the path"
+        ) from error
+
+
+def _unzipped(raw: bytes, path_text: str) -> bytes:
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(raw)) as stream:
+            return _read_bounded(stream, path_text, " unzipped")
+    except EOFError as error:
+        raise RobotError(
+            f"{_shown(path_text)} is a gzip file that ends too early",
+            hint="it was cut off in copying or downloading: fetch it again",
+        ) from error
+    except (OSError, zlib.error) as error:
+        raise RobotError(
+            f"{_shown(path_text)} is a broken gzip file: {error}",
+            hint="fetch it again, or unzip it to see what is in it",
+        ) from error
+
+
+def _read_bounded(stream: BinaryIO | gzip.GzipFile, path_text: str, state: str = "") -> bytes:
+    content = stream.read(MAX_BYTES + 1)
+    if len(content) > MAX_BYTES:
+        raise RobotError(
+            f"{_shown(path_text)} is larger than {MAX_BYTES // 2**20} MiB{state}",
+            hint="a robot file holds text only; keep its meshes in files of their own",
+        )
+    return content
+
+
+def _shown(path_text: str) -> str:
+    return "standard input" if path_text == STANDARD_INPUT else path_text

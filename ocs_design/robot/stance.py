@@ -1,0 +1,324 @@
+"""The posture in which a legged robot stands, by inverse kinematics of each leg."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.robot.chain import Chain, ChainPose, neutral_posture
+from ocs_design.robot.leg_geometry import (
+    LegGeometry,
+    leg_geometries,
+    standing_height,
+    up_axis,
+)
+from ocs_design.robot.legs import LegPlane
+from ocs_design.robot.robot import Leg
+from ocs_design.robot.tree import Tree
+
+REACHED = 1e-3
+"""Distance within which a foot is in place [m]."""
+
+LEVEL = 1e-2
+"""Angle within which a sole is flat [rad]."""
+
+_SIMPLICITY = 1e-3
+"""Weight of staying near the start, relative to the foot's error over the leg's length.
+
+It decides only what the foot leaves open (the yaw of a hip): the foot misses by 1e-6 of its length.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class Stance:
+    """Values of a leg's joints in which it stands.
+
+    Attributes:
+        values: of the leg's driven joints [rad or m].
+        miss: distance from the foot to its place [m].
+        tilt: of the sole against the ground [rad]; 0 for legs without ankles.
+        knee_ahead: how far the knee is on its wanted side of the line from hip to foot [m].
+    """
+
+    values: FloatArray
+    miss: float
+    tilt: float
+    knee_ahead: float
+
+    @property
+    def good(self) -> bool:
+        """Whether foot and sole are where they should be."""
+        return self.miss < REACHED and self.tilt < LEVEL
+
+
+@dataclass(frozen=True, eq=False)
+class StanceProblem:
+    """Place where a leg's foot has to be. All vectors are in the chain's reference frame.
+
+    Attributes:
+        chain: the leg.
+        plane: its geometry.
+        foot: in the last body's frame [m], shape (3,).
+        target: of the foot [m], shape (3,).
+        up: unit vector against gravity, shape (3,).
+        knee_side: level unit vector towards which the knee should point, shape (3,).
+    """
+
+    chain: Chain
+    plane: LegPlane
+    foot: FloatArray
+    target: FloatArray
+    up: FloatArray
+    knee_side: FloatArray
+
+    def solve(self) -> Stance:
+        """The best stance from a few fixed starts, knee to the wanted side first.
+
+        A stance with the knee on the other side is taken only if the limits leave no better.
+        """
+        found: list[Stance] = []
+        for start in self._starts():
+            stance = self._refined(start)
+            if stance.good and stance.knee_ahead >= 0.0:
+                return stance
+            found.append(stance)
+        return min(
+            found, key=lambda s: (not s.good, s.good and s.knee_ahead < 0.0, s.miss + s.tilt)
+        )
+
+    def _starts(self) -> Iterator[FloatArray]:
+        """The straight and the stretched leg, each bent to the wanted side, then to the other."""
+        stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
+        for side in (1.0, -1.0):
+            for values in (self.chain.neutral(), stretched):
+                yield np.clip(values + side * self._bend(), self.chain.lower, self.chain.upper)
+
+    def _bend(self) -> FloatArray:
+        """Change of the joints' values that shortens a straight leg to the target's distance."""
+        reach = float(np.linalg.norm(self.target - self.plane.hip))
+        angle = np.arccos(np.clip(reach / self.plane.length, 0.0, 1.0))
+        bend = np.zeros(len(self.chain.driven))
+        # Turning the hip by a positive angle about `pitch` swings a hanging leg to -pitch x up.
+        towards = -np.sign(np.cross(self.plane.axis, self.up) @ self.knee_side)
+        for column, turns in zip(self.plane.pitch, (1.0, -2.0, 1.0), strict=False):
+            axis = self._zero.axes[self.chain.driven[column]]
+            bend[column] = towards * turns * angle * np.sign(axis @ self.plane.axis)
+        return bend
+
+    @cached_property
+    def _zero(self) -> ChainPose:
+        return self.chain.pose(np.zeros(len(self.chain.driven)))
+
+    @cached_property
+    def _sole_up(self) -> FloatArray:
+        """The last body's direction that points up while its sole is flat, in its frame."""
+        return self._zero.end.rotation.T @ self.up
+
+    def _values(self, free: FloatArray) -> FloatArray:
+        """Values of all driven joints [rad or m]; those that do not move the foot rest."""
+        values = self.chain.neutral()
+        values[list(self.plane.columns)] = free
+        return values
+
+    def _refined(self, start: FloatArray) -> Stance:
+        # Half a second to import, and a robot in a known posture does without.
+        from scipy.optimize import least_squares  # noqa: PLC0415
+
+        columns = list(self.plane.columns)
+        solution = least_squares(
+            self._residual,
+            start[columns],
+            jac=self._jacobian,
+            bounds=(self.chain.lower[columns], self.chain.upper[columns]),
+            args=(start[columns],),
+            method="dogbox",
+            xtol=1e-9,
+            ftol=1e-9,
+            gtol=1e-12,
+            max_nfev=40,
+        )
+        # Whole nanoradians: a joint that has nothing to do is at zero, not at 1e-17.
+        return self._stance(np.round(self._values(solution.x), 9) + 0.0)
+
+    def _residual(self, free: FloatArray, start: FloatArray) -> FloatArray:
+        """Foot's error over the leg's length, sole's tilt, distance from the start, stacked."""
+        pose = self.chain.pose(self._values(free))
+        miss = (pose.point(self.foot) - self.target) / self.plane.length
+        tilt = pose.end.rotation @ self._sole_up - self.up
+        parts = [miss, tilt] if self.plane.flat else [miss]
+        return np.concatenate([*parts, _SIMPLICITY * (free - start)])
+
+    def _jacobian(self, free: FloatArray, start: FloatArray) -> FloatArray:
+        """Derivative of `_residual`, shape (residuals, free)."""
+        del start
+        pose = self.chain.pose(self._values(free))
+        miss = self.chain.point_jacobian(pose, pose.point(self.foot)) / self.plane.length
+        tilt = self.chain.direction_jacobian(pose, pose.end.rotation @ self._sole_up)
+        parts = [miss, tilt] if self.plane.flat else [miss]
+        rows = np.concatenate(parts)[:, list(self.plane.columns)]
+        return np.concatenate([rows, _SIMPLICITY * np.eye(len(free))])
+
+    def _stance(self, values: FloatArray) -> Stance:
+        pose = self.chain.pose(values)
+        foot = pose.point(self.foot)
+        tilt = 0.0
+        if self.plane.flat:
+            sole_up = pose.end.rotation @ self._sole_up
+            tilt = float(np.arctan2(np.linalg.norm(np.cross(sole_up, self.up)), sole_up @ self.up))
+        ahead = 0.0
+        if len(self.plane.pitch) > 1:
+            hip, knee = (pose.origins[self.chain.driven[c]] for c in self.plane.pitch[:2])
+            ahead = float(self.knee_side @ (knee - 0.5 * (hip + foot)))
+        return Stance(values, float(np.linalg.norm(foot - self.target)), tilt, ahead)
+
+
+_SWEEPS = 10
+"""Newton steps from one height to the next, at most."""
+
+_STILL = 1e-12
+"""Steps of all joints below this end the search [rad or m]."""
+
+_DAMPING = 1e-3
+"""Distance from a stretched leg at which steps are shortened, over the leg's length."""
+
+
+def lifted(
+    chain: Chain, foot: FloatArray, length: float, posture: FloatArray, heights: FloatArray
+) -> FloatArray:
+    """Joints that lift the foot to each height in turn, within their limits, shape (k, n).
+
+    Damped Newton steps from each height to the next.
+
+    Args:
+        chain: of the leg. foot: in its last body's frame [m], shape (3,). length: of the leg [m].
+        posture: of its driven joints at height zero [rad or m], shape (n,).
+        heights: of the foot over where it is then, in B [m], shape (k,).
+    """
+    values = posture
+    at_rest = chain.pose(posture).point(foot)
+    damping = (_DAMPING * length) ** 2 * np.eye(3)
+    found = []
+    for height in heights:
+        target = at_rest + np.array([0.0, 0.0, height])
+        for _ in range(_SWEEPS):
+            pose = chain.pose(values)
+            miss = target - pose.point(foot)
+            jacobian = chain.point_jacobian(pose, pose.point(foot))
+            step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + damping, miss)
+            values = np.clip(values + step, chain.lower, chain.upper)
+            if np.abs(step).max() < _STILL:
+                break
+        found.append(values)
+    return np.array(found)
+
+
+SHARE_OF_LEG = 0.8
+"""Distance of a standing robot's feet below its hips, over the stretched leg."""
+
+_STRAIGHTER = (0.85, 0.9, 0.95, 1.0)
+"""Shares to try in turn where joint limits forbid the wanted one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stand:
+    """A standing posture.
+
+    Attributes:
+        posture: value of every moving joint [rad or m].
+        standing_height: of the trunk frame's origin over the ground [m].
+        share: distance from hip to foot over the stretched leg, of the most stretched leg.
+        misses: distance of each foot from its place below the hip [m].
+        tilts: of each sole against the ground [rad].
+        warnings: where limits forbid the posture that was wanted.
+    """
+
+    posture: Mapping[str, float]
+    standing_height: float
+    share: float
+    misses: tuple[float, ...]
+    tilts: tuple[float, ...]
+    warnings: tuple[str, ...]
+
+
+def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_LEG) -> Stand | None:
+    """Posture with the trunk level and every foot on one ground plane below its hip.
+
+    The ground is so far below the hips that no leg is stretched farther than `share` of its length;
+    where limits of some joint forbid that, the legs are kept straighter. Legs with ankles (five
+    joints or more) keep their soles as level as they are at zero. Where the limits leave it open,
+    the knees of a biped point forward (B's x) and those of a robot with more legs inwards, as
+    Solo12 stands. Joints of no leg are at zero, or at the limit nearest to it.
+
+    Returns:
+        None for a robot without legs.
+    """
+    if not legs:
+        return None
+    geometries = leg_geometries(tree, trunk, legs)
+    up = up_axis(tree, trunk, legs)
+    stances = tuple(problem.solve() for problem in _problems(geometries, up, share))
+    warnings = [
+        f"leg '{each.leg.name}' cannot stand level below its hip within its joint limits: its foot "
+        f"is {1e3 * stance.miss:.0f} mm off and tilted by {np.degrees(stance.tilt):.1f} deg"
+        for each, stance in zip(geometries, stances, strict=True)
+        if not stance.good
+    ]
+    for straighter in (each for each in _STRAIGHTER if warnings and each > share):
+        found: list[Stance] = []
+        for problem in _problems(geometries, up, straighter):
+            found.append(problem.solve())
+            # One leg that cannot is enough.
+            if not found[-1].good:
+                break
+        else:
+            warnings = [
+                f"joint limits keep the legs from bending to {share:.0%} of their length: "
+                f"the robot stands at {straighter:.0%}"
+            ]
+            stances, share = tuple(found), straighter
+            break
+    values = dict(neutral_posture(tree))
+    for each, stance in zip(geometries, stances, strict=True):
+        values.update(zip(each.chain.names, map(float, stance.values), strict=True))
+    posture = tree.complete(values)
+    return Stand(
+        posture,
+        standing_height(tree, trunk, legs, posture),
+        share,
+        tuple(stance.miss for stance in stances),
+        tuple(stance.tilt for stance in stances),
+        tuple(warnings),
+    )
+
+
+def _problems(
+    geometries: Sequence[LegGeometry], up: FloatArray, share: float
+) -> list[StanceProblem]:
+    """Each leg's stance, the ground being at `share` of the leg that reaches least."""
+    ground = max(
+        float(up @ each.plane.hip) - share * each.plane.length - each.leg.foot_radius
+        for each in geometries
+    )
+    # Straight below the hips.
+    targets = [
+        each.plane.hip + up * (ground + each.leg.foot_radius - float(up @ each.plane.hip))
+        for each in geometries
+    ]
+    sides = _knee_sides(geometries)
+    return [
+        StanceProblem(each.chain, each.plane, each.leg.foot, target, up, side)
+        for each, target, side in zip(geometries, targets, sides, strict=True)
+    ]
+
+
+def _knee_sides(geometries: Sequence[LegGeometry]) -> list[FloatArray]:
+    """Level directions in which the knees point: forward for a biped, else inwards."""
+    planes = [each.plane for each in geometries]
+    if len(planes) == 2:
+        return [plane.forward for plane in planes]
+    middle = np.mean([plane.hip for plane in planes], axis=0)
+    return [
+        plane.forward * (np.sign(plane.forward @ (middle - plane.hip)) or 1.0) for plane in planes
+    ]

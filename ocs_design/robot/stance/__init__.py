@@ -1,1 +1,0 @@
-"""Trunk, legs and the posture that a robot is measured in."""

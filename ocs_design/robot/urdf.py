@@ -1,0 +1,383 @@
+"""Reads a URDF into a tree of moving bodies, with the file's raw numbers.
+
+Format: http://wiki.ros.org/urdf/XML/link and http://wiki.ros.org/urdf/XML/joint.
+
+MuJoCo's own URDF reader is no substitute: it fuses the root link to the world and loses its mass.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TypeAlias
+from xml.etree import ElementTree as ET
+
+import numpy as np
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.links import (
+    Children,
+    Connection,
+    Link,
+    Warnings,
+    check_number_of_links,
+    listed,
+    make_tree,
+)
+from ocs_design.robot.mass import NEGLIGIBLE_MOMENT, MassProperties
+from ocs_design.robot.rotations import rotation_from_rpy
+from ocs_design.robot.tree import Joint, JointKind, Placement, Shape, ShapeKind, Tree
+from ocs_design.robot.xml import (
+    number,
+    numbers,
+    parse_xml,
+    required,
+    text,
+    unexpanded_xacro,
+)
+
+Color: TypeAlias = tuple[float, float, float, float]
+"""Red, green, blue and opacity, each 0..1."""
+
+
+def read_palette(root: ET.Element) -> Mapping[str, Color]:
+    """Colours of the file's named materials, each where it is defined first."""
+    found: dict[str, Color] = {}
+    for material in root.iter("material"):
+        color = _color(material)
+        if color is not None:
+            found.setdefault(material.get("name", ""), color)
+    return found
+
+
+def color_of(visual: ET.Element, palette: Mapping[str, Color]) -> Color | None:
+    """Colour of one `<visual>`: its own, or that of the material it names."""
+    material = visual.find("material")
+    if material is None:
+        return None
+    return _color(material) or palette.get(material.get("name", ""))
+
+
+def _color(material: ET.Element) -> Color | None:
+    color = material.find("color")
+    if color is None:
+        return None
+    try:
+        red, green, blue, opacity = (float(part) for part in color.get("rgba", "").split())
+    except ValueError:
+        return None
+    values = (red, green, blue, opacity)
+    return values if all(0.0 <= value <= 1.0 for value in values) else None
+
+
+def _check_unique(names: Iterable[str], what: str) -> None:
+    """Refuse names that occur twice."""
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise RobotError(f"two {what}s are named {name!r}", hint="rename one of them")
+        seen.add(name)
+
+
+def children_by_parent(links: Mapping[str, Link], connections: Sequence[Connection]) -> Children:
+    """The joints below each link, in file order; every link has at most one parent."""
+    children: dict[str, list[Connection]] = {}
+    above: dict[str, Connection] = {}
+    for connection in connections:
+        for link in (connection.parent, connection.child):
+            if link not in links:
+                raise RobotError(
+                    f"joint {connection.name!r} names a link that is not in the file: {link!r}",
+                    hint=f"correct the name or add the link; there are {_quoted(links)}",
+                )
+        if connection.child in above:
+            raise RobotError(
+                f"link {connection.child!r} is the child of two joints, "
+                f"{above[connection.child].name!r} and {connection.name!r}: a loop",
+                hint="a URDF is a tree: cut the loop by removing one of the two joints",
+            )
+        above[connection.child] = connection
+        children.setdefault(connection.parent, []).append(connection)
+    return children
+
+
+def find_base(links: Mapping[str, Link], children: Children) -> str:
+    """The floating base: the one link without a parent, from which all others can be reached.
+
+    Where that has no mass and only a `floating` joint below it, the link that the joint lets fly.
+    """
+    below = {connection.child for siblings in children.values() for connection in siblings}
+    roots = [name for name in links if name not in below]
+    if len(roots) > 1:
+        raise RobotError(
+            f"the file holds {len(roots)} separate trees, with the roots {_quoted(roots)}",
+            hint="join them with a fixed joint, or remove what is not part of the robot",
+        )
+    reached: set[str] = set()
+    stack = list(roots)
+    while stack:
+        name = stack.pop()
+        reached.add(name)
+        stack.extend(connection.child for connection in children.get(name, ()))
+    lost = [name for name in links if name not in reached]
+    if lost:
+        raise RobotError(
+            f"the links {_quoted(lost)} form a loop of joints",
+            hint="a URDF is a tree: cut the loop by removing one of its joints",
+        )
+    base = roots[0]
+    while links[base].mass_properties is None:
+        siblings = children.get(base, ())
+        if len(siblings) != 1 or not siblings[0].held:
+            break
+        base = siblings[0].child
+    return base
+
+
+def _quoted(names: Iterable[str]) -> str:
+    return listed([repr(name) for name in names])
+
+
+FindMesh = Callable[[str], Path | None]
+"""Finds the file that a mesh's `filename` stands for; None if it is not there."""
+
+
+def read_link(
+    element: ET.Element, find_mesh: FindMesh, palette: Mapping[str, Color], warnings: Warnings
+) -> Link:
+    """Name, mass properties and shapes of a `<link>`."""
+    name = text(element, "name", "a link")
+    inertial = element.find("inertial")
+    return Link(
+        name,
+        None if inertial is None else _read_inertial(inertial, f"link {name!r}"),
+        tuple(_read_shapes(element, name, find_mesh, palette, warnings)),
+    )
+
+
+def read_origin(parent: ET.Element, where: str) -> Placement:
+    """Placement that the `<origin>` of an element states; the identity without one."""
+    origin = parent.find("origin")
+    xyz = numbers(origin, "xyz", where, (0.0, 0.0, 0.0))
+    rpy = numbers(origin, "rpy", where, (0.0, 0.0, 0.0))
+    return Placement(rotation_from_rpy(*rpy), xyz)
+
+
+def _read_inertial(inertial: ET.Element, where: str) -> MassProperties:
+    origin = read_origin(inertial, where)
+    mass = number(required(inertial, "mass", where), "value", where)
+    if mass < 0.0:
+        raise RobotError(
+            f"{where} has the negative mass {mass:g} kg", hint="correct its <mass value>"
+        )
+    moments = required(inertial, "inertia", where)
+    ixx, iyy, izz = (number(moments, name, where) for name in ("ixx", "iyy", "izz"))
+    if min(ixx, iyy, izz) < -NEGLIGIBLE_MOMENT:
+        raise RobotError(
+            f"{where} has a negative moment of inertia: ixx {ixx:g}, iyy {iyy:g}, izz {izz:g}",
+            hint="correct its <inertia>; all three must be positive",
+        )
+    ixy, ixz, iyz = (number(moments, name, where, default=0.0) for name in ("ixy", "ixz", "iyz"))
+    inertia = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+    return MassProperties(mass, np.zeros(3), inertia).moved(origin.rotation, origin.position)
+
+
+def _read_shapes(
+    link: ET.Element,
+    name: str,
+    find_mesh: FindMesh,
+    palette: Mapping[str, Color],
+    warnings: Warnings,
+) -> Iterator[Shape]:
+    where = f"link {name!r}"
+    for element in (each for each in link if each.tag in {"visual", "collision"}):
+        geometry = element.find("geometry")
+        found = None if geometry is None else _read_geometry(geometry, where, find_mesh)
+        if found is None:
+            continue
+        kind, size, mesh = found
+        if kind is ShapeKind.MESH:
+            # A negative scale mirrors the mesh.
+            solid = all(size)
+        elif kind is ShapeKind.CAPSULE:
+            # A capsule without length is a sphere.
+            solid = size[0] > 0.0 and size[1] >= 0.0
+        else:
+            solid = min(size) > 0.0
+        if not solid:
+            warnings.add("links with a shape of no extent, left out", name)
+            continue
+        place = read_origin(element, where)
+        collides = element.tag == "collision"
+        color = None if collides else color_of(element, palette)
+        yield Shape(kind, size, place.position, place.rotation, name, collides, mesh, color)
+
+
+def _read_geometry(
+    geometry: ET.Element, where: str, find_mesh: FindMesh
+) -> tuple[ShapeKind, tuple[float, ...], Path | None] | None:
+    """Kind, size and mesh file of the first shape that is known, in MuJoCo's measures."""
+    for shape in geometry:
+        match shape.tag:
+            case "box":
+                edges = numbers(shape, "size", where, (0.0, 0.0, 0.0))
+                return ShapeKind.BOX, tuple(float(edge) / 2 for edge in edges), None
+            case "sphere":
+                return ShapeKind.SPHERE, (number(shape, "radius", where),), None
+            case "cylinder" | "capsule":
+                half_length = number(shape, "length", where) / 2
+                size = (number(shape, "radius", where), half_length)
+                return ShapeKind(shape.tag), size, None
+            case "mesh":
+                scale = numbers(shape, "scale", where, (1.0, 1.0, 1.0))
+                mesh = find_mesh(text(shape, "filename", where))
+                return ShapeKind.MESH, tuple(float(factor) for factor in scale), mesh
+    return None
+
+
+_MOVING = {
+    "revolute": JointKind.REVOLUTE,
+    "continuous": JointKind.REVOLUTE,
+    "prismatic": JointKind.PRISMATIC,
+}
+_FREE_TYPES = ("floating", "planar")
+_TYPES = (*_MOVING, "fixed", *_FREE_TYPES)
+
+
+def read_connection(element: ET.Element, warnings: Warnings) -> Connection:
+    """Parent, child and motion of a `<joint>`."""
+    name = text(element, "name", "a joint")
+    where = f"joint {name!r}"
+    kind = text(element, "type", where)
+    if kind not in _TYPES:
+        raise RobotError(
+            f"{where} has the unknown type {kind!r}", hint=f"known types: {', '.join(_TYPES)}"
+        )
+    return Connection(
+        name,
+        text(required(element, "parent", where), "link", where),
+        text(required(element, "child", where), "link", where),
+        read_origin(element, where),
+        _read_joint(element, name, kind, warnings) if kind in _MOVING else None,
+        held=kind if kind in _FREE_TYPES else "",
+    )
+
+
+def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -> Joint:
+    where = f"joint {name!r}"
+    axis = numbers(element.find("axis"), "xyz", where, (1.0, 0.0, 0.0))
+    length = np.linalg.norm(axis)
+    if length == 0.0:
+        raise RobotError(
+            f"{where} has an axis of zero length",
+            hint='give a direction, as in <axis xyz="0 1 0"/>',
+        )
+    lower, upper, effort, velocity = -np.inf, np.inf, 0.0, 0.0
+    limit = element.find("limit")
+    if limit is not None:
+        effort = number(limit, "effort", where, default=0.0)
+        velocity = number(limit, "velocity", where, default=0.0)
+        if kind != "continuous":
+            lower = number(limit, "lower", where, default=0.0)
+            upper = number(limit, "upper", where, default=0.0)
+    if lower >= upper:
+        warnings.add(
+            "joints whose lower limit is not below the upper, read as without limits", name
+        )
+        lower, upper = -np.inf, np.inf
+    damping, friction = 0.0, 0.0
+    dynamics = element.find("dynamics")
+    if dynamics is not None:
+        damping = number(dynamics, "damping", where, default=0.0)
+        friction = number(dynamics, "friction", where, default=0.0)
+    leader = None
+    mimic = element.find("mimic")
+    if mimic is not None:
+        multiplier = number(mimic, "multiplier", where, default=1.0)
+        offset = number(mimic, "offset", where, default=0.0)
+        leader = (text(mimic, "joint", where), multiplier, offset)
+    return Joint(
+        name,
+        _MOVING[kind],
+        axis / length,
+        lower,
+        upper,
+        # Exporters write 0 where they know no limit.
+        effort=effort if effort > 0.0 else np.inf,
+        velocity=velocity if velocity > 0.0 else np.inf,
+        damping=damping,
+        friction=friction,
+        mimic=leader,
+    )
+
+
+_MOST_TURNED = 4.0 * np.pi
+"""Largest roll, pitch or yaw that somebody may mean in radians: two turns."""
+
+
+def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
+    """The moving bodies of a URDF, with what was odd in it.
+
+    Args:
+        content: the file, unzipped.
+        find_mesh: from a mesh's `filename` to the file, or None if it is not there.
+    """
+    warnings = Warnings()
+    root = parse_xml(content, warnings)
+    _check_is_urdf(root)
+    links = _read_links(root, find_mesh, warnings)
+    connections = [read_connection(element, warnings) for element in root.findall("joint")]
+    _check_unique((connection.name for connection in connections), "joint")
+    children = children_by_parent(links, connections)
+    base = find_base(links, children)
+    for part in root:
+        name = part.get("name", "")
+        angles = [numbers(each, "rpy", name, (0.0, 0.0, 0.0)) for each in part.iter("origin")]
+        if angles and np.abs(angles).max() > _MOST_TURNED:
+            warnings.add("frames turned by more than two turns: angles in degrees?", name)
+    tree = make_tree(root.get("name") or base, base, links, children, warnings)
+    return replace(tree, warnings=warnings.sentences())
+
+
+def _read_links(root: ET.Element, find_mesh: FindMesh, warnings: Warnings) -> Mapping[str, Link]:
+    palette = read_palette(root)
+    check_number_of_links(len(root.findall("link")))
+    links = [read_link(element, find_mesh, palette, warnings) for element in root.findall("link")]
+    if not links:
+        raise RobotError(
+            "the <robot> has no <link>",
+            hint="a xacro file that only defines macros gives such a robot: "
+            "expand the file that uses them",
+        )
+    _check_unique((link.name for link in links), "link")
+    for link in links:
+        if link.shapes and link.mass_properties is None:
+            warnings.add("links with a shape but no <inertial>, read as without mass", link.name)
+    return {link.name: link for link in links}
+
+
+def _check_is_urdf(root: ET.Element) -> None:
+    """Refuse other XML, each kind with its own cure."""
+    if root.tag == "sdf":
+        raise RobotError(
+            "the file is SDF (Gazebo), which is not read",
+            hint="give the URDF that it was made from, or convert it to URDF",
+        )
+    if root.tag in {"mujoco", "mujocoinclude"}:
+        raise RobotError("the file is MJCF, not URDF", hint="give the model's main MJCF file")
+    if root.tag != "robot":
+        raise RobotError(
+            f"the file is XML but no robot: its root element is <{root.tag}>",
+            hint="give a URDF (<robot>) or MJCF (<mujoco>) file",
+        )
+    if is_xacro(root):
+        raise unexpanded_xacro()
+
+
+def is_xacro(root: ET.Element) -> bool:
+    """Whether a `<robot>` still holds xacro's own elements or expressions."""
+    if any("xacro" in element.tag for element in root.iter()):
+        return True
+    parts = [*root.findall("link"), *root.findall("joint")]
+    return any(
+        "${" in value for part in parts for each in part.iter() for value in each.attrib.values()
+    )

@@ -1,0 +1,375 @@
+"""The wheel law of the paper, within the motors' limits, for a batch of worlds at once.
+
+While the robot stands, the wheels are braked down so that they can take up momentum again.
+
+`tau_fb = -I_r (K_p e + K_d e_dot) - w x (I_r w)`, `u = C^T tau_fb` (paper, section 3.3), with what
+docs/theory.md adds: the motor torque acts on the wheel and its reaction on the trunk; the
+wheels' own momentum is compensated; the pseudo-inverse gives the commanded torque where the
+paper's transpose gives it scaled by `C C^T`.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.actuation.drive import RESERVE, Drive
+from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.requirement.froude import Scale
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.robot.robot import Robot
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+
+
+def clipped(
+    torque: FloatArray,
+    speed: FloatArray,
+    *,
+    gain: FloatArray,
+    line_slope: FloatArray,
+    no_load_speed: FloatArray,
+    torque_limit: FloatArray,
+    speed_max: FloatArray | float = np.inf,
+) -> FloatArray:
+    """Torques cut to current limit, voltage line and top speed at the end of the control step.
+
+    Both taken at the end, at `W + tau * gain`, are backward Euler: the exact line as the period
+    goes to zero, stable for any motor, and a wheel just keeps from passing its top speed. They cut
+    driving torque and leave braking.
+
+    Args:
+        torque: asked for [N m]. speed: of the wheels now [rad/s].
+        gain: change of speed in a control step per torque [rad/s/(N m)].
+        line_slope, no_load_speed, torque_limit, speed_max: see `MotorLimits`.
+    """
+    give = gain + line_slope
+    highest = np.minimum((no_load_speed - speed) / give, (speed_max - speed) / gain)
+    lowest = np.maximum((-no_load_speed - speed) / give, (-speed_max - speed) / gain)
+    driven = np.minimum(np.maximum(torque, lowest), highest)
+    return np.minimum(np.maximum(driven, -torque_limit), torque_limit)
+
+
+@dataclass(frozen=True)
+class MotorLimits:
+    """Limits of a motor at its wheel (docs/theory.md, What a motor can do).
+
+    Attributes:
+        no_load_speed: w_0 [rad/s]; inf: not limited.
+        line_slope: speed lost per torque on the voltage line, w_0 / tau_s [rad/s/(N m)]; 0 where no
+            stall torque is given: full torque up to w_0.
+        torque_limit: at the current limit [N m]; inf: not limited.
+        speed_max: mechanical [rad/s]; inf: not limited.
+    """
+
+    no_load_speed: float
+    line_slope: float
+    torque_limit: float
+    speed_max: float = np.inf
+
+    @classmethod
+    def of(cls, motor: Drive) -> "MotorLimits":
+        """The limits of a catalogue or assumed motor."""
+        limit = np.inf if motor.torque_limit is None else motor.torque_limit
+        top = np.inf if motor.speed_max is None else motor.speed_max
+        if motor.stall_torque is None:
+            return cls(motor.no_load_speed, 0.0, limit, top)
+        if np.isinf(motor.no_load_speed):
+            return cls(np.inf, 0.0, min(limit, motor.stall_torque), top)
+        return cls(motor.no_load_speed, motor.no_load_speed / motor.stall_torque, limit, top)
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether the torque has a limit at every speed."""
+        return bool(np.isfinite(self.torque_limit) or self.line_slope > 0.0)
+
+    def reserved(self) -> "MotorLimits":
+        """What a reference may take; the rest of voltage and current is left to the feedback."""
+        return replace(
+            self,
+            no_load_speed=RESERVE * self.no_load_speed,
+            torque_limit=RESERVE * self.torque_limit,
+        )
+
+    def torque_range(self, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest torque at each wheel speed [rad/s], shapes as that [N m].
+
+        On the voltage line, within the current limit; none that drives the wheel beyond its top
+        speed.
+        """
+        # No slope: all or nothing on either side of the line's end.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            highest = np.nan_to_num((self.no_load_speed - speed) / self.line_slope, posinf=np.inf)
+            lowest = np.nan_to_num((-self.no_load_speed - speed) / self.line_slope, neginf=-np.inf)
+        highest = np.where(speed < self.speed_max, highest, np.minimum(highest, 0.0))
+        lowest = np.where(speed > -self.speed_max, lowest, np.maximum(lowest, 0.0))
+        limit = self.torque_limit
+        return np.clip(lowest, -limit, limit), np.clip(highest, -limit, limit)
+
+    def utilisation(self, speed: FloatArray, torque: FloatArray) -> float:
+        """The largest share of bus voltage, current limit or top speed that a motion takes.
+
+        At most 1 for what the motor can do: `|W + slope * tau| <= w_0`, `|tau| <= tau_L` and
+        `|W| <= speed_max`.
+        """
+        voltage = np.abs(speed + self.line_slope * torque).max() / self.no_load_speed
+        current = np.abs(torque).max() / self.torque_limit
+        return float(max(voltage, current, np.abs(speed).max() / self.speed_max))
+
+
+class Allocation(StrEnum):
+    """How a torque on the trunk is shared between the wheels."""
+
+    PSEUDO_INVERSE = "pseudo-inverse"
+    TRANSPOSE = "transpose"
+
+
+@dataclass(frozen=True)
+class Gains:
+    """Gains of the attitude error per unit of inertia: `stiffness` [1/s^2], `damping` [1/s]."""
+
+    stiffness: float
+    damping: float
+
+
+@dataclass(frozen=True, eq=False)
+class WheelLaw(Table):
+    """The law's constants for n worlds; every array has the worlds first.
+
+    Attributes:
+        momentum_map: `[I_tot, h A]`, from trunk rate and wheel speeds to momentum,
+            shape (n, 3, 5).
+        torque_map: from roll and pitch acceleration and the gyroscopic torque to motor torques,
+            shape (n, 2, 5).
+        stiffness, damping: `Gains`, shape (n,).
+        standing_stiffness: in place of `stiffness` on the ground, shape (n,).
+        no_load_speed, line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
+        wheel_response: see `Gyrostat`, shape (n,).
+    """
+
+    momentum_map: FloatArray
+    torque_map: FloatArray
+    stiffness: FloatArray
+    damping: FloatArray
+    no_load_speed: FloatArray
+    line_slope: FloatArray
+    torque_limit: FloatArray
+    speed_max: FloatArray
+    wheel_response: FloatArray
+    standing_stiffness: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        body: Gyrostat,
+        gains: Gains,
+        limits: MotorLimits,
+        allocation: Allocation,
+        *,
+        balances: bool = False,
+    ) -> "WheelLaw":
+        """The law of one world (n = 1); `balances`: the wheels hold the attitude in stance too."""
+        momentum_map = np.hstack([body.inertia, body.spin_inertia * body.axes])
+        shared = body.axes.T / body.reaction if allocation is Allocation.TRANSPOSE else body.sharing
+        # `J w_dot = -g A tau - w x H`, g the reaction (see `Gyrostat`), solved for tau. The wheels
+        # cannot push about z, so its row is no command but says which yaw acceleration comes with
+        # the other two.
+        J = body.actuated_inertia
+        yaw = J[:, 2:] / J[2, 2]
+        from_tilt = J[:, :2] - yaw @ J[2:, :2]
+        from_gyroscopic = np.eye(3) - yaw @ np.array([[0.0, 0.0, 1.0]])
+        torque_map = -shared @ np.hstack([from_tilt, from_gyroscopic])
+        return cls(
+            momentum_map[None],
+            torque_map[None],
+            np.array([gains.stiffness]),
+            np.array([gains.damping]),
+            np.array([limits.no_load_speed]),
+            np.array([limits.line_slope]),
+            np.array([limits.torque_limit]),
+            np.array([limits.speed_max]),
+            np.array([body.wheel_response]),
+            np.array([gains.stiffness if balances else 0.0]),
+        )
+
+    @classmethod
+    def off(cls) -> "WheelLaw":
+        """No torque, in one world."""
+        one, none = np.ones(1), np.zeros(1)
+        maps = np.zeros((1, 3, 5)), np.zeros((1, 2, 5))
+        return cls(*maps, none, none, one, one, none, one, one, none)
+
+    @property
+    def is_off(self) -> bool:
+        """Whether none of the motors ever pushes."""
+        return not self.torque_limit.any()
+
+    def torque(
+        self,
+        vertical: FloatArray,
+        rate: FloatArray,
+        wheel_speed: FloatArray,
+        target: "Target",
+        period: float,
+    ) -> FloatArray:
+        """Motor torque on each wheel [N m], shape (n, 2).
+
+        Args:
+            vertical: the world's upward direction in B, unit vectors (n, 3).
+            rate: of the trunk in B [rad/s], (n, 3).
+            wheel_speed: relative to the trunk [rad/s], (n, 2).
+            target: where the trunk should be.
+            period: for which the torque will be held [s].
+        """
+        error = tilt_error(vertical, target.vertical)
+        slip = target.rate - rate[:, :2]
+        stiffness = np.where(target.stands, self.standing_stiffness, self.stiffness)
+        wanted = stiffness[:, None] * error + self.damping[:, None] * slip + target.acceleration
+        gyroscopic = self.gyroscopic(rate, wheel_speed)
+        torque = np.einsum(
+            "nij,nj->ni", self.torque_map, np.concatenate([wanted, gyroscopic], axis=1)
+        )
+        return clipped(
+            torque + target.torque,
+            wheel_speed,
+            gain=(self.wheel_response * period)[:, None],
+            line_slope=self.line_slope[:, None],
+            no_load_speed=self.no_load_speed[:, None],
+            torque_limit=self.torque_limit[:, None],
+            speed_max=self.speed_max[:, None],
+        )
+
+    def gyroscopic(self, rate: FloatArray, wheel_speed: FloatArray) -> FloatArray:
+        """`w x (I_tot w + h A W)` [N m], shape (n, 3), or (k, 3) of k states of a single world."""
+        momentum = np.einsum(
+            "nij,nj->ni", self.momentum_map, np.concatenate([rate, wheel_speed], axis=1)
+        )
+        return _cross(rate, momentum)
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """Attitude and rate that n trunks should have at one instant.
+
+    Attributes:
+        vertical: the world's upward direction in B, unit vectors (n, 3). The heading
+            is free.
+        rate, acceleration: about roll and pitch in B [rad/s, rad/s^2], shape (n, 2).
+        torque: of the motors, on top of what the acceleration and the gyroscopic torque of the
+            moment ask for [N m], shape (n, 2).
+        stands: whether the feet are on the ground, shape (n,). Three legs and more then hold the
+            attitude and the wheels only damp: whatever the stance leans by, wheels that push
+            against it run up to their top speed and are of no use any more.
+    """
+
+    vertical: FloatArray
+    rate: FloatArray
+    acceleration: FloatArray
+    torque: FloatArray
+    stands: NDArray[np.bool_]
+
+    def landed(self, contact: NDArray[np.bool_]) -> "Target":
+        """Target with the worlds at rest whose feet are on the ground, as plans end there."""
+        left = ~contact[:, None]
+        return Target(
+            self.vertical,
+            self.rate * left,
+            self.acceleration * left,
+            self.torque * left,
+            self.stands | contact,
+        )
+
+
+def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:
+    """Turn about roll and pitch that takes the trunk to its target [rad], in B, shape (n, 2).
+
+    The attitude error in SO(3) after the target is turned about the vertical to the heading that
+    the trunk has: two wheels cannot command yaw, and a heading that drifts must not twist roll and
+    pitch. What is left is the swing of the swing-twist split: the smallest turn that brings the
+    vertical, as seen from the trunk, to where the target sees it.
+
+    Args:
+        vertical: the world's upward direction as seen from the trunk, unit vectors (n, 3).
+        target: the same as the target sees it, (n, 3).
+    """
+    axis = _cross(target, vertical)
+    sine = np.sqrt((axis * axis).sum(axis=1))
+    angle = np.arctan2(sine, (target * vertical).sum(axis=1))
+    error: FloatArray = axis[:, :2] * (angle / (sine + 1e-300))[:, None]
+    return error
+
+
+def _cross(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Row-wise cross product, shape (n, 3); on small batches five times as fast as `np.cross`."""
+    a, b, c = left.T
+    x, y, z = right.T
+    result = np.empty_like(left)
+    result[:, 0] = b * z - c * y
+    result[:, 1] = c * x - a * z
+    result[:, 2] = a * y - b * x
+    return result
+
+
+SETTLING = 0.25
+"""Time on the ground before braking starts, of Solo12 [s]."""
+
+BRAKING = 0.5
+"""Time constant of the wheels' speed, of Solo12 [s]."""
+
+SUPPORT = 0.05
+"""Largest torque of a wheel over weight times standing height: the feet stay down."""
+
+
+@dataclass(frozen=True)
+class Desaturation:
+    """How the wheels of one world are braked while it stands.
+
+    The law damps the trunk meanwhile: the feet take up what the wheels let go.
+
+    Attributes:
+        settling: on the ground before it starts [s].
+        damping: torque per wheel speed [N m s/rad]. torque_max: [N m].
+    """
+
+    settling: float
+    damping: float
+    torque_max: float
+
+    @classmethod
+    def of(
+        cls, robot: Robot, standing: float, spin_inertia: float, gravity: float
+    ) -> "Desaturation":
+        """Settings with times scaled to the robot, and a torque that its weight outdoes."""
+        time = Scale.of(robot).time(STANDARD_GRAVITY)
+        return cls(
+            SETTLING * time,
+            spin_inertia / (BRAKING * time),
+            SUPPORT * robot.mass * gravity * standing,
+        )
+
+
+class WheelBrake:
+    """Braking of the wheels of n worlds, with the time that each has stood."""
+
+    def __init__(self, own: Sequence[Desaturation | None], period: float) -> None:
+        """Brakes of worlds that decide every `period` [s]."""
+        idle = Desaturation(np.inf, 0.0, 0.0)
+        rows = [idle if each is None else each for each in own]
+        self._settling = np.array([each.settling for each in rows])
+        self._damping = np.array([[each.damping] for each in rows])
+        self._largest = np.array([[each.torque_max] for each in rows])
+        self._stood, self._period = np.zeros(len(rows)), period
+
+    def added(self, target: Target, speed: FloatArray, contact: NDArray[np.bool_]) -> Target:
+        """The target with the braking torque on top.
+
+        Args:
+            target: of the first n worlds. speed: of their wheels [rad/s], shape (n, 2).
+            contact: whether each has just touched the floor, shape (n,).
+        """
+        n = len(speed)
+        self._stood[:n] = np.where(contact, self._stood[:n] + self._period, 0.0)
+        wanted = np.clip(-self._damping[:n] * speed, -self._largest[:n], self._largest[:n])
+        stands = (self._stood[:n] >= self._settling[:n])[:, None]
+        return replace(target, torque=target.torque + np.where(stands, wanted, 0.0))

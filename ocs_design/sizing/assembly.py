@@ -1,0 +1,150 @@
+"""The device that a sizing or a selection comes to, as it is exported and simulated."""
+
+import math
+from dataclasses import replace
+
+from ocs_design.actuation.drive import Drive, DriveLine
+from ocs_design.catalogue.materials import Material
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import SIDES, Device, Flywheel, Module, Web
+from ocs_design.device.layout import module_axes
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.rim import (
+    NO_CUTS,
+    WEB_DENSITY,
+    WEB_MATERIAL,
+    WEB_THICKNESS,
+    Hub,
+    RimCuts,
+    hoop_stress,
+    stored_energy,
+    web_mass,
+    wheel_body,
+)
+from ocs_design.requirement.resolving import Resolved
+from ocs_design.sizing.bound.device_sizing import DeviceSizing
+from ocs_design.sizing.motion import DrivenWheel
+from ocs_design.sizing.selection.result import Candidate
+
+
+def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
+    """Two modules at the sized places, each with the sized wheel and the assumed motor."""
+    rim, speed = sizing.rim, resolved.requirement.wheel_speed_max
+    cylinder = (rim.inner_radius, rim.outer_radius, rim.height)
+    flywheel = _flywheel(cylinder, resolved.material, speed, rotor_share=0.0)
+    return Device(
+        sizing.incidence,
+        _modules(sizing.incidence, sizing.centers),
+        # To the last digit what was minimised.
+        replace(flywheel, mass=rim.mass),
+        Drive(
+            name="assumed",
+            mass=0.0,
+            stall_torque=None,
+            no_load_speed=speed,
+            torque_limit=resolved.torque_max,
+            rotor_inertia=0.0,
+            source="no motor is chosen; highest speed and torque as assumed or stated",
+        ),
+    )
+
+
+def assemble_selected(candidate: Candidate, bus_voltage: float) -> Device:
+    """Two modules as they were selected, fed at `bus_voltage` [V]."""
+    wheel = DrivenWheel(
+        candidate.inner_radius,
+        candidate.outer_radius,
+        candidate.height,
+        candidate.material,
+        candidate.motor,
+        candidate.gear,
+        bus_voltage,
+        hub=candidate.hub,
+        cuts=candidate.cuts,
+    )
+    return assemble_driven(
+        wheel, candidate.carrier, candidate.incidence, candidate.centers, candidate.line
+    )
+
+
+def assemble_driven(
+    wheel: DrivenWheel,
+    carrier: Carrier,
+    incidence: float,
+    centers: FloatArray,
+    line: DriveLine | None = None,
+) -> Device:
+    """Two modules with a motor of the catalogue each.
+
+    Args:
+        wheel: rim, motor, gear and supply of each.
+        carrier: what of each stands still.
+        incidence: of the wheel axes [rad].
+        centers: of the left and the right wheel in B [m], shape (2, 3).
+        line: what the drive may do at the wheel; None: all that motor and gear can.
+
+    Raises:
+        OcsError: the motor lacks a figure that every drive needs.
+    """
+    cylinder = (wheel.inner_radius, wheel.outer_radius, wheel.height)
+    line = wheel.line if line is None else line
+    motor = Drive.of(wheel.motor, wheel.gear, wheel.bus_voltage, line)
+    speed = min(motor.no_load_speed, motor.speed_max or math.inf)
+    return Device(
+        incidence,
+        _modules(incidence, centers),
+        _flywheel(cylinder, wheel.material, speed, motor.rotor_inertia, wheel.hub, cuts=wheel.cuts),
+        motor,
+        carrier,
+    )
+
+
+def _modules(incidence: float, centers: FloatArray) -> tuple[Module, Module]:
+    left, right = (
+        Module(name, axis, center)
+        for name, axis, center in zip(SIDES, module_axes(incidence).T, centers, strict=True)
+    )
+    return left, right
+
+
+def _flywheel(
+    cylinder: tuple[float, float, float],
+    material: Material,
+    wheel_speed: float,
+    rotor_share: float,
+    hub: Hub | None = None,
+    *,
+    cuts: RimCuts = NO_CUTS,
+) -> Flywheel:
+    """Wheel of a rim's inner and outer radius and height [m], and a rotor's share [kg m^2]."""
+    inner, outer, height = cylinder
+    strength, stress, web = material.yield_strength, None, None
+    if material.poisson_ratio is not None:
+        stress = float(
+            hoop_stress(
+                inner,
+                outer,
+                density=material.density,
+                poisson_ratio=material.poisson_ratio,
+                wheel_speed=wheel_speed,
+            )
+        )
+    if hub is not None:
+        web = Web(WEB_MATERIAL, WEB_DENSITY, WEB_THICKNESS, web_mass(inner) + hub.mass, hub)
+    body = wheel_body(*cylinder, material.density, hub, cuts=cuts)
+    spin_inertia = body.axial_inertia + rotor_share
+    return Flywheel(
+        inner_radius=inner,
+        outer_radius=outer,
+        height=height,
+        material=material.name,
+        density=material.density,
+        mass=body.mass,
+        spin_inertia=spin_inertia,
+        transverse_inertia=body.transverse_inertia,
+        hoop_stress=stress,
+        stress_margin=None if strength is None or stress is None else strength / stress,
+        stored_energy=float(stored_energy(spin_inertia, wheel_speed)),
+        web=web,
+        cuts=cuts,
+    )

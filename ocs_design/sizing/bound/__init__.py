@@ -1,0 +1,1 @@
+"""The paper's lower bound and the lightest rim for it."""

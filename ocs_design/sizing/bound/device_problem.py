@@ -1,0 +1,254 @@
+"""The device to be sized by the bound, and its fixed point with the robot that carries it.
+
+A heavier wheel asks for more momentum, and the axes lie where robot and wheels together want them:
+spin inertia and incidence are the fixed point of rim -> total inertia -> incidence -> demand. It is
+approached from below, from the robot alone. As heavier wheels ask for more, the first spin inertia
+that no rim has proves that there is no device.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.catalogue.materials import Material
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import UsageError
+from ocs_design.device.layout import Criterion, incidence_by_criterion, module_axes
+from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
+from ocs_design.requirement.bound import SpinDemand, spin_demands
+from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.maneuver import Requirement
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.sizing.bound.rim_problem import (
+    RimProblem,
+    RimShape,
+    lightest_rim,
+    smallest_spin_inertia,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class DeviceProblem:
+    """Find the lightest pair of wheels that meets the requirement on the robot that carries it.
+
+    Attributes:
+        robot: without the wheels, in B.
+        requirement: what the wheels must do.
+        envelope: room for one rim. material: of the rim.
+        place: centres of the left and the right wheel in B [m], shape (2, 3), for an outer radius
+            and a height [m].
+        incidence: of the wheel axes [rad]; None: by `criterion`.
+        criterion: for the incidence.
+    """
+
+    robot: MassProperties
+    requirement: Requirement
+    envelope: Envelope
+    material: Material
+    place: Callable[[float, float], FloatArray]
+    incidence: float | None
+    criterion: Criterion
+
+    def rim_problem(self, spin_inertia: float) -> RimProblem:
+        """Rim problem of one wheel with this spin inertia [kg m^2]."""
+        speed = self.requirement.wheel_speed_max
+        return RimProblem(spin_inertia, self.envelope, self.material, speed)
+
+
+def both_wheels(
+    shape: RimShape, density: float, centers: FloatArray, incidence: float
+) -> MassProperties:
+    """Mass properties of both rims in B, braked.
+
+    Args:
+        shape: of one rim.
+        density: [kg/m^3].
+        centers: of the left and the right one in B [m], shape (2, 3).
+        incidence: of their axes [rad].
+    """
+    inner, outer, height, mass = (float(value) for value in shape)
+    spin = cylinder_spin_inertia(inner, outer, height, density)
+    transverse = cylinder_transverse_inertia(inner, outer, height, density)
+    axes = module_axes(incidence)
+    com = (centers[0] + centers[1]) / 2.0
+    apart = centers[0] - com
+    own = 2.0 * transverse * np.eye(3) + (spin - transverse) * axes @ axes.T
+    moved = 2.0 * mass * (apart @ apart * np.eye(3) - np.outer(apart, apart))
+    return MassProperties(2.0 * mass, com, own + moved)
+
+
+def braked_total(
+    problem: DeviceProblem, shape: RimShape | None, incidence: float
+) -> MassProperties:
+    """Robot and both wheels as one rigid body in B; the robot alone if there is no rim yet."""
+    if shape is None:
+        return problem.robot
+    centers = problem.place(float(shape.outer_radius), float(shape.height))
+    return combine(
+        [problem.robot, both_wheels(shape, problem.material.density, centers, incidence)]
+    )
+
+
+def device_demands(
+    problem: DeviceProblem, shape: RimShape | None, incidence: float
+) -> tuple[SpinDemand, ...]:
+    """What each part of the requirement asks of a wheel, with the inertia at its own incidence.
+
+    A maneuver with an incidence of its own turns the wheels, and with them their inertia.
+
+    Args:
+        problem: requirement and robot.
+        shape: of both rims; None: of the robot alone.
+        incidence: of the design [rad].
+    """
+
+    @cache
+    def inertia_at(angle: float) -> FloatArray:
+        """Inertia of robot and device with the wheels at this incidence [kg m^2], shape (3, 3)."""
+        return braked_total(problem, shape, angle).inertia
+
+    found: list[SpinDemand] = []
+    for maneuver in problem.requirement.maneuvers:
+        alone = replace(problem.requirement, maneuvers=(maneuver,), rate_change=None)
+        at = incidence if maneuver.incidence is None else maneuver.incidence
+        found.extend(spin_demands(alone, inertia_at(at), at))
+    by_rate = replace(problem.requirement, maneuvers=())
+    found.extend(spin_demands(by_rate, inertia_at(incidence), incidence))
+    return tuple(found)
+
+
+def chosen_incidence(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> float:
+    """The incidence of the design [rad], with the wheels standing at `incidence` so far."""
+    if problem.incidence is not None:
+        return problem.incidence
+    if problem.criterion in {Criterion.WEIGHTED, Criterion.SIMULTANEOUS}:
+        return best_incidences(problem, shape, incidence)[problem.criterion]
+    # The others look at no momenta.
+    return incidence_by_criterion(braked_total(problem, shape, incidence).inertia)[
+        problem.criterion
+    ]
+
+
+def best_incidences(
+    problem: DeviceProblem, shape: RimShape | None, incidence: float
+) -> Mapping[Criterion, float]:
+    """The best incidence under each criterion [rad], with the wheels standing at `incidence`."""
+    inertia = braked_total(problem, shape, incidence).inertia
+    return incidence_by_criterion(inertia, design_momenta(problem.requirement, inertia))
+
+
+def design_momenta(requirement: Requirement, inertia: FloatArray) -> FloatArray:
+    """Largest roll and largest pitch momentum [N m s], shape (2,).
+
+    Maneuvers for which the device is turned by hand have no say in the design's incidence. What is
+    asked about an axis for the sake of the coupling alone counts where the turn would else end off
+    level: the cube root of next to nothing is much.
+
+    Args:
+        requirement: maneuvers and rate change.
+        inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
+    """
+    whole, height = TiltInertia.of(inertia), requirement.standing_height
+    alone = TiltInertia.uncoupled(whole.diagonal)
+    found = [
+        maneuver.momentum(whole if whole.strays(maneuver.stray).any() else alone, height)
+        for maneuver in requirement.maneuvers
+        if maneuver.incidence is None
+    ]
+    if requirement.rate_change is not None:
+        found.append(whole.diagonal * requirement.rate_change)
+    largest: FloatArray = np.max([np.zeros(2), *found], axis=0)
+    return largest
+
+
+_CONVERGED = 1e-12
+_ITERATIONS_MAX = 1000
+# The smallest rim of all must not get lost to rounding.
+_OFF_THE_EDGE = 1.0 + 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class FixedPoint:
+    """A device that meets what robot and device together ask for.
+
+    Attributes:
+        spin_inertia: of each wheel [kg m^2]. incidence: [rad].
+        demands: on the wheels.
+        total: robot and wheels, braked, in B.
+        residual: relative change of the spin inertia or change of the incidence [rad] in one more
+            iteration, the larger one.
+        iterations: taken.
+    """
+
+    spin_inertia: float
+    incidence: float
+    demands: tuple[SpinDemand, ...]
+    total: MassProperties
+    residual: float
+    iterations: int
+
+
+@dataclass(frozen=True, eq=False)
+class DeadEnd:
+    """The iteration came to a spin inertia that no rim has.
+
+    Attributes:
+        spin_inertia: at least asked of each wheel [kg m^2]; inf if an axis is out of reach.
+        demands: on the wheels.
+    """
+
+    spin_inertia: float
+    demands: tuple[SpinDemand, ...]
+
+
+class _Guess(NamedTuple):
+    spin_inertia: float
+    incidence: float
+    demands: tuple[SpinDemand, ...]
+
+
+def find_fixed_point(problem: DeviceProblem) -> FixedPoint | DeadEnd:
+    """Iterate from the robot alone until nothing moves.
+
+    Raises:
+        UsageError: the requirement asks for nothing.
+    """
+    guess = _follow(problem, None, incidence_by_criterion(problem.robot.inertia)[problem.criterion])
+    for iterations in range(1, _ITERATIONS_MAX + 1):
+        shape = lightest_rim(guess.spin_inertia, problem.rim_problem(guess.spin_inertia).limits)
+        if not shape.mass > 0.0:
+            break
+        following = _follow(problem, shape, guess.incidence)
+        change = abs(following.spin_inertia / guess.spin_inertia - 1.0)
+        residual = max(change, abs(following.incidence - guess.incidence))
+        if residual < _CONVERGED:
+            return FixedPoint(
+                spin_inertia=guess.spin_inertia,
+                incidence=guess.incidence,
+                demands=following.demands,
+                total=braked_total(problem, shape, guess.incidence),
+                residual=residual,
+                iterations=iterations,
+            )
+        guess = following
+    return DeadEnd(guess.spin_inertia, guess.demands)
+
+
+def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> _Guess:
+    """The incidence, the demands and the spin inertia that a rim at an incidence entails."""
+    incidence = chosen_incidence(problem, shape, incidence)
+    demands = device_demands(problem, shape, incidence)
+    if problem.requirement.spin_inertia is not None:
+        return _Guess(problem.requirement.spin_inertia, incidence, demands)
+    largest = max((demand.spin_inertia for demand in demands), default=0.0)
+    if largest == 0.0:
+        raise UsageError(
+            "nothing is asked of the wheels",
+            hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
+        )
+    smallest = smallest_spin_inertia(problem.rim_problem(largest).limits)
+    return _Guess(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)

@@ -1,0 +1,108 @@
+"""Size both wheels on the robot that carries them: incidence, spin inertia and rim at once."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from ocs_design.catalogue.materials import Material
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.layout import Criterion
+from ocs_design.requirement.bound import SpinDemand
+from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.maneuver import Requirement
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.bound.device_problem import (
+    DeadEnd,
+    DeviceProblem,
+    best_incidences,
+    find_fixed_point,
+)
+from ocs_design.sizing.bound.rim import RimSolution, solve_rim
+from ocs_design.sizing.bound.rim_problem import check_limits, lightest_rim
+from ocs_design.sizing.relaxation import infeasible_device
+
+
+@dataclass(frozen=True, eq=False)
+class DeviceSizing:
+    """Two sized wheels on their robot.
+
+    Attributes:
+        incidence: of the wheel axes [rad].
+        incidence_by_criterion: the best one under each criterion, with the device [rad].
+        incidence_by_criterion_robot: the same for the robot alone.
+        demands: what each part of the requirement asks of a wheel.
+        spin_inertia: of each wheel [kg m^2].
+        rim: of each wheel.
+        centers: of the left and the right wheel in B [m], shape (2, 3).
+        total: robot and both wheels, braked, in B.
+        residual: of the fixed point, relative.
+        iterations: to the fixed point.
+    """
+
+    incidence: float
+    incidence_by_criterion: Mapping[Criterion, float]
+    incidence_by_criterion_robot: Mapping[Criterion, float]
+    demands: tuple[SpinDemand, ...]
+    spin_inertia: float
+    rim: RimSolution
+    centers: FloatArray
+    total: MassProperties
+    residual: float
+    iterations: int
+
+
+def size_device(
+    robot: MassProperties,
+    requirement: Requirement,
+    envelope: Envelope,
+    material: Material,
+    place: Callable[[float, float], FloatArray],
+    *,
+    incidence: float | None = None,
+    criterion: Criterion = Criterion.EQUAL_RATE,
+) -> DeviceSizing:
+    """The lightest wheels that meet the requirement on this robot.
+
+    Args:
+        robot: without the wheels, in B.
+        requirement: maneuvers, rate change, wheel speed; or the spin inertia itself.
+        envelope: room for one rim.
+        material: of the rim.
+        place: centres of the left and the right wheel in B [m], shape (2, 3), for an outer radius
+            and a height [m].
+        incidence: of the wheel axes [rad]; None: by `criterion`.
+        criterion: for the incidence, applied to robot and device together.
+
+    Raises:
+        Infeasible: no rim within the envelope will do, or an axis is out of the wheels' reach.
+        UsageError: the requirement asks for nothing, or a limit is no positive number.
+    """
+    check_limits(envelope, material, requirement.wheel_speed_max)
+    return solve_device(
+        DeviceProblem(robot, requirement, envelope, material, place, incidence, criterion)
+    )
+
+
+def solve_device(problem: DeviceProblem) -> DeviceSizing:
+    """The fixed point in closed form, and the proof of its rim by the convex program.
+
+    Raises:
+        Infeasible, UsageError: see `size_device`.
+    """
+    found = find_fixed_point(problem)
+    if isinstance(found, DeadEnd):
+        raise infeasible_device(problem, found, solve_device)
+    rim_problem = problem.rim_problem(found.spin_inertia)
+    rim = solve_rim(rim_problem)
+    shape = lightest_rim(found.spin_inertia, rim_problem.limits)
+    return DeviceSizing(
+        incidence=found.incidence,
+        incidence_by_criterion=best_incidences(problem, shape, found.incidence),
+        incidence_by_criterion_robot=best_incidences(problem, None, found.incidence),
+        demands=found.demands,
+        spin_inertia=found.spin_inertia,
+        rim=rim,
+        centers=problem.place(rim.outer_radius, rim.height),
+        total=found.total,
+        residual=found.residual,
+        iterations=found.iterations,
+    )

@@ -1,0 +1,291 @@
+"""The lightest hollow cylinder of a given spin inertia: its limits, and the closed form.
+
+With the spin inertia I met with equality, write P = 2 I / (pi rho h_max), Q = 2 I / (pi rho h_min).
+The mass is m = 2 I / (R^2 + r^2), the height follows from R^4 - r^4 = 2 I / (pi rho h), and the
+limits are
+
+    R <= R_max                                       r >= r_min
+    r <= (R^4 - P)^(1/4)            (h_max)          R^4 - r^4 <= Q        (h_min)
+    r <= R - t                      (wall)           R^2 + r^2 >= 2 I / m_max
+    (3 + nu) R^2 + (1 - nu) r^2 <= S                 (hoop stress, S = 4 sigma / (rho w^2))
+
+The best bore at a given R is the largest, r(R), the smallest of the three upper limits on r. Two of
+them rise with R (h_max and wall), so that R^2 + r^2 rises with R as long as one of these is the
+smallest. Once the hoop stress is, R^2 + r^2 = S / (1 - nu) - 2 (1 + nu) / (1 - nu) R^2 falls. R is
+therefore best where the hoop stress meets the larger of the two crossings
+
+    h_max: (3 + nu) a + (1 - nu) sqrt(a^2 - P) = S,  a = R^2
+    wall:  (3 + nu) R^2 + (1 - nu) (R - t)^2 = S,
+
+unless one of two limits stops it earlier: R_max, or h_min. The latter forbids only walls so thick
+that even h_min gives too much inertia: along r = R - t the difference R^4 - r^4 rises with R and
+meets Q at 4 t c^3 + t^3 c = Q, c = R - t / 2 (a cubic with one real root). So
+
+    R = min(R_max, max(crossings), h_min on the wall),   r = min(h_max, wall at R),
+
+a vertex where two limits meet: r_max or hoop_stress with h_max or wall_min, or h_min with wall_min.
+If this r is below r_min, or below 1 % of R and thus no bore, no other R mends it: a smaller one
+lowers r(R), a larger one is forbidden or lowers it too. If the mass is above m_max, no rim is
+lighter. The vertex decides feasibility.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ocs_design.catalogue.materials import Material
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import UsageError
+from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.parts.rim import (
+    LIGAMENT,
+    NO_CUTS,
+    SEAT,
+    SHOULDER,
+    WEB_DENSITY,
+    WEB_THICKNESS,
+    RimCuts,
+)
+from ocs_design.requirement.froude import Envelope
+
+
+@dataclass(frozen=True, eq=False)
+class RimLimits:
+    """Everything that bounds a rim, as plain numbers: scalars, or arrays that broadcast.
+
+    Attributes:
+        density: [kg/m^3].
+        outer_radius_max, inner_radius_min, height_max, height_min, wall_min: [m].
+        mass_max: [kg].
+        stretch_max: largest (3 + nu) R^2 + (1 - nu) r^2 that the allowed hoop stress admits, which
+            is 4 sigma / (rho w^2) [m^2]; inf: not limited.
+        poisson_ratio: nu; of no account where the hoop stress is not limited.
+        web: thickness of a disc of the rim's material that weighs as much as the web, which fills
+            the bore [m]; 0: massless spokes.
+        outer_radius_min: that leaves room for a motor's mount [m]; 0: any.
+        cuts: chamfers and holes, the same of all; the other limits leave room for them.
+    """
+
+    density: float | FloatArray
+    outer_radius_max: float | FloatArray
+    inner_radius_min: float | FloatArray
+    height_max: float | FloatArray
+    height_min: float | FloatArray
+    wall_min: float | FloatArray
+    mass_max: float | FloatArray
+    stretch_max: float | FloatArray
+    poisson_ratio: float | FloatArray
+    web: float | FloatArray = 0.0
+    outer_radius_min: float | FloatArray = 0.0
+    cuts: RimCuts = NO_CUTS
+
+
+@dataclass(frozen=True)
+class RimProblem:
+    """Find the lightest rim of this spin inertia, met with equality.
+
+    Attributes:
+        spin_inertia: of one wheel [kg m^2].
+        envelope: the room that it may take.
+        material: what it is made of.
+        wheel_speed: highest, at which the hoop stress is limited [rad/s].
+    """
+
+    spin_inertia: float
+    envelope: Envelope
+    material: Material
+    wheel_speed: float
+
+    @property
+    def hoop_stress_max(self) -> float:
+        """Yield strength over the safety [Pa]; inf if the material's figures are not known."""
+        strength, safety = self.material.yield_strength, self.envelope.stress_safety
+        if strength is None or self.material.poisson_ratio is None or safety == 0.0:
+            return float("inf")
+        return strength / safety
+
+    @property
+    def stretch_max(self) -> float:
+        """Largest stretch (`RimLimits`) [m^2]."""
+        return 4.0 * self.hoop_stress_max / (self.material.density * self.wheel_speed**2)
+
+    @property
+    def limits(self) -> RimLimits:
+        """Limits as plain numbers."""
+        room = self.envelope
+        return RimLimits(
+            density=self.material.density,
+            outer_radius_max=room.outer_radius_max,
+            inner_radius_min=room.inner_radius_min,
+            height_max=room.height_max,
+            height_min=room.height_min,
+            wall_min=room.wall_min,
+            mass_max=room.mass_max,
+            stretch_max=self.stretch_max,
+            poisson_ratio=self.material.poisson_ratio or 0.0,
+        )
+
+
+def limits_with_web(
+    limits: RimLimits, hub_radius: float | FloatArray, cuts: RimCuts = NO_CUTS
+) -> RimLimits:
+    """Limits of rims that are seated on a web around a hub of that radius [m].
+
+    They are taller than the web, and than as much of it if it were of their own material, and
+    leave room for what is cut off them.
+    """
+    web = WEB_THICKNESS * WEB_DENSITY / np.asarray(limits.density)
+    seated = np.maximum(np.maximum(WEB_THICKNESS, web) + SHOULDER, cuts.height_min)
+    seated = np.maximum(seated, WEB_THICKNESS + 2.0 * cuts.chamfer + SEAT)
+    return replace(
+        limits,
+        inner_radius_min=np.maximum(
+            np.maximum(limits.inner_radius_min, cuts.inner_radius_min), hub_radius + LIGAMENT
+        ),
+        height_min=np.maximum(limits.height_min, seated),
+        wall_min=np.maximum(limits.wall_min, cuts.wall_min),
+        web=web,
+        cuts=cuts,
+    )
+
+
+def limits_with_mount(limits: RimLimits, mount_reach: float | FloatArray) -> RimLimits:
+    """Limits of rims whose housing's floor has a wall around its mount [m]."""
+    return replace(
+        limits, outer_radius_min=np.maximum(np.asarray(mount_reach) + (WALL - CLEARANCE), 0.0)
+    )
+
+
+def check_limits(envelope: Envelope, material: Material, wheel_speed: float) -> None:
+    """Refuse limits that are no limits.
+
+    Raises:
+        UsageError: a number is not positive where it must be, or not finite.
+    """
+    _require_positive("wheel_speed_max", wheel_speed)
+    _require_positive("the density", material.density)
+    for name in ("outer_radius_max", "height_max", "stress_safety"):
+        _require_positive(name, getattr(envelope, name))
+    for name in ("inner_radius_min", "height_min", "wall_min", "mass_max"):
+        value = getattr(envelope, name)
+        # An infinite mass is a mass without limit; NaN is neither.
+        if not value >= 0.0:
+            raise UsageError(f"{name} is {value:g}; it must not be negative")
+
+
+def _require_positive(name: str, value: float) -> None:
+    if not 0.0 < value < float("inf"):
+        raise UsageError(f"{name} is {value:g}; it must be positive and finite")
+
+
+# Limits that meet in one point stay compatible when their figures are rounded.
+_ROUNDING = 1e-12
+
+BORE_SHARE = 0.01
+"""A rim is no disc: its bore is at least this share of its outer radius. As a bore closes, the
+shadow prices grow without limit, and no solver can tell them."""
+
+
+class RimShape(NamedTuple):
+    """Hollow cylinders; NaN where no rim meets the limits.
+
+    Attributes:
+        inner_radius, outer_radius, height: [m], all of one shape.
+        mass: [kg].
+    """
+
+    inner_radius: FloatArray
+    outer_radius: FloatArray
+    height: FloatArray
+    mass: FloatArray
+
+
+def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
+    """The lightest rim of each spin inertia [kg m^2] within its limits; see the module's text."""
+    inertia = np.asarray(spin_inertia, dtype=np.float64)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        tall = 2.0 * inertia / (np.pi * limits.density * limits.height_max)
+        flat = np.divide(2.0 * inertia, np.pi * limits.density * np.asarray(limits.height_min))
+        outer = np.minimum(
+            np.minimum(limits.outer_radius_max, _hoop_radius(tall, limits)),
+            flat_wall_radius(flat, limits.wall_min),
+        )
+        bore_by_height = np.maximum(outer**4 - tall, 0.0) ** 0.25
+        bore_by_wall = outer - limits.wall_min
+        inner = np.minimum(bore_by_height, bore_by_wall)
+        spread = np.where(
+            bore_by_height < bore_by_wall, tall, (outer**2 - inner**2) * (outer**2 + inner**2)
+        )
+        height = 2.0 * inertia / (np.pi * limits.density * spread)
+        mass = 2.0 * inertia / (outer**2 + inner**2)
+        # The limits that did not shape the vertex. Of the hoop stress it is enough that it leaves
+        # any bore: up to the crossing r(R) is below its line, and a crossing that lies beyond
+        # S = (3 + nu) R^2 is one with the negative root.
+        slack = 1.0 + _ROUNDING
+        fits = (
+            (tall <= flat * slack)
+            & (inner * slack >= limits.inner_radius_min)
+            & (inner * slack >= BORE_SHARE * outer)
+            & (mass <= limits.mass_max * slack)
+            & ((3.0 + limits.poisson_ratio) * outer**2 <= limits.stretch_max * slack)
+        )
+    values = np.broadcast_arrays(inner, outer, height, mass)
+    return RimShape(*(np.where(fits, value, np.nan) for value in values))
+
+
+def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
+    """Spin inertia of the narrowest, thinnest and flattest rim within the lower limits [kg m^2].
+
+    With its web, if it has one, and without what is cut off it.
+    """
+    bore = np.maximum(limits.inner_radius_min, limits.wall_min * BORE_SHARE / (1.0 - BORE_SHARE))
+    bore = np.maximum(bore, np.asarray(limits.outer_radius_min) - limits.wall_min)
+    outer = bore + limits.wall_min
+    full = limits.height_min * (outer**4 - bore**4) + limits.web * bore**4
+    full = full - limits.cuts.spread(bore, outer)
+    return np.asarray(np.pi * limits.density * full / 2.0, dtype=np.float64)
+
+
+def largest_spin_inertia(limits: RimLimits) -> FloatArray:
+    """Largest spin inertia of any rim within the limits [kg m^2]; 0 where none has room.
+
+    With its web. As wide and tall as room and hoop stress let it be around the least bore; and with
+    its mass as far out as it may be, its web to the same radius.
+    """
+    web, bore = np.asarray(limits.web), np.asarray(limits.inner_radius_min)
+    nu, per_height = limits.poisson_ratio, np.pi * np.asarray(limits.density) / 2.0
+    stretched = np.maximum(limits.stretch_max - (1.0 - nu) * bore**2, 0.0) / (3.0 + nu)
+    outer = np.minimum(limits.outer_radius_max, np.sqrt(stretched))
+    tall = np.asarray(limits.height_max)
+    solid = per_height * (tall * (outer**4 - bore**4) + np.minimum(web, tall) * bore**4)
+    heavy = np.asarray(limits.mass_max) * outer**2 + per_height * web * outer**4
+    around = np.maximum(bore + limits.wall_min, limits.outer_radius_min)
+    slack = 1.0 + _ROUNDING
+    fits = (around <= outer * slack) & (np.asarray(limits.height_min) <= tall * slack)
+    return np.asarray(np.where(fits, np.minimum(solid, heavy), 0.0), dtype=np.float64)
+
+
+def flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
+    """Outer radius at which a rim of the least wall and the least height has the inertia [m].
+
+    The real root of c^3 + t^2/4 c = Q / (4 t) by the hyperbolic sine.
+    """
+    thickness = np.asarray(wall)
+    argument = np.sqrt(27.0) * flat / thickness**4
+    middle = thickness / np.sqrt(3.0) * np.sinh(np.arcsinh(argument) / 3.0)
+    radius: FloatArray = np.where(thickness > 0.0, middle + thickness / 2.0, np.inf)
+    return radius
+
+
+def _hoop_radius(tall: FloatArray, limits: RimLimits) -> FloatArray:
+    """Outer radius beyond which the hoop stress costs more bore than the radius gains [m]."""
+    nu, stretch, wall = limits.poisson_ratio, np.asarray(limits.stretch_max), limits.wall_min
+    # Written so that an unlimited hoop stress (inf) gives inf.
+    root = np.sqrt(np.maximum(1.0 - 8.0 * (1.0 + nu) * tall / stretch**2, 0.0))
+    by_height = (stretch + (1.0 - nu) ** 2 * tall / stretch) / (3.0 + nu + (1.0 - nu) * root)
+    discriminant = np.maximum(4.0 * stretch - (1.0 - nu) * (3.0 + nu) * wall**2, 0.0)
+    by_wall = ((1.0 - nu) * wall + np.sqrt(discriminant)) / 4.0
+    radius: FloatArray = np.maximum(np.sqrt(by_height), by_wall)
+    return radius

@@ -1,0 +1,348 @@
+"""The lightest rim as a convex program in CVXPY, solved by Clarabel (docs/theory.md, The rim).
+
+Variables are a = (R / s)^2 and b = (r / s)^2 with a scale s, so that both are of the order of one,
+and limits that may be far away are divided by their own size: else the solver loses digits. By
+Lagrange, the optimal mass changes with a limit as the constraint g(a, b; limit) <= 0 does, times
+its multiplier.
+
+In a = R^2 and b = r^2, with the spin inertia I met with equality, the mass is 2 I / (a + b). All
+limits are convex but two, wall and least height, whose feasible side lies under a convex function:
+
+    wall:   b <= (sqrt(a) - t)^2          h_min:   a <= sqrt(Q + b^2)
+
+The convex-concave procedure puts the tangent at the last solution in place of that function. A
+tangent lies below it, so each solution is feasible, and none is heavier than the one before. Where
+the solutions stop moving, the multipliers of the last convex program are those of the rim itself
+(Yuille and Rangarajan, Neural Computation 15, 2003; Lipp and Boyd, Optim. Eng. 17, 2016).
+"""
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.sizing.bound.rim_problem import RimProblem
+
+if TYPE_CHECKING:
+    from cvxpy import (
+        Constraint as CvxpyConstraint,
+    )
+    from cvxpy import (
+        Expression,
+        Problem,
+        Variable,
+    )
+
+
+class Constraint(NamedTuple):
+    """One limit, g(a, b; limit) <= 0.
+
+    Attributes:
+        convex: the CVXPY constraint.
+        value: of g itself, without tangents.
+        gradient: of g by a and b.
+        derivative: of g by the limit where it binds, at (a, b) [1 / SI unit of the limit].
+    """
+
+    convex: "CvxpyConstraint"
+    value: Callable[[float, float], float]
+    gradient: Callable[[float, float], tuple[float, float]]
+    derivative: Callable[[float, float], float]
+
+
+class Tangent:
+    """The line y <= f(x0) + f'(x0) (x - x0) in place of y <= f(x), for a convex f and a movable x0.
+
+    Attributes:
+        bound: the line as a CVXPY expression of x.
+    """
+
+    def __init__(self, x: "Variable", function: Callable[[float], tuple[float, float]]) -> None:
+        """`function` returns f and f'."""
+        cvxpy = import_module("cvxpy")
+        self._x, self._function = x, function
+        self._slope, self._offset = cvxpy.Parameter(), cvxpy.Parameter()
+        self.bound: Expression = self._slope * x + self._offset
+
+    def touch(self) -> None:
+        """Move x0 to the value that x has now."""
+        contact = np.asarray(self._x.value).item()
+        height, slope = self._function(contact)
+        self._slope.value, self._offset.value = slope, height - slope * contact
+
+
+class RimConstraints:
+    """All limits of one rim problem.
+
+    Attributes:
+        a, b: CVXPY variables.
+        by_name: the limits that are set, in the words of the specification.
+    """
+
+    def __init__(self, problem: RimProblem, scale: float) -> None:
+        # Importing CVXPY takes a second, which only those pay who solve.
+        self._cvxpy = import_module("cvxpy")
+        self._problem, self._room, self._scale = problem, problem.envelope, scale
+        self.a: Variable
+        self.b: Variable
+        self.a, self.b = self._cvxpy.Variable(), self._cvxpy.Variable()
+        self._tangents: list[Tangent] = []
+        self.by_name = {"r_max": self._r_max(), "r_min": self._r_min(), "h_max": self._h_max()}
+        if self._room.wall_min > 0.0:
+            self.by_name["wall_min"] = self._wall_min()
+        if self._room.height_min > 0.0:
+            self.by_name["h_min"] = self._h_min()
+        if np.isfinite(self._room.mass_max):
+            self.by_name["wheel_mass_max"] = self._wheel_mass_max()
+        if np.isfinite(self._problem.stretch_max):
+            self.by_name["hoop_stress"] = self._hoop_stress()
+
+    def touch(self, a: float, b: float) -> None:
+        """Move the tangents to this point."""
+        self.a.value, self.b.value = a, b
+        for tangent in self._tangents:
+            tangent.touch()
+
+    def point(self) -> FloatArray:
+        """The values of a and b, shape (2,); never below zero, as a solver's last digit may be."""
+        return np.maximum([np.asarray(x.value).item() for x in (self.a, self.b)], 0.0)
+
+    def _tangent(
+        self, x: "Variable", function: Callable[[float], tuple[float, float]]
+    ) -> "Expression":
+        tangent = Tangent(x, function)
+        self._tangents.append(tangent)
+        return tangent.bound
+
+    def _r_max(self) -> Constraint:
+        radius = self._room.outer_radius_max
+        largest = (radius / self._scale) ** 2
+        return Constraint(
+            convex=self.a / largest <= 1.0,
+            value=lambda a, _b: a / largest - 1.0,
+            gradient=lambda _a, _b: (1.0 / largest, 0.0),
+            derivative=lambda _a, _b: -2.0 / radius,
+        )
+
+    def _r_min(self) -> Constraint:
+        inner = self._room.inner_radius_min / self._scale
+        return Constraint(
+            convex=self.b >= inner**2,
+            value=lambda _a, b: inner**2 - b,
+            gradient=lambda _a, _b: (0.0, -1.0),
+            derivative=lambda _a, _b: 2.0 * inner / self._scale,
+        )
+
+    def _h_max(self) -> Constraint:
+        """a^2 - b^2 >= P as a second-order cone, norm(b, sqrt(P)) <= a.
+
+        The geometric mean of a - b and a + b is the same cone, but costs Clarabel four digits of
+        the multipliers.
+        """
+        height = self._room.height_max
+        least = self._spread(height)
+        norm = self._cvxpy.norm(self._cvxpy.hstack([self.b, np.sqrt(least)]))
+        return Constraint(
+            convex=norm <= self.a,
+            value=lambda a, b: np.hypot(b, np.sqrt(least)) - a,
+            gradient=lambda _a, b: (-1.0, b / np.hypot(b, np.sqrt(least))),
+            derivative=lambda _a, b: -least / (2.0 * height * np.hypot(b, np.sqrt(least))),
+        )
+
+    def _h_min(self) -> Constraint:
+        """a <= sqrt(Q + b^2), by its tangent."""
+        height = self._room.height_min
+        largest = self._spread(height)
+        return Constraint(
+            convex=self.a <= self._tangent(self.b, self._widest_rim),
+            value=lambda a, b: a - self._widest_rim(b)[0],
+            gradient=lambda _a, b: (1.0, -self._widest_rim(b)[1]),
+            derivative=lambda _a, b: largest / (2.0 * height * self._widest_rim(b)[0]),
+        )
+
+    def _wall_min(self) -> Constraint:
+        """b <= (sqrt(a) - t)^2, by its tangent."""
+        wall = self._room.wall_min / self._scale
+        return Constraint(
+            convex=self.b <= self._tangent(self.a, self._widest_bore),
+            value=lambda a, b: b - self._widest_bore(a)[0],
+            gradient=lambda a, _b: (-self._widest_bore(a)[1], 1.0),
+            derivative=lambda a, _b: 2.0 * (np.sqrt(a) - wall) / self._scale,
+        )
+
+    def _wheel_mass_max(self) -> Constraint:
+        mass = self._room.mass_max
+        least = 2.0 * self._problem.spin_inertia / (mass * self._scale**2)
+        return Constraint(
+            convex=(self.a + self.b) / least >= 1.0,
+            value=lambda a, b: 1.0 - (a + b) / least,
+            gradient=lambda _a, _b: (-1.0 / least, -1.0 / least),
+            derivative=lambda _a, _b: -1.0 / mass,
+        )
+
+    def _hoop_stress(self) -> Constraint:
+        """The derivative is by the allowed stress [1 / Pa]."""
+        nu = self._problem.material.poisson_ratio or 0.0
+        stretch = self._problem.stretch_max / self._scale**2
+        outer, inner = (3.0 + nu) / stretch, (1.0 - nu) / stretch
+        return Constraint(
+            convex=self.a * outer + self.b * inner <= 1.0,
+            value=lambda a, b: a * outer + b * inner - 1.0,
+            gradient=lambda _a, _b: (outer, inner),
+            derivative=lambda _a, _b: -1.0 / self._problem.hoop_stress_max,
+        )
+
+    def _spread(self, height: float) -> float:
+        """a^2 - b^2 of a rim of this height."""
+        density = self._problem.material.density
+        return 2.0 * self._problem.spin_inertia / (np.pi * density * height * self._scale**4)
+
+    def _widest_bore(self, a: float) -> tuple[float, float]:
+        """(sqrt(a) - t)^2 and its slope."""
+        bore = np.sqrt(a) - self._room.wall_min / self._scale
+        return bore**2, bore / np.sqrt(a)
+
+    def _widest_rim(self, b: float) -> tuple[float, float]:
+        """sqrt(Q + b^2) and its slope."""
+        widest = np.hypot(b, np.sqrt(self._spread(self._room.height_min)))
+        return widest, b / widest
+
+
+_SOLVER_OPTIONS = {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10}
+_STEP_TOLERANCE = 1e-8
+_ITERATIONS_MAX = 50
+# A multiplier below this belongs to a limit that does not bind; those that do are of order one.
+_IDLE = 1e-6
+_NEWTON_STEPS = 3
+# Newton goes to a vertex that Clarabel may mean, or nowhere.
+_REFINED_MAX = 1e-5
+_ROUNDING = 1e-11
+
+
+@dataclass(frozen=True)
+class RimOptimum:
+    """What the convex program found.
+
+    Attributes:
+        outer_radius, inner_radius: [m].
+        mass: [kg].
+        prices: change of the mass per change of each limit that is set [kg per SI unit].
+        gap: primal less dual objective, over the primal one.
+        iterations: of the convex-concave procedure.
+        status: CVXPY's.
+    """
+
+    outer_radius: float
+    inner_radius: float
+    mass: float
+    prices: Mapping[str, float]
+    gap: float
+    iterations: int
+    status: str
+
+
+def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) -> RimOptimum:
+    """Improve on a feasible rim until nothing moves any more.
+
+    Args:
+        problem: of the rim.
+        outer_radius, inner_radius: of any rim within the limits [m].
+    """
+    scale = outer_radius
+    constraints = RimConstraints(problem, scale)
+    cvxpy = import_module("cvxpy")
+    mass = cvxpy.inv_pos(constraints.a + constraints.b)
+    limits = [limit.convex for limit in constraints.by_name.values()]
+    program: Problem = cvxpy.Problem(cvxpy.Minimize(mass), limits)
+    point = np.array([1.0, (inner_radius / scale) ** 2])
+    step, iterations = np.inf, 0
+    while step > _STEP_TOLERANCE and iterations < _ITERATIONS_MAX:
+        last = point
+        constraints.touch(*last)
+        gap = _solve(program)
+        point = constraints.point()
+        step, iterations = np.abs(point - last).max(), iterations + 1
+    point, multipliers = _refined(constraints)
+    outer, inner = scale * np.sqrt(point)
+    mass_scale = 2.0 * problem.spin_inertia / scale**2
+    return RimOptimum(
+        outer_radius=float(outer),
+        inner_radius=float(inner),
+        mass=float(mass_scale / point.sum()),
+        prices={
+            # Plus zero: an idle limit has the price 0, not -0.
+            name: mass_scale * multiplier * float(constraints.by_name[name].derivative(*point))
+            + 0.0
+            for name, multiplier in multipliers.items()
+        },
+        gap=gap,
+        iterations=iterations,
+        status=str(program.status),
+    )
+
+
+def _refined(constraints: RimConstraints) -> tuple[FloatArray, dict[str, float]]:
+    """The point and the multipliers with full digits, where Clarabel leaves about nine.
+
+    Two limits that bind are two equations for the vertex (Newton), and the Lagrange condition two
+    linear ones for their multipliers. Where more limits meet, the multipliers are not unique and
+    Clarabel's stand. Idle limits have none.
+    """
+    found = {
+        name: np.asarray(limit.convex.dual_value).item()
+        for name, limit in constraints.by_name.items()
+    }
+    binding = [name for name, multiplier in found.items() if multiplier > _IDLE]
+    limits = [constraints.by_name[name] for name in binding]
+    # The lightest point next to Clarabel's that lies on two binding limits and within all.
+    near = constraints.point()
+    feasible = [
+        vertex
+        for vertex in (_vertex(pair, near) for pair in combinations(limits, 2))
+        if np.abs(vertex - near).max() < _REFINED_MAX
+        and all(limit.value(*vertex) < _ROUNDING for limit in constraints.by_name.values())
+    ]
+    point = max(feasible, key=np.sum, default=near)
+    if len(binding) == 2:
+        exact = np.linalg.solve(_gradients(limits, point).T, np.full(2, point.sum() ** -2.0))
+        found.update(zip(binding, map(float, exact), strict=True))
+    return point, {name: found[name] if name in binding else 0.0 for name in found}
+
+
+def _vertex(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
+    """The point next to this one where both limits bind."""
+    for _ in range(_NEWTON_STEPS):
+        values = np.array([limit.value(*point) for limit in limits])
+        # Not `solve`: equal h_min and h_max are one equation twice.
+        point = point - np.linalg.lstsq(_gradients(limits, point), values, rcond=None)[0]
+    return point
+
+
+def _gradients(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
+    return np.array([limit.gradient(*point) for limit in limits])
+
+
+def load_solver() -> None:
+    """Import CVXPY, which takes a second, at a time of the caller's choice."""
+    import_module("cvxpy")
+
+
+def _solve(program: "Problem") -> float:
+    """Solve in place; returns the relative gap between the primal and the dual objective."""
+    # Not `program.solve()`, which throws the dual objective away.
+    data, chain, inverse = program.get_problem_data("CLARABEL", solver_opts=_SOLVER_OPTIONS)
+    raw = chain.solve_via_data(program, data, solver_opts=_SOLVER_OPTIONS)
+    with warnings.catch_warnings():
+        # An inaccurate solution shows in the gap and in the status.
+        warnings.filterwarnings("ignore", message="Solution may be inaccurate")
+        program.unpack_results(raw, chain, inverse)
+    if program.status not in ("optimal", "optimal_inaccurate"):
+        raise RuntimeError(
+            f"Clarabel calls a rim {program.status} that has been built: {raw.status}"
+        )
+    return float(abs(raw.obj_val - raw.obj_val_dual) / abs(raw.obj_val))

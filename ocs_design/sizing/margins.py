@@ -1,0 +1,199 @@
+"""Margins of a motion: demand against capacity, and the worst of several maneuvers."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ocs_design.actuation.drive import speed_limit
+from ocs_design.common.arrays import FloatArray
+from ocs_design.sizing.motion import (
+    DrivenWheel,
+    Motion,
+    Supply,
+    supply,
+    torque_constant,
+)
+from ocs_design.sizing.selection.candidates import OVERSPEED
+
+
+@dataclass(frozen=True)
+class Margin:
+    """What is asked of one part against what it stands.
+
+    Attributes:
+        name: of the quantity; one name is one kind of margin.
+        demand: largest that is asked, never negative.
+        capacity: what the part stands; None: no limit, or none known, and `note` says which.
+        unit: of both, SI.
+        note: what the figures rest on, one sentence; empty if there is nothing to say.
+        maneuver: that asks it; empty if none does.
+        of_motion: whether a maneuver has any part in it.
+    """
+
+    name: str
+    demand: float
+    capacity: float | None
+    unit: str
+    note: str = ""
+    maneuver: str = ""
+    of_motion: bool = True
+
+    @property
+    def factor(self) -> float | None:
+        """Capacity over demand: below 1 it is exceeded; None: no limit, or nothing asked."""
+        return None if self.capacity is None or self.demand == 0.0 else self.capacity / self.demand
+
+    @property
+    def _strain(self) -> tuple[float, float]:
+        """Grows with what is asked, and with its share of the capacity first."""
+        factor = self.factor
+        return (0.0 if factor is None else 1.0 / factor, self.demand)
+
+
+def worst(by_maneuver: Mapping[str, Iterable[Margin]]) -> tuple[Margin, ...]:
+    """The smallest margin of each kind, with the maneuver that sets it, in the order they come.
+
+    Where there is no capacity it is the largest demand.
+
+    Args:
+        by_maneuver: the margins of each maneuver by its name.
+    """
+    found: dict[str, Margin] = {}
+    for name, margins in by_maneuver.items():
+        for margin in margins:
+            kept = found.get(margin.name)
+            if kept is None or margin._strain > kept._strain:
+                found[margin.name] = replace(margin, maneuver=name if margin.of_motion else "")
+    return tuple(found.values())
+
+
+def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> FloatArray:
+    """Moment of the trunk on each wheel across its axis [N m], shape (n, 2).
+
+    With a the axis, w the trunk's rate and W the wheel's speed relative to it, a rotor has the
+    momentum I_t w_perp + (I_s (a w) + h W) a, whose change as seen from the world is, across a
+    (Euler's equations in a frame that does not spin with the rotor; Hughes1986, Gyrostats):
+
+        M = I_t w_dot_perp + (I_s (a w) + h W - I_t (a w)) w x a .
+
+    Args:
+        motion: of trunk and wheels.
+        axes: unit spin axes in B as columns, shape (3, 2).
+        wheel: either of the two.
+    """
+    moments = []
+    for wheel_speed, axis in zip(motion.wheel_speed.T, axes.T, strict=True):
+        along = motion.rate @ axis
+        across = motion.acceleration - np.outer(motion.acceleration @ axis, axis)
+        own = wheel.body.transverse_inertia
+        excess = (wheel.axial_inertia - own) * along
+        momentum = excess + wheel.spin_inertia * wheel_speed
+        moment = own * across + momentum[:, None] * np.cross(motion.rate, axis)
+        moments.append(np.linalg.norm(moment, axis=1))
+    return np.column_stack(moments)
+
+
+HOOP_STRESS = "hoop stress, to yield"
+
+NO_SUPPLY = "both motors together, ideal inverter; no limit of the supply is known"
+
+
+def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margin, ...]:
+    """What a motion asks of the drive, the rim, the supply and the bearings.
+
+    Args:
+        motion: of trunk and wheels, flown or a reference.
+        axes: unit spin axes in B as columns, as they are in this motion, shape (3, 2).
+        wheel: each of the two.
+
+    Raises:
+        OcsError: the motor lacks a figure that every drive needs.
+    """
+    taken = supply(motion, wheel)
+    # No motor of the catalogue states what its bearings stand, or how far apart they are.
+    moment = float(bearing_moment(motion, axes, wheel).max())
+    return (
+        *_drive_margins(motion, wheel),
+        *_rim_margins(motion, wheel),
+        *_supply_margins(taken, wheel),
+        Margin("bearing moment", moment, None, "N m", "gyroscopic; shocks of landing left out"),
+    )
+
+
+def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
+    """Current limit, voltage line and speeds (docs/theory.md, What a motor can do)."""
+    line, gear = wheel.line, wheel.gear
+    torque, speed = _peak(motion.wheel_torque), _peak(motion.wheel_speed)
+    no_load = float(line.no_load_speed)
+    yield Margin("torque, to the current limit", torque, _finite(line.torque_limit), "N m")
+    share = _peak(motion.wheel_speed / no_load + motion.wheel_torque / line.stall_torque)
+    yield Margin(
+        "voltage line",
+        share,
+        1.0,
+        "",
+        f"of {wheel.bus_voltage:g} V: speed over no-load speed plus torque over stall torque",
+    )
+    yield Margin("wheel speed, to no load", speed, no_load, "rad/s")
+    yield Margin("wheel speed, mechanical", speed, _finite(line.speed_max), "rad/s")
+    capacity = min(speed_limit(wheel.motor) or np.inf, gear.motor_speed_max)
+    note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
+    yield Margin("motor speed", gear.ratio * speed, _finite(capacity), "rad/s", note)
+
+
+def _rim_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
+    """Stress if the motor runs away, and the energy in both wheels and rotors."""
+    stress = wheel.overspeed_stress
+    if stress is not None:
+        strength = wheel.material.yield_strength
+        note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
+        yield Margin(HOOP_STRESS, stress, strength, "Pa", note, of_motion=False)
+    energy = 0.5 * wheel.moved_inertia * np.sum(motion.wheel_speed**2, axis=1)
+    yield Margin("stored energy", float(energy.max()), None, "J", "both wheels with their rotors")
+
+
+def _supply_margins(taken: Supply, wheel: DrivenWheel) -> Iterator[Margin]:
+    """Currents and energies of the bus, and the heat of the busier motor.
+
+    Continuous ratings are for hours and a maneuver lasts a second: a current that exceeds one is no
+    fault, but asks for a pause until the mean of i^2 is back at the rating's.
+    """
+    yield Margin("bus current", taken.peak_drawn, None, "A", NO_SUPPLY)
+    yield Margin("bus current, fed back", taken.peak_fed_back, None, "A")
+    yield Margin(
+        "energy from the bus",
+        taken.drawn,
+        None,
+        "J",
+        f"heat in the windings {taken.heat_both:.3g} J",
+    )
+    yield Margin(
+        "energy fed back", taken.fed_back, None, "J", "braking, if the inverter lets it through"
+    )
+    yield Margin(
+        "heat in a winding",
+        taken.heat,
+        None,
+        "J",
+        "cold resistance; its heat capacity is not known",
+    )
+    mean = float(np.sqrt(taken.current_squared_time / taken.duration))
+    rating = wheel.motor.continuous_torque
+    if rating is None:
+        yield Margin("rms current", mean, None, "A", "no continuous rating is stated")
+        return
+    continuous = rating / torque_constant(wheel)
+    pause = taken.current_squared_time / continuous**2 - taken.duration
+    note = f"a pause of {pause:.2g} s after each maneuver cools it" if pause > 0.0 else ""
+    yield Margin("rms current", mean, continuous, "A", note)
+
+
+def _peak(values: FloatArray) -> float:
+    return float(np.abs(values).max())
+
+
+def _finite(limit: float | FloatArray) -> float | None:
+    """None where there is no limit."""
+    figure = float(limit)
+    return figure if np.isfinite(figure) else None

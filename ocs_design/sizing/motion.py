@@ -1,0 +1,302 @@
+"""Motions of trunk and wheels over time, and what they take from winding and supply.
+
+The motor is one equivalent DC motor behind an ideal inverter, V = R i + k_t w; the voltage of the
+bus is constant, and it takes back whatever the motors give (docs/theory.md, Margins).
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf
+
+import numpy as np
+
+from ocs_design.actuation.drive import (
+    FIGURES_HINT,
+    DriveLine,
+    armature,
+    drive_line,
+    rotor_share,
+)
+from ocs_design.actuation.motor import Gear, Motor
+from ocs_design.catalogue.materials import Material
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import OcsError
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, wheel_body
+from ocs_design.sizing.selection.candidates import OVERSPEED
+from ocs_design.sizing.trajectory.flight import Trajectory
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Linear between samples; two samples at one time are a jump.
+
+    Attributes:
+        time: [s], not falling, shape (n,).
+        wheel_speed: relative to the trunk [rad/s], shape (n, 2).
+        wheel_torque: of the motors at the wheels [N m], shape (n, 2).
+        rate: of the trunk in B [rad/s], shape (n, 3).
+        acceleration: of the trunk in B [rad/s^2], shape (n, 3).
+    """
+
+    time: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    rate: FloatArray
+    acceleration: FloatArray
+
+    @classmethod
+    def along(cls, trajectory: Trajectory) -> "Motion":
+        """Motion along a reference, which is linear between its samples too."""
+        return cls(
+            trajectory.time,
+            trajectory.wheel_speed,
+            trajectory.wheel_torque,
+            trajectory.rate,
+            trajectory.acceleration,
+        )
+
+    @classmethod
+    def flown(
+        cls,
+        time: FloatArray,
+        wheel_speed: FloatArray,
+        wheel_torque: FloatArray,
+        rate: FloatArray,
+    ) -> "Motion":
+        """Motion of a recorded flight, whose torque is held from each sample to the next.
+
+        The trunk's acceleration is the mean one between two samples. A landing's is not that of a
+        maneuver: leave out what comes after touchdown.
+
+        Args:
+            time: [s], increasing, shape (n,), n >= 2.
+            wheel_speed, wheel_torque, rate: see `Motion`; the last torque is not used.
+        """
+        acceleration = np.diff(rate, axis=0) / np.diff(time)[:, None]
+        return cls(
+            _both_ends(time),
+            _both_ends(wheel_speed),
+            np.repeat(wheel_torque[:-1], 2, axis=0),
+            _both_ends(rate),
+            np.repeat(acceleration, 2, axis=0),
+        )
+
+    @property
+    def duration(self) -> float:
+        """[s]."""
+        return float(self.time[-1] - self.time[0])
+
+    def between(self) -> "Motion":
+        """Samples with the middle of each interval between them, shape (2 n - 1, ...)."""
+        return Motion(
+            _with_middles(self.time),
+            _with_middles(self.wheel_speed),
+            _with_middles(self.wheel_torque),
+            _with_middles(self.rate),
+            _with_middles(self.acceleration),
+        )
+
+
+def integral(values: FloatArray, time: FloatArray) -> float:
+    """Simpson's rule over intervals with their middles: exact for what is quadratic in each.
+
+    Args:
+        values: shape (2 n - 1,).
+        time: as `Motion.between` gives it, shape (2 n - 1,).
+    """
+    step = time[2::2] - time[:-2:2]
+    return float(step @ (values[:-2:2] + 4.0 * values[1::2] + values[2::2]) / 6.0)
+
+
+def _both_ends(values: FloatArray) -> FloatArray:
+    """Start and end of each interval, one after the other."""
+    return np.repeat(values, 2, axis=0)[1:-1]
+
+
+def _with_middles(values: FloatArray) -> FloatArray:
+    found = np.repeat(values, 2, axis=0)[:-1]
+    found[1::2] = 0.5 * (values[:-1] + values[1:])
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenWheel:
+    """Wheel, motor, gear and supply of one module.
+
+    Attributes:
+        inner_radius, outer_radius, height: of the rim [m].
+        material: of the rim.
+        motor, gear: that drive it.
+        bus_voltage: [V].
+        wheel_speed_max: stated highest speed of the wheel [rad/s]; inf: none.
+        hub: in the middle of the wheel's web; None: massless spokes.
+        cuts: off the rim.
+    """
+
+    inner_radius: float
+    outer_radius: float
+    height: float
+    material: Material
+    motor: Motor
+    gear: Gear
+    bus_voltage: float
+    wheel_speed_max: float = inf
+    hub: Hub | None = None
+    cuts: RimCuts = NO_CUTS
+
+    @cached_property
+    def line(self) -> DriveLine:
+        """All that the motor does at the wheel, without a reserve; scalars.
+
+        Raises:
+            OcsError: the motor lacks a figure that every drive needs.
+        """
+        line = drive_line(self.motor, self.gear, self.bus_voltage)
+        return replace(line, speed_max=min(float(line.speed_max), self.wheel_speed_max))
+
+    @property
+    def body(self) -> Carrier:
+        """Rim, web and hub; what is known of the rotor's transverse inertia is nothing."""
+        size = (self.inner_radius, self.outer_radius, self.height)
+        return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts)
+
+    @property
+    def spin_inertia(self) -> float:
+        """Momentum per wheel speed, of wheel and rotor [kg m^2]."""
+        return self.body.axial_inertia + rotor_share(self._rotor_inertia, self.gear)
+
+    @property
+    def moved_inertia(self) -> float:
+        """What the motor accelerates, of wheel, gear and rotor [kg m^2]."""
+        return self.spin_inertia + armature(self._rotor_inertia, self.gear)
+
+    @property
+    def axial_inertia(self) -> float:
+        """Axial inertia of wheel and rotor while they do not turn on the trunk [kg m^2]."""
+        return self.body.axial_inertia + self._rotor_inertia
+
+    @property
+    def _rotor_inertia(self) -> float:
+        """Counted as nothing where it is not stated."""
+        return self.motor.rotor_inertia or 0.0
+
+    @property
+    def wheel_speed_reached(self) -> float:
+        """No-load speed at the bus voltage, or the mechanical limit if that is lower [rad/s]."""
+        return min(float(self.line.no_load_speed), float(self.line.speed_max))
+
+    @property
+    def overspeed_stress(self) -> float | None:
+        """Hoop stress at `OVERSPEED` times the speed reached [Pa]; None: no Poisson's ratio."""
+        if self.material.poisson_ratio is None:
+            return None
+        return hoop_stress(
+            self.inner_radius,
+            self.outer_radius,
+            density=self.material.density,
+            poisson_ratio=self.material.poisson_ratio,
+            wheel_speed=OVERSPEED * self.wheel_speed_reached,
+        )
+
+
+@dataclass(frozen=True)
+class Supply:
+    """Over one motion; of one motor where nothing else is said.
+
+    Attributes:
+        duration: of the motion [s].
+        peak_current: of a winding [A].
+        current_squared_time: integral of i^2 of the busier motor [A^2 s].
+        heat: in the busier winding [J]. heat_both: in both windings [J].
+        gear_loss: of both gears [J].
+        drawn, fed_back: energy from the bus and to it, both motors together [J].
+        peak_drawn, peak_fed_back: current from the bus and to it, both motors together [A].
+    """
+
+    duration: float
+    peak_current: float
+    current_squared_time: float
+    heat: float
+    heat_both: float
+    gear_loss: float
+    drawn: float
+    fed_back: float
+    peak_drawn: float
+    peak_fed_back: float
+
+
+def supply(motion: Motion, wheel: DrivenWheel) -> Supply:
+    """Currents, heat and energies of a motion with two equal wheels.
+
+    Raises:
+        OcsError: the motor lacks its torque constant or its resistance.
+    """
+    fine = motion.between()
+    current = winding_current(fine.wheel_torque, wheel)
+    squared_time = [integral(values**2, fine.time) for values in current.T]
+    power = bus_power(fine, wheel)
+    peaks = bus_power(motion, wheel)
+    loss = shaft_power(fine, wheel) - fine.wheel_torque * fine.wheel_speed
+    return Supply(
+        duration=motion.duration,
+        peak_current=float(np.abs(current).max()),
+        current_squared_time=max(squared_time),
+        heat=resistance(wheel) * max(squared_time),
+        heat_both=resistance(wheel) * sum(squared_time),
+        gear_loss=integral(loss.sum(axis=1), fine.time),
+        drawn=integral(np.maximum(power, 0.0), fine.time),
+        fed_back=integral(np.maximum(-power, 0.0), fine.time),
+        peak_drawn=float(max(peaks.max(), 0.0)) / wheel.bus_voltage,
+        peak_fed_back=float(max(-peaks.min(), 0.0)) / wheel.bus_voltage,
+    )
+
+
+def winding_current(wheel_torque: FloatArray, wheel: DrivenWheel) -> FloatArray:
+    """i = tau / (N eta k_t) [A], as the drive's line has it.
+
+    The gear's loss is taken to work against the motor also where it brakes, when in truth it helps:
+    currents and heat are on the safe side.
+    """
+    gear = wheel.gear
+    return wheel_torque / (gear.ratio * gear.efficiency * torque_constant(wheel))
+
+
+def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
+    """Power at the motors' shafts [W], shape (n, 2): tau W / eta driving, eta tau W braking.
+
+    Unlike the current, the energy that comes back is not rounded to the safe side: a gear that
+    loses in the one direction would make energy in the other.
+    """
+    power = motion.wheel_torque * motion.wheel_speed
+    efficiency = wheel.gear.efficiency
+    return np.where(power > 0.0, power / efficiency, power * efficiency)
+
+
+def bus_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
+    """Power of all motors together [W], shape (n,): R i^2 and what the shafts take.
+
+    For direct drive that is V i with V = R i + k_t w.
+    """
+    copper = resistance(wheel) * winding_current(motion.wheel_torque, wheel) ** 2
+    power: FloatArray = np.sum(copper + shaft_power(motion, wheel), axis=1)
+    return power
+
+
+def torque_constant(wheel: DrivenWheel) -> float:
+    """k_t [N m/A]."""
+    return _known(wheel.motor.torque_constant, "torque constant", wheel)
+
+
+def resistance(wheel: DrivenWheel) -> float:
+    """Between two lines [ohm]."""
+    return _known(wheel.motor.resistance, "resistance", wheel)
+
+
+def _known(figure: float | None, name: str, wheel: DrivenWheel) -> float:
+    if figure is None:
+        raise OcsError(
+            f"motor {wheel.motor.name!r}: its source does not give its {name}",
+            hint=FIGURES_HINT,
+        )
+    return figure

@@ -1,0 +1,181 @@
+"""A solved candidate as a whole device, the limits that hold its mass, and its figures."""
+
+from collections.abc import Iterator
+from dataclasses import fields, replace
+
+import numpy as np
+
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.actuation.slew import slew_profile
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_pair import smallest_spin_inertia
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.layout import module_frames
+from ocs_design.device.records import TaskDemand
+from ocs_design.parts.module import standing
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.rim import wheel_body
+from ocs_design.requirement.bound import (
+    AXES,
+)
+from ocs_design.requirement.froude import Envelope
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.sizing.bound.rim_problem import RimLimits
+from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.placement import motor_size
+from ocs_design.sizing.selection.demand import held_by_rate, pair_task, shares_of
+from ocs_design.sizing.selection.fixed_point import Solved
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.result import Candidate
+
+HOUSING = "housing"
+"""Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
+foot are heavier."""
+
+HUB, WEB = "hub", "web"
+"""Stand for the bore and the height where the hub and the web ask for more than was specified."""
+
+CUT_WALL, CUT_HEIGHT = "wall for edges and holes", "height for edges and holes"
+"""Stand for wall and height where chamfers or balancing holes ask for more than was specified."""
+
+MOUNT = "mount"
+"""Stands for the radius where the motor's mount asks for a larger housing."""
+
+_TOUCHING = 1e-5
+"""Relative distance from an active limit; a hundredth of what can be turned."""
+
+
+def device_of(solved: Solved) -> Candidate:
+    """The device of a single solved candidate."""
+    candidates, shapes = solved.candidates, solved.point.shapes
+    problem, drives = candidates.problem, candidates.drives
+    motor, gear = problem.motors[drives.motor[0]], problem.gears[drives.gear[0]]
+    material = problem.materials[candidates.material[0]]
+    inner, outer = shapes.inner_radius.item(), shapes.outer_radius.item()
+    height, rim_mass = shapes.height.item(), shapes.rim_mass.item()
+    hub, cuts = problem.hub(motor, gear), candidates.limits.cuts
+    carrier = standing(motor, gear, outer, height)
+    wheel = wheel_body(inner, outer, height, material.density, hub, cuts=cuts)
+    centers = problem.place.centers(motor_size(motor, gear.room, outer, height))
+    incidence = float(solved.point.angle[0])
+    line = (drives.stall_torque, drives.no_load_speed, drives.torque_limit, drives.speed_max)
+    found = Candidate(
+        motor=motor,
+        gear=gear,
+        material=material,
+        incidence=incidence,
+        spin_inertia=float(solved.point.spin_inertia[0]),
+        rotor_share=float(drives.rotor_share[0]),
+        armature=float(drives.armature[0]),
+        inner_radius=inner,
+        outer_radius=outer,
+        height=height,
+        hub=hub,
+        cuts=cuts,
+        rim_mass=rim_mass,
+        web_mass=wheel.mass - rim_mass,
+        carrier=carrier,
+        line=DriveLine(*(float(values[0]) for values in line)),
+        overspeed=float(drives.overspeed[0]),
+        total=braked(problem.robot, (wheel, carrier), centers, incidence),
+        centers=centers,
+        demands=(),
+        binding=binding_limits(shapes, candidates.limits, problem.envelope, 0),
+        residual=float(solved.point.residual[0]),
+        iterations=int(solved.point.iterations[0]),
+    )
+    return replace(found, demands=tuple(_task_demands(problem, found)))
+
+
+def braked(
+    robot: MassProperties, bodies: tuple[Carrier, ...], centers: FloatArray, incidence: float
+) -> MassProperties:
+    """Robot and both modules as one rigid body in B.
+
+    Args:
+        robot: without the modules.
+        bodies: of one module, in its own frame (`layout.module_frames`).
+        centers: of the wheels in B [m], shape (2, 3).
+        incidence: of their axes [rad].
+    """
+    parts = [robot]
+    for center, attitude in zip(centers, module_frames(incidence), strict=True):
+        parts += [body.mass_properties().moved(attitude, center) for body in bodies]
+    return combine(parts)
+
+
+def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -> TiltInertia:
+    """Inertia of robot and device, braked, with the modules turned to this incidence."""
+    bodies = (device.wheel, device.carrier)
+    return TiltInertia.of(braked(problem.robot, bodies, device.centers, incidence).inertia)
+
+
+def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[TaskDemand]:
+    """Demands of each part of the requirement, with the inertia at its own incidence."""
+    requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
+    for maneuver in requirement.maneuvers:
+        at = device.incidence if maneuver.incidence is None else maneuver.incidence
+        inertia, shares = inertia_at(problem, device, at), shares_of(np.array([[at]]))
+        task = pair_task([maneuver], requirement.standing_height, inertia, shares)
+        load = task.load()
+        reduced = load.reduced_inertia(spin, device.armature)
+        profile = slew_profile(load.angle(spin), reduced, line, load.final_speed(spin))
+        # The torque of a phase falls with the speed while it pushes and rises with it while it
+        # brakes.
+        torque = np.abs(profile.torque(np.array([0.0, profile.brake_from.item()])))
+        yield TaskDemand(
+            source=maneuver.name,
+            incidence=at,
+            spin_inertia=smallest_spin_inertia(task, line, device.armature).item(),
+            time_needed=profile.end.item(),
+            time_given=np.asarray(task.duration).item(),
+            peak_speed=profile.peak_speed.item(),
+            peak_torque=float(torque.max()),
+        )
+    if requirement.rate_change is not None:
+        at, top_speed = device.incidence, min(float(line.no_load_speed), float(line.speed_max))
+        inertia, shares = inertia_at(problem, device, at), shares_of(np.asarray(at))
+        momenta = held_by_rate(requirement.rate_change, inertia, shares)
+        for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
+            least, peak = momentum / top_speed, momentum / spin
+            yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)
+
+
+def binding_limits(
+    shapes: ModuleShape, limits: RimLimits, room: Envelope, row: int
+) -> tuple[str, ...]:
+    """Names of the limits that one module touches, as in the specification.
+
+    Args:
+        shapes: of the modules. limits: of their rims.
+        room: as specified, without what web and hub take.
+        row: which module.
+    """
+    inner, outer = float(shapes.inner_radius[row]), float(shapes.outer_radius[row])
+    height = float(shapes.height[row])
+    at = {
+        field.name: float(np.broadcast_to(getattr(limits, field.name), shapes.mass.shape)[row])
+        for field in fields(limits)
+        if field.name != "cuts"
+    }
+    nu = at["poisson_ratio"]
+    stretched = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
+    bore = HUB if at["inner_radius_min"] > room.inner_radius_min else "r_min"
+    seat = CUT_HEIGHT if limits.cuts.height_min >= at["height_min"] else WEB
+    flat = seat if at["height_min"] > room.height_min else "h_min"
+    wall = CUT_WALL if at["wall_min"] > room.wall_min else "wall_min"
+    touched = {
+        "r_max": (outer, at["outer_radius_max"]),
+        "h_max": (height, at["height_max"]),
+        "hoop_stress": (stretched, at["stretch_max"]),
+        "wheel_mass_max": (float(shapes.rim_mass[row]), at["mass_max"]),
+        bore: (inner, at["inner_radius_min"]),
+        flat: (height, at["height_min"]),
+        wall: (outer - inner, at["wall_min"]),
+        MOUNT: (outer, at["outer_radius_min"]),
+    }
+    names = tuple(
+        name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
+    )
+    radius_is_held = {"r_max", "hoop_stress", MOUNT} & set(names) or {flat, wall} <= set(names)
+    return names if radius_is_held else (*names, HOUSING)

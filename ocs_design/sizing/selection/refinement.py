@@ -1,0 +1,258 @@
+"""One candidate as a smooth nonlinear programme, without a fixed point.
+
+Over the logarithms of outer radius, height and wall, and the incidence, the mass is the smallest
+for which every part of the requirement is met on the robot with the device. Where a device can
+hardly carry itself, a fixed point at a given incidence runs away though there is one beside it;
+here what is asked for is a limit as any other, and may be missed on the way. SciPy's SLSQP solves
+it (Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28, 1988).
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
+from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.rim import cylinder_mass, cylinder_spin_inertia
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE
+from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.selection.candidates import Candidates
+from ocs_design.sizing.selection.composite_inertia import CompositeInertia, composite_inertia
+from ocs_design.sizing.selection.demand import margins_of, shares_of
+from ocs_design.sizing.selection.fixed_point import FINE, Design, FixedPoint, fixed_point
+
+HELD = 1e-9
+"""Relative violation of a limit that is rounding."""
+
+_LEAST, _MOST = 1e-6, 1e6
+"""Ratios beyond which a limit tells nothing."""
+
+_DIFFERENCE = 1e-6
+"""Half the distance of the two points of a central difference."""
+
+_DIGITS = 1e-11
+"""Change of the logarithm of the mass at which SLSQP stops."""
+
+_ITERATIONS_MAX = 40
+_AROUND = 0.7
+"""Largest change of the logarithms of radius, height and wall."""
+
+
+class Optimum(NamedTuple):
+    """End of a search.
+
+    Attributes:
+        point: see `coordinates`. value: logarithm of half the mass of the device [log kg].
+        violation: how far below zero the worst limit is; 0: all hold.
+    """
+
+    point: FloatArray
+    value: float
+    violation: float
+
+
+def refine(candidates: Candidates, point: FixedPoint) -> FixedPoint:
+    """The lightest device of one candidate near a point; not feasible where none is found.
+
+    Args:
+        candidates: the candidate alone.
+        point: where to start, feasible or not.
+    """
+    programme = Programme(candidates)
+    optimum = lightest(programme, coordinates(point.shapes, float(point.angle[0])))
+    if optimum.violation <= HELD:
+        return programme.fixed_point(optimum.point)
+    # SLSQP comes no closer where a slope jumps: the device beside it has the same radius.
+    radius, angle = np.exp(optimum.point[:1]), optimum.point[3:]
+    return fixed_point(candidates, np.zeros(1), Design(radius, angle, np.zeros(1)), FINE)
+
+
+def lightest(programme: "Programme", start: FloatArray) -> Optimum:
+    """The lightest device near a start, feasible or not; see `coordinates`."""
+    # Importing takes longer than a selection.
+    from scipy.optimize import Bounds, NonlinearConstraint, minimize  # noqa: PLC0415
+
+    held, angle = programme.holds_incidence(start), float(start[-1])
+    turn = (angle, angle) if held else (0.0, np.pi / 2.0)
+    low: FloatArray = np.append(start[:3] - _AROUND, turn[0])
+    high: FloatArray = np.append(start[:3] + _AROUND, turn[1])
+    evaluations = _Evaluations(programme, low, high)
+
+    def constraint(rows: slice, most: float) -> NonlinearConstraint:
+        """Limits between 0 and `most`."""
+        return NonlinearConstraint(
+            lambda point: evaluations.at(point).limits[rows],
+            0.0,
+            most,
+            jac=lambda point: evaluations.at(point).slopes[rows],
+        )
+
+    stated = programme.candidates.problem.requirement.spin_inertia is not None
+    equal, unequal = slice(int(stated)), slice(int(stated), None)
+    found = minimize(
+        evaluations.value,
+        np.clip(start, low, high),
+        jac=evaluations.slope,
+        method="SLSQP",
+        bounds=Bounds(low, high),
+        constraints=[constraint(unequal, np.inf), *([constraint(equal, 0.0)] if stated else [])],
+        options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
+    )
+    end = evaluations.at(np.asarray(found.x))
+    missed = np.append(-end.limits, end.limits[equal])
+    return Optimum(np.asarray(found.x), end.value, max(float(missed.max()), 0.0))
+
+
+class _Evaluation(NamedTuple):
+    """Logarithm of the mass and limits at a point, and their slopes by central differences."""
+
+    value: float
+    limits: FloatArray
+    slope: FloatArray
+    slopes: FloatArray
+
+
+@dataclass(eq=False)
+class _Evaluations:
+    """The programme at single points, all of a central difference in one call."""
+
+    programme: "Programme"
+    low: FloatArray
+    high: FloatArray
+    last: tuple[FloatArray, _Evaluation] | None = None
+
+    def value(self, point: FloatArray) -> float:
+        """Logarithm of half the mass."""
+        return self.at(point).value
+
+    def slope(self, point: FloatArray) -> FloatArray:
+        """Gradient of the value, shape (4,)."""
+        return self.at(point).slope
+
+    def at(self, point: FloatArray) -> _Evaluation:
+        """Value, limits and slopes; those of the last point are kept."""
+        if self.last is not None and np.array_equal(self.last[0], point):
+            return self.last[1]
+        # Differences stay within the bounds: beyond, there may be nothing to evaluate.
+        n, width = point.size, _DIFFERENCE * np.eye(point.size)
+        ahead, behind = np.minimum(point + width, self.high), np.maximum(point - width, self.low)
+        values, limits = self.programme(np.concatenate([point[None], ahead, behind]))
+        apart = np.diag(ahead - behind)
+        # A held variable has no slope.
+        over = np.where(apart > 0.0, apart, np.inf)
+        slope = (values[1 : n + 1] - values[n + 1 :]) / over
+        slopes = ((limits[1 : n + 1] - limits[n + 1 :]) / over[:, None]).T
+        found = _Evaluation(float(values[0]), limits[0], slope, slopes)
+        self.last = point.copy(), found
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Programme:
+    """Mass and limits of one candidate on its robot at points as `coordinates` gives them."""
+
+    candidates: Candidates
+
+    def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Logarithm of half the mass, shape (k,), and what must not be negative, shape (k, m).
+
+        Where a spin inertia is stated, the first of these must be zero.
+        """
+        candidates, shapes = self.candidates.repeat(len(points)), self._shapes(points)
+        spin, whole = self._on_robot(candidates, shapes)
+        requirement = candidates.problem.requirement
+        by_design, turned = margins_of(requirement, candidates.drives, whole, spin, points[:, 3:])
+        margins = [part.margin[:, 0] for part in (*by_design, *turned)]
+        limits = np.log(np.clip([*margins, *self._room(shapes)], _LEAST, _MOST))
+        if requirement.spin_inertia is not None:
+            limits = np.concatenate([np.log(spin / requirement.spin_inertia)[None], limits])
+        return np.log(candidates.drives.mass + shapes.mass), limits.T
+
+    def holds_incidence(self, point: FloatArray) -> bool:
+        """Whether the incidence is stated, or no other one is near it.
+
+        Beside the one that leaves an axis out of reach, and to itself, the wheels would have to
+        take what the coupling asks there, with next to no lever.
+        """
+        shares = shares_of(point[None, 3:])
+        _, whole = self._on_robot(self.candidates, self._shapes(point[None]))
+        alone = bool((shares <= OUT_OF_REACH).any() and whole.at(shares).product.any())
+        return self.candidates.problem.incidence is not None or alone
+
+    def fixed_point(self, point: FloatArray) -> FixedPoint:
+        """A single point at which all limits hold as a fixed point."""
+        shapes, angle = self._shapes(point[None]), point[3:]
+        spin, whole = self._on_robot(self.candidates, shapes)
+        requirement = self.candidates.problem.requirement
+        by_design, turned = margins_of(
+            requirement, self.candidates.drives, whole, spin, angle[:, None]
+        )
+        parts = [*by_design, *turned]
+        margin = np.min([part.margin[:, 0] for part in parts], axis=0, initial=np.inf)
+        asked = np.max(
+            [self.candidates.least_spin_inertia, *(part.following[:, 0] for part in parts)], axis=0
+        )
+        # Where no larger wheel would do either, a margin that rounding leaves below one asks for
+        # an infinite one.
+        missed = np.where(np.isfinite(asked), np.abs(asked / spin - 1.0), np.abs(margin - 1.0))
+        return FixedPoint(
+            spin_inertia=spin,
+            radius=shapes.outer_radius,
+            angle=angle,
+            shapes=shapes,
+            feasible=np.ones(1, dtype=np.bool_),
+            margin=margin,
+            residual=np.zeros(1) if requirement.spin_inertia is not None else missed,
+            iterations=np.zeros(1, dtype=np.intp),
+        )
+
+    def _on_robot(
+        self, candidates: Candidates, shapes: ModuleShape
+    ) -> tuple[FloatArray, CompositeInertia]:
+        """Spin inertias of the wheels [kg m^2], and what they turn."""
+        problem, limits = candidates.problem, candidates.limits
+        dimensions = (shapes.inner_radius, shapes.outer_radius, shapes.height)
+        cut = limits.cuts.axial_inertia(shapes.inner_radius, shapes.outer_radius, 1.0)
+        rim = (cylinder_spin_inertia(*dimensions, 1.0) - cut) * np.asarray(limits.density)
+        web = shapes.web_mass * shapes.inner_radius**2 / 2.0
+        spin = rim + web + candidates.drives.beside_rim
+        modules = candidates.modules(spin, shapes)
+        return spin, composite_inertia(problem.robot, problem.place, modules)
+
+    def _shapes(self, points: FloatArray) -> ModuleShape:
+        outer, height, wall = np.exp(points[:, :3]).T
+        # A wall is at most the radius; one that is thicker is refused as too small a bore.
+        inner = np.maximum(outer - wall, BORE_SHARE * outer / 2.0)
+        limits = self.candidates.limits
+        density = np.asarray(limits.density)
+        cut = limits.cuts.mass(inner, outer, 1.0)
+        mass = (cylinder_mass(inner, outer, height, 1.0) - cut) * density
+        web = np.pi * density * limits.web * inner**2
+        shell = self.candidates.shell.mass(outer, height)
+        return ModuleShape(inner, outer, height, mass, web, shell)
+
+    def _room(self, shapes: ModuleShape) -> list[FloatArray]:
+        """Ratios by which rims stay within their limits, shape (k,) each."""
+        limits, nu = self.candidates.limits, self.candidates.limits.poisson_ratio
+        inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
+        stretch = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
+        pairs = (
+            (outer, limits.outer_radius_max),
+            (height, limits.height_max),
+            (shapes.rim_mass, limits.mass_max),
+            (stretch, limits.stretch_max),
+            (limits.outer_radius_min, outer),
+            (limits.height_min, height),
+            (limits.wall_min, outer - inner),
+            (np.maximum(limits.inner_radius_min, BORE_SHARE * outer), inner),
+        )
+        with np.errstate(divide="ignore"):
+            return [np.broadcast_to(most / value, outer.shape) for value, most in pairs]
+
+
+def coordinates(shapes: ModuleShape, angle: float) -> FloatArray:
+    """Logarithms of outer radius, height and wall of a single shape, and the incidence [rad]."""
+    outer, height = shapes.outer_radius.item(), shapes.height.item()
+    wall = outer - shapes.inner_radius.item()
+    return np.array([np.log(outer), np.log(height), np.log(wall), angle])

@@ -1,0 +1,150 @@
+"""Maneuvers as boundary value problems: how trunk and wheels start, and what must hold at the end.
+
+Attitudes are unit quaternions (w, x, y, z) that turn B into the world.
+"""
+
+from dataclasses import dataclass, field
+from functools import singledispatch
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import SpecificationError
+from ocs_design.requirement.maneuver import Drop, Flip, Maneuver, Unforeseen
+
+LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
+"""Trunk upright, its x axis along the world's."""
+
+_PITCH = np.array([0.0, 1.0, 0.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Boundary:
+    """A turn of the trunk that ends at rest about all axes which the wheels reach.
+
+    Attributes:
+        name: of the maneuver.
+        attitude: at the start, shape (4,).
+        final_attitude: at the end, shape (4,); the heading counts only where `heading` says so,
+            because two wheels do not command it directly.
+        axis: unit vector about which the trunk mainly turns, in B, shape (3,).
+        angle: of that turn [rad], signed; past half a turn it tells how often the trunk goes round.
+        duration: time that the turn takes [s].
+        heading: whether the heading is asked for at the end.
+        rate: of the trunk at the start, in B [rad/s], shape (3,).
+        wheel_speed: at the start [rad/s], shape (n,) or one for all.
+        push: torque on the trunk before the turn, in B [N m], shape (3,).
+        push_duration: [s]; the wheels are held until the push ends. 0: no push.
+    """
+
+    name: str
+    attitude: FloatArray
+    final_attitude: FloatArray
+    axis: FloatArray
+    angle: float
+    duration: float
+    heading: bool = False
+    rate: FloatArray = field(default_factory=lambda: np.zeros(3))
+    wheel_speed: FloatArray | float = 0.0
+    push: FloatArray = field(default_factory=lambda: np.zeros(3))
+    push_duration: float = 0.0
+
+    @property
+    def final_vertical(self) -> FloatArray:
+        """The world's upward direction in B at the end, shape (3,)."""
+        return vertical_of(self.final_attitude)
+
+
+@singledispatch
+def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
+    """The boundary value problem of a maneuver.
+
+    Args:
+        maneuver: any kind that a specification knows.
+        standing_height: of the trunk over the ground [m].
+    """
+    del standing_height
+    raise TypeError(f"no boundary is known for a {type(maneuver).__name__}")
+
+
+@boundary.register
+def _drop(maneuver: Drop, standing_height: float) -> Boundary:
+    """Turn from rest, pitched about y and then rolled about x, to level within the fall."""
+    attitude = product(_about(_PITCH, maneuver.pitch), _about(np.eye(3)[0], maneuver.roll))
+    vertical = vertical_of(attitude)
+    # A rate w moves the vertical by -w x v.
+    axis = np.cross([0.0, 0.0, 1.0], vertical)
+    length = float(np.linalg.norm(axis))
+    return Boundary(
+        name=maneuver.name,
+        attitude=attitude,
+        final_attitude=LEVEL,
+        axis=axis / length if length > 0.0 else _PITCH,
+        angle=float(np.arctan2(length, vertical[2])),
+        duration=maneuver.time(standing_height),
+    )
+
+
+@boundary.register
+def _flip(maneuver: Flip, standing_height: float) -> Boundary:
+    """Turn by the whole angle of pitch from level at lift-off."""
+    del standing_height
+    return Boundary(
+        name=maneuver.name,
+        attitude=LEVEL,
+        final_attitude=_about(_PITCH, maneuver.angle),
+        axis=_PITCH,
+        angle=maneuver.angle,
+        duration=maneuver.duration,
+    )
+
+
+@boundary.register
+def _unforeseen(maneuver: Unforeseen, standing_height: float) -> Boundary:
+    """Turn back to level in the time after a torque, from level at its onset."""
+    del standing_height
+    if maneuver.time_left <= 0.0:
+        raise SpecificationError(
+            f"maneuver {maneuver.name!r}: no time is left after its torque",
+            hint="Let the torque start earlier, or the robot jump higher.",
+        )
+    return Boundary(
+        name=maneuver.name,
+        attitude=LEVEL,
+        final_attitude=LEVEL,
+        axis=_PITCH,
+        angle=0.0,
+        duration=maneuver.time_left,
+        push=np.array(maneuver.torque),
+        push_duration=maneuver.duration,
+    )
+
+
+def vertical_of(attitude: FloatArray) -> FloatArray:
+    """The world's upward direction in B, shape (3,) or (3, n) like the attitude's columns."""
+    w, x, y, z = attitude
+    return np.array([2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z])
+
+
+def product(a: FloatArray, b: FloatArray) -> FloatArray:
+    """The turn `b`, seen in B, after the turn `a`; shape (4,) or (4, n)."""
+    aw, ax, ay, az = a
+    bw, bx, by, bz = b
+    return np.array(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+        ]
+    )
+
+
+def conjugate(attitude: FloatArray) -> FloatArray:
+    """The turn back, shape (4,) or (4, n)."""
+    return np.concatenate([attitude[:1], -attitude[1:]])
+
+
+def _about(axis: FloatArray, angle: float) -> FloatArray:
+    """A turn by `angle` [rad] about a unit vector, shape (4,)."""
+    return np.append(np.cos(angle / 2.0), np.sin(angle / 2.0) * axis)

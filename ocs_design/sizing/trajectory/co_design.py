@@ -1,0 +1,352 @@
+"""The selected device's wheels and incidence together with all maneuvers in 3-D, least mass.
+
+Motor, gear and material stand. A wheel is free in its spin inertia and its outer radius; bore and
+height are those of the lightest module that has both. A smaller module may weigh more and yet be
+easier to carry. The incidence is free beside them.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from time import perf_counter
+
+import casadi as ca
+import numpy as np
+
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.layout import module_axes
+from ocs_design.device.records import TaskDemand
+from ocs_design.parts.module import Printed, standing
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.rim import wheel_body
+from ocs_design.requirement.bound import AXES
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.lightest_module import lightest_module_at
+from ocs_design.sizing.placement import motor_size
+from ocs_design.sizing.selection.demand import held_by_rate, shares_of
+from ocs_design.sizing.selection.device import binding_limits, braked
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.result import Candidate
+from ocs_design.sizing.trajectory.boundary import boundary
+from ocs_design.sizing.trajectory.flight import Flight, fly
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.program import Dimensions, Plant, Solution, Turn, solve
+
+LEAST_GAIN = 1e-4
+"""Share of the mass below which a gain is the program's own error, and the selection stands."""
+
+PASSES = (16, 48)
+"""Intervals of each maneuver."""
+
+_WHEELS, _RADII = np.linspace(0.85, 1.15, 21), np.linspace(0.85, 1.15, 21)
+"""Spin inertias and outer radii that are looked at, over the selected ones."""
+
+_FEWEST = 4
+"""Values that a cubic spline goes through at the least."""
+
+_NEAREST = np.radians(1.0)
+"""Of a free incidence to 0 and to a right angle, where an axis gets out of reach [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class CoDesign:
+    """Outcome of the co-design.
+
+    Attributes:
+        adopted: whether `device` is the co-design's; otherwise the selection stands.
+        note: one sentence on that.
+        device: to build.
+        found_mass: of what the program ended with, adopted or not [kg].
+        selected_mass: of the selection [kg].
+        status: IPOPT's own word. iterations: taken. seconds: in all.
+        flights: of all maneuvers, on the finer grid.
+    """
+
+    adopted: bool
+    note: str
+    device: Candidate
+    found_mass: float
+    selected_mass: float
+    status: str
+    iterations: int
+    seconds: float
+    flights: tuple[Flight, ...]
+
+    @property
+    def gain(self) -> float:
+        """Mass saved over the selection's; what was found where it is not adopted, negative too."""
+        return 1.0 - self.found_mass / self.selected_mass
+
+    @property
+    def fine_violation(self) -> float:
+        """Largest overstepping of a drive's limit on the fine grid, relative."""
+        return max((flight.fine.violation for flight in self.flights), default=0.0)
+
+
+def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
+    """The lightest device of the selected motor, gear and material that flies its maneuvers.
+
+    Never heavier than the selection: where IPOPT fails, finds nothing lighter, or the fine grid
+    does not bear its answer out, the selection stands and the note says why.
+    """
+    began, mass = perf_counter(), float(selected.mass)
+    stands = CoDesign(
+        adopted=False,
+        note="the selection stands: the spin inertia is stated",
+        device=selected,
+        found_mass=mass,
+        selected_mass=mass,
+        status="not tried",
+        iterations=0,
+        seconds=0.0,
+        flights=(),
+    )
+    if problem.requirement.spin_inertia is not None:
+        return stands
+    device = FreeDevice.of(problem, selected)
+    if device is None:
+        return replace(stands, note="the selection stands: its room leaves the wheels no choice")
+    turns = list(device.turns())
+    solution = solve(turns, selected.line.reserved(), PASSES, device.dimensions())
+    found = device.at(*solution.dimensions.tolist())
+    flights = tuple(_flights(problem, found, turns, solution))
+    wrong = _rejection_reason(
+        solution, flights, found.mass / mass, [turn.asked.name for turn in turns]
+    )
+    outcome = replace(
+        stands,
+        note=f"the selection stands: {wrong}",
+        found_mass=found.mass,
+        status=solution.status,
+        iterations=solution.iterations,
+        seconds=perf_counter() - began,
+        flights=flights,
+    )
+    if wrong:
+        return outcome
+    return replace(
+        outcome,
+        adopted=True,
+        note=f"co-design in 3-D saves {outcome.gain:.2%} of the selection's mass",
+        device=replace(
+            found,
+            demands=tuple(_demands(problem, found, flights)),
+            residual=solution.violation,
+            iterations=solution.iterations,
+        ),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class FreeDevice:
+    """A selected device whose wheels and incidence are free.
+
+    Its dimensions are spin inertia and outer radius over the selected ones, and incidence [rad].
+
+    Attributes:
+        problem: that it was selected for. selected: the selection's outcome.
+        lower, upper: of the first two dimensions, shape (2,).
+        figures: from those two to the mass over the selected one and to the coefficients of 1, s,
+            c, s^2 and s c in the inertia of robot and device [kg m^2], (46, 1): with sine s and
+            cosine c of the incidence, bodies that turn about the vertical have no other terms.
+    """
+
+    problem: SelectionProblem
+    selected: Candidate
+    lower: FloatArray
+    upper: FloatArray
+    figures: ca.Function
+
+    @classmethod
+    def of(cls, problem: SelectionProblem, selected: Candidate) -> "FreeDevice | None":
+        """The device with splines through wheels around the selected one; None: there are few."""
+        angles = np.linspace(0.0, np.pi / 2.0, 5)
+        sine, cosine = np.sin(angles), np.cos(angles)
+        terms = np.column_stack([np.ones(5), sine, cosine, sine**2, sine * cosine])
+        room = float(selected.limits(problem.envelope).outer_radius_max) / selected.outer_radius
+        # Spin inertias over the selected one of which there is a module in the room.
+        modules = with_wheels(problem, selected, _WHEELS, np.ones_like(_WHEELS))
+        factors = np.array([each.spin_inertia for each in modules]) / selected.spin_inertia
+        radii = np.linspace(_RADII[0], max(min(_RADII[-1], room), 1.0), _RADII.size)
+        if factors.size < _FEWEST:
+            return None
+        # In the order of a tensor, the first dimension fastest.
+        spin, outer = (each.ravel() for each in np.meshgrid(factors, radii))
+        values = [
+            np.append(
+                each.mass / selected.mass,
+                np.linalg.solve(
+                    terms, [_total(problem, each, angle).inertia.ravel() for angle in angles]
+                ),
+            )
+            for each in with_wheels(problem, selected, spin, outer)
+        ]
+        figures = ca.interpolant("figures", "bspline", [factors, radii], np.ravel(values))
+        lower, upper = (np.array([factors[i], radii[i]]) for i in (0, -1))
+        return cls(problem, selected, lower, upper, figures)
+
+    def at(self, factor: float, radius: float, incidence: float) -> Candidate:
+        """The device of some dimensions."""
+        found = next(
+            with_wheels(self.problem, self.selected, np.array([factor]), np.array([radius]))
+        )
+        return replace(found, incidence=incidence, total=_total(self.problem, found, incidence))
+
+    def plant(self, dimensions: ca.MX, own: float | None = None) -> Plant:
+        """Robot and device of symbols, at the incidence among them or at one of its own [rad]."""
+        incidence = dimensions[2] if own is None else ca.MX(own)
+        sine, cosine = ca.sin(incidence), ca.cos(incidence)
+        terms = ca.vertcat(1.0, sine, cosine, sine**2, sine * cosine)
+        inertia = ca.reshape(self.figures(dimensions[:2])[1:], 9, 5) @ terms
+        return Plant(
+            inertia=ca.reshape(inertia, 3, 3),
+            axes=ca.vertcat(ca.horzcat(sine, -sine), ca.horzcat(cosine, cosine), ca.MX(1, 2)),
+            spin_inertia=dimensions[0] * self.selected.spin_inertia,
+            armature=ca.MX(self.selected.armature),
+        )
+
+    def turns(self) -> Iterator[Turn]:
+        """Every maneuver at its own incidence, if it has one, else at that of the device."""
+        start = self.at(*self.dimensions().start.tolist())
+        requirement = self.problem.requirement
+        for maneuver in requirement.maneuvers:
+            own = maneuver.incidence
+            asked = boundary(maneuver, requirement.standing_height)
+            gyrostat = _gyrostat(self.problem, start, start.incidence if own is None else own)
+            yield Turn(asked, gyrostat, partial(self.plant, own=own))
+
+    def dimensions(self) -> Dimensions:
+        """The limits of all three, and the mass to be minimised."""
+        incidence, change = self.selected.incidence, self.problem.requirement.rate_change
+        nearest, farthest = _NEAREST, np.pi / 2.0 - _NEAREST
+        # A device for one axis alone stays one: else the other axis would ask for being stopped.
+        if self.problem.incidence is not None or not nearest < incidence < farthest:
+            nearest = farthest = incidence
+        return Dimensions(
+            start=np.append(np.clip(1.0, self.lower, self.upper), incidence),
+            lower=np.append(self.lower, nearest),
+            upper=np.append(self.upper, farthest),
+            objective=lambda dimensions: self.figures(dimensions[:2])[0],
+            excess=None if change is None else partial(self._rate_excess, change=change),
+        )
+
+    def _rate_excess(self, dimensions: ca.MX, change: float) -> ca.MX:
+        """Momentum that the wheels lack for a change of rate, relative, (2, 1)."""
+        plant = self.plant(dimensions)
+        whole, shares = plant.inertia, plant.axes[:2, 0]
+        held = 2.0 * _top_speed(self.selected) * plant.spin_inertia * shares
+        # Either wheel is the busier one; which of them does not change with the device.
+        product = whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2]
+        sense = np.sign(TiltInertia.of(self.selected.total.inertia).product)
+        across = sense * product * shares / ca.vertcat(shares[1], shares[0])
+        asked = (ca.vertcat(whole[0, 0], whole[1, 1]) + across) * change
+        return (asked - held) / ca.DM(np.diag(self.problem.robot.inertia)[:2] * change)
+
+
+def with_wheels(
+    problem: SelectionProblem, selected: Candidate, factors: FloatArray, radii: FloatArray
+) -> Iterator[Candidate]:
+    """The selected device with other wheels, where there is a module of their spin inertia.
+
+    Args:
+        problem: that it was selected for. selected: the selection's outcome.
+        factors: spin inertias over the selected one, shape (n,).
+        radii: outer radii likewise; the nearest possible one is taken.
+    """
+    motor, gear, hub, cuts = selected.motor, selected.gear, selected.hub, selected.cuts
+    turning = selected.rotor_share + (0.0 if hub is None else hub.axial_inertia)
+    limits = selected.limits(problem.envelope)
+    shell = Printed(mount_of(motor, gear.room).holes.reach)
+    spin_inertias, outer_radii = factors * selected.spin_inertia, radii * selected.outer_radius
+    shapes = lightest_module_at(spin_inertias - turning, outer_radii, limits, shell)
+    for row in np.flatnonzero(np.isfinite(shapes.mass)):
+        inner, outer = float(shapes.inner_radius[row]), float(shapes.outer_radius[row])
+        height, rim_mass = float(shapes.height[row]), float(shapes.rim_mass[row])
+        wheel = wheel_body(inner, outer, height, selected.material.density, hub, cuts=cuts)
+        yield replace(
+            selected,
+            spin_inertia=float(spin_inertias[row]),
+            inner_radius=inner,
+            outer_radius=outer,
+            height=height,
+            rim_mass=rim_mass,
+            web_mass=wheel.mass - rim_mass,
+            carrier=standing(motor, gear, outer, height),
+            centers=problem.place.centers(motor_size(motor, gear.room, outer, height)),
+            binding=binding_limits(shapes, limits, problem.envelope, int(row)),
+        )
+
+
+def _total(problem: SelectionProblem, device: Candidate, incidence: float) -> MassProperties:
+    """Robot and both modules as one rigid body in B, the modules at an incidence [rad]."""
+    return braked(problem.robot, (device.wheel, device.carrier), device.centers, incidence)
+
+
+def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) -> Gyrostat:
+    inertia = _total(problem, device, incidence).inertia
+    return Gyrostat(inertia, module_axes(incidence), device.spin_inertia, device.armature)
+
+
+def _top_speed(device: Candidate) -> float:
+    """Highest speed of a wheel that a design may use [rad/s]."""
+    line = device.line.reserved()
+    return min(float(line.no_load_speed), float(line.speed_max))
+
+
+def _flights(
+    problem: SelectionProblem, device: Candidate, turns: Sequence[Turn], solution: Solution
+) -> Iterator[Flight]:
+    """Each maneuver's torques on the device of numbers."""
+    maneuvers = problem.requirement.maneuvers
+    for maneuver, turn, motion in zip(maneuvers, turns, solution.motions, strict=True):
+        own = maneuver.incidence
+        gyrostat = _gyrostat(problem, device, device.incidence if own is None else own)
+        outline = replace(turn, gyrostat=gyrostat).outline
+        yield fly(gyrostat, device.line.reserved(), turn.asked, outline, motion)
+
+
+def _rejection_reason(
+    solution: Solution, flights: Sequence[Flight], ratio: float, names: Sequence[str]
+) -> str:
+    """Why the outcome is not taken, in a few words; empty if it is."""
+    if not solution.solved:
+        return f"IPOPT ended with {solution.status}"
+    for name, flight in zip(names, flights, strict=True):
+        if flight.fine.failure:
+            return f"in {name!r}, {flight.fine.failure}"
+    if ratio > 1.0 - LEAST_GAIN:
+        return (
+            f"the co-design in 3-D found nothing lighter ({100.0 * (ratio - 1.0):+.2f} % of mass)"
+        )
+    return ""
+
+
+def _demands(
+    problem: SelectionProblem, device: Candidate, flights: Sequence[Flight]
+) -> Iterator[TaskDemand]:
+    """What each part of the requirement takes of the co-designed device.
+
+    A maneuver takes what it does in 3-D, and all the time that it has. Its smallest spin inertia is
+    the closed form's, or the device's own where it does with less.
+    """
+    requirement, incidence = problem.requirement, device.incidence
+    # The demands of a change of rate come after those of the maneuvers.
+    of_maneuvers = zip(requirement.maneuvers, device.demands, flights, strict=False)
+    for maneuver, demand, flight in of_maneuvers:
+        yield replace(
+            demand,
+            incidence=incidence if maneuver.incidence is None else demand.incidence,
+            spin_inertia=min(demand.spin_inertia, device.spin_inertia),
+            time_needed=demand.time_given,
+            peak_speed=float(np.abs(flight.trajectory.wheel_speed).max()),
+            peak_torque=float(np.abs(flight.trajectory.wheel_torque).max()),
+        )
+    if requirement.rate_change is not None:
+        inertia = TiltInertia.of(device.total.inertia)
+        shares = shares_of(np.asarray(incidence))
+        momenta = held_by_rate(requirement.rate_change, inertia, shares)
+        for axis, held in zip(AXES, momenta.tolist(), strict=True):
+            least, peak = held / _top_speed(device), held / device.spin_inertia
+            source = f"rate change, {axis}"
+            yield TaskDemand(source, incidence, least, None, None, peak, None)

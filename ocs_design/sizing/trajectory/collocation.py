@@ -1,0 +1,100 @@
+"""Polynomials of one interval: Radau collocation of the states, Bernstein form of the limits.
+
+On each interval, s = 0..1, the states are polynomials through its start and through its Radau
+points, where they obey the equations of motion (Kelly, SIAM Review 59(4), 2017; the points: Hairer
+and Wanner, Solving Ordinary Differential Equations II, section IV.5). The motor torques are
+parabolas. A polynomial in Bernstein form lies between its smallest and its largest coefficient
+(Farouki, Computer Aided Geometric Design 29, 2012): limits on the coefficients hold between the
+points too.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+from math import comb
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from ocs_design.common.arrays import FloatArray
+
+DEGREE = 3
+"""Of the states: an error of the fifth order in the length of the interval."""
+
+TORQUE_DEGREE = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Collocation:
+    """Matrices that act on the values of a polynomial at its nodes, with n = `DEGREE`.
+
+    Attributes:
+        nodes: 0 and the Radau points, the last of which is 1, shape (n + 1,).
+        derivative: from the values at the nodes to d/ds at the Radau points, shape (n, n + 1).
+        bernstein: from the values at the nodes to Bernstein coefficients, shape (n + 1, n + 1).
+        torque: from Bernstein coefficients of a torque to its values at the Radau points,
+            shape (n, 3).
+        elevation: from those coefficients to the ones of degree n, shape (n + 1, 3).
+        weights: of the Radau points in an integral over s, shape (n,).
+        square: b^T G b is the integral of a torque's square over s, shape (3, 3).
+    """
+
+    nodes: FloatArray
+    derivative: FloatArray
+    bernstein: FloatArray
+    torque: FloatArray
+    elevation: FloatArray
+    weights: FloatArray
+    square: FloatArray
+
+
+@cache
+def collocation() -> Collocation:
+    """The matrices of `DEGREE` and `TORQUE_DEGREE`."""
+    points = radau_points(DEGREE)
+    nodes = np.append(0.0, points)
+    powers = np.arange(DEGREE + 1)
+    monomials = np.linalg.inv(np.vander(nodes, increasing=True))
+    slopes = powers[1:] * points[:, None] ** (powers[1:] - 1)
+    to_bernstein = _from_monomials(DEGREE)
+    return Collocation(
+        nodes=nodes,
+        derivative=slopes @ monomials[1:],
+        bernstein=to_bernstein @ monomials,
+        torque=bernstein_basis(points),
+        elevation=to_bernstein[:, : TORQUE_DEGREE + 1]
+        @ np.linalg.inv(_from_monomials(TORQUE_DEGREE)),
+        weights=np.asarray(np.linalg.solve(np.vander(points, increasing=True).T, 1.0 / powers[1:])),
+        square=_gram(TORQUE_DEGREE),
+    )
+
+
+def radau_points(count: int) -> FloatArray:
+    """Zeros of P_n - P_(n-1) on 0..1, increasing, the last of them 1; P_n of Legendre."""
+    series = np.zeros(count + 1)
+    series[count - 1 :] = -1.0, 1.0
+    points = 0.5 * (np.sort(legendre.legroots(series).real) + 1.0)
+    points[-1] = 1.0
+    return points
+
+
+def bernstein_basis(s: FloatArray, degree: int = TORQUE_DEGREE) -> FloatArray:
+    """Values at `s` of each Bernstein polynomial, shape (len(s), degree + 1)."""
+    i = np.arange(degree + 1)
+    counts = np.array([comb(degree, k) for k in i])
+    x = np.asarray(s)[:, None]
+    return np.asarray(counts * x**i * (1.0 - x) ** (degree - i))
+
+
+def _from_monomials(degree: int) -> FloatArray:
+    """Matrix from coefficients of 1, s, s^2, ... to Bernstein coefficients."""
+    rows = range(degree + 1)
+    return np.array([[comb(i, k) / comb(degree, k) for k in rows] for i in rows])
+
+
+def _gram(degree: int) -> FloatArray:
+    """Integrals of the products of two Bernstein polynomials over 0..1."""
+    rows = range(degree + 1)
+    products = [
+        [comb(degree, i) * comb(degree, k) / comb(2 * degree, i + k) for k in rows] for i in rows
+    ]
+    return np.array(products) / (2 * degree + 1)

@@ -1,0 +1,184 @@
+"""A maneuver's torques applied to the gyrostat again, by an integrator that knows no collocation.
+
+It judges what the program claims: rate and wheel speeds follow from Euler's equation and the
+motors', not from conserved momentum, by classical Runge-Kutta steps on a grid ten times finer than
+the program's.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.common.arrays import FloatArray
+from ocs_design.sizing.trajectory.boundary import Boundary, conjugate, product, vertical_of
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.motion import FixedAxisTurn, Motion
+
+FINER = 10
+"""Steps for each interval of the program."""
+
+VIOLATION_MAX = 1e-5
+"""Largest overstepping of a drive's limit, relative, that a solution may show on the fine grid."""
+
+DEFECT_MAX = 1e-4
+"""Largest difference of the trunk's rate, over its largest, that it may show there."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Trunk and wheels from the start of a turn to its end; between samples linear.
+
+    Attributes:
+        time: from lift-off or release, or the end of a push [s], shape (m,), increasing, from 0.
+        vertical: the world's upward direction in B, unit vectors, shape (m, 3).
+        rate: of the trunk in B [rad/s], shape (m, 3).
+        acceleration: of the trunk in B [rad/s^2], shape (m, 3).
+        wheel_speed: relative to the trunk [rad/s], shape (m, n).
+        wheel_torque: of the motors at the wheels [N m], shape (m, n); where it jumps, the mean of
+            both sides.
+        turned: angle that the trunk has turned about the maneuver's axis [rad], shape (m,).
+        note: what a reader should know of it; empty if nothing.
+    """
+
+    time: FloatArray
+    vertical: FloatArray
+    rate: FloatArray
+    acceleration: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    turned: FloatArray
+    note: str
+
+
+@dataclass(frozen=True)
+class FineGrid:
+    """Errors of a program that show on the fine grid.
+
+    Attributes:
+        violation: largest overstepping of the drive's limits, relative to each.
+        end_tilt: angle between the attitude at the end and the one asked for [rad].
+        end_rate: of the trunk at the end about the axes that the wheels reach [rad/s].
+        defect: largest difference to the program's own rate, over the largest rate.
+    """
+
+    violation: float
+    end_tilt: float
+    end_rate: float
+    defect: float
+
+    @property
+    def failure(self) -> str:
+        """The error that is too large, in a few words; empty if none is."""
+        if self.violation > VIOLATION_MAX:
+            return f"the finer grid oversteps a limit by {self.violation:.1e}"
+        if self.defect > DEFECT_MAX:
+            return f"an integration of its torques differs by {self.defect:.1e}"
+        return ""
+
+
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """A maneuver flown, and how it compares with what was asked, allowed and claimed."""
+
+    trajectory: Trajectory
+    fine: FineGrid
+
+
+def fly(
+    gyrostat: Gyrostat, line: DriveLine, asked: Boundary, turn: FixedAxisTurn, motion: Motion
+) -> Flight:
+    """Apply the torques of a motion from the start of the turn.
+
+    Args:
+        gyrostat: robot and device, at the incidence of the maneuver.
+        line: what of the drives may be used.
+        asked: boundary value problem of the maneuver.
+        turn: attitude and rate at the start, and the axis about which turns are counted.
+        motion: of the program.
+    """
+    wheels = gyrostat.axes.shape[1]
+    mass_matrix = gyrostat.mass_matrix
+    inverse = np.asarray(np.linalg.inv(mass_matrix))
+
+    def slope(state: FloatArray, torque: FloatArray) -> FloatArray:
+        """Rates of change of attitude, rate, wheel speeds and turned angle, shape (8 + n,)."""
+        rate = state[4:7]
+        gyroscopic = _cross(mass_matrix[:3] @ state[4 : 7 + wheels], rate)
+        accelerations = inverse @ np.concatenate([gyroscopic, torque])
+        turning = 0.5 * product(state[:4], np.append(0.0, rate))
+        return np.concatenate([turning, accelerations, [turn.axis @ rate]])
+
+    steps = np.repeat(motion.lengths / FINER, FINER)
+    offsets = np.arange(FINER) / FINER
+    first, middle, last = (motion.torque_within(offsets + part / FINER) for part in (0.0, 0.5, 1.0))
+    rate = turn.rate * turn.axis
+    speed = np.broadcast_to(np.asarray(asked.wheel_speed), (wheels,))
+    state = np.concatenate([turn.attitude, rate, speed, [0.0]])
+    states = [state]
+    for h, before, halfway, after in zip(steps, first, middle, last, strict=True):
+        k1 = slope(state, before)
+        k2 = slope(state + h / 2.0 * k1, halfway)
+        k3 = slope(state + h / 2.0 * k2, halfway)
+        k4 = slope(state + h * k3, after)
+        state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        states.append(state)
+    flown = np.array(states)
+    torque = np.vstack([first[:1], (first[1:] + last[:-1]) / 2.0, last[-1:]])
+    trajectory = Trajectory(
+        time=np.append(0.0, np.cumsum(steps)),
+        vertical=vertical_of(flown[:, :4].T).T,
+        rate=flown[:, 4:7],
+        acceleration=np.array([slope(*row)[4:7] for row in zip(flown, torque, strict=True)]),
+        wheel_speed=flown[:, 7 : 7 + wheels],
+        wheel_torque=torque,
+        turned=flown[:, -1],
+        note="",
+    )
+    claimed = motion.state_at(trajectory.time)
+    momentum = np.append(0.0, mass_matrix[:3] @ np.append(rate, speed))
+    back = product(conjugate(claimed[:4]), turn.attitude)
+    held = product(product(back, momentum), conjugate(back))[1:]
+    left = held - gyrostat.spin_inertia * gyrostat.axes @ claimed[4:]
+    claimed_rate = np.linalg.solve(gyrostat.inertia, left).T
+    largest = float(np.abs(claimed_rate).max())
+    difference = float(np.abs(trajectory.rate - claimed_rate).max())
+    return Flight(
+        trajectory,
+        FineGrid(
+            violation=limit_violation(trajectory.wheel_speed, torque, line),
+            end_tilt=_missed(asked, flown[-1, :4]),
+            end_rate=float(np.linalg.norm(trajectory.rate[-1][gyrostat.reach])),
+            defect=difference / largest if largest > 0.0 else 0.0,
+        ),
+    )
+
+
+def limit_violation(speed: FloatArray, torque: FloatArray, line: DriveLine) -> float:
+    """Largest overstepping of current limit, voltage line and speed, relative; 0 if none."""
+    slope = line.no_load_speed / line.stall_torque
+    return float(
+        np.max(
+            [
+                np.abs(torque).max() / line.torque_limit - 1.0,
+                np.abs(speed + slope * torque).max() / line.no_load_speed - 1.0,
+                np.abs(speed).max() / line.speed_max - 1.0,
+                0.0,
+            ]
+        )
+    )
+
+
+def _missed(asked: Boundary, attitude: FloatArray) -> float:
+    """Angle to the attitude asked for [rad], or to its vertical where the heading is free."""
+    if asked.heading:
+        return float(2.0 * np.arccos(np.clip(abs(attitude @ asked.final_attitude), 0.0, 1.0)))
+    vertical, wanted = vertical_of(attitude), asked.final_vertical
+    return float(np.arctan2(np.linalg.norm(np.cross(vertical, wanted)), vertical @ wanted))
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Cross product of two vectors, shape (3,); `np.cross` takes ten times as long on one pair."""
+    return np.array(
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    )

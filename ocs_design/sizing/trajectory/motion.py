@@ -1,0 +1,166 @@
+"""Attitude and wheels over time as polynomials, and first guesses at them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.sizing.trajectory.boundary import Boundary, product, vertical_of
+from ocs_design.sizing.trajectory.collocation import (
+    DEGREE,
+    TORQUE_DEGREE,
+    bernstein_basis,
+    collocation,
+)
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+
+_INSIDE = 1e-6
+"""How far inside an interval its ends are read: torques may jump from one to the next."""
+
+_EVEN = 0.4
+"""Share of refined intervals that is spread evenly over the time."""
+
+_SAMPLES = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """States and torques over k intervals, SI.
+
+    Attributes:
+        lengths: of the intervals [s], shape (k,).
+        states: attitude and wheel speeds [rad/s] at the nodes of all intervals, which share their
+            ends, shape (4 + n, k d + 1) with d = `DEGREE`.
+        torques: Bernstein coefficients of the motor torques of each interval [N m], shape (n, 3 k).
+    """
+
+    lengths: FloatArray
+    states: FloatArray
+    torques: FloatArray
+
+    @property
+    def starts(self) -> FloatArray:
+        """Starts of the intervals [s], shape (k,)."""
+        return np.append(0.0, np.cumsum(self.lengths)[:-1])
+
+    def state_at(self, times: FloatArray) -> FloatArray:
+        """States at some times [s], shape (4 + n, len(times))."""
+        interval, s = self._locate(times)
+        nodes = interval[:, None] * DEGREE + np.arange(DEGREE + 1)
+        weights = bernstein_basis(s, DEGREE) @ collocation().bernstein
+        return np.asarray(np.einsum("imj,mj->im", self.states[:, nodes], weights))
+
+    def torque_at(self, times: FloatArray) -> FloatArray:
+        """Torques [N m], shape (n, len(times)); those of the later interval where two meet."""
+        interval, s = self._locate(times)
+        own = interval[:, None] * (TORQUE_DEGREE + 1) + np.arange(TORQUE_DEGREE + 1)
+        return np.asarray(np.einsum("imj,mj->im", self.torques[:, own], bernstein_basis(s)))
+
+    def torque_within(self, s: FloatArray) -> FloatArray:
+        """Torques in every interval at s = 0..1 [N m], shape (k len(s), n), ordered by time."""
+        wheels, count = len(self.torques), len(self.lengths)
+        coefficients = self.torques.reshape(wheels, count, TORQUE_DEGREE + 1)
+        values: FloatArray = np.einsum("ikj,sj->ksi", coefficients, bernstein_basis(s))
+        return values.reshape(count * len(s), wheels)
+
+    def onto(self, lengths: FloatArray) -> "Motion":
+        """Nearly the same motion on other intervals."""
+        starts = np.append(0.0, np.cumsum(lengths)[:-1])[:, None]
+        nodes = starts + lengths[:, None] * collocation().nodes[1:]
+        ends = starts + lengths[:, None] * np.array([_INSIDE, 0.5, 1.0 - _INSIDE])
+        torques = self.torque_at(ends.ravel())
+        # The parabola through its values at both ends and in the middle.
+        torques[:, 1::3] = 2.0 * torques[:, 1::3] - (torques[:, 0::3] + torques[:, 2::3]) / 2.0
+        return Motion(lengths, self.state_at(np.append(0.0, nodes.ravel())), torques)
+
+    def refined(self, intervals: int) -> "Motion":
+        """Nearly the same motion on intervals that are short where the torques change.
+
+        Each takes the same part of a sum of time passed and of the torques' total variation. That
+        of an interval is spread over its neighbours too: a switch moves a little as the mesh gets
+        finer.
+        """
+        count = len(self.lengths)
+        torque = self.torque_within(np.linspace(0.0, 1.0, _SAMPLES)).reshape(count, _SAMPLES, -1)
+        inside = np.abs(np.diff(torque, axis=1)).sum(axis=(1, 2))
+        jumps = np.append(np.abs(torque[1:, 0] - torque[:-1, -1]).sum(axis=1), 0.0)
+        variation = inside + jumps
+        spread = np.convolve(np.pad(variation, 1, mode="edge"), [0.25, 0.5, 0.25], mode="valid")
+        even = self.lengths / self.lengths.sum()
+        density = _EVEN * even + (1.0 - _EVEN) * spread / max(spread.sum(), np.finfo(float).tiny)
+        reached = np.append(0.0, np.cumsum(density / density.sum()))
+        edges = np.append(self.starts, self.lengths.sum())
+        return self.onto(np.diff(np.interp(np.linspace(0.0, 1.0, intervals + 1), reached, edges)))
+
+    def _locate(self, times: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+        """Interval of each time, and how far through it, 0..1."""
+        starts = self.starts
+        interval = np.searchsorted(starts, times, side="right") - 1
+        return interval, (times - starts[interval]) / self.lengths[interval]
+
+
+@dataclass(frozen=True, eq=False)
+class FixedAxisTurn:
+    """A cubic from one angle and rate to another angle at rest: a first guess.
+
+    Attributes:
+        attitude: at the start, shape (4,). axis: unit vector, in B, shape (3,).
+        rate: at the start [rad/s]. angle: at the end, 0 at the start [rad]. duration: [s].
+    """
+
+    attitude: FloatArray
+    axis: FloatArray
+    rate: float
+    angle: float
+    duration: float
+
+    @classmethod
+    def of(cls, asked: Boundary, attitude: FloatArray, rate: FloatArray) -> "FixedAxisTurn":
+        """The turn that a maneuver asks for.
+
+        Args:
+            asked: boundary value problem of the maneuver.
+            attitude: at the start of the turn, which is the end of a push, shape (4,).
+            rate: of the trunk then, in B [rad/s], shape (3,).
+        """
+        fast = float(np.linalg.norm(rate))
+        if fast == 0.0:
+            return cls(attitude, asked.axis, 0.0, asked.angle, asked.duration)
+        # A push has turned the trunk about the axis of its rate, and is to be undone.
+        cosine = np.clip(vertical_of(attitude) @ asked.final_vertical, -1.0, 1.0)
+        return cls(attitude, rate / fast, fast, -float(np.arccos(cosine)), asked.duration)
+
+    @property
+    def peak_rate(self) -> float:
+        """Estimate of the trunk's largest rate [rad/s]."""
+        return max(1.5 * abs(self.angle) / self.duration, abs(self.rate))
+
+    @property
+    def peak_acceleration(self) -> float:
+        """Largest angular acceleration of the cubic [rad/s^2]."""
+        return (6.0 * abs(self.angle) / self.duration + 4.0 * abs(self.rate)) / self.duration
+
+    def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
+        """The turn on even intervals and the wheels that drive it, their limits ignored."""
+        lengths = np.full(intervals, self.duration / intervals)
+        edges = np.arange(intervals)[:, None] / intervals
+        nodes = np.append(0.0, (edges + collocation().nodes[1:] / intervals).ravel())
+        angle, rate, _ = self._profile(nodes)
+        _, _, acceleration = self._profile((edges + np.array([0.0, 0.5, 1.0]) / intervals).ravel())
+        turned = np.vstack([np.cos(angle / 2.0), np.outer(self.axis, np.sin(angle / 2.0))])
+        # Speeds of the wheels that take a momentum off the trunk, per momentum.
+        taking = gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
+        momentum = gyrostat.inertia @ self.axis
+        speeds = taking @ np.outer(momentum, self.rate - rate)
+        driven = gyrostat.spin_inertia + gyrostat.armature
+        torques = -driven * taking @ np.outer(momentum, acceleration)
+        return Motion(lengths, np.vstack([product(self.attitude, turned), speeds]), torques)
+
+    def _profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Angle [rad], rate and acceleration at s = 0..1."""
+        run, end, time = self.rate * self.duration, self.angle, self.duration
+        angle = end * s**2 * (3.0 - 2.0 * s) + run * s * (1.0 - s) ** 2
+        slope = 6.0 * end * s * (1.0 - s) + run * (1.0 - s) * (1.0 - 3.0 * s)
+        bend = 6.0 * end * (1.0 - 2.0 * s) + run * (6.0 * s - 4.0)
+        return angle, slope / time, bend / time**2

@@ -1,0 +1,1 @@
+"""One page per command: read, compute, write; what is computed stands below."""

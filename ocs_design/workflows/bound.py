@@ -1,0 +1,53 @@
+"""What `bound` answers: the lower bound by hand, and its curve."""
+
+import numpy as np
+
+from ocs_design.common.errors import UsageError
+from ocs_design.common.units import Dimension, parse_positive, parse_quantity
+from ocs_design.device.answers import BoundAnswer
+from ocs_design.device.records import SCHEMA_VERSION
+from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
+
+CURVE_POINTS = (0.25, 0.5, 1.0, 2.0, 4.0)
+"""Rate changes and wheel speeds of the curve, over those asked for."""
+
+
+def bound_by_hand(
+    *, inertia: str, rate_change: str, wheel_speed_max: str, alpha: str, axis: str
+) -> BoundAnswer:
+    """The bound for quantities as they are written on the command line.
+
+    Raises:
+        QuantityError, UsageError: a quantity or the axis cannot be read, or is out of range.
+    """
+    if axis not in AXES:
+        raise UsageError(f"--axis {axis}: is neither pitch nor roll")
+    moment = parse_positive(inertia, Dimension.INERTIA, "--inertia")
+    rate = parse_positive(rate_change, Dimension.ANGULAR_SPEED, "--rate-change")
+    speed = parse_positive(wheel_speed_max, Dimension.ANGULAR_SPEED, "--wheel-speed-max")
+    incidence = parse_quantity(alpha, Dimension.ANGLE, "--alpha")
+    if not 0.0 <= incidence <= np.pi / 2.0:
+        raise UsageError(f"--alpha {alpha}: lies outside 0 to 90 deg")
+    found = spin_bound(moment, rate, speed, float(authority(incidence)[AXES.index(axis)]))
+    if not np.isfinite(found.spin_inertia):
+        raise UsageError(
+            f"no wheel can do this about {axis}: at alpha {alpha} and {wheel_speed_max} "
+            "it would be infinitely large",
+            hint="ask for less than the wheel's speed, or for an incidence that reaches the axis",
+        )
+    rates = tuple(point * rate for point in CURVE_POINTS)
+    speeds = tuple(point * speed for point in CURVE_POINTS)
+    return BoundAnswer(
+        schema_version=SCHEMA_VERSION,
+        axis=axis,
+        inertia=moment,
+        rate_change=rate,
+        wheel_speed_max=speed,
+        incidence=incidence,
+        paper=found.paper,
+        required=found.required,
+        spin_inertia=found.spin_inertia,
+        rate_changes=rates,
+        wheel_speeds=speeds,
+        curve=tuple(tuple(map(float, row)) for row in bound_curve(rates, speeds)),
+    )

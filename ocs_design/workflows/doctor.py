@@ -1,0 +1,320 @@
+"""What `doctor` answers: the machine and every package that is used, looked at.
+
+What is asked for stands in pyproject.toml and nowhere else.
+"""
+
+import json
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from functools import partial
+from importlib import metadata
+from pathlib import Path
+from types import MappingProxyType
+
+from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
+from packaging.utils import canonicalize_name
+
+from ocs_design.common.errors import MissingToolError
+from ocs_design.common.files import processors as usable
+from ocs_design.device.findings import Examination, Finding, State
+from ocs_design.export.ffmpeg import FFMPEG_HINT, ffmpeg_program
+from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of
+
+
+@dataclass(frozen=True)
+class Use:
+    """Use of one package: what it is for, and the module that it brings.
+
+    Attributes:
+        purpose: for people.
+        module: to import; empty: named like the package.
+    """
+
+    purpose: str
+    module: str = ""
+
+
+USES: Mapping[str, Use] = MappingProxyType(
+    {
+        "numpy": Use("arrays"),
+        "scipy": Use("roots and small optimisations"),
+        "cvxpy": Use("the rim as a convex program"),
+        "clarabel": Use("solves for the rim"),
+        "casadi": Use("maneuvers as optimal control"),
+        "typer": Use("the command line"),
+        "rich": Use("tables and progress"),
+        "msgspec": Use("design.json in and out"),
+        "packaging": Use("this check"),
+        "trimesh": Use("robots with meshes of many kinds"),
+        "manifold3d": Use("holes in meshes"),
+        "reportlab": Use("the drawing as PDF"),
+        "mujoco": Use("robots, flights and pictures"),
+        "pycollada": Use("robots with .dae meshes", "collada"),
+        "xacro": Use("robots that come as .xacro"),
+        "resvg-py": Use("figures as PNG"),
+        "dask": Use("Monte Carlo on many machines"),
+        "distributed": Use("Monte Carlo on many machines"),
+        "pyarrow": Use("samples as Parquet"),
+        "pillow": Use("words on videos", "PIL"),
+        "imageio-ffmpeg": Use("videos where the system has no ffmpeg"),
+        "cadquery-ocp-novtk": Use("parts in STEP for CAD", "OCP"),
+        "ezdxf": Use("the wheel in DXF for CAD"),
+    }
+)
+"""By the package's name."""
+
+
+DISTRIBUTION = "ocs-design"
+
+DEVELOPMENT = frozenset({"test", "dev", "docs"})
+"""Extras for those who change the code."""
+
+TIME_LIMIT = 120.0
+"""To import everything [s]."""
+
+# What a module prints on its own is no answer.
+_IMPORTING = """
+import importlib, json, os, sys
+answers = os.fdopen(os.dup(1), "w")
+os.dup2(2, 1)
+for name in sys.argv[1:]:
+    try:
+        importlib.import_module(name)
+        error = ""
+    except BaseException as failure:
+        error = f"{type(failure).__name__}: {failure}".splitlines()[0]
+    print(json.dumps([name, error]), file=answers, flush=True)
+"""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A package that is asked for.
+
+    Attributes:
+        name: of the package. versions: that are allowed, as pip writes them.
+        extra: of ours that asks for it; empty: nothing works without it.
+    """
+
+    name: str
+    versions: str
+    extra: str = ""
+
+    @property
+    def use(self) -> Use:
+        """What it is for."""
+        return USES.get(self.name, Use(f"the extra {self.extra}"))
+
+    @property
+    def module(self) -> str:
+        """Name of the module to import."""
+        return self.use.module or self.name.replace("-", "_")
+
+    def cure(self, state: State) -> str:
+        """The command that mends it."""
+        if state is State.WORKS:
+            return ""
+        if state is State.BROKEN:
+            return f"pip install --force-reinstall '{self.name}{self.versions}'"
+        what = f"{DISTRIBUTION}[{self.extra}]" if self.extra else f"{self.name}{self.versions}"
+        return f"pip install '{what}'"
+
+
+def wanted_packages() -> tuple[Wanted, ...]:
+    """Everything that users may want, what is required first.
+
+    Raises:
+        importlib.metadata.PackageNotFoundError: this package itself is not installed.
+    """
+    requirements = [Requirement(line) for line in metadata.requires(DISTRIBUTION) or ()]
+    extras = metadata.metadata(DISTRIBUTION).get_all("Provides-Extra") or ()
+
+    def package(requirement: Requirement, extra: str = "") -> Wanted:
+        """Package of one requirement."""
+        return Wanted(canonicalize_name(requirement.name), str(requirement.specifier), extra)
+
+    required = [package(each) for each in requirements if each.marker is None]
+    optional = [
+        package(each, extra)
+        for extra in extras
+        if extra not in DEVELOPMENT
+        for each in requirements
+        if each.marker is not None and each.marker.evaluate({"extra": extra})
+    ]
+    return (*sorted(required, key=lambda each: each.name), *optional)
+
+
+def package_findings(wanted: Sequence[Wanted]) -> Iterator[Finding]:
+    """How each is; all are imported, in a process of its own."""
+    versions = dict.fromkeys((each.name for each in wanted), "")
+    for name in versions:
+        with suppress(metadata.PackageNotFoundError):
+            versions[name] = metadata.version(name)
+    failures = import_failures([each.module for each in wanted if versions[each.name]])
+    for each in wanted:
+        found = versions[each.name]
+        reason = failures.get(each.module, "")
+        allowed = SpecifierSet(each.versions)
+        if not found:
+            state = State.MISSING
+        elif reason:
+            state = State.BROKEN
+        else:
+            fits = allowed.contains(found, prereleases=True)
+            state = State.WORKS if fits else State.UNFIT
+        yield Finding(
+            name=each.name,
+            state=state,
+            required=not each.extra,
+            found=found,
+            wanted=each.versions,
+            purpose=each.use.purpose,
+            cure=each.cure(state),
+            reason=reason,
+        )
+
+
+def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
+    """Why each module could not be imported; those that could are not in it."""
+    command = [sys.executable, "-c", _IMPORTING, *modules]
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, check=False, timeout=TIME_LIMIT
+        )
+        said, ended = done.stdout, f"the process ended with code {done.returncode}"
+    except subprocess.TimeoutExpired as error:
+        said = (error.stdout or b"").decode() if isinstance(error.stdout, bytes) else ""
+        ended = f"not done within {TIME_LIMIT:g} s"
+    told = dict(json.loads(line) for line in said.splitlines())
+    return {name: told.get(name, ended) for name in modules if told.get(name, ended)}
+
+
+_TRIAL = "ocs_design.export.offscreen"
+
+
+def machine_findings() -> tuple[Finding, ...]:
+    """Findings about the machine, in the order in which they matter."""
+    return (python(), working_folder(Path.cwd()), processors(), *opengl(), film_maker())
+
+
+def python() -> Finding:
+    """The interpreter."""
+    found = platform.python_version()
+    wanted = metadata.metadata(DISTRIBUTION)["Requires-Python"]
+    fits = SpecifierSet(wanted).contains(found, prereleases=True)
+    return Finding(
+        name="Python",
+        state=State.WORKS if fits else State.UNFIT,
+        required=True,
+        found=found,
+        wanted=wanted,
+        purpose="everything",
+        cure="" if fits else "make a virtual environment with a newer Python",
+    )
+
+
+def working_folder(folder: Path) -> Finding:
+    """Finding about the folder that output goes to unless -o says otherwise."""
+    reason = ""
+    try:
+        with tempfile.TemporaryDirectory(prefix=".ocs-design-", dir=folder):
+            free = shutil.disk_usage(folder).free
+    except OSError as error:
+        reason = error.strerror or str(error)
+    return Finding(
+        name="this folder",
+        state=State.BROKEN if reason else State.WORKS,
+        required=True,
+        found="" if reason else f"{free / 1e9:.0f} GB free",
+        purpose="output without -o",
+        cure="go to a folder that you may write to" if reason else "",
+        reason=reason,
+    )
+
+
+def processors() -> Finding:
+    """Finding about the processors that this process may use."""
+    return Finding(
+        name="processors",
+        state=State.WORKS,
+        required=False,
+        found=str(usable()),
+        purpose="flights, several at once",
+    )
+
+
+def opengl() -> Iterator[Finding]:
+    """Each way to draw without a screen, tried; one of them is enough."""
+    ways = backends()
+    with ThreadPoolExecutor() as pool:
+        failures = list(pool.map(partial(failure_of, _TRIAL, ("trial",)), ways))
+    one_works = None in failures
+    for way, failure in zip(ways, failures, strict=True):
+        yield Finding(
+            name=f"OpenGL {way}".rstrip(),
+            state=State.WORKS if failure is None else State.MISSING,
+            required=False,
+            purpose="pictures, one way is enough",
+            cure="" if one_works else OPENGL_HINT,
+            reason=failure or "",
+        )
+
+
+def film_maker() -> Finding:
+    """Ffmpeg."""
+    path, found = ffmpeg_program(), ""
+    if path is not None:
+        # What does not run is not there.
+        with suppress(OSError, subprocess.SubprocessError):
+            said = subprocess.run(
+                [path, "-version"], capture_output=True, text=True, check=True, timeout=20.0
+            ).stdout.split()
+            # "ffmpeg version 6.1.1-3 Copyright ..."
+            found = said[2].partition("-")[0] if len(said) > 2 else "unknown"
+    return Finding(
+        name="ffmpeg",
+        state=State.WORKS if found else State.MISSING,
+        required=False,
+        found=found,
+        purpose="videos",
+        cure="" if found else FFMPEG_HINT,
+    )
+
+
+SCHEMA_VERSION = 1
+"""Of the document; that of `design_file` cannot be had where a package is missing."""
+
+
+def examine() -> Examination:
+    """Look at everything.
+
+    Raises:
+        MissingToolError: this program is not installed as a package, which tells what it needs.
+    """
+    try:
+        wanted = wanted_packages()
+    except metadata.PackageNotFoundError as error:
+        raise MissingToolError(
+            f"{DISTRIBUTION} runs from its source and is not installed: what it needs is not known",
+            hint="pip install .",
+        ) from error
+    packages = tuple(package_findings(wanted))
+    return Examination(metadata.version(DISTRIBUTION), machine_findings(), packages)
+
+
+def examination_to_json(examination: Examination) -> str:
+    """Examination as indented JSON."""
+    document: Mapping[str, object] = {
+        "schema_version": SCHEMA_VERSION,
+        "healthy": examination.exit_code == 0,
+        **asdict(examination),
+    }
+    return json.dumps(document, indent=2) + "\n"

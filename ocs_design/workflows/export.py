@@ -1,0 +1,175 @@
+"""`ocs-design export`: every file again from `design.json`."""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ocs_design.common.files import safe_name
+from ocs_design.device.answers import Exported
+from ocs_design.device.records import OcsDesign, design_to_json, read_design
+from ocs_design.export.folder import (
+    DESIGN_FILE,
+    file_hashes,
+    keep_others,
+    recorded_hashes,
+    staged_folder,
+)
+from ocs_design.export.formats import (
+    ALL,
+    FORMATS,
+    USUAL_FORMATS,
+    Format,
+    Subject,
+    export_formats,
+)
+from ocs_design.workflows.restoring import (
+    Whereabouts,
+    device_of,
+    read_recorded_robot,
+    seat_of,
+)
+
+SCHEMA_VERSION = 1
+
+_WHERE = (
+    "say where it is with --robot FILE, or leave out the robot's files: "
+    f"--formats {','.join(each.name for each in USUAL_FORMATS if not each.needs_robot)}"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Order:
+    """Design to write again.
+
+    Attributes:
+        path: of the `design.json`.
+        design: that was read from it.
+        subject: device and robot.
+        formats: to write.
+        warnings: about the robot, which were not there when the device was sized.
+    """
+
+    path: Path
+    design: OcsDesign
+    subject: Subject
+    formats: tuple[Format, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def default_folder(self) -> Path:
+        """Folder in the working directory that is written unless another is named."""
+        return Path(f"{self.subject.name}-ocs-export")
+
+
+Finish = Callable[[Order, Path], tuple[str, ...]]
+"""Function that writes into a folder; gives notes for the user, one sentence each."""
+
+
+def read_order(
+    path: Path,
+    formats: tuple[Format, ...],
+    *,
+    robot_file: Path | None = None,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Order:
+    """Read a design, and its robot where a format needs it.
+
+    Args:
+        path: of a `design.json`, or of the folder that it lies in.
+        formats: that are wanted.
+        robot_file: of the robot, in place of the one that the design names. It may be another
+            file than the device was sized for, which is told.
+        package_paths: folders of packages, over those that the design names.
+        strict: warnings about the robot are errors.
+
+    Raises:
+        OcsError: the design or the robot cannot be read, or the robot has changed.
+    """
+    path = path / DESIGN_FILE if path.is_dir() else path
+    design = read_design(path)
+    device, name = device_of(design.ocs), safe_name(design.robot.name)
+    if not any(each.needs_robot for each in formats):
+        return Order(path, design, Subject(name, device, seat_of(design.robot), None), formats, ())
+    where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
+    robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
+    return Order(path, design, Subject.of(robot, device, name), formats, warnings)
+
+
+def export_order(
+    order: Order, folder: Path, *, force: bool = False, finish: Finish | None = None
+) -> Exported:
+    """Write the files of a design.
+
+    The folder gets a `design.json` too, with the hashes of its files. In the design's own folder
+    everything else stays as it is.
+
+    Args:
+        order: see `read_order`.
+        folder: to write.
+        force: replace an existing folder, once the new one is complete.
+        finish: writes what rests on the design and its other files, when those are there.
+
+    Raises:
+        OutputError: it cannot be written, or exists already.
+    """
+    with staged_folder(folder, force=force) as staging:
+        alone = [each for each in order.formats if not each.needs_robot]
+        notes = export_formats(order.subject, alone, staging)
+        whole = [each for each in order.formats if each.needs_robot]
+        remarks = export_formats(order.subject, whole, staging)
+        if finish is not None:
+            remarks += finish(order, staging)
+        made = file_hashes(staging)
+        source = order.path.parent
+        if folder.exists() and folder.samefile(source):
+            # If all usual files are made anew, those of before may have had other names.
+            usual = set(USUAL_FORMATS) <= set(order.formats)
+            folders = {each.folder for each in FORMATS} if usual else set()
+            old = {name for name in order.design.files if name.partition("/")[0] in folders}
+            keep_others(source, staging, without=old)
+        design = replace(order.design, files=recorded_hashes(staging))
+        (staging / DESIGN_FILE).write_bytes(design_to_json(design))
+    known = order.design.robot.warnings
+    return Exported(
+        schema_version=SCHEMA_VERSION,
+        folder=str(folder),
+        files=made,
+        warnings=(*order.warnings, *(remark for remark in remarks if remark not in known)),
+        notes=notes,
+    )
+
+
+FIGURES, REPORT = "figures", "report"
+
+ON_DESIGN = (FIGURES, REPORT)
+"""Names that users say."""
+
+
+def finishing(names: Collection[str], command: str) -> Finish | None:
+    """Function that writes what is asked for of these; None where nothing is.
+
+    Args:
+        names: as users say them.
+        command: that was typed.
+    """
+    wanted = [name for name in ON_DESIGN if name in names or ALL in names]
+
+    def finish(order: Order, folder: Path) -> tuple[str, ...]:
+        """Write into the folder; a file that it lacks is taken from the design's own folder."""
+        # They need the simulator's values, which parts and snippets do without.
+        from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
+        from ocs_design.report.charts.files import write_charts  # noqa: PLC0415
+        from ocs_design.report.html.page import write_report  # noqa: PLC0415
+        from ocs_design.report.story import story_in  # noqa: PLC0415
+
+        story = story_in([folder, order.path.parent], order.design, command=command)
+        remarks: tuple[str, ...] = ()
+        if FIGURES in wanted:
+            remarks = write_charts(tuple(all_charts(story)), folder / FOLDER)
+        if REPORT in wanted:
+            whole = replace(order.design, files=recorded_hashes(folder))
+            write_report(replace(story, design=whole), folder)
+        return remarks
+
+    return finish if wanted else None

@@ -1,0 +1,185 @@
+"""Everything that flights need besides the device: wheel law, references, plans of the legs."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ocs_design.common.errors import OcsError, SpecificationError
+from ocs_design.device.device import Device
+from ocs_design.device.records import ControlRecord, OcsDesign, read_design
+from ocs_design.export.folder import DESIGN_FILE
+from ocs_design.jumping.jump import JumpPlans
+from ocs_design.requirement.froude import standing_height
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.specification import (
+    CONTROL_PERIOD,
+    Specification,
+    ValidationSection,
+    merge_section,
+)
+from ocs_design.requirement.uncertainty import UncertaintySection, uncertainty_of_texts
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.scenario import Options
+from ocs_design.simulation.scene import STEP
+from ocs_design.simulation.wheel_law import Allocation, Gains
+from ocs_design.simulation.world import wheel_gains
+from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.workflows.restoring import Whereabouts, device_of, maneuver_of, read_recorded_robot
+
+if TYPE_CHECKING:
+    from ocs_design.sizing.trajectory.plans import Reference
+
+
+def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
+    """What is stated, and the defaults that hold in place of the rest."""
+    gains = wheel_gains(robot)
+    default = ControlRecord(
+        projection=Allocation.PSEUDO_INVERSE,
+        kp=gains.stiffness,
+        kd=gains.damping,
+        period=round(CONTROL_PERIOD / STEP) * STEP,
+        ballistic=False,
+    )
+    return overridden(default, stated)
+
+
+def flight_options(control: ControlRecord) -> Options:
+    """Flights under this law."""
+    return Options(
+        allocation=Allocation(control.projection),
+        gains=Gains(control.kp, control.kd),
+        hold=round(control.period / STEP),
+        desaturate=control.desaturate,
+    )
+
+
+def overridden(control: ControlRecord, stated: ValidationSection) -> ControlRecord:
+    """What was recorded, with everything that is stated in its place.
+
+    Raises:
+        SpecificationError: the control period is no whole number of the physics' steps.
+    """
+    period = control.period
+    if stated.control_period is not None:
+        steps = stated.control_period / STEP
+        period = round(steps) * STEP
+        if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
+            raise SpecificationError(
+                f"validation.control_period: {steps * STEP:.4g} s is no whole number of "
+                f"milliseconds"
+            )
+    return ControlRecord(
+        projection=stated.projection or control.projection,
+        kp=stated.kp or control.kp,
+        kd=stated.kd or control.kd,
+        period=period,
+        desaturate=control.desaturate if stated.desaturate is None else stated.desaturate,
+        ballistic=control.ballistic if stated.ballistic is None else stated.ballistic,
+    )
+
+
+def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
+    """What flights track; a maneuver without any is met by feedback or by a smooth turn."""
+    return {
+        name: planned.trajectory
+        for name, planned in plans.items()
+        if planned.trajectory is not None
+    }
+
+
+def jump_plans(
+    control: ControlRecord, robot: Robot, device: Device, maneuvers: Sequence[Maneuver]
+) -> Mapping[str, JumpPlans]:
+    """How the legs make the maneuvers from the ground; none where flights start at lift-off."""
+    if control.ballistic:
+        return {}
+    # CasADi takes a third of a second to import, and what starts at lift-off does without.
+    from ocs_design.jumping.planning import plan_jumps  # noqa: PLC0415
+
+    return plan_jumps(robot, device, maneuvers)
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What is flown.
+
+    Attributes:
+        path: of the `design.json`. design: what is in it.
+        robot: as it was sized for, or another in its place. device: on it.
+        maneuvers: see `Maneuver`; at least one.
+        control: the wheel law.
+        uncertainty: how what is built and met differs from the design, as far as that is stated.
+        references: what the device tracks, by the maneuver's name.
+        jumps: how the legs make a maneuver, by its name.
+        warnings: about the robot, which were not there when the device was sized.
+    """
+
+    path: Path
+    design: OcsDesign
+    robot: Robot
+    device: Device
+    maneuvers: tuple[Maneuver, ...]
+    control: ControlRecord
+    uncertainty: UncertaintySection
+    references: Mapping[str, Trajectory]
+    jumps: Mapping[str, JumpPlans]
+    warnings: tuple[str, ...]
+
+
+def read_task(
+    path: Path,
+    stated: Specification,
+    *,
+    robot_file: Path | None = None,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Task:
+    """Read a design and its robot, and plan what device and legs track, as when it was sized.
+
+    Args:
+        path: of a `design.json`, or of the folder that it lies in.
+        stated: `[validation]` and `[reality]` over those that the design was sized with; what else
+            it states is the design's by now.
+        robot_file: of the robot, in place of the one that the design names.
+        package_paths: folders of packages, over those that the design names.
+        strict: warnings about the robot are errors.
+
+    Raises:
+        OcsError: the design or the robot cannot be read, the robot has changed, or nothing is to
+            be flown.
+    """
+    path = path / DESIGN_FILE if path.is_dir() else path
+    design = read_design(path)
+    maneuvers = tuple(map(maneuver_of, design.requirement.maneuvers))
+    if not maneuvers:
+        raise OcsError(
+            f"{path}: the design was sized for no maneuver, so there is nothing to fly",
+            hint="size it with maneuvers: the paper's, or [[maneuver]] tables",
+        )
+    where = Whereabouts(path, robot_file, package_paths or {}, "say where it is with --robot FILE")
+    robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
+    device = device_of(design.ocs)
+    control = overridden(
+        design.control or control_of(ValidationSection(), robot), stated.validation
+    )
+    references: Mapping[str, Trajectory] = {}
+    if design.selection is not None:
+        # A plan is a few hundred numbers that follow from the design: they are planned once more.
+        # CasADi takes a third of a second to import, and wheels without a motor do without.
+        planning = import_module("ocs_design.sizing.trajectory.plans")
+        plans = planning.plan(robot.mass_properties, device, maneuvers, standing_height(robot))
+        references = trajectories(plans)
+    return Task(
+        path=path,
+        design=design,
+        robot=robot,
+        device=device,
+        maneuvers=maneuvers,
+        control=control,
+        uncertainty=merge_section(uncertainty_of_texts(design.reality, str(path)), stated.reality),
+        references=references,
+        jumps=jump_plans(control, robot, device, maneuvers),
+        warnings=warnings,
+    )

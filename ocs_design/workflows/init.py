@@ -1,0 +1,115 @@
+"""What `init` writes: a specification to start from, with everything that could be stated."""
+
+import shlex
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ocs_design.common.files import safe_name
+from ocs_design.device.answers import Initialized
+from ocs_design.device.records import SCHEMA_VERSION
+from ocs_design.export.folder import write_whole
+from ocs_design.requirement.froude import SOLO12, example_shove
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
+from ocs_design.requirement.resolving import default_specification, read_stated_robot
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.writing import commented_toml, with_files_from
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.world import wheel_gains
+
+SOLO12_MASS = 2.5
+"""[kg], as in the paper."""
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """What a specification is written for.
+
+    Attributes:
+        stated: what is stated already.
+        robot: that it is for; None: not known yet.
+        default: what holds where nothing is stated; Solo12's where the robot is not known.
+        examples: maneuvers that are not assumed, scaled likewise.
+    """
+
+    stated: Specification
+    robot: Robot | None
+    default: Specification
+    examples: tuple[Maneuver, ...]
+
+    @property
+    def default_file(self) -> Path:
+        """Named after the robot, in the working directory."""
+        return Path("ocs.toml" if self.robot is None else f"{safe_name(self.robot.name)}.toml")
+
+
+def read_start(
+    stated: Specification,
+    *,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Start:
+    """Read the robot, if one is stated, and scale the defaults to it.
+
+    Raises:
+        OcsError: see `read_stated_robot`.
+    """
+    given = (stated.robot.file, stated.robot.mass, stated.robot.inertia)
+    robot = (
+        read_stated_robot(stated, package_paths=package_paths, strict=strict)
+        if any(item is not None for item in given)
+        else None
+    )
+    scaled_to = robot
+    if scaled_to is None:
+        # Solo12 as a rigid body: only its scale is asked for.
+        trace = SOLO12_MASS * SOLO12.gyration_radius**2
+        roll, pitch = SOLO12.roll_inertia, SOLO12.pitch_inertia
+        inertia = (roll, pitch, trace - roll - pitch)
+        scaled_to = robot_by_hand(SOLO12_MASS, inertia, name=SOLO12.name)
+    gains = wheel_gains(scaled_to)
+    gravity = stated.requirement.gravity or STANDARD_GRAVITY
+    default = default_specification(
+        scaled_to, kp=gains.stiffness, kd=gains.damping, gravity=gravity
+    )
+    return Start(stated, robot, default, (example_shove(scaled_to, gravity),))
+
+
+def write_start(
+    start: Start,
+    file: Path,
+    *,
+    chosen: Collection[str] = (),
+    package_paths: Mapping[str, Path] | None = None,
+    force: bool = False,
+) -> Initialized:
+    """Write the specification.
+
+    Args:
+        start: what it says. file: where to.
+        chosen: names of default maneuvers that it is to state.
+        package_paths: that the robot was read with.
+        force: replace what is there.
+
+    Raises:
+        OutputError: see `write_whole`.
+    """
+    named = ["ROBOT"] if start.robot is None else []
+    packages = [f"--package-path={name}={path}" for name, path in (package_paths or {}).items()]
+    command = shlex.join(["ocs-design", "size", *named, "--spec", str(file), *packages])
+    whose = "a device" if start.robot is None else f"the device of {start.robot.name}"
+    text = commented_toml(
+        with_files_from(start.stated, file.parent),
+        start.default,
+        title=f"What {whose} must do and may be.\n\n  {command}",
+        chosen=chosen,
+        examples=start.examples,
+    )
+    write_whole(file, text, force=force)
+    return Initialized(
+        schema_version=SCHEMA_VERSION,
+        file=str(file),
+        robot=None if start.robot is None else start.robot.name,
+        next=command,
+    )

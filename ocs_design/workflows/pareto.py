@@ -1,0 +1,143 @@
+"""What `pareto` answers: the lightest device at each value of one figure, all else as stated.
+
+Every point is a design of its own. Its specification is part of the answer and is written beside
+the front, so that `ocs-design size --spec points/NN.toml` makes that very device.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
+from ocs_design.common.units import format_quantity, parse_positive, si_unit
+from ocs_design.device.answers import Front, FrontDevice, FrontPoint
+from ocs_design.device.records import SCHEMA_VERSION, recorded
+from ocs_design.requirement.resolving import read_stated_robot
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Sweep, Task
+from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
+from ocs_design.robot.meshes import size
+from ocs_design.sizing.selection.problem import selection_problem, specified_criterion
+from ocs_design.sizing.selection.select import select_by
+
+FEWEST, MOST = 2, 200
+"""Points of a front."""
+
+
+Choose = Callable[[Task], FrontDevice]
+"""The lightest device for a task; raises `Infeasible` where there is none."""
+
+
+def read_task(
+    specification: Specification,
+    *,
+    package_paths: Mapping[str, Path] | None = None,
+    strict: bool = False,
+) -> Task:
+    """Robot and specification as they stand.
+
+    Raises:
+        OcsError: the robot cannot be read, or the specification does not fit it.
+    """
+    robot = read_stated_robot(specification, package_paths=package_paths, strict=strict)
+    return Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+
+
+def front_values(
+    sweep: Sweep, task: Task, *, low: str | None, high: str | None, points: int
+) -> tuple[float, ...]:
+    """Values at equal distances [SI].
+
+    Args:
+        sweep: what is varied. task: as it stands.
+        low, high: from and to, with units; None: around the specification's own value, which is
+            then one of the values if there are nine of them.
+        points: how many.
+
+    Raises:
+        QuantityError, UsageError: they cannot be read, or make no range.
+    """
+    if not FEWEST <= points <= MOST:
+        raise UsageError(f"--points {points}: must lie between {FEWEST} and {MOST}")
+    start, end = (
+        factor * sweep.own(task) if text is None else parse_positive(text, sweep.dimension, option)
+        for factor, text, option in zip(sweep.span, (low, high), ("--from", "--to"), strict=True)
+    )
+    if not start < end:
+        first, last = (format_quantity(value, sweep.unit) for value in (start, end))
+        raise UsageError(
+            f"--from {first} is not below --to {last}", hint="give both, the smaller one first"
+        )
+    return tuple(float(value) for value in np.linspace(start, end, points))
+
+
+def lightest_device(task: Task) -> FrontDevice:
+    """The selection's lightest, before any co-design.
+
+    Raises:
+        Infeasible: there is none; does not say what would help. UsageError: no motor is wanted.
+    """
+    problem = selection_problem(task.specification, task.robot, task.resolved)
+    if problem is None:
+        raise UsageError(
+            "a front needs motors to choose from",
+            hint="leave out --motor none, or motor.name in the specification",
+        )
+    best = select_by(problem, specified_criterion(task.specification), advise=False).best
+    return recorded(
+        FrontDevice,
+        best,
+        share=best.mass / task.robot.mass,
+        motor=best.motor.name,
+        gear=best.gear.name,
+        material=best.material.name,
+    )
+
+
+def draw_front(
+    task: Task,
+    sweep: Sweep,
+    values: Sequence[float],
+    choose: Choose,
+    progress: Callable[[float], None] | None = None,
+) -> Front:
+    """The lightest device at each value; where there is none, why.
+
+    Args:
+        task: as it stands.
+        sweep: what is varied. values: of it [SI].
+        choose: makes a device.
+        progress: told the part of the work that is done, 0..1.
+    """
+    points = []
+    for index, value in enumerate(values):
+        specification = with_absolute_files(sweep.at(value, task))
+        file = f"points/{index + 1:02d}.toml"
+        # A value for which nothing can be designed is an answer too.
+        device, reason = None, ""
+        try:
+            device = choose(task.with_specification(specification))
+        except Infeasible as error:
+            reason = error.message
+        except SpecificationError as error:
+            reason = "; ".join(error.problems) or error.message
+        what = f"{sweep.label}: {format_quantity(value, sweep.unit)}"
+        text = specification_to_toml(specification, f"{what}\nocs-design size --spec {file}")
+        points.append(
+            FrontPoint(value=value, file=file, specification=text, device=device, reason=reason)
+        )
+        if progress is not None:
+            progress((index + 1) / len(values))
+    return Front(
+        schema_version=SCHEMA_VERSION,
+        robot=task.robot.name,
+        against=sweep.name,
+        label=sweep.label,
+        unit=sweep.unit,
+        si_unit=si_unit(sweep.dimension),
+        own_value=sweep.own(task),
+        remarks=sweep.remarks(task),
+        assumptions=task.resolved.assumptions,
+        points=tuple(points),
+    )

@@ -1,0 +1,332 @@
+"""From live values to the records of `design.json`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ocs_design import __version__
+from ocs_design.actuation.drive import RESERVE
+from ocs_design.common.arrays import matrix, vector
+from ocs_design.common.units import format_quantity
+from ocs_design.device.checks import device_warnings
+from ocs_design.device.device import Device
+from ocs_design.device.layout import heading_drift
+from ocs_design.device.records import (
+    SCHEMA_VERSION,
+    AxisInertia,
+    CoDesignRecord,
+    ControlRecord,
+    DemandRecord,
+    ManeuverRecord,
+    MarginRecord,
+    ModuleRecord,
+    MountingRecord,
+    OcsDesign,
+    OcsRecord,
+    PriceRecord,
+    RankedRecord,
+    ReachRecord,
+    RejectionRecord,
+    RequirementRecord,
+    RobotRecord,
+    SelectionRecord,
+    SizingRecord,
+    Tool,
+    ValidationRecord,
+    recorded,
+)
+from ocs_design.export.assembly_notes import device_notes, trunk_notes
+from ocs_design.export.time_series import export_time_series, series_file
+from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.requirement.maneuver import Maneuver, kind_of
+from ocs_design.requirement.resolving import Resolved
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.scenario import Run
+from ocs_design.sizing.design import Choice, Designed
+from ocs_design.sizing.margins import HOOP_STRESS, Margin, margins, worst
+from ocs_design.sizing.motion import DrivenWheel, Motion
+from ocs_design.sizing.mounting import Mounting
+from ocs_design.sizing.selection.prices import mass_prices
+from ocs_design.sizing.sized import Sized
+from ocs_design.workflows.flying import trajectories
+
+if TYPE_CHECKING:
+    from ocs_design.sizing.trajectory.plans import Reference
+
+
+def record_margins(
+    resolved: Resolved,
+    designed: Designed,
+    runs: Sequence[Run],
+    plans: Mapping[str, "Reference"],
+) -> tuple[MarginRecord, ...]:
+    """The worst over all maneuvers, as flown, or as planned where nothing was flown."""
+    if designed.choice is None:
+        found = tuple(_without_motor(resolved, designed, runs))
+    else:
+        motions = _flown(runs) or {
+            name: Motion.along(path) for name, path in trajectories(plans).items()
+        }
+        found = _of_drive(designed.choice, designed.device, resolved, motions)
+    wheel, envelope = designed.device.flywheel, resolved.envelope
+    room = (
+        Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"),
+        Margin("height", wheel.height, envelope.height_max, "m"),
+        Margin("rim mass", wheel.rim_mass, envelope.mass_max, "kg"),
+    )
+    return tuple(recorded(MarginRecord, each, margin=each.factor) for each in (*found, *room))
+
+
+def _flown(runs: Sequence[Run]) -> dict[str, Motion]:
+    """Flight from lift-off to touchdown; push-off and landing are no part of a maneuver."""
+    motions = {}
+    for run in runs:
+        if not run.ocs or run.metrics is None:
+            continue
+        series, left, landed = run.series, run.metrics.lift_off_time, run.metrics.touchdown_time
+        begun = np.inf if left is None else left
+        ended = np.inf if landed is None else landed
+        flight = (series.time >= begun) & (series.time <= ended)
+        if series.time[flight].size > 1:
+            motions[run.scenario] = Motion.flown(
+                series.time[flight],
+                series.wheel_speed[flight],
+                series.wheel_torque[flight],
+                series.rate[flight],
+            )
+    return motions
+
+
+def _of_drive(
+    choice: Choice, device: Device, resolved: Resolved, motions: Mapping[str, Motion]
+) -> tuple[Margin, ...]:
+    chosen, stated = choice.chosen, choice.problem.wheel_speed_max
+    wheel = DrivenWheel(
+        chosen.inner_radius,
+        chosen.outer_radius,
+        chosen.height,
+        chosen.material,
+        chosen.motor,
+        chosen.gear,
+        choice.problem.bus_voltage,
+        float("inf") if stated is None else stated,
+        chosen.hub,
+        chosen.cuts,
+    )
+    maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
+    return worst(
+        {
+            name: margins(motion, device.as_flown(maneuvers[name]).axes, wheel)
+            for name, motion in motions.items()
+        }
+    )
+
+
+def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) -> Iterator[Margin]:
+    """What can be said without a motor's figures."""
+    device, wheel = designed.device, designed.device.flywheel
+    driven = [run.metrics for run in runs if run.ocs and run.metrics is not None]
+    limit = device.motor.torque_limit
+    if driven:
+        speed = max(metrics.peak_wheel_speed for metrics in driven)
+        torque = max(metrics.peak_wheel_torque for metrics in driven)
+        capacity = resolved.requirement.wheel_speed_max
+        yield Margin("wheel speed in flight", speed, capacity, "rad/s")
+        yield Margin("wheel torque in flight", torque, limit, "N m")
+    least = max((demand.torque for demand in designed.sized.demands), default=0.0)
+    if least > 0.0:
+        yield Margin("wheel torque, least", least, limit, "N m")
+    if wheel.hoop_stress is not None:
+        strength = resolved.material.yield_strength
+        yield Margin(HOOP_STRESS, wheel.hoop_stress, strength, "Pa")
+
+
+def record_selection(choice: Choice) -> SelectionRecord:
+    """How the device came to be."""
+    problem, chosen, selection, refined = (
+        choice.problem,
+        choice.chosen,
+        choice.selection,
+        choice.co_design,
+    )
+    return SelectionRecord(
+        bus_voltage=problem.bus_voltage,
+        reserve=RESERVE,
+        candidates=selection.candidates,
+        binding_maneuver=chosen.binding_maneuver,
+        binding=chosen.binding,
+        tasks=chosen.demands,
+        ranking=tuple(
+            recorded(
+                RankedRecord,
+                entry,
+                motor=entry.motor.name,
+                gear=entry.gear.name,
+                gear_ratio=entry.gear.ratio,
+                material=entry.material.name,
+                wheels_mass=2.0 * entry.wheel_mass,
+                motors_mass=2.0 * (entry.motor.mass or 0.0),
+                gears_mass=2.0 * entry.gear.mass,
+                housings_mass=2.0 * entry.printed_mass,
+            )
+            for entry in selection.ranking
+        ),
+        rejections=tuple(
+            recorded(RejectionRecord, entry, reason=str(entry.reason))
+            for entry in selection.rejections
+        ),
+        co_design=None
+        if refined is None
+        else recorded(
+            CoDesignRecord,
+            refined,
+            mass=refined.found_mass,
+            violation=refined.fine_violation,
+            remark=refined.note,
+        ),
+        prices=tuple(
+            recorded(PriceRecord, price, limit=price.limit.name)
+            for price in mass_prices(problem, selection.best)
+        ),
+    )
+
+
+FOLDER = "validation"
+
+
+def record_run(run: Run) -> ValidationRecord:
+    """One flight, without its time series."""
+    metrics = {} if run.metrics is None else asdict(run.metrics)
+    return recorded(ValidationRecord, run, metrics=metrics)
+
+
+def write_runs(runs: Sequence[Run], folder: Path) -> None:
+    """One CSV a flight, below `folder`."""
+    if runs:
+        (folder / FOLDER).mkdir()
+    for run in runs:
+        path = folder / FOLDER / series_file(run.scenario, ocs=run.ocs)
+        export_time_series(run.series.columns(), path)
+
+
+HOUSING_ASSUMED = (
+    f"Housing: PETG, wall {format_quantity(WALL, 'mm')}, {format_quantity(CLEARANCE, 'mm')} clear: "
+    f"r_max + {format_quantity(WALL + CLEARANCE, 'mm')}."
+)
+
+
+def record_design(
+    robot: Robot,
+    resolved: Resolved,
+    designed: Designed,
+    runs: Sequence[Run],
+    *,
+    plans: Mapping[str, "Reference"],
+    control: ControlRecord | None = None,
+    uncertainty: Mapping[str, str] | None = None,
+    mounting: Mounting | None,
+    warnings: tuple[str, ...] = (),
+    seed: int,
+    files: Mapping[str, str],
+    package_paths: Mapping[str, Path] | None = None,
+) -> OcsDesign:
+    """The whole artefact."""
+    return OcsDesign(
+        schema_version=SCHEMA_VERSION,
+        tool=Tool(name="ocs-design", version=__version__),
+        seed=seed,
+        robot=RobotRecord.of(robot, package_paths),
+        requirement=_requirement(resolved, designed.sized),
+        ocs=_ocs(robot, designed, mounting, warnings),
+        sizing=recorded(
+            SizingRecord, designed.sized, shadow_prices=dict(designed.sized.shadow_prices)
+        ),
+        selection=None if designed.choice is None else record_selection(designed.choice),
+        margins=record_margins(resolved, designed, runs, plans),
+        validation=tuple(map(record_run, runs)),
+        control=control,
+        reality=uncertainty or {},
+        files=files,
+    )
+
+
+def _requirement(resolved: Resolved, sized: Sized) -> RequirementRecord:
+    requirement, speed = resolved.requirement, sized.wheel_speed_max
+    roll, pitch = np.max([demand.momentum for demand in sized.demands], axis=0, initial=0.0) / speed
+    housing = () if resolved.choice is None else (HOUSING_ASSUMED,)
+    common = {field.name for field in fields(Maneuver)}
+    return RequirementRecord(
+        maneuvers=tuple(
+            recorded(
+                ManeuverRecord,
+                maneuver,
+                kind=kind_of(maneuver)[0],
+                parameters={
+                    name: value for name, value in asdict(maneuver).items() if name not in common
+                },
+            )
+            for maneuver in requirement.maneuvers
+        ),
+        rate_change=requirement.rate_change,
+        wheel_speed_max=speed,
+        required_inertia=AxisInertia(pitch=float(pitch), roll=float(roll)),
+        spin_inertia_by_hand=requirement.spin_inertia,
+        demands=tuple(
+            recorded(
+                DemandRecord,
+                demand,
+                roll_momentum=float(demand.momentum[0]),
+                pitch_momentum=float(demand.momentum[1]),
+            )
+            for demand in sized.demands
+        ),
+        assumptions=(*resolved.assumptions, *housing),
+    )
+
+
+def _ocs(
+    robot: Robot, designed: Designed, mounting: Mounting | None, warnings: tuple[str, ...]
+) -> OcsRecord:
+    device, sized = designed.device, designed.sized
+    drift = heading_drift(sized.total.inertia)
+    left, right = device.modules
+    return OcsRecord(
+        incidence=device.incidence,
+        incidence_criterion=designed.criterion,
+        incidence_by_criterion={
+            str(name): angle for name, angle in sized.incidence_by_criterion.items()
+        },
+        incidence_by_criterion_robot_alone={
+            str(name): angle for name, angle in sized.incidence_by_criterion_robot.items()
+        },
+        heading_drift=(float(drift[0]), float(drift[1])),
+        spin_inertia=device.flywheel.spin_inertia,
+        mass_total=device.mass,
+        total_mass=sized.total.mass,
+        total_inertia=matrix(sized.total.inertia),
+        total_com=vector(sized.total.com),
+        modules=(
+            ModuleRecord(name="left", axis=vector(left.axis), position=vector(left.position)),
+            ModuleRecord(name="right", axis=vector(right.axis), position=vector(right.position)),
+        ),
+        clearance=None if mounting is None else mounting.nearest,
+        flywheel=device.flywheel,
+        motor=device.motor,
+        carrier=device.carrier,
+        warnings=(*device_warnings(device, robot.mass_properties), *warnings),
+        fitting=(*device_notes(device), *trunk_notes(robot, device)),
+        mounting=None
+        if mounting is None
+        else MountingRecord(
+            landing=mounting.landing,
+            reachable=tuple(
+                ReachRecord(part=reach.part, joints=dict(reach.joints))
+                for reach in mounting.reachable
+            ),
+            com_shift=vector(mounting.com_shift),
+            inertia_change=vector(mounting.inertia_change),
+        ),
+    )

@@ -1,0 +1,185 @@
+"""Robot, device and maneuvers made again from the records of `design.json`.
+
+Writing parts starts here, so nothing below imports a simulator or a solver.
+"""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ocs_design.common.errors import OcsError, RobotError
+from ocs_design.device.checks import check_device
+from ocs_design.device.device import Device, Module
+from ocs_design.device.records import (
+    ManeuverRecord,
+    OcsRecord,
+    RobotRecord,
+)
+from ocs_design.requirement.maneuver import MANEUVER_KINDS, Maneuver
+from ocs_design.requirement.values import Quantities
+from ocs_design.robot.leg_geometry import BASE_FRAME
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.robot import Format, Mount, Robot
+from ocs_design.robot.source import STANDARD_INPUT, read_source
+from ocs_design.robot.tree import Placement
+
+# Figures of a maneuver that its record has by themselves.
+_APART = {"name", "gravity", "incidence"}
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedSeat:
+    """Seat of the device as the design records it (`export.seat.Seat`)."""
+
+    trunk: str
+    mount: Mount | None
+
+
+def device_of(record: OcsRecord) -> Device:
+    """The device that was designed, to the last digit.
+
+    Raises:
+        OcsError: no such device can be: the file was edited.
+    """
+    left, right = (
+        Module(each.name, np.array(each.axis), np.array(each.position)) for each in record.modules
+    )
+    device = Device(record.incidence, (left, right), record.flywheel, record.motor, record.carrier)
+    check_device(device)
+    return device
+
+
+def seat_of(record: RobotRecord) -> RecordedSeat:
+    """Seat of the device on its robot."""
+    mount = record.mount
+    if mount is None:
+        return RecordedSeat(record.trunk, None)
+    placement = Placement(np.array(mount.rotation), np.array(mount.position))
+    return RecordedSeat(record.trunk, Mount(mount.link, placement))
+
+
+def maneuver_of(record: ManeuverRecord) -> Maneuver:
+    """The maneuver that was asked for.
+
+    Raises:
+        OcsError: it is of no known kind, or not with these figures.
+    """
+    kind, stated = MANEUVER_KINDS.get(record.kind), set(record.parameters)
+    if kind is None or not set(kind.required) - _APART <= stated <= set(kind.values) - _APART:
+        raise OcsError(f"maneuver {record.name!r}: no {record.kind} with these figures is known")
+    for name, value in record.parameters.items():
+        # One figure, or as many as it must be.
+        read, count = kind.values[name], len(value) if isinstance(value, tuple) else None
+        if count not in (read.counts if isinstance(read, Quantities) else (None,)):
+            raise OcsError(f"maneuver {record.name!r}: {name} of a {record.kind} is not {value!r}")
+    return kind.maneuver(
+        name=record.name,
+        gravity=record.gravity,
+        incidence=record.incidence,
+        **record.parameters,
+    )
+
+
+def robot_of(record: RobotRecord, path: Path | str, package_paths: Mapping[str, Path]) -> Robot:
+    """The robot read again, in the posture that it was sized in.
+
+    Args:
+        record: of the robot. By hand: it is made from the record alone.
+        path: of its file.
+        package_paths: folder of each package that `package://` addresses name.
+
+    Raises:
+        RobotError: the file lacks the trunk or a joint of the record.
+    """
+    if record.format == Format.MANUAL:
+        (xx, xy, xz), (_, yy, yz), (_, _, zz) = record.inertia
+        return robot_by_hand(record.mass, (xx, yy, zz, xy, xz, yz), record.com, record.name)
+    # A frame that was found, and is no link of the file, is found again.
+    trunk = None if record.mount is not None or record.trunk == BASE_FRAME else record.trunk
+    robot = read_robot(path, trunk=trunk, posture="zero", package_paths=package_paths)
+    known = {*robot.tree.joints, *robot.tree.body_of_link}
+    missing = [name for name in (*record.posture, record.trunk) if name not in known]
+    if missing:
+        raise RobotError(
+            f"{path}: has no joint or link '{missing[0]}', which the design names",
+            hint="give the robot that the device was sized for, or size one for this robot",
+        )
+    values = robot.tree.complete(record.posture)
+    return replace(
+        robot,
+        posture=values,
+        posture_name=record.posture_name,
+        standing_height=record.standing_height,
+        mass_properties=robot.tree.locked_mass_properties(values, robot.trunk),
+    )
+
+
+@dataclass(frozen=True)
+class Whereabouts:
+    """Places to look for a robot, and what to say if it is not there.
+
+    Attributes:
+        design: path of the `design.json`.
+        robot_file: of the robot, in place of the one that the design names. It may be another
+            file than the device was sized for, which is told.
+        package_paths: folders of packages, over those that the design names.
+        hint: what a user can do where the robot cannot be had.
+    """
+
+    design: Path
+    robot_file: Path | None
+    package_paths: Mapping[str, Path]
+    hint: str
+
+
+def read_recorded_robot(
+    record: RobotRecord, where: Whereabouts, *, strict: bool
+) -> tuple[Robot, tuple[str, ...]]:
+    """The robot, and warnings about it that were not there when the device was sized.
+
+    Raises:
+        RobotError: it cannot be had or has changed; with `strict`, also if there is any warning.
+    """
+    bases = (Path(), where.design.absolute().parent.parent)
+    # A folder as it was given, against the first base that has it.
+    folders = {
+        name: next((base / text for base in bases if (base / text).is_dir()), Path(text))
+        for name, text in record.package_paths.items()
+    }
+    source = where.robot_file or _recorded_file(record, bases, where.hint)
+    robot = robot_of(record, source, {**folders, **where.package_paths})
+    warnings = tuple(warning for warning in robot.warnings if warning not in record.warnings)
+    if robot.sha256 != record.sha256:
+        changed = (
+            f"{robot.source}: not the file that the device was sized for; mass {robot.mass:.4g} "
+            f"kg, then {record.mass:.4g} kg"
+        )
+        warnings = (changed, *warnings)
+    if strict and warnings:
+        raise RobotError("--strict: " + "; ".join(warnings), hint="mend the robot's file")
+    return robot, warnings
+
+
+def _recorded_file(record: RobotRecord, bases: Collection[Path], hint: str) -> Path:
+    """The file that the device was sized for, as it was then.
+
+    Raises:
+        RobotError: it is gone, has changed, or was no file.
+    """
+    if record.format == Format.MANUAL:
+        return Path(record.source)
+    if record.source == STANDARD_INPUT:
+        raise RobotError("the robot was read from standard input", hint=hint)
+    found = [base / record.source for base in bases if (base / record.source).is_file()]
+    if not found:
+        raise RobotError(f"{record.source}: the robot's file is not there any more", hint=hint)
+    for path in found:
+        if read_source(path).sha256 == record.sha256:
+            return path
+    raise RobotError(
+        f"{found[0]}: the robot's file has changed since the device was sized for it",
+        hint=f"size it again, or put the device on it as it is with --robot {found[0]}",
+    )

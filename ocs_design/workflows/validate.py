@@ -1,0 +1,287 @@
+"""`ocs-design validate` on one page: read, fly as designed, fly as it might be built."""
+
+import hashlib
+from collections.abc import Mapping
+from contextlib import closing, nullcontext
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+from pathlib import Path
+
+import msgspec
+
+from ocs_design import __version__
+from ocs_design.common.errors import OcsError, UsageError
+from ocs_design.device.records import OcsDesign, design_to_json
+from ocs_design.export.film import Take, film_model
+from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
+from ocs_design.export.watching import check_display, watch_takes
+from ocs_design.monte_carlo.campaign import Campaign, Case, make_campaign, read_case, replayed
+from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
+from ocs_design.monte_carlo.results import write_results
+from ocs_design.monte_carlo.running import Cluster, ThisMachine, run_campaign
+from ocs_design.monte_carlo.summary import SampleRecord, Validated, summarised
+from ocs_design.monte_carlo.uncertainty import Uncertainty
+from ocs_design.report.text.console import Steps
+from ocs_design.requirement.specification import Specification
+from ocs_design.simulation.engine import POSE_RATE
+from ocs_design.simulation.scenario import Run, refusal, run_scenarios
+from ocs_design.workflows.flying import Task, flight_options, read_task
+from ocs_design.workflows.recording import record_run, write_runs
+
+SCHEMA_VERSION = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """What was asked for.
+
+    Attributes:
+        design: `design.json` or its folder. stated: `[validation]` and `[reality]`.
+        robot_file, package_paths, strict: see `read_task`.
+        samples: to fly at most; None: the flights as designed alone.
+        until_width: of the intervals, that fewer samples will do for; None: all are flown.
+        scheduler: address of a Dask cluster; None: this machine.
+        sample: to fly alone. replay: file of a case to fly alone.
+        out: folder to write to; None: nothing is kept.
+        force: replace what is there, also the samples of another campaign.
+        view: whether the runs are to be looked at.
+    """
+
+    design: Path
+    stated: Specification = field(default_factory=Specification)
+    robot_file: Path | None = None
+    package_paths: Mapping[str, Path] = field(default_factory=dict)
+    strict: bool = False
+    samples: int | None = None
+    until_width: float | None = None
+    scheduler: str | None = None
+    sample: int | None = None
+    replay: Path | None = None
+    out: Path | None = None
+    force: bool = False
+    view: bool = False
+
+    def check(self) -> None:
+        """Refuse what contradicts itself or makes no sense.
+
+        Raises:
+            UsageError: options that exclude or need each other, no samples, or no width between 0
+                and 1.
+            MissingToolError: there is no display to look at the runs.
+        """
+        wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
+        given = [name for name, value in wanted.items() if value is not None]
+        if len(given) > 1:
+            raise UsageError(f"{' and '.join(given)} exclude each other", hint="give one")
+        if self.samples is None and (self.until_width is not None or self.scheduler is not None):
+            raise UsageError(
+                "--until-width and --scheduler are about samples", hint="add --samples N"
+            )
+        if self.samples is not None and self.samples < 1:
+            raise UsageError(f"--samples {self.samples}: must be 1 or more")
+        if self.until_width is not None and not 0.0 < self.until_width < 1.0:
+            raise UsageError(f"--until-width {self.until_width:.4g}: must be between 0 and 100 %")
+        if self.view:
+            check_display()
+
+    @property
+    def pose_rate(self) -> float | None:
+        """Rate of the poses that are kept for the video [1/s]."""
+        return POSE_RATE if self.view else None
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What came of it.
+
+    Attributes:
+        found: the record. folder: that was written to, if any. files: in it.
+        task: that was flown. runs: that came of it.
+    """
+
+    found: Validated
+    folder: Path | None
+    files: tuple[str, ...]
+    task: Task
+    runs: tuple[Run, ...]
+
+    @property
+    def exit_code(self) -> int:
+        """0, or 1 if a scenario does not pass with the device."""
+        return self.found.exit_code
+
+
+def validate_design(request: Request, steps: Steps) -> Answer:
+    """Do it.
+
+    Raises:
+        OcsError: see `exceptions`.
+    """
+    request.check()
+    if request.out is not None and request.samples is None:
+        check_target(request.out, force=request.force)
+    with steps.step("read the design, plan its flights") as step:
+        task = read_task(
+            request.design,
+            request.stated,
+            robot_file=request.robot_file,
+            package_paths=request.package_paths,
+            strict=request.strict,
+        )
+        step.note = task.robot.name
+    with steps.step("fly the maneuvers with and without the device") as step:
+        runs = run_scenarios(
+            task.robot,
+            task.device,
+            task.maneuvers,
+            options=replace(flight_options(task.control), pose_rate=request.pose_rate),
+            references=task.references,
+            jumps=task.jumps,
+            progress=step.update,
+        )
+    if request.samples is not None:
+        return _many(request, task, runs, steps)
+    if request.sample is not None or request.replay is not None:
+        campaign = _campaign(request, task, runs)
+        if request.replay is not None:
+            sample = case_for(task, request.replay).drawn()
+        else:
+            sample = campaign.sample(request.sample or 0)
+        with steps.step(f"fly sample {sample.index} of seed {sample.seed}"):
+            flown = replayed(campaign, sample, pose_rate=request.pose_rate)
+        found = replace(_validated(task, flown), sample=SampleRecord.of(sample))
+        return _kept(request, task, flown, found)
+    return _kept(request, task, runs, _validated(task, runs))
+
+
+def watch(answer: Answer) -> None:
+    """Show every run with the device, in a window each, one after the other.
+
+    Raises:
+        MissingToolError: no window can be opened.
+    """
+    task, shown = answer.task, [run for run in answer.runs if run.ocs]
+    device_of = {each.name: task.device.as_flown(each) for each in task.maneuvers}
+    takes = [
+        Take(film_model(task.robot, device_of[run.scenario], ocs=True), run.poses.qpos)
+        for run in shown
+        if run.poses is not None
+    ]
+    watch_takes(takes, 1.0 / POSE_RATE)
+
+
+def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Answer:
+    """Fly samples of the design as it might be built, keep them, and say what they show."""
+    asked, folder = request.samples or 0, request.out
+    campaign = _campaign(request, task, runs)
+    storage = None
+    if folder is not None:
+        # What the numbers of a campaign follow from.
+        identity = Identity(
+            schema_version=SCHEMA_VERSION,
+            tool=__version__,
+            simulator=version("mujoco"),
+            design=design_hash(task),
+            robot=task.robot.sha256,
+            reality=campaign.uncertainty.written(),
+            seed=campaign.seed,
+            hold=campaign.hold,
+            desaturate=task.control.desaturate,
+        )
+        storage = Storage(folder, identity, force=request.force)
+    cluster = None if request.scheduler is None else Cluster(request.scheduler)
+    leaving = nullcontext() if cluster is None else closing(cluster)
+    with leaving, steps.step(f"fly {asked:,} samples") as step:
+        outcomes = run_campaign(
+            campaign,
+            blocks_of(asked),
+            workers=cluster or ThisMachine(),
+            storage=storage,
+            until_width=request.until_width,
+            progress=step.update,
+        )
+        record = summarised(campaign, outcomes, asked)
+        step.note = f"{record.samples:,} flown"
+    found = replace(_validated(task, runs), monte_carlo=record)
+    if folder is None:
+        return Answer(found, None, (), task, runs)
+    files = write_results(campaign, outcomes, record, folder, design=design_hash(task))
+    names = tuple(str(file.relative_to(folder)) for file in files)
+    return Answer(found, folder, names, task, runs)
+
+
+def _campaign(request: Request, task: Task, runs: tuple[Run, ...]) -> Campaign:
+    """Everything that samples of this design follow from; `runs` show what its legs bear.
+
+    Raises:
+        OcsError: no flight of this robot says anything.
+    """
+    if unclear := refusal(task.robot):
+        raise OcsError(unclear, hint="name a link of the trunk whose z axis points up by --trunk")
+    seed = request.stated.validation.seed
+    return make_campaign(
+        task.robot,
+        task.device,
+        task.maneuvers,
+        options=flight_options(task.control),
+        references=task.references,
+        jumps=task.jumps,
+        can_stand=[run.can_stand for run in runs if run.ocs],
+        uncertainty=Uncertainty.of(task.uncertainty, task.robot, task.device),
+        seed=task.design.seed if seed is None else seed,
+    )
+
+
+def design_hash(task: Task) -> str:
+    """SHA-256 of what of a design is flown: device, maneuvers and wheel law."""
+    flown = (task.design.ocs, task.design.requirement.maneuvers, task.control)
+    return hashlib.sha256(msgspec.json.encode(flown, order="deterministic")).hexdigest()
+
+
+def case_for(task: Task, path: Path) -> Case:
+    """Case that was kept of this design.
+
+    Raises:
+        OcsError: it cannot be read, or is of another design.
+    """
+    case = read_case(path)
+    if case.design != design_hash(task):
+        raise OcsError(
+            f"{path}: is a case of another design than {task.path}",
+            hint="give the design that it was kept for, flown under the same law",
+        )
+    return case
+
+
+def _validated(task: Task, runs: tuple[Run, ...]) -> Validated:
+    """Record of these runs."""
+    return Validated(
+        schema_version=SCHEMA_VERSION,
+        design=str(task.path),
+        robot=task.robot.name,
+        warnings=task.warnings,
+        validation=tuple(map(record_run, runs)),
+    )
+
+
+def _kept(request: Request, task: Task, runs: tuple[Run, ...], found: Validated) -> Answer:
+    """Answer whose time series are written, with a design that has these flights, if asked for."""
+    if request.out is None:
+        return Answer(found, None, (), task, runs)
+    design = write_flights(task, runs, found, request.out, force=request.force)
+    return Answer(found, request.out, tuple(design.files), task, runs)
+
+
+def write_flights(
+    task: Task, runs: tuple[Run, ...], found: Validated, folder: Path, *, force: bool
+) -> OcsDesign:
+    """Write the time series, and the design with these flights in place of its own.
+
+    Raises:
+        OutputError: the folder cannot be written, or exists already.
+    """
+    with staged_folder(folder, force=force) as staging:
+        write_runs(runs, staging)
+        design = replace(task.design, validation=found.validation, files=file_hashes(staging))
+        (staging / DESIGN_FILE).write_bytes(design_to_json(design))
+    return design

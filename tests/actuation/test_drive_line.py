@@ -1,0 +1,166 @@
+"""The drive at the wheel: data-sheet figures, gears, reserve, and what may be missing."""
+
+import math
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+from ocs_design.actuation.drive import (
+    Drive,
+    DriveLine,
+    armature,
+    drive_line,
+    missing_figures,
+    rotor_share,
+    speed_limit,
+)
+from ocs_design.actuation.motor import DIRECT, Motor
+from ocs_design.common.errors import OcsError
+
+EC45 = Motor(
+    name="EC 45 flat 70 W",
+    maker="maxon",
+    mass=0.141,
+    diameter=0.0428,
+    length=None,
+    torque_constant=0.0369,
+    resistance=0.608,
+    rated_voltage=24.0,
+    no_load_speed=6110 * math.pi / 30.0,
+    speed_max=1e4 * math.pi / 30.0,
+    peak_torque=1.0,
+    peak_current=39.5,
+    continuous_torque=0.128,
+    rotor_inertia=1.81e-5,
+    source="data sheet",
+    confidence="good",
+)
+
+
+def gear(ratio, **changes):
+    return replace(DIRECT, name="g", ratio=ratio, efficiency=0.9, **changes)
+
+
+def test_the_example_of_the_theory():
+    """EC 45 flat 70 W at 24 V: w_0 650.4, tau_s 1.4566 (docs/theory.md)."""
+    line = drive_line(EC45, DIRECT, 24.0)
+    assert line.no_load_speed == pytest.approx(650.4, abs=0.05)
+    assert line.stall_torque == pytest.approx(1.4566, abs=5e-5)
+    assert line.torque_limit == 1.0
+    assert line.speed_max == EC45.speed_max
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
+def test_a_gear_without_loss_keeps_the_power(ratio):
+    direct = drive_line(EC45, DIRECT, 24.0)
+    geared = drive_line(EC45, replace(gear(ratio), efficiency=1.0), 24.0)
+    assert geared.stall_torque * geared.no_load_speed == pytest.approx(
+        direct.stall_torque * direct.no_load_speed, rel=1e-14
+    )
+    assert geared.no_load_speed * ratio == pytest.approx(direct.no_load_speed, rel=1e-14)
+    assert geared.torque_limit == pytest.approx(ratio * direct.torque_limit, rel=1e-14)
+
+
+def test_every_limit_of_a_gear_binds():
+    free = gear(2.0)
+    assert drive_line(EC45, free, 24.0).torque_limit == pytest.approx(2.0 * 0.9)
+    assert drive_line(EC45, replace(free, torque_max=1.1), 24.0).torque_limit == 1.1
+    assert drive_line(EC45, free, 24.0).speed_max == EC45.speed_max / 2.0
+    assert drive_line(EC45, replace(free, motor_speed_max=600.0), 24.0).speed_max == 300.0
+    assert drive_line(EC45, replace(free, wheel_speed_max=200.0), 24.0).speed_max == 200.0
+
+
+def test_a_motor_without_stated_highest_speed_keeps_to_its_rated_voltage():
+    unstated = replace(EC45, speed_max=None)
+    assert speed_limit(unstated) == EC45.no_load_speed
+    assert speed_limit(replace(unstated, no_load_speed=None)) == pytest.approx(24.0 / 0.0369)
+    at_48 = drive_line(unstated, DIRECT, 48.0)
+    assert at_48.speed_max == EC45.no_load_speed < at_48.no_load_speed
+
+
+def test_the_reserve_leaves_the_mechanical_limit():
+    line = DriveLine(np.array([1.0, 2.0]), 650.0, 0.5, 700.0)
+    reserved = line.reserved(0.9)
+    np.testing.assert_allclose(reserved.stall_torque, [0.9, 1.8])
+    assert (reserved.no_load_speed, reserved.torque_limit) == (585.0, 0.45)
+    assert reserved.speed_max == 700.0
+    assert line.reserved().no_load_speed == 0.95 * 650.0
+
+
+@pytest.mark.parametrize(
+    ("field", "name"),
+    [
+        ("mass", "mass"),
+        ("torque_constant", "torque constant"),
+        ("resistance", "resistance"),
+        ("peak_torque", "peak torque or current"),
+    ],
+)
+def test_missing_figures_are_named(field, name):
+    motor = replace(EC45, **{field: None})
+    assert missing_figures(motor, DIRECT) == (name,)
+    if field != "mass":
+        with pytest.raises(OcsError, match=name):
+            drive_line(motor, DIRECT, 24.0)
+
+
+def test_a_speed_limit_needs_some_figure():
+    motor = replace(EC45, speed_max=None, no_load_speed=None, rated_voltage=None)
+    assert missing_figures(motor, DIRECT) == ("highest speed or rated voltage",)
+    assert missing_figures(EC45, DIRECT) == ()
+
+
+@pytest.mark.parametrize(
+    ("ratio", "reverses", "needed"),
+    [(1.0, False, False), (0.5, False, False), (2.0, False, True), (0.5, True, True)],
+)
+def test_the_rotor_may_be_left_out_only_where_that_is_conservative(ratio, reverses, needed):
+    """The rotor must not slow a wheel of given rim down: I_m (1 / h)^2 falls with J_r."""
+    stage = gear(ratio, reverses=reverses)
+    missing = missing_figures(replace(EC45, rotor_inertia=None), stage)
+    assert missing == (("rotor inertia",) if needed else ())
+    rim, rotor = 7e-5, 1.8e-5
+    h = rim + rotor_share(rotor, stage)
+    moved = h + armature(rotor, stage)
+    # Torque-limited, the time goes with I_m / h; at a given speed, the sweep goes with h.
+    assert (moved / h > 1.0 or h < rim) == needed
+
+
+def test_spin_and_moved_inertia_are_those_of_rim_rotor_and_gear():
+    for stage in (gear(4.0, reverses=True, inertia=1e-6), gear(0.4, inertia=2e-6)):
+        sense = -1.0 if stage.reverses else 1.0
+        rim, rotor, N = 7e-5, 1.8e-5, stage.ratio
+        h = rim + rotor_share(rotor, stage)
+        # Momentum of rim and rotor at wheel speed 1; twice their energy and the gear's.
+        assert h == pytest.approx(rim + rotor * (sense * N), rel=1e-14)
+        moved = rim + rotor * N**2 + stage.inertia
+        assert h + armature(rotor, stage) == pytest.approx(moved, rel=1e-14)
+    assert armature(1.8e-5, DIRECT) == 0.0
+
+
+def test_a_drive_has_every_figure_of_its_motor_that_the_gear_leaves_alone():
+    """A new field of `Motor` travels to `design.json` as soon as `Drive` has one of its name."""
+    figures = {
+        item.name: f"some {item.name}" if item.type is str else 0.25 * number
+        for number, item in enumerate(fields(Motor), 1)
+        if item.name not in {"mounting"}
+    }
+    found = Motor(**figures, mounting=None)
+    gear = replace(DIRECT, name="2:1", ratio=2.0, efficiency=0.9)
+    drive = Drive.of(found, gear, 24.0)
+    changed = {
+        "no_load_speed": 24.0 / (2.0 * found.torque_constant),
+        "speed_max": found.speed_max / 2.0,
+        "rotor_inertia": 2.0 * found.rotor_inertia,
+        "continuous_torque": 1.8 * found.continuous_torque,
+        "saturation_torque": 1.8 * found.saturation_torque,
+    }
+    shared = {item.name for item in fields(Motor)} & {item.name for item in fields(Drive)}
+    assert {"name", "source", "resistance", "no_load_current", "length"} <= shared
+    for name in shared:
+        if name in changed:
+            assert getattr(drive, name) == pytest.approx(changed[name], rel=1e-15), name
+        else:
+            assert getattr(drive, name) == getattr(found, name), name
+    assert (drive.gear, drive.gear_ratio, drive.bus_voltage) == ("2:1", 2.0, 24.0)

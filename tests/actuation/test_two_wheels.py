@@ -1,0 +1,203 @@
+"""A trunk with two driven wheels, body by body, against the reduced inertia and its closed forms.
+
+Trunk, rims, rotors and gear wheels are bodies with energies of their own; Lagrange's equations
+`M q'' = Q` for the turning trunk and both wheels are integrated with motors that know their data
+sheet and when to brake. Nothing here uses a reduced inertia.
+"""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from ocs_design.actuation.drive import DriveLine, armature, rotor_share
+from ocs_design.actuation.motor import DIRECT, Gear
+from ocs_design.actuation.slew import slew_profile
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_pair import WheelPairTask
+
+INF = np.inf
+TRUNK, TRANSVERSE, ROTOR = np.array([0.030, 0.0535]), 4e-5, 1.81e-5
+LINE = DriveLine(1.4566, 650.4, 1.0, INF)
+BELT = Gear("belt", 3.0, 1.0, 0.0, 2e-6, INF, INF, INF, False, "test")
+SPUR = Gear("spur", 2.5, 1.0, 0.0, 1e-6, INF, INF, INF, True, "test")
+FASTER = Gear("faster", 0.5, 1.0, 0.0, 0.0, INF, INF, INF, False, "test")
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two wheels with equal rims at an incidence on a trunk free to roll and pitch."""
+
+    rim: float
+    gear: Gear
+    incidence: float
+    product: float = 0.0
+
+    @property
+    def mass_matrix(self):
+        """Of roll and pitch rate and both wheel speeds, (4, 4), from the energy of each body."""
+        s, c = np.sin(self.incidence), np.cos(self.incidence)
+        sense = -1.0 if self.gear.reverses else 1.0
+        matrix = np.diag([*TRUNK, 0.0, 0.0])
+        matrix[0, 1] = matrix[1, 0] = self.product
+        for wheel, side in enumerate((1.0, -1.0)):
+            spin, rotor, gearing = np.zeros((3, 4))
+            along, across = np.array([side * s, c, 0, 0]), np.array([c, -side * s, 0, 0])
+            spin[:] = rotor[:] = along
+            spin[2 + wheel] = gearing[2 + wheel] = 1.0
+            rotor[2 + wheel] = sense * self.gear.ratio
+            matrix += self.rim * np.outer(spin, spin) + TRANSVERSE * np.outer(across, across)
+            matrix += ROTOR * np.outer(rotor, rotor) + self.gear.inertia * np.outer(
+                gearing, gearing
+            )
+        return matrix
+
+    @property
+    def spin_inertia(self):
+        return self.rim + rotor_share(ROTOR, self.gear)
+
+    @property
+    def armature(self):
+        return armature(ROTOR, self.gear)
+
+    def task(self, angle, rate):
+        """Turn by `angle`, from `rate` with wheels at rest, to rest: P and L."""
+        whole = self.mass_matrix[:2, :2]
+        inertia = TiltInertia(np.diag(whole), whole[0, 1])
+        return WheelPairTask(whole @ angle, whole @ rate, np.nan, inertia, self.incidence)
+
+
+def motor_torque(speed, direction):
+    """From full voltage in `direction`, current clipped, at the wheel [N m]."""
+    torque = LINE.stall_torque * (direction - speed / LINE.no_load_speed)
+    return np.clip(torque, -LINE.torque_limit, LINE.torque_limit)
+
+
+def flight(pair, rate, drive, times):
+    """State (angles, wheel angles, rates, wheel speeds) at the end; `drive(k, W, M)` gives Q."""
+    matrix = pair.mass_matrix
+    state = np.concatenate([np.zeros(4), rate, np.zeros(2)])
+    for phase, (start, end) in enumerate(pairwise(times)):
+
+        def slope(_, y, phase=phase):
+            return np.concatenate([y[4:], np.linalg.solve(matrix, drive(phase, y[6:], matrix))])
+
+        answer = solve_ivp(slope, (start, end), state, method="DOP853", rtol=1e-12, atol=1e-13)
+        state = answer.y[:, -1]
+    return state
+
+
+PAIRS = [
+    Pair(9e-5, DIRECT, 0.0),
+    Pair(9e-5, DIRECT, np.radians(40.0)),
+    Pair(4e-5, BELT, np.radians(25.0)),
+    Pair(9e-5, SPUR, np.radians(40.0)),
+    Pair(8e-5, FASTER, np.radians(60.0)),
+    Pair(6e-3, DIRECT, np.radians(20.0)),
+]
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+@pytest.mark.parametrize(("angle", "rate"), [(0.5, 0.0), (0.15, 0.6), (4.0, 0.0)])
+def test_a_slew_about_pitch(pair, angle, rate):
+    """Both motors on their limits turn the trunk by the angle and leave it at rest."""
+    load = pair.task([0.0, angle], [0.0, rate]).load()
+    profile = slew_profile(
+        load.angle(pair.spin_inertia),
+        load.reduced_inertia(pair.spin_inertia, pair.armature),
+        LINE,
+        load.final_speed(pair.spin_inertia),
+    )
+
+    def drive(phase, speeds, matrix):
+        torque = motor_torque(speeds, (1.0, -1.0)[phase])
+        return np.concatenate([np.zeros(2), torque])
+
+    times = [0.0, float(profile.brake_from), float(profile.end)]
+    state = flight(pair, [0.0, rate], drive, times)
+    # The trunk turns against its wheels.
+    assert state[:2] == pytest.approx([0.0, -angle], abs=1e-8 * angle)
+    assert state[4:6] == pytest.approx([0.0, 0.0], abs=1e-8)
+    assert state[6:] == pytest.approx([float(profile.final_speed)] * 2, rel=1e-8, abs=1e-6)
+    turned = float(profile.angle(profile.end))
+    assert state[2:4] == pytest.approx([turned, turned], rel=1e-8)
+
+
+@pytest.mark.parametrize("pair", PAIRS[1:])
+@pytest.mark.parametrize("angle", [(0.3, 0.5), (0.5, 0.1), (0.4, 0.0), (0.02, 0.9)])
+def test_a_slew_about_both_axes(pair, angle):
+    """The busier wheel on its limits, the other one in proportion, and never beyond its own.
+
+    Small rates: the gyroscopic coupling of both axes is left to the full simulation.
+    """
+    load = pair.task(angle, [0.0, 0.0]).load()
+    profile = slew_profile(
+        load.angle(pair.spin_inertia),
+        load.reduced_inertia(pair.spin_inertia, pair.armature),
+        LINE,
+    )
+    roll, pitch = angle * np.diag(pair.mass_matrix)[:2]
+    roll, pitch = roll / np.sin(pair.incidence), pitch / np.cos(pair.incidence)
+    part = (pitch - roll) / (pitch + roll)
+    torques = []
+
+    def drive(phase, speeds, matrix):
+        """The second torque is what keeps the second wheel at its part of the first one's speed."""
+        first = motor_torque(speeds[0], (1.0, -1.0)[phase])
+        inverse = np.linalg.inv(matrix)[2:, 2:]
+        second = first * (part * inverse[0, 0] - inverse[1, 0])
+        second /= inverse[1, 1] - part * inverse[0, 1]
+        torques.append((second, *speeds))
+        return np.array([0.0, 0.0, first, second])
+
+    times = [0.0, float(profile.brake_from), float(profile.end)]
+    state = flight(pair, [0.0, 0.0], drive, times)
+    assert -state[:2] == pytest.approx(angle, abs=1e-8)
+    assert state[4:] == pytest.approx(np.zeros(4), abs=1e-6)
+    second, _, speed = np.array(torques).T
+    assert (second <= motor_torque(speed, 1.0) + 1e-9).all()
+    assert (second >= motor_torque(speed, -1.0) - 1e-9).all()
+
+
+COUPLED = [
+    Pair(9e-5, DIRECT, np.radians(40.0), 0.004),
+    Pair(4e-5, BELT, np.radians(25.0), -0.012),
+    Pair(6e-3, SPUR, np.radians(50.0), 0.012),
+]
+
+
+@pytest.mark.parametrize("pair", COUPLED)
+@pytest.mark.parametrize("angle", [(0.0, 0.5), (0.4, 0.0), (0.3, 0.5), (0.3, -0.5), (-0.1, 0.6)])
+def test_a_slew_of_a_trunk_whose_axes_are_coupled(pair, angle):
+    """Either wheel may be the busier one, and a turn about one axis takes both."""
+    load = pair.task(angle, [0.0, 0.0]).load()
+    profile = slew_profile(
+        load.angle(pair.spin_inertia),
+        load.reduced_inertia(pair.spin_inertia, pair.armature),
+        LINE,
+    )
+    roll, pitch = pair.mass_matrix[:2, :2] @ angle
+    roll, pitch = roll / np.sin(pair.incidence), pitch / np.cos(pair.incidence)
+    turns = np.array([pitch + roll, pitch - roll])
+    busy = int(np.abs(turns).argmax())
+    idle, sense = 1 - busy, np.sign(turns[busy])
+    part, torques = turns[idle] / turns[busy], []
+
+    def drive(phase, speeds, matrix):
+        """See above."""
+        inverse, found = np.linalg.inv(matrix)[2:, 2:], np.zeros(2)
+        found[busy] = sense * motor_torque(sense * speeds[busy], (1.0, -1.0)[phase])
+        found[idle] = found[busy] * (part * inverse[busy, busy] - inverse[idle, busy])
+        found[idle] /= inverse[idle, idle] - part * inverse[busy, idle]
+        torques.append((found[idle], speeds[idle]))
+        return np.concatenate([np.zeros(2), found])
+
+    times = [0.0, float(profile.brake_from), float(profile.end)]
+    state = flight(pair, [0.0, 0.0], drive, times)
+    assert -state[:2] == pytest.approx(angle, abs=1e-8)
+    assert state[4:] == pytest.approx(np.zeros(4), abs=1e-6)
+    second, speed = np.array(torques).T
+    assert (second <= motor_torque(speed, 1.0) + 1e-9).all()
+    assert (second >= motor_torque(speed, -1.0) - 1e-9).all()

@@ -1,0 +1,309 @@
+"""Smallest spin inertia: worked examples, the law that time falls, brute force, reasons."""
+
+import numpy as np
+import pytest
+
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.actuation.slew import slew_profile
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_pair import (
+    SlewReason,
+    WheelPairTask,
+    pair_slew_time,
+    slew_reason,
+    smallest_spin_inertia,
+)
+
+INF = np.inf
+EC45 = DriveLine(1.4566, 650.4, 1.0, INF)
+ANTIGRAVITY = DriveLine(24.0 * 0.025 / 0.4651, 960.0, 0.30, INF)
+ROLL, BODY = 0.030, 0.0535
+"""Inertia of the trunk with the wheels' mass, without their spin inertia [kg m^2]."""
+
+
+def axes(roll, pitch):
+    """Principal axes."""
+    return TiltInertia.uncoupled([roll, pitch])
+
+
+def pitch_turn(degrees, duration, incidence, spin_inertia):
+    """A turn about pitch of a body that carries wheels of that spin inertia."""
+    whole = BODY + 2.0 * np.cos(incidence) ** 2 * spin_inertia
+    return WheelPairTask(
+        [0.0, whole * np.radians(degrees)], [0.0, 0.0], duration, axes(ROLL, whole), incidence
+    )
+
+
+def own_fixed_point(degrees, duration, incidence):
+    """h that does the turn of the very body that carries it."""
+    h = 0.0
+    for _ in range(30):
+        h = float(smallest_spin_inertia(pitch_turn(degrees, duration, incidence, h), EC45))
+    return h
+
+
+def lumped(degrees, incidence, spin_inertia):
+    """The slew of one wheel of 2 cos(a) I_w and 2 cos(a) tau on a body I_b (docs/theory.md).
+
+    At the angle the lumped wheel's I_red / (2 cos a) stands for that of each wheel.
+    """
+    share = 2.0 * np.cos(incidence)
+    wheel = share * spin_inertia
+    xi, reduced = wheel / (wheel + BODY), wheel * BODY / (wheel + BODY)
+    return slew_profile(np.radians(degrees) / xi, reduced / share, EC45)
+
+
+@pytest.mark.parametrize(
+    ("degrees", "duration", "incidence", "published", "exact"),
+    [(30.0, 0.385, 40.0, 9.01e-5, 9.0054e-5), (360.0, 2.0, 0.0, 1.374e-4, 1.37423e-4)],
+)
+def test_worked_examples(degrees, duration, incidence, published, exact):
+    """30 deg in 0.385 s at 40 deg, 360 deg in 2.0 s at 0 (docs/theory.md).
+
+    The published figures lump the two wheels into one on the body's axis. That is exact for wheels
+    on the axis. At an angle only cos(a) of the trunk's rate comes back to a wheel, and the exact
+    figure is smaller in the third digit.
+    """
+    angle = np.radians(incidence)
+    assert float(lumped(degrees, angle, published).end) == pytest.approx(duration, rel=3e-4)
+    h = own_fixed_point(degrees, duration, angle)
+    assert h == pytest.approx(exact, rel=1e-5)
+    assert h <= published * (1.0 + 5e-4)
+    at_own = pair_slew_time(pitch_turn(degrees, duration, angle, h), h, EC45)
+    assert at_own == pytest.approx(duration, rel=1e-12)
+    if incidence == 0.0:
+        assert float(lumped(degrees, angle, h).end) == pytest.approx(duration, rel=1e-12)
+    else:
+        assert float(lumped(degrees, angle, h).end) > duration * (1.0 + 1e-5)
+
+
+def test_the_wheel_of_the_example_peaks_where_published():
+    """6209 rpm."""
+    peak = lumped(30.0, np.radians(40.0), 9.01e-5).peak_speed * 30.0 / np.pi
+    assert peak == pytest.approx(6209.0, rel=1e-3)
+
+
+def test_a_motor_too_weak_for_any_wheel():
+    """Antigravity 4004 at 0.30 N m: 0.494 s at best for 30 deg of pitch at 40 deg."""
+    angle = np.radians(40.0)
+    best = np.sqrt(4.0 * BODY * np.radians(30.0) / (2.0 * np.cos(angle) * 0.30))
+    assert best == pytest.approx(0.494, abs=5e-4)
+    task = pitch_turn(30.0, 0.385, angle, 0.0)
+    assert slew_reason(task, ANTIGRAVITY) == SlewReason.TORQUE
+    just = [
+        slew_reason(pitch_turn(30.0, best * f, angle, 0.0), ANTIGRAVITY) for f in (0.999, 1.001)
+    ]
+    assert just == [SlewReason.TORQUE, SlewReason.SPEED]
+
+
+def test_want_of_torque_is_told_with_momentum_too():
+    """A trunk so heavy that no wheel relieves it, a line so steep that no speed limits it."""
+    rng = np.random.default_rng(11)
+    count = 5_000
+    momentum = rng.uniform(0.0, 0.3, (count, 2)) * (rng.random(count) < 0.7)[:, None]
+    swept, incidence = rng.uniform(0.0, 0.1, (count, 2)), rng.uniform(0.3, 1.2, count)
+    task = WheelPairTask(swept, momentum, 1.0, axes(1e9, 1e9), incidence)
+    line = DriveLine(INF, 1e5, rng.uniform(0.05, 2.0, count), INF)
+    weak = slew_reason(task, line) == SlewReason.TORQUE
+    assert (np.isinf(pair_slew_time(task, 1e3, line)) <= weak).all()
+    assert ((pair_slew_time(task, 1e3, line) > 1.0) == weak).all()
+    assert 1_000 < weak.sum() < 4_000
+
+
+def test_momentum_alone_couples_the_wheels_as_the_same_turn():
+    rates = np.array([[0.3, 0.1], [0.1, 0.3], [0.2, 0.0]])
+    held = WheelPairTask(0.0 * rates, rates, 1.0, axes(ROLL, BODY), 0.6).load()
+    turned = WheelPairTask(rates, 0.0 * rates, 1.0, axes(ROLL, BODY), 0.6).load()
+    np.testing.assert_allclose(held.coupling, turned.coupling, rtol=1e-15)
+    assert np.ptp(held.coupling) > 1.0
+
+
+def random_tasks(rng, count):
+    """Turns of small to large robots about both axes, half of them with momentum to keep."""
+    inertia = 10 ** rng.uniform(-2.0, 0.0, (count, 2))
+    asked = rng.random((count, 2)) < 0.7
+    asked[~asked.any(axis=1)] = True
+    incidence = rng.uniform(0.05, 1.5, count)
+    angle = np.where(asked, rng.uniform(0.05, 6.3, (count, 2)), 0.0)
+    rate = np.where(asked & (rng.random(count) < 0.5)[:, None], rng.uniform(0, 4, (count, 2)), 0.0)
+    duration = 10 ** rng.uniform(-0.7, 0.5, count)
+    return WheelPairTask(
+        inertia * angle, inertia * rate, duration, TiltInertia.uncoupled(inertia), incidence
+    )
+
+
+def random_lines(rng, count):
+    stall, no_load = 10 ** rng.uniform(-0.5, 1.5, count), 10 ** rng.uniform(1.8, 3.3, count)
+    limit = stall * 10 ** rng.uniform(-1.5, 1.0, count)
+    speed_max = np.where(rng.random(count) < 0.5, INF, no_load * rng.uniform(0.3, 1.2, count))
+    return DriveLine(stall, no_load, limit, speed_max)
+
+
+def row(values, k):
+    """Tasks or lines, one of many."""
+    return type(values)(*(_one(getattr(values, name), k) for name in values.__dataclass_fields__))
+
+
+def _one(value, k):
+    return TiltInertia(*(part[k] for part in value)) if isinstance(value, tuple) else value[k]
+
+
+def test_the_wheel_found_is_just_in_time():
+    rng = np.random.default_rng(3)
+    task, line = random_tasks(rng, 20_000), random_lines(rng, 20_000)
+    armature = np.where(rng.random(20_000) < 0.5, 0.0, 10 ** rng.uniform(-7, -4, 20_000))
+    h = smallest_spin_inertia(task, line, armature)
+    found = np.flatnonzero(np.isfinite(h))
+    assert 5_000 < found.size < 18_000
+    task, line, h, armature = row(task, found), row(line, found), h[found], armature[found]
+    time = pair_slew_time(task, h, line, armature)
+    np.testing.assert_allclose(time, task.duration, rtol=1e-11)
+    assert (pair_slew_time(task, h * (1.0 - 1e-3), line, armature) > task.duration).all()
+
+
+def test_where_there_is_no_wheel_the_largest_is_too_slow():
+    rng = np.random.default_rng(4)
+    task, line = random_tasks(rng, 20_000), random_lines(rng, 20_000)
+    missed = np.flatnonzero(np.isinf(smallest_spin_inertia(task, line)))
+    assert missed.size > 2_000
+    task, line = row(task, missed), row(line, missed)
+    largest = 1.0 / (2.0 * task.load().coupling)
+    assert (pair_slew_time(task, largest, line) > task.duration).all()
+    assert set(slew_reason(task, line)) <= {SlewReason.TORQUE, SlewReason.SPEED}
+
+
+def test_time_falls_as_the_wheel_grows():
+    """The law that makes the smallest wheel a root, up to half of 1 / kappa."""
+    rng = np.random.default_rng(5)
+    task, line = random_tasks(rng, 2_000), random_lines(rng, 2_000)
+    armature = np.where(rng.random(2_000) < 0.5, 0.0, 10 ** rng.uniform(-7, -3, 2_000))
+    largest = 1.0 / (2.0 * task.load().coupling)
+    shares = np.geomspace(1e-5, 1.0, 60)[:, np.newaxis]
+    time = pair_slew_time(task, shares * largest, line, armature)
+    with np.errstate(invalid="ignore"):
+        rise = time[1:] / time[:-1]
+    assert np.nanmax(rise) <= 1.0 + 1e-12
+    assert np.isfinite(time).mean() > 0.5
+
+
+def test_wheels_of_more_than_half_the_inertia_that_they_turn_count_as_that():
+    rng = np.random.default_rng(12)
+    task, line = random_tasks(rng, 2_000), random_lines(rng, 2_000)
+    largest = 1.0 / (2.0 * task.load().coupling)
+    time = pair_slew_time(task, largest, line)
+    np.testing.assert_array_equal(pair_slew_time(task, 1.5 * largest, line), time)
+    assert (pair_slew_time(task, 0.99 * largest, line) > time)[np.isfinite(time)].mean() > 0.9
+
+
+def test_a_gear_that_speeds_up_lets_time_rise_and_still_the_smallest_is_found():
+    """With a negative armature time may fall, rise and fall again; brute force finds the first."""
+    rng = np.random.default_rng(6)
+    count, points = 400, 1000
+    task, line = random_tasks(rng, count), random_lines(rng, count)
+    load = task.load()
+    largest = 1.0 / (2.0 * load.coupling)
+    usual = np.minimum(smallest_spin_inertia(task, line), largest / 4.0)
+    armature = -usual * rng.uniform(0.05, 0.5, count)
+    least = -armature * rng.uniform(1.4, 3.0, count)
+    h = smallest_spin_inertia(task, line, armature, least)
+    step = (largest / least) ** (1.0 / (points - 1))
+    grid = least * step ** np.arange(points)[:, np.newaxis]
+    time = pair_slew_time(task, grid, line, armature)
+    in_time = time <= task.duration
+    first = np.where(in_time.any(axis=0), grid[in_time.argmax(axis=0), np.arange(count)], INF)
+    found = np.isfinite(first)
+    assert (h[found] <= first[found] * (1.0 + 1e-12)).all()
+    assert (h[found] >= first[found] / step[found] * (1.0 - 1e-12)).all()
+    assert np.isinf(h[~found]).all()
+    assert 100 < found.sum() < count
+    rises = (time[1:] > time[:-1] * (1.0 + 1e-12)).any(axis=0)
+    assert (rises & found).sum() > 20
+
+
+def test_a_wheel_lighter_than_what_its_gear_takes_off_is_no_wheel():
+    """Without `least`, the search begins where there is something to accelerate."""
+    rng = np.random.default_rng(9)
+    task, line = random_tasks(rng, 2_000), random_lines(rng, 2_000)
+    relief = 0.1 / task.load().coupling
+    h = smallest_spin_inertia(task, line, -relief)
+    found = np.isfinite(h)
+    assert (h > relief).all()
+    time = pair_slew_time(task, np.where(found, h, INF), line, -relief)
+    assert (time[found] <= task.duration[found] * (1.0 + 1e-11)).all()
+
+
+def test_where_newton_fails_the_fence_closes_on_the_root(monkeypatch):
+    rng = np.random.default_rng(10)
+    task, line = random_tasks(rng, 500), random_lines(rng, 500)
+    h = smallest_spin_inertia(task, line)
+    monkeypatch.setattr(
+        "ocs_design.actuation.spin_root.newton_step",
+        lambda demand, h, can: np.full_like(h, INF),
+    )
+    by_bisection = smallest_spin_inertia(task, line)
+    time = pair_slew_time(task, by_bisection, line)
+    found = np.isfinite(h)
+    assert (np.isfinite(by_bisection) == found).all()
+    np.testing.assert_allclose(time[found], task.duration[found], rtol=1e-11)
+
+
+def test_an_axis_out_of_reach():
+    turn = [0.01, 0.02]
+    for incidence, swept, reachable in [
+        (0.0, turn, False),
+        (np.pi / 2.0, turn, False),
+        (0.0, [0.0, 0.02], True),
+        (np.pi / 2.0, [0.02, 0.0], True),
+        (0.7, turn, True),
+    ]:
+        task = WheelPairTask(swept, [0.0, 0.0], 1.0, axes(ROLL, BODY), incidence)
+        assert np.isfinite(smallest_spin_inertia(task, EC45)) == reachable
+        assert (slew_reason(task, EC45) == SlewReason.AXIS) != reachable
+
+
+def test_roll_is_pitch_at_the_complement():
+    angle = np.radians(25.0)
+    pitch = WheelPairTask([0.0, 0.02], [0.0, 0.01], 0.7, axes(ROLL, BODY), angle)
+    roll = WheelPairTask([0.02, 0.0], [0.01, 0.0], 0.7, axes(BODY, ROLL), np.pi / 2.0 - angle)
+    h = smallest_spin_inertia(pitch, EC45)
+    assert smallest_spin_inertia(roll, EC45) == pytest.approx(float(h), rel=1e-12)
+
+
+def test_nothing_asked_and_no_time():
+    nothing = WheelPairTask([0.0, 0.0], [0.0, 0.0], 0.5, axes(ROLL, BODY), 0.6)
+    assert smallest_spin_inertia(nothing, EC45) == 0.0
+    assert smallest_spin_inertia(nothing, EC45, least=3e-5) == 3e-5
+    assert pair_slew_time(nothing, [0.0, 1e-4, INF], EC45).tolist() == [0.0, 0.0, 0.0]
+    turn = WheelPairTask([0.0, 0.01], [0.0, 0.0], 0.5, axes(ROLL, BODY), [0.6, 0.6, np.pi / 2])
+    assert np.isinf(pair_slew_time(turn, [0.0, INF, 1e-4], EC45)).all()
+    late = WheelPairTask([0.0, 0.01], [0.0, 0.01], [0.0, -0.1], axes(ROLL, BODY), 0.6)
+    assert np.isinf(smallest_spin_inertia(late, EC45)).all()
+    assert (slew_reason(late, EC45) == SlewReason.TORQUE).all()
+
+
+def test_momentum_alone_is_held_at_the_end():
+    """No angle to turn: the wheel must still go beyond its final speed to make up for its rise."""
+    task = WheelPairTask([0.0, 0.0], [0.0, 0.04], 0.4, axes(ROLL, BODY), 0.6)
+    h = smallest_spin_inertia(task, EC45)
+    assert pair_slew_time(task, h, EC45) == pytest.approx(0.4, rel=1e-12)
+    assert task.load().final_speed(h) < EC45.no_load_speed
+
+
+def test_many_at_once_equal_one_by_one():
+    rng = np.random.default_rng(8)
+    task, line = random_tasks(rng, 200), random_lines(rng, 200)
+    together = smallest_spin_inertia(task, line, 1e-6)
+    alone = [float(smallest_spin_inertia(row(task, k), row(line, k), 1e-6)) for k in range(200)]
+    np.testing.assert_allclose(together, alone, rtol=1e-13)
+
+
+def test_motors_by_angles_by_turns():
+    line = DriveLine(np.array([1.0, 2.0, 3.0])[:, None, None], 650.0, 1.0, INF)
+    incidence = np.radians([20.0, 40.0])[:, None]
+    swept = np.array([[0.0, 0.01], [0.01, 0.0], [0.01, 0.01], [0.0, 0.02]])
+    task = WheelPairTask(swept, np.zeros(2), 0.8, axes(ROLL, BODY), incidence)
+    h = smallest_spin_inertia(task, line)
+    assert h.shape == (3, 2, 4)
+    single = WheelPairTask(swept[2], np.zeros(2), 0.8, axes(ROLL, BODY), np.radians(40.0))
+    one = smallest_spin_inertia(single, DriveLine(3.0, 650.0, 1.0, INF))
+    assert h[2, 1, 2] == pytest.approx(float(one), rel=1e-13)

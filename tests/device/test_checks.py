@@ -1,0 +1,56 @@
+"""Figures of a device that an edited `design.json` may hold, and none of which can be made."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ocs_design.common.errors import OcsError
+from ocs_design.device.checks import check_device
+from ocs_design.device.records import read_design
+from ocs_design.workflows.restoring import device_of
+
+DESIGN = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json")
+DEVICE = device_of(DESIGN.ocs)
+
+
+def test_a_device_that_was_designed_can_be_made():
+    check_device(DEVICE)
+
+
+@pytest.mark.parametrize("value", [0.0, -0.1, 1e-320, 1e30, np.nan, np.inf])
+@pytest.mark.parametrize(
+    ("part", "figure"),
+    [
+        ("flywheel", "outer_radius"),
+        ("flywheel", "height"),
+        ("flywheel", "density"),
+        ("flywheel", "mass"),
+        ("motor", "no_load_speed"),
+        ("motor", "speed_max"),
+    ],
+)
+def test_figures_of_no_device_are_refused(part, figure, value):
+    changed = replace(getattr(DEVICE, part), **{figure: value})
+    with pytest.raises(OcsError, match=f"{part}.{figure} is"):
+        check_device(replace(DEVICE, **{part: changed}))
+
+
+def test_a_bore_may_be_none_but_not_wider_than_the_wheel():
+    for bore, right in ((0.0, True), (DEVICE.flywheel.outer_radius, False), (1e-320, False)):
+        device = replace(DEVICE, flywheel=replace(DEVICE.flywheel, inner_radius=bore))
+        if right:
+            check_device(device)
+        else:
+            with pytest.raises(OcsError, match="inner_radius"):
+                check_device(device)
+
+
+@pytest.mark.parametrize(
+    "change", [{"axis": np.array([0.0, 2.0, 0.0])}, {"position": np.full(3, np.nan)}]
+)
+def test_modules_without_direction_or_place_are_refused(change):
+    left, right = DEVICE.modules
+    with pytest.raises(OcsError, match="of module left"):
+        check_device(replace(DEVICE, modules=(replace(left, **change), right)))

@@ -1,0 +1,81 @@
+"""design.json is a contract: files that older versions wrote still read, new fields come back."""
+
+import json
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from wheels import EC45, EC45_BODY, geared
+
+from ocs_design.common.errors import OcsError
+from ocs_design.device.device import NO_CARRIER
+from ocs_design.device.records import LARGEST, design_to_json, read_design
+
+OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
+"""By `size examples/solo12.urdf --no-validate` of version 0.1.0, which knew no motors."""
+
+
+def test_a_file_of_the_first_version_still_reads():
+    written, design = json.loads(OLD.read_bytes()), read_design(OLD)
+    assert design.ocs.flywheel.mass == written["ocs"]["flywheel"]["mass"]
+    assert design.ocs.motor.name == "assumed"
+    assert design.ocs.motor.gear == "direct"
+    assert design.ocs.motor.gear_ratio == design.ocs.motor.gear_efficiency == 1.0
+    assert design.ocs.motor.armature == design.ocs.motor.gear_mass == 0.0
+    unknown = ("bus_voltage", "speed_max", "torque_constant", "resistance", "continuous_torque")
+    assert [getattr(design.ocs.motor, name) for name in unknown] == [None] * 5
+    assert design.ocs.carrier == NO_CARRIER
+
+
+def test_everything_that_it_held_is_still_there():
+    """What is written again has the old fields with their values, and new ones beside them."""
+    old, new = json.loads(OLD.read_bytes()), json.loads(design_to_json(read_design(OLD)))
+    assert_within(old, new, "design")
+
+
+def test_a_real_motor_and_its_carrier_come_back(tmp_path):
+    design = read_design(OLD)
+    drive = replace(geared(3.0), torque_constant=0.0369, resistance=0.608, continuous_torque=0.38)
+    motorised = replace(design, ocs=replace(design.ocs, motor=drive, carrier=EC45_BODY))
+    (tmp_path / "design.json").write_bytes(design_to_json(motorised))
+    again = read_design(tmp_path / "design.json").ocs
+    assert (again.motor, again.carrier) == (drive, EC45_BODY)
+    assert again.motor.speed_max == EC45.speed_max
+
+
+def assert_within(old, new, where):
+    """`new` has at least what `old` has."""
+    if isinstance(old, dict):
+        for key, value in old.items():
+            assert_within(value, new[key], f"{where}.{key}")
+    elif isinstance(old, list):
+        assert len(old) == len(new), where
+        for index, (one, other) in enumerate(zip(old, new, strict=True)):
+            assert_within(one, other, f"{where}[{index}]")
+    else:
+        assert old == new, where
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"[" * 100_000, "not a design.json"),
+        (b'{"schema_version": 1, "tool": ' + b"[" * 100_000, "design.json"),
+        (b'{"schema_version": 1, "tool": {"name": "\xa9"}}', "utf-8"),
+        (b'{"schema_version": 1, "tool": {"name": "\\ud800"}}', "design.json"),
+        (b" " * (LARGEST + 1), "larger than 16 MiB"),
+    ],
+    ids=["deep", "deep inside", "not UTF-8", "half a character", "gigantic"],
+)
+def test_what_no_program_wrote_is_refused(tmp_path, content, words):
+    path = tmp_path / "design.json"
+    path.write_bytes(content)
+    with pytest.raises(OcsError, match=words):
+        read_design(path)
+
+
+def test_a_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "design.json")
+    with pytest.raises(OcsError, match="no plain file"):
+        read_design(tmp_path / "design.json")

@@ -1,0 +1,52 @@
+"""Against the formulas that the standard's table was rounded from."""
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ocs_design.export.drawing.wheel import (
+    Grade,
+    permissible_eccentricity,
+    permissible_unbalance,
+    plus_minus,
+    tolerance_width,
+)
+
+STEPS = [3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000]
+UNITS = {Grade.IT7: 16.0, Grade.IT9: 40.0, Grade.IT11: 100.0}
+
+
+def unit(low, high):
+    """Standard tolerance factor [um] at the geometric mean of a step [mm] (ISO 286-1, annex)."""
+    mean = (low * high) ** 0.5
+    return 0.45 * mean ** (1.0 / 3.0) + 0.001 * mean if high <= 500 else 0.004 * mean + 2.1
+
+
+@pytest.mark.parametrize("grade", Grade)
+@pytest.mark.parametrize(("low", "high"), list(pairwise(STEPS)))
+def test_widths_are_the_rounded_multiples_of_the_tolerance_factor(grade, low, high):
+    expected = UNITS[grade] * unit(low, high)
+    assert 1e6 * tolerance_width(1e-3 * high, grade) == pytest.approx(expected, rel=0.05)
+
+
+def test_the_upper_end_belongs_to_its_step():
+    # H7: 15 um over 6 up to and including 10 mm, 18 um beyond.
+    assert tolerance_width(0.010, Grade.IT7) == pytest.approx(15e-6)
+    assert tolerance_width(0.01001, Grade.IT7) == pytest.approx(18e-6)
+
+
+@given(st.floats(1e-4, 5.0), st.sampled_from(list(Grade)))
+def test_what_is_written_is_within_the_grade_but_not_below_a_hundredth(size, grade):
+    half = tolerance_width(size, grade) / 2.0
+    written = plus_minus(size, grade)
+    assert 1e5 * written == pytest.approx(round(1e5 * written))
+    assert written == pytest.approx(1e-5) or half - 1e-5 < written <= half + 1e-12
+
+
+def test_balance_of_the_example_in_the_handbooks():
+    # G 6.3 at 3000 rpm: 20 um, or 20 g mm for each kilogram (ISO 21940-11, figure 2).
+    speed = 3000.0 * 3.141592653589793 / 30.0
+    assert 1e6 * permissible_eccentricity(6.3, speed) == pytest.approx(20.0, rel=0.01)
+    assert 1e6 * permissible_unbalance(1.0, 6.3, speed) == pytest.approx(20.0, rel=0.01)

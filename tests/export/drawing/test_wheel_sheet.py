@@ -1,0 +1,155 @@
+"""Nothing on the sheet covers anything else, whatever the wheel."""
+
+import math
+import re
+from dataclasses import replace
+from itertools import combinations
+from xml.etree import ElementTree as ET
+
+import pytest
+from drawn_wheels import FLAT, HOLED, HUB, covers, drawings, overlap, texts
+from hypothesis import HealthCheck, given, settings
+
+from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
+from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_sheet
+from ocs_design.parts.wheel import Wheel
+
+RIM = FLAT.wheel.rim
+
+
+def words(wheel):
+    return [text.text for text in texts(wheel_sheet(wheel))]
+
+
+LOOKED_AT = settings(max_examples=25, suppress_health_check=[HealthCheck.filter_too_much])
+
+
+@LOOKED_AT
+@given(drawings())
+def test_texts_stand_clear_of_each_other_and_of_all_lines(drawing):
+    items = wheel_sheet(drawing)
+    boxes = [(text, text.box) for text in texts(items)]
+    for (one, first), (other, second) in combinations(boxes, 2):
+        assert not overlap(first, second), (one, other)
+    lines = [item for item in items if isinstance(item, Line | Circle)]
+    for text, box in boxes:
+        assert not [line for line in lines if covers(line, box)], text
+
+
+@LOOKED_AT
+@given(drawings())
+def test_all_is_within_the_frame(drawing):
+    left, top, right, bottom = FRAME_BOX
+    for text in texts(wheel_sheet(drawing)):
+        x0, y0, x1, y1 = text.box
+        assert left < x0 < x1 < right, text
+        assert top < y0 < y1 < bottom, text
+
+
+@LOOKED_AT
+@given(drawings())
+def test_both_formats_are_well_formed(drawing):
+    drawn = draw_wheel(drawing)
+    assert ET.fromstring(drawn["svg"]).tag.endswith("svg")
+    assert drawn["pdf"].startswith(b"%PDF-1.")
+    assert drawn == draw_wheel(drawing)
+
+
+def test_every_size_is_written_once():
+    found = words(FLAT)
+    for label in ("Ø82.60 ±0.04", "Ø78.40 H7/h6", "Ø24", "Ø8 H7", "3.05 ±0.03", "1.5", "8"):
+        assert found.count(label) == 1, label
+    assert "4 × Ø3.4 through" in found
+    assert "on Ø16 ±0.1" in found
+
+
+def test_every_hole_is_written_once():
+    found = words(HOLED)
+    for label in ("3 × Ø3.2 through", "6 × Ø12 through", "12 × Ø3"):
+        assert found.count(label) == 1, label
+    assert "3 deep, both faces" in found
+
+
+def test_the_title_block_says_mass_and_inertia():
+    found = words(FLAT)
+    mass, inertia = (1e3 * sum(FLAT.masses), 1e6 * FLAT.mass_properties.inertia[2, 2])
+    assert f"{mass:.4g} g" in found
+    assert f"{inertia:.4g} kg mm²" in found
+    # A rim of 8000 kg/m^3 and a web of 2700 kg/m^3, as cylinders: chamfers take 2 % of the rim.
+    assert mass == pytest.approx(cylinders(FLAT.wheel), rel=0.02)
+    assert "1:1" in found
+    assert "9f3c0a1b2d4e" in found
+
+
+def cylinders(wheel):
+    """Mass without chamfers [g]."""
+    rim, hub = wheel.rim, wheel.hub
+    discs = [
+        (rim.density, rim.inner_radius, rim.outer_radius, rim.height),
+        (hub.density, hub.radius, rim.inner_radius, hub.web_thickness),
+        (hub.density, hub.bore_radius, hub.radius, hub.height),
+    ]
+    holes = hub.bolts.count * math.pi * hub.bolts.hole_radius**2 * hub.height * hub.density
+    return 1e3 * (sum(d * math.pi * (R**2 - r**2) * h for d, r, R, h in discs) - holes)
+
+
+def test_the_balance_note_has_the_residual_unbalance():
+    # 6.3 mm/s / 750 rad/s = 8.4 um.
+    said = " ".join(words(FLAT)).replace("\N{NO-BREAK SPACE}", " ")
+    assert "G 6.3 (ISO 21940-11) at 7162 rpm" in said
+    assert f"{8.4 * sum(FLAT.masses):.3g} g mm (e = 8.4 µm)" in said
+
+
+def test_one_piece_is_hatched_as_one_and_has_no_list_of_parts():
+    whole = replace(FLAT, wheel=Wheel(RIM, replace(HUB, material=RIM.material)))
+    assert "Item" in words(FLAT)
+    assert "Item" not in words(whole)
+    assert "Ø78.40 ±0.03" in words(whole)
+    assert slopes(FLAT) == {-1, 1}
+    assert slopes(whole) == {1}
+
+
+def slopes(wheel):
+    """Of the hatching: -1 falls to the right on paper, 1 rises."""
+    found = set()
+    for item in wheel_sheet(wheel):
+        if isinstance(item, Line):
+            across, down = item.end[0] - item.start[0], item.end[1] - item.start[1]
+            if item.pen.width < 0.3 and abs(abs(across) - abs(down)) < 1e-9 and across:
+                found.add(-1 if across * down > 0 else 1)
+    return found
+
+
+def test_the_front_view_is_to_scale():
+    radii = [item.radius for item in wheel_sheet(FLAT) if isinstance(item, Circle)]
+    for radius in (41.3, 39.2, 12.0, 4.0, 1.7, 8.0):
+        assert any(abs(radius - each) < 1e-9 for each in radii), radius
+
+
+def test_the_rim_alone_says_so():
+    alone = replace(FLAT, wheel=Wheel(RIM))
+    assert any(text.startswith("Rim only") for text in words(alone))
+    assert "Ø78.40 ±0.03" in words(alone)
+
+
+def test_names_are_escaped_in_both_formats():
+    drawn = draw_wheel(replace(FLAT, robot='<a> & (b) \\ "é" 机'))
+    root = ET.fromstring(drawn["svg"])
+    assert '<a> & (b) \\ "é" ?' in [each.text for each in root]
+    assert rb'(<a> & \(b\) \\ "\351" ?) Tj' in drawn["pdf"]
+
+
+def test_both_formats_show_the_same_texts():
+    drawn = draw_wheel(FLAT)
+    root = ET.fromstring(drawn["svg"])
+    shown = [each.text for each in root if each.tag.endswith("text") and each.text]
+    written = re.findall(rb"\(((?:[^()\\]|\\.)*)\) Tj", drawn["pdf"])
+    plain = (re.sub(rb"\\([()\\])", rb"\1", each) for each in written)
+    decoded = [
+        re.sub(rb"\\(\d{3})", lambda code: bytes([int(code[1], 8)]), each).decode("cp1252")
+        for each in plain
+    ]
+    assert shown == [each for each in decoded if each]
+    assert shown == [
+        item.text for item in wheel_sheet(FLAT) if isinstance(item, Text) and item.text
+    ]

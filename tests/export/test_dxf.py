@@ -1,0 +1,129 @@
+"""DXF of the wheel's pieces, read again by ezdxf, against the closed form."""
+
+import hashlib
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_parts import HUB, ONE_PIECE, RIM_ALONE, TWO_PIECES
+
+from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
+
+pytest.importorskip("ezdxf", reason="ezdxf is the extra [dxf]")
+from ezdxf import recover, units
+
+from ocs_design.export.dxf import dxf_text
+
+PIECES = {
+    f"{name}_{piece.name}": piece
+    for name, wheel in {"two": TWO_PIECES, "one": ONE_PIECE, "rim": RIM_ALONE}.items()
+    for piece in wheel_parts(wheel)
+}
+
+
+def read(piece, folder):
+    """Its document, as strict as ezdxf can be."""
+    path = folder / "piece.dxf"
+    path.write_text(dxf_text(piece), encoding="utf-8")
+    document, auditor = recover.readfile(path)
+    assert not auditor.has_errors
+    assert not auditor.has_fixes
+    return document
+
+
+def on_layer(document, layer, kind):
+    return document.modelspace().query(f'{kind}[layer=="{layer}"]')
+
+
+@pytest.mark.parametrize("piece", PIECES.values(), ids=PIECES)
+def test_section_and_holes_have_the_volume_of_the_piece(piece, tmp_path):
+    """Pappus: what the section sweeps over a turn, less the holes, weighs what the piece weighs."""
+    document = read(piece, tmp_path)
+    assert document.units == units.MM
+    (section,) = on_layer(document, "SECTION", "LWPOLYLINE")
+    points = np.array(section.get_points("xy"))
+    x, r = points.T
+    following = np.roll(points, -1, axis=0)
+    cross = x * following[:, 1] - following[:, 0] * r
+    swept = 2.0 * np.pi * abs(np.sum(cross * (r + following[:, 1])) / 6.0)
+    holes = [part.outline.points.tobytes() for part in piece.cut]
+    drawn = on_layer(document, "HOLES", "LWPOLYLINE")
+    assert len(drawn) == len(set(holes))
+    lengths = dict.fromkeys(holes, 0.0)
+    for key, cut in zip(holes, piece.cut, strict=True):
+        lengths[key] += 1e3 * (cut.high - cut.low)
+    taken = sum(
+        round_area(each) * length for each, length in zip(drawn, lengths.values(), strict=True)
+    )
+    exact = piece.mass_properties().mass / piece.density
+    assert (swept - taken) * 1e-9 == pytest.approx(exact, rel=1e-9)
+
+
+def round_area(polyline):
+    """Area of a closed polyline: the polygon's, and what its arcs enclose beyond their chords."""
+    points = np.array(polyline.get_points("xyb"))
+    start, end, bulge = points[:, :2], np.roll(points[:, :2], -1, axis=0), points[:, 2]
+    angle = 4.0 * np.arctan(bulge)
+    radius = np.linalg.norm(end - start, axis=1) / (2.0 * np.sin(angle / 2.0))
+    polygon = np.sum(start[:, 0] * end[:, 1] - end[:, 0] * start[:, 1]) / 2.0
+    return polygon + np.sum(radius**2 * (angle - np.sin(angle))) / 2.0
+
+
+def test_holes_are_where_the_wheel_has_them(tmp_path):
+    document = read(wheel_parts(TWO_PIECES)[1], tmp_path)
+    drawn = np.array([hole.get_points("xyb") for hole in on_layer(document, "HOLES", "LWPOLYLINE")])
+    # Two half circles each, which bulge by 1.
+    np.testing.assert_array_equal(drawn[:, :, 2], 1.0)
+    radii = np.linalg.norm(np.diff(drawn[:, :, :2], axis=1)[:, 0], axis=1) / 2.0
+    centres = drawn[:, :, :2].mean(axis=1)
+    for ring in (HUB.bolts, HUB.lightening):
+        own = centres[np.isclose(radii, 1e3 * ring.hole_radius)]
+        assert len(own) == ring.count
+        np.testing.assert_allclose(np.linalg.norm(own, axis=1), 1e3 * ring.radius)
+        angles = np.sort(np.mod(np.degrees(np.arctan2(own[:, 1], own[:, 0])), 360.0))
+        np.testing.assert_allclose(np.diff(angles), 360.0 / ring.count)
+    assert len(drawn) == HUB.bolts.count + HUB.lightening.count
+
+
+def test_blind_holes_of_both_faces_are_drawn_once(tmp_path):
+    ring = HoleRing((RIM_ALONE.rim.inner_radius + RIM_ALONE.rim.outer_radius) / 2.0, 5, 5e-4, 1e-3)
+    (piece,) = wheel_parts(Wheel(replace(RIM_ALONE.rim, balancing=ring)))
+    assert len(piece.cut) == 10
+    assert len(on_layer(read(piece, tmp_path), "HOLES", "LWPOLYLINE")) == 5
+
+
+def test_the_outline_has_the_diameters_of_the_rim(tmp_path):
+    document = read(wheel_parts(RIM_ALONE)[0], tmp_path)
+    radii = sorted(circle.dxf.radius for circle in on_layer(document, "OUTLINE", "CIRCLE"))
+    rim = RIM_ALONE.rim
+    assert radii == pytest.approx([1e3 * rim.inner_radius, 1e3 * rim.outer_radius])
+
+
+def test_the_views_stand_apart(tmp_path):
+    from ezdxf.bbox import extents
+
+    document = read(wheel_parts(TWO_PIECES)[0], tmp_path)
+    front = extents(on_layer(document, "OUTLINE", "CIRCLE"))
+    section = extents(on_layer(document, "SECTION", "LWPOLYLINE"))
+    assert section.extmin.x > front.extmax.x + 10.0
+
+
+@pytest.mark.parametrize("seed", ["1", "2", "3"])
+def test_bytes_are_the_same_in_every_process(seed):
+    """Whatever the order of sets there."""
+    code = (
+        "import hashlib; from made_parts import TWO_PIECES; from ocs_design.export.dxf import "
+        "dxf_text; from ocs_design.parts.wheel import wheel_parts; "
+        "print(hashlib.sha256(dxf_text(wheel_parts(TWO_PIECES)[0]).encode()).hexdigest())"
+    )
+    path = os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])
+    environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": path}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
+    here = hashlib.sha256(dxf_text(wheel_parts(TWO_PIECES)[0]).encode()).hexdigest()
+    assert done.stdout.strip() == here

@@ -1,0 +1,122 @@
+"""What stands still of a module: motor, gear, housing and foot."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from standing_parts import UPRIGHT, made_foot, standing_parts
+
+from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, GearRoom, Motor, Mounting
+from ocs_design.export.meshes import part_mesh
+from ocs_design.parts.cage import cage_part
+from ocs_design.parts.foot import foot_part
+from ocs_design.parts.housing import housing_parts
+from ocs_design.parts.module import drive_moments, standing
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.robot.mass import MassProperties, combine
+
+MOTOR = Motor(
+    name="m", maker="test", mass=0.12, diameter=0.04, length=0.03, torque_constant=None,
+    resistance=None, rated_voltage=None, no_load_speed=None, speed_max=None, peak_torque=None,
+    peak_current=None, continuous_torque=None, rotor_inertia=None, source="made up",
+    confidence="good",
+)  # fmt: skip
+
+AT_THE_BACK = Mounting(
+    0.004, BoltCircle(0.012, 4, "M2"), BoltCircle(0.025, 4, "M3"), stator_face=Face.BACK
+)
+
+MOUNTINGS = (
+    None,
+    Mounting(0.005, stator=BoltCircle(0.025, 4, "M3"), stator_face=Face.OUTPUT),
+    Mounting(stator=BoltCircle(0.016, 2, "M2"), stator_face=Face.OUTPUT),
+    Mounting(stator=BoltCircle(0.03, 3, "M2.5"), stator_face=Face.OUTPUT),
+    Mounting(0.004),
+    Mounting(0.004, stator=BoltCircle(0.016, 3, "M3"), stator_face=Face.BACK),
+    AT_THE_BACK,
+)
+
+BELT = replace(
+    DIRECT, name="belt", mass=0.04, room=GearRoom(0.011, 0.03, 0.015, 0.01, center=0.008)
+)
+GEARBOX = replace(DIRECT, name="gearbox", mass=0.1, room=GearRoom())
+
+
+def test_a_motor_is_a_solid_cylinder():
+    body = Carrier.of(drive_moments(MOTOR))
+    assert body.mass == pytest.approx(0.12)
+    assert body.axial_inertia == pytest.approx(0.12 * 0.02**2 / 2.0)
+    across = 0.12 * (0.02**2 / 4.0 + 0.03**2 / 12.0)
+    assert (body.transverse_inertia, body.vertical_inertia) == pytest.approx((across, across))
+
+
+def test_a_disc_without_its_length_and_a_point_without_its_diameter():
+    disc = Carrier.of(drive_moments(replace(MOTOR, length=None)))
+    assert disc.axial_inertia == pytest.approx(2.0 * disc.transverse_inertia)
+    dot = Carrier.of(drive_moments(replace(MOTOR, length=None, diameter=None)))
+    assert (dot.axial_inertia, dot.transverse_inertia) == (0.0, 0.0)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.floats(0.05, 0.15),
+    st.floats(0.002, 0.06),
+    st.sampled_from(MOUNTINGS),
+    st.sampled_from((DIRECT, BELT, GEARBOX)),
+)
+def test_it_is_all_that_is_made_and_bought(outer_radius, height, mounting, gear):
+    motor = replace(MOTOR, mounting=mounting)
+    expected = combine(standing_parts(motor, gear, outer_radius, height))
+    found = standing(motor, gear, outer_radius, height).mass_properties()
+    assert found.mass == pytest.approx(expected.mass, rel=1e-12)
+    np.testing.assert_allclose(found.com, expected.com, rtol=1e-12, atol=1e-15)
+    scale = expected.inertia.max()
+    np.testing.assert_allclose(found.inertia, expected.inertia, rtol=1e-9, atol=1e-12 * scale)
+
+
+@pytest.mark.parametrize("mounting", [MOUNTINGS[0], MOUNTINGS[1], AT_THE_BACK])
+def test_it_is_what_the_meshes_weigh(mounting):
+    """Meshes have exact masses, and inertias that are out by what polygons are off circles."""
+    weightless = replace(MOTOR, mass=0.0, mounting=mounting)
+    foot = made_foot(weightless, DIRECT, 0.034, 0.004)
+    drum, lid = housing_parts(foot.housing)
+    down, still = np.array([0.0, 0.0, -foot.wheel_height]), np.zeros(3)
+    pieces = [(drum, UPRIGHT, still), (lid, UPRIGHT, still), (foot_part(foot), np.eye(3), down)]
+    cage = mount_of(weightless, None).cage
+    if cage is not None:
+        pieces.append((cage_part(cage), UPRIGHT, np.array([0.0, -foot.back - cage.length, 0.0])))
+    expected = combine([weighed(*piece) for piece in pieces])
+    screws = [each for each in standing_parts(weightless, DIRECT, 0.034, 0.004) if is_point(each)]
+    found = standing(weightless, DIRECT, 0.034, 0.004).mass_properties()
+    whole = combine([expected, *screws])
+    assert found.mass == pytest.approx(whole.mass, rel=1e-6)
+    np.testing.assert_allclose(found.com, whole.com, atol=1e-7)
+    np.testing.assert_allclose(found.inertia, whole.inertia, rtol=1e-4, atol=1e-10)
+
+
+def is_point(body):
+    return not body.inertia.any()
+
+
+def weighed(part, rotation, position):
+    """A part's mesh by its own volume integrals."""
+    mesh = part_mesh(part, 256)
+    corners = mesh.vertices[mesh.triangles]
+    volumes = np.linalg.det(corners) / 6.0
+    mass = part.density * volumes.sum()
+    com = part.density * np.einsum("t,tkx->x", volumes, corners) / 4.0 / mass
+    both = corners.sum(axis=1)
+    second = np.einsum("t,tkx,tky->xy", volumes, corners, corners)
+    second = part.density * (second + np.einsum("t,tx,ty->xy", volumes, both, both)) / 20.0
+    second -= mass * np.outer(com, com)
+    own = MassProperties(mass, com, np.trace(second) * np.eye(3) - second)
+    return own.moved(rotation, position)
+
+
+def test_a_body_of_revolution_is_one_by_its_two_inertias_alone():
+    plain = Carrier(0.2, 3e-5, 2e-5)
+    np.testing.assert_array_equal(plain.inertia, np.diag([2e-5, 3e-5, 2e-5]))
+    np.testing.assert_array_equal(plain.mass_properties().com, 0.0)

@@ -1,0 +1,90 @@
+"""What the figures show, against numpy by hand."""
+
+from dataclasses import replace
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from stories import TOUCHDOWN, design, flight, story
+
+from ocs_design.device.answers import PostureLine
+from ocs_design.report.charts.chart import Ink, Line, Points
+from ocs_design.report.charts.drive import torque_speed_chart
+from ocs_design.report.charts.figures import all_charts
+from ocs_design.report.charts.files import write_svgs
+from ocs_design.report.charts.incidence import posture_chart
+from ocs_design.report.charts.momentum import bound_charts, taken
+
+RPM = 30.0 / np.pi
+
+
+def test_the_momentum_taken_is_that_of_both_wheels_up_to_touchdown():
+    (found,) = taken(story())
+    alpha, spin = design().ocs.incidence, design().ocs.spin_inertia
+    assert found.largest(0) == pytest.approx(spin * np.sin(alpha) * 100.0, rel=1e-4)
+    assert found.largest(1) == pytest.approx(spin * np.cos(alpha) * 500.0, rel=1e-4)
+
+
+def test_a_device_that_was_not_flown_and_has_a_motor_says_nothing_of_its_momentum():
+    assert taken(replace(story(), flights=())) == ()
+    assert taken(replace(story(motor="none"), flights=()))
+
+
+def test_a_point_lies_on_the_bound_of_the_speed_that_its_wheels_reached():
+    """The bound is the inertia that the device has, at one and the same wheel speed."""
+    told = story(motor="none")
+    fastest = 250.0
+    demand = replace(told.design.requirement, wheel_speed_max=fastest)
+    told = replace(told, design=replace(told.design, requirement=demand))
+    chart = next(bound_charts(told))
+    (own,) = [mark for mark in chart.marks if isinstance(mark, Line) and not mark.dashed]
+    (point,) = [mark for mark in chart.marks if isinstance(mark, Points)]
+    total, alone = (m[1][1] for m in (told.design.ocs.total_inertia, told.design.robot.inertia))
+    # Of a momentum L the bound for the robot alone asks I_r d / (gamma - d) with d = L / I_tot.
+    expected = alone * point.x[0] / (fastest - point.x[0])
+    assert np.interp(point.x[0], own.x, own.y) == pytest.approx(expected, rel=1e-3)
+    assert point.y[0] == pytest.approx(total * point.x[0] / fastest, rel=1e-3)
+
+
+def test_the_plane_holds_what_the_drive_can_give():
+    motor = design().ocs.motor
+    chart = torque_speed_chart(motor, [flight()])
+    (edge,) = [mark for mark in chart.marks if getattr(mark, "name", "") == "range of the drive"]
+    top = motor.speed_max * RPM
+    assert np.abs(edge.x).max() == pytest.approx(top)
+    forwards = (edge.y >= 0.0) & (edge.x >= 0.0)
+    line = motor.stall_torque * (1.0 - edge.x / RPM / motor.no_load_speed)
+    expected = np.minimum(motor.torque_limit, np.maximum(line, 0.0))
+    np.testing.assert_allclose(edge.y[forwards], expected[forwards], atol=1e-12)
+
+
+def test_paths_in_the_plane_end_at_touchdown():
+    chart = torque_speed_chart(design().ocs.motor, [flight(), flight(ocs=False)])
+    paths = [mark for mark in chart.marks if isinstance(mark, Line) and mark.ink is not Ink.FAINT]
+    time = flight().time
+    assert [len(path.x) for path in paths] == [np.count_nonzero(time < TOUCHDOWN)] * 2
+
+
+def test_nothing_is_drawn_of_wheels_that_never_flew():
+    assert torque_speed_chart(design().ocs.motor, [flight(ocs=False)]) is None
+
+
+def test_postures_are_rows_from_the_top():
+    lines = [
+        PostureLine(posture=name, inertia_diagonal=(1.0, 2.0, 3.0), incidence=angle)
+        for name, angle in (("stand", 0.5), ("zero", 0.6))
+    ]
+    chart = posture_chart(design(), lines)
+    assert chart.rows == ("stand", "zero")
+    assert chart.y.parts(np.array([0.0]))[0] > chart.y.parts(np.array([1.0]))[0]
+
+
+@pytest.mark.parametrize("motor", ["none", "EC 45 flat 70 W 411812"])
+def test_every_figure_is_a_file_that_reads_as_svg_with_units_on_its_axes(tmp_path, motor):
+    write_svgs(tuple(all_charts(story(motor=motor))), tmp_path)
+    files = sorted(tmp_path.iterdir())
+    names = {path.stem for path in files}
+    assert {"bound_pitch", "inertia_ellipsoid", "momentum", "torque_speed", "tilt_drop"} <= names
+    for path in files:
+        texts = [each.text for each in ET.parse(path).iter("{http://www.w3.org/2000/svg}text")]
+        assert any(text.endswith("]") for text in texts)

@@ -1,0 +1,69 @@
+"""What is said of flights that pass, and yet leave something to say."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from stories import design
+
+from ocs_design.device.records import ValidationRecord
+from ocs_design.report.flights import device_table, flight_remarks, flight_table
+
+TOP = design().ocs.motor.no_load_speed
+LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}
+
+
+def run(scenario="kerb", *, ocs=True, swing=5.0, final=0.0, speed=0.0, **told):
+    """Angles in degrees, speed over the drive's top speed."""
+    figures = {
+        "pitch_swing": np.radians(swing),
+        "final_pitch": np.radians(final),
+        "final_wheel_speed": speed * TOP,
+    }
+    given = {"passed": True, "reason": "as told", "note": "", "can_stand": True, **told}
+    return ValidationRecord(scenario=scenario, ocs=ocs, metrics={**LEVEL, **figures}, **given)
+
+
+def remarks(*runs):
+    return list(flight_remarks(replace(design(), validation=runs)))
+
+
+def test_a_good_landing_is_not_minded():
+    assert remarks(run(final=-4.0), run(ocs=False, swing=90.0, final=90.0, passed=False)) == []
+
+
+@pytest.mark.parametrize(("without", "told"), [(30.6, True), (52.0, False)])
+def test_a_landing_that_is_worse_with_the_device_is(without, told):
+    found = remarks(run(swing=52.7), run(ocs=False, swing=without))
+    assert [each.endswith("kerb 52.7 deg, 30.6 deg without") for each in found] == [True] * told
+
+
+def test_all_that_end_off_level_are_told_in_one_line():
+    (found,) = remarks(run(final=-15.5), run("drop", final=12.9), run("flip", final=1.0))
+    assert "less than 45 deg" in found
+    assert found.endswith("not level in the end: kerb 15.5 deg, drop 12.9 deg")
+
+
+def test_standing_that_is_not_judged_is_minded_though_the_flight_passes():
+    reason = "touches down at pitch 0.7, roll 0.0 deg; standing is not judged: ends at pitch -77.0"
+    assert remarks(run(can_stand=False, final=-77.0, reason=reason)) == [f"kerb, with: {reason}"]
+
+
+def test_wheels_that_are_left_at_their_top_speed_help_no_more():
+    (found,) = remarks(run(speed=0.97), run("drop", speed=0.5))
+    assert found.startswith("kerb: a wheel ends at ")
+    assert "--desaturate" in found
+
+
+def test_one_note_about_several_flights_is_told_once():
+    note = "starts at lift-off: the leg stands on a sole"
+    assert remarks(run(note=note), run("drop", note=note)) == [f"kerb, drop: {note}"]
+
+
+def test_a_row_is_named_by_its_scenario_or_by_the_device_alone():
+    runs = [run(), run(ocs=False)]
+    many, one = flight_table(runs), device_table(runs)
+    assert [row[0] for row in many.rows] == ["kerb", "  without"]
+    assert [row[0] for row in one.rows] == ["with", "without"]
+    assert [table.columns[0].name for table in (many, one)] == ["scenario", "device"]
+    assert [row[1:] for row in many.rows] == [row[1:] for row in one.rows]

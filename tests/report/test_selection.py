@@ -1,0 +1,145 @@
+"""The choice of a motor as people read it, with the longest names of the catalogues."""
+
+import io
+import re
+from dataclasses import replace
+
+import pytest
+from rich.console import Console
+from stories import design
+
+from ocs_design.device.records import (
+    CoDesignRecord,
+    PriceRecord,
+    RankedRecord,
+    RejectionRecord,
+    SelectionRecord,
+    TaskDemand,
+)
+from ocs_design.report.limits import saving_notes, saving_table, what_saves
+from ocs_design.report.text.size import print_selection
+
+LONGEST = ("Antigravity MN6007 II KV320", "GT3 5 mm x 15 mm 18:48", "tungsten-alloy-class-4")
+
+
+def ranked(motor, gear, material, mass):
+    return RankedRecord(
+        motor=motor, gear=gear, gear_ratio=1.0, material=material, incidence=0.1543, mass=mass,
+        wheels_mass=0.4 * mass, motors_mass=0.4 * mass, gears_mass=0.0, housings_mass=0.2 * mass,
+        spin_inertia=5e-5, outer_radius=0.0413, height=0.0031,
+    )  # fmt: skip
+
+
+RANKING = (
+    ranked("AT2814 KV1200", "direct", "tungsten-alloy-class-4", 0.3367),
+    ranked("AT2814 KV1050", "direct", "tungsten-alloy-class-4", 0.3412),
+    ranked("AT2814 KV1200", "direct", "stainless-304", 0.3413),
+    ranked("AT2814 KV1200", "GT3 2 mm x 6 mm 24:36", "stainless-304", 0.3414),
+    ranked("AT2814 KV1050", "direct", "steel-a36", 0.3415),
+)
+TASKS = (
+    TaskDemand("drop", 0.154, 4.964e-5, 0.385, 0.385, 1615.8, 0.4),
+    TaskDemand("rate change, pitch", 0.154, 4.1e-5, None, None, 1615.8, None),
+)
+REJECTIONS = tuple(
+    RejectionRecord(motor=f"motor {i}", reason=reason, detail=f"detail {i}")
+    for i, reason in enumerate(("torque", "heavier", "torque"))
+)
+SELECTION = SelectionRecord(
+    bus_voltage=24.0, reserve=0.95, candidates=2_952_000, binding_maneuver="drop",
+    binding=("r_max",), tasks=TASKS, ranking=RANKING, rejections=REJECTIONS, co_design=None,
+)  # fmt: skip
+
+
+def printed(selection=SELECTION, width=80, *, verbose=False):
+    file = io.StringIO()
+    console = Console(file=file, width=width, color_system=None, highlight=False)
+    print_selection(console, selection, verbose=verbose)
+    return [line.rstrip() for line in file.getvalue().splitlines()]
+
+
+def table_of_drives(lines):
+    """Its rows, cell by cell."""
+    start = next(i for i, line in enumerate(lines) if line.lstrip().startswith("lightest drives"))
+    end = next(i for i, line in enumerate(lines) if "ruled out" in line)
+    return [re.split(r"\s{2,}", line.strip()) for line in lines[start + 2 : end]]
+
+
+@pytest.mark.parametrize(("width", "shown"), [(60, 2), (80, 3), (110, 3)])
+def test_each_drive_is_one_line_with_its_lightest_rim(width, shown):
+    lines = printed(width=width)
+    assert max(map(len, lines)) <= width
+    expected = [
+        ["AT2814 KV1200", "336.7", "tungsten-alloy-class-4"],
+        ["AT2814 KV1050", "341.2", "tungsten-alloy-class-4"],
+        ["AT2814 KV1200, GT3 2 mm x 6 mm 24:36", "341.4", "stainless-304"],
+    ]
+    rows = table_of_drives(lines)
+    assert [row[:shown] for row in rows] == [row[:shown] for row in expected]
+
+
+def test_a_wide_terminal_gets_all_dimensions():
+    rows = table_of_drives(printed(width=110))
+    assert rows[0][3:] == ["41.3", "3.1", "8.8"]
+
+
+def test_the_longest_names_of_the_catalogues_stay_whole():
+    long = replace(SELECTION, ranking=(ranked(*LONGEST, 12.3456), *RANKING))
+    for width in (80, 110):
+        rows = table_of_drives(printed(long, width))
+        assert rows[0][:2] == ["Antigravity MN6007 II KV320, GT3 5 mm x 15 mm 18:48", "12345.6"]
+        assert len(rows) == 4
+
+
+def test_rejections_are_counted_by_reason_and_listed_on_demand():
+    assert "  3 motors ruled out: torque (2), heavier (1)." in printed()
+    assert not any("detail" in line for line in printed())
+    details = [line for line in printed(verbose=True) if "detail" in line]
+    assert details == [f"  - motor {i}: detail {i}" for i in range(3)]
+
+
+def test_where_no_time_is_set_there_is_none():
+    (row,) = (line for line in printed() if "rate change, pitch" in line)
+    assert row.split()[-3:] == ["-", "-", "15,430"]
+
+
+def test_a_co_design_says_what_it_gained():
+    found = CoDesignRecord(
+        adopted=True, status="Solve_Succeeded", iterations=41, mass=0.330, selected_mass=0.3367,
+        violation=2e-7, remark="The co-designed device is taken.",
+    )  # fmt: skip
+    text = " ".join(printed(replace(SELECTION, co_design=found)))
+    assert "330.0 g against 336.7 g (-1.99%)" in text
+    assert "2.0e-07 on a ten times finer grid" in text
+    assert "The co-designed device is taken." in text
+
+
+PRICES = (
+    PriceRecord(limit="r_max", value=0.05, changed=0.051, mass_change=-0.01486),
+    PriceRecord(limit="h_max", value=0.01, changed=0.011, mass_change=0.0),
+    PriceRecord(limit="time", value=1.0, changed=1.01, mass_change=-0.0312),
+)
+
+
+def with_prices(prices=PRICES):
+    return replace(design(), selection=replace(SELECTION, prices=prices))
+
+
+def test_a_price_says_what_changes_and_what_it_saves():
+    assert saving_table(with_prices()).rows == (
+        ("r_max", "50 to 51 mm", "14.86 g"),
+        ("h_max", "10 to 11 mm", "nothing"),
+        ("time for every maneuver", "+1%", "31.20 g"),
+    )
+
+
+def test_on_one_line_what_saves_most_comes_first():
+    assert what_saves(with_prices().selection) == (
+        "1% more time for every maneuver saves 31.20 g; r_max of 51 mm instead of 50 saves 14.86 g"
+    )
+    assert what_saves(replace(SELECTION, prices=PRICES[1:2])) == "none alone saves mass"
+    assert what_saves(SELECTION) == ""
+
+
+def test_it_is_told_how_near_the_next_drive_is():
+    assert "AT2814 KV1050, is 4.5 g heavier" in saving_notes(with_prices())

@@ -1,0 +1,113 @@
+"""Warnings about a design, and notes on robots that are not symmetric to their sagittal plane."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from designed import MOTOR
+from stories import design
+
+from ocs_design.device.records import MarginRecord, read_design
+from ocs_design.report.warnings import all_warnings, coupling_notes
+
+DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
+
+
+def changed(*, asked=0.5, fitting=(), sha256="", **motor):
+    """A design that asks a wheel for so much torque [N m]."""
+    found = design(MOTOR)
+    torque = MarginRecord(
+        name="torque, to the current limit", demand=asked, capacity=1.0, unit="N m", margin=None,
+        maneuver="", note="",
+    )  # fmt: skip
+    ocs = replace(found.ocs, motor=replace(found.ocs.motor, **motor), fitting=fitting)
+    robot = replace(found.robot, sha256=sha256)
+    return replace(found, ocs=ocs, robot=robot, margins=(torque,))
+
+
+def said(design, words):
+    return [each for each in all_warnings(design) if words in each]
+
+
+@pytest.mark.parametrize(("asked", "told"), [(1.7, 1), (0.69, 0)])
+def test_a_motor_past_its_saturation_is_minded_where_it_is_used_so(asked, told):
+    found = said(changed(asked=asked, saturation_torque=0.7), "saturates from 0.7 N m")
+    assert len(found) == told
+
+
+@pytest.mark.parametrize(("inertia", "told"), [(0.0, 1), (1e-6, 0)])
+def test_a_rotor_that_counts_as_nothing_is_minded(inertia, told):
+    assert len(said(changed(rotor_inertia=inertia), "never faster")) == told
+
+
+def test_controllers_are_not_in_the_mass():
+    """45 A: 1.8 N m behind a gear of 2 with an efficiency of 0.8 and k_t of 0.025."""
+    drive = {"torque_limit": 1.8, "gear_ratio": 2.0, "gear_efficiency": 0.8}
+    (found,) = said(changed(torque_constant=0.025, **drive), "motor controllers")
+    assert "each for 45 A at 24 V" in found
+    saturating = changed(torque_constant=0.025, saturation_torque=1.0, **drive)
+    assert said(saturating, "each for more than 45 A at 24 V")
+
+
+def test_parts_that_are_left_to_design_are_named_and_the_rest_counted():
+    held = "how motor and gear are held is not designed: drill it"
+    fitting = ("break the edges", held, "mind the shaft")
+    found = said(changed(fitting=fitting), "not designed")
+    assert found == [held]
+    assert said(changed(fitting=fitting), "2 notes on making and assembling")
+    assert said(changed(fitting=fitting[:2]), "1 note on making and assembling")
+
+
+@pytest.mark.parametrize(("sha256", "told"), [("12ab", 1), ("", 0)])
+def test_a_clearance_that_was_not_checked_is_minded_of_a_robot_from_a_file(sha256, told):
+    assert len(said(changed(sha256=sha256), "clearance NOT checked")) == told
+
+
+def lopsided(share, incidence, name="drop"):
+    """A design whose pure pitch takes this share of its momentum about roll."""
+    design = read_design(DESIGN)
+    (demand,) = (each for each in design.requirement.demands if each.source == name)
+    reached = incidence > 0.0
+    asked = replace(
+        demand, incidence=incidence, roll_momentum=share if reached else 0.0, pitch_momentum=1.0
+    )
+    inertia = ((1.0, share * 2.0, 0.0), (share * 2.0, 2.0, 0.0), (0.0, 0.0, 2.0))
+    return replace(
+        design,
+        ocs=replace(design.ocs, total_inertia=inertia),
+        requirement=replace(design.requirement, demands=(asked,)),
+    )
+
+
+@pytest.mark.parametrize("name", ["drop", "back-flip"])
+def test_what_a_pitch_asks_more_is_that_of_the_rhombus(name):
+    """|L_x| / s + |L_y| / c over |L_y| / c."""
+    angle = np.radians(6.6)
+    (said,) = coupling_notes(lopsided(0.08, angle, name))
+    more = 0.08 / np.sin(angle) * np.cos(angle)
+    assert f"{name}: robot and device are not symmetric" in said
+    assert f"{more:.0%} more from the busier wheel at 6.6 deg" in said
+
+
+def test_an_axis_out_of_reach_drifts():
+    """I_xx w_x = -I_xy w_y: 0.16 of roll per pitch."""
+    (said,) = coupling_notes(lopsided(0.08, 0.0))
+    assert "cannot turn the robot in roll" in said
+    assert "0.16 deg of roll per degree of pitch" in said
+
+
+@pytest.mark.parametrize("incidence", [0.0, 0.1])
+def test_nothing_is_said_of_symmetric_robots(incidence):
+    assert not list(coupling_notes(lopsided(0.0, incidence)))
+    assert not list(coupling_notes(lopsided(1e-5, incidence)))
+
+
+def test_a_push_asks_for_what_it_is():
+    assert not list(coupling_notes(lopsided(0.5, 0.1, "disturbance")))
+
+
+def test_a_warning_under_that_heading_does_not_say_so_again():
+    found = design(MOTOR)
+    odd = replace(found, robot=replace(found.robot, warnings=("odd link",)))
+    assert "odd link" in all_warnings(odd)

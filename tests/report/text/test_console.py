@@ -1,0 +1,81 @@
+"""What reaches a terminal: no control characters of strangers, and the progress of steps."""
+
+import io
+import time
+
+import pytest
+from rich.console import Console
+from rich.panel import Panel
+from rich.table import Table
+from rich.text import Text
+
+from ocs_design.report.text.console import CleanHook, Steps, cleaned
+
+EVIL = "a\x1b[31mb\x9b2Jc\x07d\u202ee\x7f\x85[bold]f[/nope]"
+
+
+def printed(what, **options):
+    stream = io.StringIO()
+    console = Console(file=stream, width=80, **options)
+    console.push_render_hook(CleanHook())
+    console.print(what)
+    return stream.getvalue()
+
+
+def table(text):
+    grid = Table.grid()
+    grid.add_row(Text(text))
+    return grid
+
+
+@pytest.mark.parametrize("make", [Text, lambda text: Panel(Text(text)), table])
+def test_nothing_but_marks_is_left_of_control_characters(make):
+    shown = printed(make(EVIL))
+    assert not set(shown) & set("\x1b\x9b\x07\u202e\x7f\x85")
+    assert "[bold]f[/nope]" in shown
+
+
+def test_colours_of_our_own_are_kept():
+    assert "\x1b[31m" in printed(
+        Text("a", style="red"), force_terminal=True, color_system="standard"
+    )
+
+
+def test_lines_and_letters_of_any_language_stay():
+    assert cleaned("Größe\tभाषा\n日本 🤖") == "Größe\tभाषा\n日本 🤖"
+
+
+def test_a_step_is_shown_as_it_is_named():
+    stream = io.StringIO()
+    with Steps(Console(file=stream, width=80)).step("read") as step:
+        step.note = "[/nope]"
+    assert "[/nope]" in stream.getvalue()
+
+
+def shown(fractions):
+    """All that a terminal got of a step that told these fractions."""
+    screen = io.StringIO()
+    console = Console(file=screen, force_terminal=True, width=100, color_system=None)
+    with Steps(console).step("look around") as step:
+        for fraction in fractions:
+            step.update(fraction)
+            time.sleep(0.15)
+        time.sleep(0.0 if fractions else 0.15)
+    return screen.getvalue()
+
+
+def test_nothing_is_said_to_be_left_of_a_step_that_does_not_know():
+    """Its time so far is there, and could be taken for what is left."""
+    assert "0:00:00" in shown([])
+    assert " left" not in shown([])
+
+
+def test_what_is_left_is_told_where_it_is_known():
+    assert " left" in shown([0.01, 0.02, 0.03, 0.04])
+
+
+@pytest.mark.parametrize("fractions", [[], [0.5, 1.0]])
+def test_the_step_is_kept_with_its_time(fractions):
+    last = shown(fractions).rstrip().splitlines()[-1]
+    assert last.split()[-2:] == ["look", "around"]
+    assert " s " in last

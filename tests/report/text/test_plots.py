@@ -1,0 +1,113 @@
+"""Dots where they belong, and curves of the tilt."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from ocs_design.report.flights import off_level
+from ocs_design.report.text.plots import HEIGHT, LEAST_SPAN, Canvas, Scale, frame, tilt_plots
+
+ANGLES = st.floats(-np.pi, np.pi)
+
+
+def dots(canvas):
+    """Every dot as (column, row) of the fine grid, row 0 at the top."""
+    offsets = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3)]
+    return {
+        (2 * x + dx, 4 * y + dy)
+        for y, row in enumerate(canvas.rows())
+        for x, character in enumerate(row)
+        for bit, (dx, dy) in enumerate(offsets)
+        if (ord(character) - 0x2800) >> bit & 1
+    }
+
+
+def test_corners():
+    canvas = Canvas(3, 2)
+    for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)):
+        canvas.dot(x, y)
+    assert dots(canvas) == {(0, 7), (5, 7), (0, 0), (5, 0)}
+    assert canvas.rows() == ["⠁⠀⠈", "⡀⠀⢀"]
+
+
+def test_every_dot_of_a_cell():
+    canvas = Canvas(1, 1)
+    for column in range(2):
+        for row in range(4):
+            canvas.dot(float(column), row / 3.0)
+    assert canvas.rows() == ["⣿"]
+
+
+def test_a_line_has_no_gaps_and_keeps_its_ends():
+    canvas = Canvas(20, 6)
+    canvas.line((0.0, 0.1), (1.0, 0.9))
+    found = dots(canvas)
+    assert {column for column, _ in found} == set(range(40))
+    upright = Canvas(20, 6)
+    upright.line((0.5, 0.0), (0.5, 1.0))
+    assert {row for _, row in dots(upright)} == set(range(24))
+
+
+@pytest.mark.parametrize("values", [[3.0], [0.0, 0.0], [-2.0, -2.0], [3.0, 3.0 + 1e-12]])
+def test_a_scale_is_never_empty(values):
+    scale = Scale.of(values)
+    assert scale.low <= values[0]
+    assert scale.high > scale.low
+
+
+def test_a_scale_leaves_room():
+    scale = Scale.of([1.0, 3.0], room=0.5)
+    assert (scale.low, scale.high) == (0.0, 4.0)
+    assert scale.part(1.0) == 0.25
+
+
+def test_the_frame_is_as_wide_as_it_says():
+    rows = frame(
+        Canvas(30, 4), x_ends=("300 ms", "600 ms"), y_ends=("8 g", "120 g"), marks={0: "x", 29: "o"}
+    )
+    assert len(rows) == 6
+    assert rows[0].startswith("120 g ┤")
+    assert rows[3].startswith("  8 g ┤")
+    assert rows[4].endswith("└x" + 28 * "─" + "o")
+    assert rows[5] == 7 * " " + "300 ms" + 18 * " " + "600 ms"
+    assert {len(row) for row in rows} == {37}
+
+
+def flight(pitch, end=1.0):
+    pitch = np.asarray(pitch, dtype=float)
+    return SimpleNamespace(time=np.linspace(0.0, end, len(pitch)), roll=0.0 * pitch, pitch=pitch)
+
+
+@given(ANGLES, ANGLES, ANGLES)
+def test_off_level_is_the_angle_between_the_verticals(roll, pitch, yaw):
+    up = Rotation.from_euler("ZYX", [yaw, pitch, roll]).as_matrix()[:, 2]
+    assert np.cos(off_level(roll, pitch)) == pytest.approx(up[2], abs=1e-12)
+
+
+def test_level_is_a_line_at_the_foot():
+    (plot,), top = tilt_plots([flight([0.0, 0.0])], 4)
+    assert plot == "⠀⠀⠀⠀\n⣀⣀⣀⣀"
+    assert top == LEAST_SPAN
+
+
+def test_the_largest_tilt_of_all_reaches_the_top():
+    (low, high), top = tilt_plots([flight([0.0, 0.1]), flight([-0.4, -0.4])], 3)
+    assert top == pytest.approx(0.4)
+    assert high == "⠉⠉⠉\n⠀⠀⠀"
+    assert low.splitlines()[0] == "⠀⠀⠀"
+
+
+def test_a_shorter_flight_ends_earlier():
+    (short, long), _ = tilt_plots([flight([0.0, 0.0], end=0.5), flight([0.0, 0.0])], 8)
+    assert len(short.splitlines()) == HEIGHT
+    assert len(short.splitlines()[1].rstrip("⠀")) in (4, 5)
+    assert long.splitlines()[1] == "⣀" * 8
+
+
+def test_a_steep_curve_has_no_gaps():
+    (plot,), _ = tilt_plots([flight([0.0, 1.0])], 1)
+    assert sum(bin(ord(cell) - 0x2800).count("1") for cell in plot if cell != "\n") >= 8

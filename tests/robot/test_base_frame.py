@@ -1,0 +1,81 @@
+"""A robot is the same robot, whichever way its trunk's frame points."""
+
+import numpy as np
+import pytest
+from robots import ROBOTS, SOLO12
+
+from ocs_design.robot.leg_geometry import BASE_FRAME, with_base_frame
+from ocs_design.robot.legs import find_legs
+from ocs_design.robot.posture import resolve_posture
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.rotations import rotation_about
+from ocs_design.robot.tree import Body, Placement, Tree
+
+RIGHT = np.pi / 2.0
+TURNS = {
+    "y up": rotation_about(np.array([1.0, 0.0, 0.0]), RIGHT),
+    "x sideways": rotation_about(np.array([0.0, 0.0, 1.0]), RIGHT),
+    "x up": rotation_about(np.array([0.0, 1.0, 0.0]), -RIGHT),
+}
+
+
+def turned(tree: Tree, rotation) -> Tree:
+    """The same robot, its root's frame turned by `rotation` in the robot."""
+    inverse = Placement(rotation.T, np.zeros(3))
+    root, *others = tree.bodies
+    weighed = root.mass_properties.moved(rotation.T, np.zeros(3))
+    links = {name: inverse @ place for name, place in root.links.items() if name != root.name}
+    links = {root.name: Placement.identity(), **links}
+    new = Body(root.name, -1, root.placement, None, weighed, links, root.link_masses)
+    moved = [
+        Body(
+            body.name,
+            body.parent,
+            inverse @ body.placement if body.parent == 0 else body.placement,
+            body.joint,
+            body.mass_properties,
+            body.links,
+            body.link_masses,
+            body.shapes,
+        )
+        for body in others
+    ]
+    return Tree(tree.name, (new, *moved))
+
+
+@pytest.mark.parametrize("name", TURNS)
+def test_inertia_does_not_depend_on_the_trunks_frame(name):
+    robot = read_robot(SOLO12)
+    tree = turned(robot.tree, TURNS[name])
+    legs = find_legs(tree)
+    tree, mount, told = with_base_frame(tree, "base_link", legs)
+    assert mount is not None
+    assert len(told) == 1
+    posture = resolve_posture(tree, BASE_FRAME, legs, None, {})
+    assert posture.standing_height == pytest.approx(robot.standing_height, abs=1e-6)
+    inertia = tree.locked_mass_properties(posture.values, BASE_FRAME).inertia
+    # Solo12 looks alike from the front and the back, so that half a turn may be left.
+    np.testing.assert_allclose(np.abs(inertia), np.abs(robot.inertia), atol=1e-8)
+
+
+def test_a_usual_robot_keeps_its_trunk():
+    robot = read_robot(SOLO12)
+    assert robot.mount is None
+    assert robot.trunk == "base_link"
+    assert not any("base" in warning for warning in robot.warnings)
+
+
+def test_a_robot_with_y_up_stands_upright():
+    robot = read_robot(next(ROBOTS.rglob("human.urdf")))
+    assert robot.trunk == BASE_FRAME
+    assert robot.mount.link == "middle_pelvis"
+    np.testing.assert_array_equal(robot.mount.placement.rotation[:, 2], [0.0, 1.0, 0.0])
+    # A standing human is slender: it turns most easily about the vertical.
+    assert np.argmin(np.diag(robot.inertia)) == 2
+
+
+def test_a_named_trunk_is_taken_as_it_is():
+    robot = read_robot(next(ROBOTS.rglob("human.urdf")), trunk="middle_pelvis")
+    assert robot.trunk == "middle_pelvis"
+    assert robot.mount is None
+    assert any("roll and pitch" in warning for warning in robot.warnings)

@@ -1,0 +1,100 @@
+"""A limb's kinematics against the whole tree's, finite differences and brute force."""
+
+import numpy as np
+import pytest
+from anatomy import legs_of, tree_of
+from hypothesis import given
+from hypothesis import strategies as st
+from urdf_text import inertial, joint, link, robot
+
+from ocs_design.robot.chain import chain_of, nearest_turn, neutral_posture
+from ocs_design.robot.legs import leg_chain, trunk_body
+from ocs_design.robot.urdf import read_urdf
+
+TALOS = "talos_data/robots/talos_reduced"
+SOLO12 = "solo_description/robots/solo12"
+A1 = "a1_description/urdf/a1"
+
+
+def first_leg(name):
+    tree, legs = tree_of(name), legs_of(name)
+    placements = tree.placements(neutral_posture(tree))
+    return tree, legs[0], leg_chain(tree, legs[0], trunk_body(tree, legs), placements)
+
+
+def some_values(chain, seed):
+    lower, upper = np.maximum(chain.lower, -2.0), np.minimum(chain.upper, 2.0)
+    return np.random.default_rng(seed).uniform(lower, upper)
+
+
+@pytest.mark.parametrize("name", [TALOS, SOLO12, A1])
+@pytest.mark.parametrize("seed", range(3))
+def test_pose_is_that_of_the_tree(name, seed):
+    tree, leg, chain = first_leg(name)
+    values = some_values(chain, seed)
+    pose = chain.pose(values)
+    place = tree.placements(dict(zip(chain.names, values, strict=True)))[leg.body]
+    assert pose.end.position == pytest.approx(place.position, abs=1e-14)
+    assert pose.end.rotation == pytest.approx(place.rotation, abs=1e-14)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_jacobians_are_the_derivatives(seed):
+    _, leg, chain = first_leg(TALOS)
+    values, step = some_values(chain, seed), 1e-6
+    pose = chain.pose(values)
+    direction = np.array([0.0, 0.6, 0.8])
+    points = chain.point_jacobian(pose, pose.point(leg.foot))
+    directions = chain.direction_jacobian(pose, pose.end.rotation @ direction)
+    for column in range(len(values)):
+        ahead, behind = (
+            chain.pose(values + sign * step * np.eye(len(values))[column]) for sign in (1, -1)
+        )
+        slope = (ahead.point(leg.foot) - behind.point(leg.foot)) / (2 * step)
+        assert points[:, column] == pytest.approx(slope, abs=1e-8)
+        turn = (ahead.end.rotation - behind.end.rotation) @ direction / (2 * step)
+        assert directions[:, column] == pytest.approx(turn, abs=1e-8)
+
+
+@pytest.mark.parametrize("name", [SOLO12, A1])
+def test_stretched_reaches_as_deep_as_a_grid_over_all_joints(name):
+    _, leg, chain = first_leg(name)
+    down = np.array([0.0, 0.0, -1.0])
+    found = down @ chain.pose(chain.stretched(leg.foot, down)).point(leg.foot)
+    ranges = [
+        np.linspace(max(low, -np.pi), min(high, np.pi), 25)
+        for low, high in zip(chain.lower, chain.upper, strict=True)
+    ]
+    grid = np.stack(np.meshgrid(*ranges), axis=-1).reshape(-1, len(ranges))
+    best = max(down @ chain.pose(values).point(leg.foot) for values in grid[::3])
+    assert found >= best
+    assert found == pytest.approx(best, abs=0.02)
+
+
+def test_a_mimic_moves_with_its_leader():
+    follow = '<mimic joint="a" multiplier="-2" offset="0.1"/>'
+    free = '<axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/>'
+    below = '<origin xyz="0 0 -0.3"/>'
+    tree = read_urdf(
+        robot(
+            *(link(name, inertial()) for name in ("trunk", "thigh", "shank")),
+            joint("a", "trunk", "thigh", free),
+            joint("b", "thigh", "shank", below, free, follow),
+        ),
+        find_mesh=lambda _: None,
+    )
+    chain = chain_of(tree, 1, 2, tree.placements({}))
+    assert chain.names == ("a",)
+    pose, place = chain.pose(np.array([0.4])), tree.placements({"a": 0.4})[2]
+    assert pose.end.rotation == pytest.approx(place.rotation, abs=1e-15)
+    tip, step = np.array([0.0, 0.0, -0.3]), 1e-6
+    slope = (chain.pose(np.array([0.4 + step])).point(tip) - pose.point(tip)) / step
+    assert chain.point_jacobian(pose, pose.point(tip))[:, 0] == pytest.approx(slope, abs=1e-5)
+
+
+@given(angle=st.floats(-20.0, 20.0), middle=st.floats(-4.0, 4.0), half=st.floats(0.1, 3.0))
+def test_nearest_turn_is_the_best_cosine_within_the_limits(angle, middle, half):
+    found = nearest_turn(angle, middle - half, middle + half)
+    assert middle - half <= found <= middle + half
+    grid = np.linspace(middle - half, middle + half, 201)
+    assert np.cos(found - angle) >= np.cos(grid - angle).max() - 1e-9

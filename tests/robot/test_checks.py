@@ -1,0 +1,257 @@
+"""Faults planted one by one in a robot that has none; each must be told, with its link."""
+
+import re
+import time
+from contextlib import suppress
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from commands import run
+from robots import SOLO12
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.checks import plausibility_warnings
+from ocs_design.robot.reader import read_robot
+
+TRUNK, THIGH, SHANK = (0.4, 0.2, 0.1), (0.03, 0.04, 0.16), (0.02, 0.02, 0.16)
+
+
+def box(name, mass, sides, centre=(0.0, 0.0, 0.0), shape=""):
+    """A homogeneous box: I_x = m (b^2 + c^2) / 12."""
+    moments = [mass * (sum(s * s for s in sides) - sides[i] ** 2) / 12 for i in range(3)]
+    at = f'<origin xyz="{words(centre)}" rpy="0 0 0"/>'
+    diagonal = " ".join(f'i{a}{a}="{m}"' for a, m in zip("xyz", moments, strict=True))
+    return (
+        f'<link name="{name}"><inertial>{at}<mass value="{mass}"/>'
+        f'<inertia {diagonal} ixy="0" ixz="0" iyz="0"/></inertial>'
+        f'<collision>{at}<geometry><box size="{words(sides)}"/></geometry></collision>'
+        f"{shape}</link>"
+    )
+
+
+def joint(name, parent, child, at, axis, limits='lower="-1.5" upper="1.5"'):
+    kind = "revolute" if limits else "continuous"
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{words(at)}" rpy="0 0 0"/><axis xyz="{words(axis)}"/>'
+        f'<limit {limits} effort="3" velocity="20"/></joint>'
+    )
+
+
+def words(numbers):
+    return " ".join(map(str, numbers))
+
+
+def leg(name, x, y):
+    foot = '<collision><origin xyz="0 0 -0.16"/><geometry><sphere radius="0.01"/></geometry>'
+    foot += "</collision>"
+    side = np.sign(y)
+    return (
+        box(f"{name}_hip", 0.3, (0.06, 0.05, 0.05), (0.0, 0.01 * side, 0.0))
+        + box(f"{name}_thigh", 0.3, THIGH, (0.0, 0.0, -0.08))
+        + box(f"{name}_shank", 0.1, SHANK, (0.0, 0.0, -0.08), foot)
+        + joint(f"{name}_roll", "trunk", f"{name}_hip", (x, y, 0), (1, 0, 0))
+        + joint(f"{name}_pitch", f"{name}_hip", f"{name}_thigh", (0, 0.05 * side, 0), (0, 1, 0))
+        + joint(f"{name}_knee", f"{name}_thigh", f"{name}_shank", (0, 0, -0.16), (0, 1, 0))
+    )
+
+
+WHEEL = (
+    '<link name="lidar"><inertial><origin xyz="0 0 0" rpy="0 0 0"/><mass value="0.2"/>'
+    '<inertia ixx="5e-5" iyy="5e-5" izz="9e-5" ixy="0" ixz="0" iyz="0"/></inertial>'
+    '<visual><geometry><cylinder radius="0.03" length="0.02"/></geometry></visual></link>'
+)
+
+
+def quadruped():
+    """A robot that nothing is wrong with, as elements."""
+    legs = [
+        (f"{a}{b}", x, y)
+        for a, x in (("F", 0.2), ("H", -0.2))
+        for b, y in (("L", 0.1), ("R", -0.1))
+    ]
+    text = (
+        '<robot name="sound">'
+        + box("trunk", 3.0, TRUNK)
+        + "".join(leg(*each) for each in legs)
+        + WHEEL
+        + joint("spin", "trunk", "lidar", (0, 0, 0.08), (0, 0, 1), "")
+        + "</robot>"
+    )
+    return ET.fromstring(text)
+
+
+def scaled(root, tag, factor, of=".*", attributes=None):
+    """Multiply all numbers of the elements `tag` inside of the links and joints named so."""
+    for part in root:
+        for element in part.iter(tag) if re.fullmatch(of, part.get("name")) else ():
+            for name in attributes or element.keys():
+                numbers = [factor * float(word) for word in element.get(name).split()]
+                element.set(name, words(numbers))
+
+
+def set_in(root, part, tag, **attributes):
+    """Set attributes of the first element `tag` of one link or joint."""
+    found = next(each for each in root if each.get("name") == part)
+    next(found.iter(tag)).attrib.update({name: str(value) for name, value in attributes.items()})
+
+
+def swap(root, of, one, other):
+    """Write one moment of a link in place of another."""
+    inertia = next(each for each in root if each.get("name") == of).find("inertial/inertia")
+    set_in(root, of, "inertia", **{one: inertia.get(other), other: inertia.get(one)})
+
+
+def about_origin(root, of):
+    """Inertia about the link's origin: Steiner's term of its centre added."""
+    link = next(each for each in root if each.get("name") == of)
+    x, y, z = map(float, link.find("inertial/origin").get("xyz").split())
+    mass, inertia = float(link.find("inertial/mass").get("value")), link.find("inertial/inertia")
+    for axis, square in (("xx", y * y + z * z), ("yy", x * x + z * z), ("zz", x * x + y * y)):
+        inertia.set(f"i{axis}", str(float(inertia.get(f"i{axis}")) + mass * square))
+
+
+def in_millimetres(root):
+    for tag, names in (("origin", ["xyz"]), ("box", None), ("sphere", None), ("cylinder", None)):
+        scaled(root, tag, 1e3, attributes=names)
+
+
+# The fault: what is done to the robot, which words tell it, and which link or joint.
+FAULTS = {
+    "a wheel's moments swapped": (
+        lambda r: swap(r, "lidar", "ixx", "izz"), "round about their joint", "lidar"),
+    "a wheel's inertia turned by 45 degrees": (
+        lambda r: set_in(r, "lidar", "inertia", ixx=7e-5, izz=7e-5, ixz=2e-5),
+        "round about their joint", "lidar"),
+    "a long link's moments swapped": (
+        lambda r: swap(r, "FL_shank", "ixx", "izz"), "does not lie as their shapes", "FL_shank"),
+    "a link's inertia turned by its rpy": (
+        lambda r: set_in(r, "HR_thigh", "origin", rpy="0 1.5708 0"),
+        "does not lie as their shapes", "HR_thigh"),
+    "an inertia in kg mm2": (
+        lambda r: scaled(r, "inertia", 1e6, "trunk"), "more inertia than fits", "trunk"),
+    "an inertia in kg cm2": (
+        lambda r: scaled(r, "inertia", 1e4, "HL_hip"), "more inertia than fits", "HL_hip"),
+    "an inertia in g m2": (
+        lambda r: scaled(r, "inertia", 1e3, "FR_thigh"), "more inertia than fits", "FR_thigh"),
+    "an exporter's placeholder": (
+        lambda r: set_in(r, "FL_hip", "inertia", ixx=1, iyy=1, izz=1),
+        "more inertia than fits", "FL_hip"),
+    "an inertia of a density of 1": (
+        lambda r: scaled(r, "inertia", 1e-3, "trunk"), "too little inertia", "trunk"),
+    "every inertia a hundredth": (
+        lambda r: scaled(r, "inertia", 1e-2), "too little inertia", "and 10 more"),
+    "an inertia about the link's origin": (
+        lambda r: about_origin(r, "FL_thigh"), "about their origin", "FL_thigh"),
+    "every mass and inertia in grams": (
+        lambda r: (scaled(r, "mass", 1e3), scaled(r, "inertia", 1e3)),
+        "the robot weighs .* as dense as solid metal", ""),
+    "one mass in grams": (
+        lambda r: scaled(r, "mass", 1e3, "FL_shank"), "heavier than solid steel", "FL_shank"),
+    "every mass in tonnes": (
+        lambda r: (scaled(r, "mass", 1e-3), scaled(r, "inertia", 1e-3)),
+        "the robot weighs .* as light as air", ""),
+    "one mass in tonnes": (
+        lambda r: scaled(r, "mass", 1e-3, "HL_thigh"), "more inertia than fits", "HL_thigh"),
+    "every length in millimetres": (in_millimetres, "lighter than the air", "trunk"),
+    "a shape without its scale": (
+        lambda r: scaled(r, "box", 1e3, "FR_hip"), "lighter than the air", "FR_hip"),
+    "joints in millimetres": (
+        lambda r: scaled(r, "origin", 1e3, ".*_(roll|pitch|knee)", ["xyz"]),
+        "the robot weighs .* as light as air", ""),
+    "a centre of mass in millimetres": (
+        lambda r: set_in(r, "HL_thigh", "origin", xyz="0 0 -80"), "centre of mass is outside",
+        "HL_thigh"),
+    "a centre of mass on the wrong side": (
+        lambda r: set_in(r, "HL_shank", "origin", xyz="0 0 0.08"), "centre of mass is outside",
+        "HL_shank"),
+    "a leg heavier than its twin": (
+        lambda r: scaled(r, "mass", 1.1, "FL_thigh"), "differ in mass", "FL_thigh, FR_thigh"),
+    "a centre of mass copied without mirroring": (
+        lambda r: set_in(r, "FR_hip", "origin", xyz="0 0.01 0"),
+        "centre of mass does not mirror", "FL_hip, FR_hip"),
+    "a product of inertia copied without mirroring": (
+        lambda r: [set_in(r, f"F{side}_hip", "inertia", ixy="3e-5") for side in "LR"],
+        "inertia does not mirror", "FL_hip, FR_hip"),
+    "a leg without inertia": (
+        lambda r: scaled(r, "inertia", 0.0, "HR_thigh"), "inertia does not mirror",
+        "HL_thigh, HR_thigh"),
+    "a hip out of its place": (
+        lambda r: set_in(r, "HR_roll", "origin", xyz="-0.21 -0.1 0"),
+        "joints that do not mirror", "HL_hip, HR_hip"),
+    "a joint range of one side": (
+        lambda r: set_in(r, "HR_knee", "limit", upper="1.2"), "range, effort or speed", "HR_shank"),
+    "a motor of one side": (
+        lambda r: set_in(r, "FL_roll", "limit", effort="30"), "range, effort or speed", "FL_hip"),
+    "a placeholder for an effort": (
+        lambda r: set_in(r, "HR_knee", "limit", effort="1000"), "efforts over 10", "HR_knee"),
+    "limits in degrees": (
+        lambda r: [set_in(r, f"{leg}_knee", "limit", lower="-90", upper="90")
+                   for leg in ("FL", "FR", "HL", "HR")], "limits in degrees", "FL_knee"),
+    "a placement turned by degrees": (
+        lambda r: set_in(r, "FL_knee", "origin", rpy="0 0 180"), "angles in degrees", "FL_knee"),
+}  # fmt: skip
+
+
+def read(root, folder, **options):
+    path = folder / "robot.urdf"
+    path.write_bytes(ET.tostring(root))
+    return read_robot(path, **options)
+
+
+def test_a_sound_robot_raises_no_warning(tmp_path):
+    assert read(quadruped(), tmp_path).warnings == ()
+
+
+@pytest.mark.parametrize(("plant", "words", "where"), FAULTS.values(), ids=FAULTS)
+def test_a_planted_fault_is_told(tmp_path, plant, words, where):
+    root = quadruped()
+    plant(root)
+    warnings = read(root, tmp_path).warnings
+    assert any(re.search(f"{words}.*{where}", warning) for warning in warnings), warnings
+
+
+def test_every_link_of_one_test_is_in_one_sentence(tmp_path):
+    root = quadruped()
+    scaled(root, "inertia", 1e6, ".*_hip")
+    found = [each for each in read(root, tmp_path).warnings if "more inertia" in each]
+    assert len(found) == 1
+    assert all(f"{leg}_hip (" in found[0] for leg in ("FL", "FR", "HL", "HR"))
+
+
+def test_a_posture_outside_the_limits_and_a_foot_in_the_air(tmp_path):
+    warnings = read(quadruped(), tmp_path, joints={"FL_knee": 2.0}).warnings
+    assert "the posture is outside the limits of: FL_knee" in warnings
+    assert any(
+        re.search("foot 'FL_shank' is .* mm above the ground", warning) for warning in warnings
+    )
+
+
+def test_strict_makes_a_warning_fatal(tmp_path):
+    root = quadruped()
+    swap(root, "lidar", "ixx", "izz")
+    read(root, tmp_path)
+    typed = ("inspect", tmp_path / "robot.urdf")
+    assert run(*typed).code == 0
+    refused = run(*typed, "--strict")
+    assert refused.code == 3
+    assert "round about their joint" in refused.said
+
+
+def test_solo12_is_sound_but_for_its_efforts_and_judged_in_no_time():
+    robot = read_robot(SOLO12)
+    judge = (robot.tree, robot.trunk, robot.legs, robot.posture, robot.mass_properties)
+    start = time.process_time()
+    (warning,) = plausibility_warnings(*judge)
+    assert "efforts over 10 times weight" in warning, "the public file states 1000 N m"
+    assert time.process_time() - start < 0.1
+
+
+@pytest.mark.parametrize("factor", [1e-300, 1e-75, 1e60])
+@pytest.mark.parametrize("tag", ["mass", "inertia", "box"])
+def test_numbers_at_the_edge_are_judged_without_a_warning_of_arithmetic(tmp_path, tag, factor):
+    root = quadruped()
+    scaled(root, tag, factor)
+    with suppress(RobotError):
+        assert read(root, tmp_path).name == "sound"

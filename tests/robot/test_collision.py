@@ -1,0 +1,154 @@
+"""Distances to links at random joint values, with Pinocchio's kinematics.
+
+Against points on the hulls of trimesh, and against coal where links are primitives: of hulls with
+hundreds of faces coal tells up to 10 mm too much.
+"""
+
+from functools import cache
+
+import coal
+import numpy as np
+import pinocchio as pin
+import pytest
+import trimesh
+from robots import ROBOTS
+
+from ocs_design.robot.clearance import drawn, full_ranges, reaches
+from ocs_design.robot.collision import CollisionModel
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.tree import Ball, Drum
+
+SOLO12, A1, BOLT = (
+    "solo_description/robots/solo12",
+    "a1_description/urdf/a1",
+    "bolt_description/robots/bolt",
+)
+
+
+@cache
+def collision_model(name):
+    return CollisionModel(read_robot(ROBOTS / f"{name}.urdf"))
+
+
+@cache
+def pinocchio_of(name):
+    path = str(ROBOTS / f"{name}.urdf")
+    model = pin.buildModelFromUrdf(path)
+    geometry = pin.buildGeomFromUrdf(
+        model, path, pin.GeometryType.COLLISION, package_dirs=[str(ROBOTS.parent.parent)]
+    )
+    return model, geometry
+
+
+def placed(name, posture):
+    """Each collision shape, with its place in the trunk, which is the root."""
+    model, geometry = pinocchio_of(name)
+    data, geometry_data = model.createData(), geometry.createData()
+    q = pin.neutral(model)
+    for joint, value in posture.items():
+        q[model.joints[model.getJointId(joint)].idx_q] = value
+    pin.updateGeometryPlacements(model, data, geometry, geometry_data, q)
+    return zip(geometry.geometryObjects, geometry_data.oMg, strict=True)
+
+
+@cache
+def hull_of(path):
+    return trimesh.load_mesh(path).convex_hull
+
+
+def by_trimesh(name, posture, point):
+    """Least distance from a point to the hulls of all links; negative inside one."""
+    distances = []
+    for each, at in placed(name, posture):
+        hull, local = hull_of(each.meshPath), at.actInv(point)
+        outside = ((local - hull.triangles[:, 0]) * hull.face_normals).sum(axis=1).max() > 0.0
+        distance = trimesh.proximity.closest_point_naive(hull, [local])[1][0]
+        distances.append(distance if outside else -distance)
+    return min(distances)
+
+
+def by_coal(name, posture, shape, placement):
+    """Least distance from any link to a shape."""
+    where = coal.Transform3s(placement.rotation, placement.translation)
+    return min(
+        coal.distance(
+            each.geometry,
+            coal.Transform3s(at.rotation, at.translation),
+            shape,
+            where,
+            coal.DistanceRequest(),
+            coal.DistanceResult(),
+        )
+        for each, at in placed(name, posture)
+    )
+
+
+def cases(name, count):
+    """Postures, and centres around the trunk."""
+    collision = collision_model(name)
+    postures = drawn(full_ranges(collision.robot, collision.robot.tree.joints), count)
+    centers = np.random.default_rng(1).uniform(-0.4, 0.4, (count, 3))
+    return collision, list(zip(postures, centers, strict=True))
+
+
+@pytest.mark.parametrize("name", [SOLO12, BOLT])
+def test_balls_and_hulls(name):
+    collision, drawn_cases = cases(name, 20)
+    for posture, center in drawn_cases:
+        wanted = by_trimesh(name, posture, center) - 0.03
+        found = collision.nearest(Ball(center, 0.03), collision.poses([posture]), collision.parts)
+        assert found.distance == pytest.approx(wanted, abs=2e-6)
+
+
+def test_drums_and_primitives():
+    collision, drawn_cases = cases(A1, 60)
+    axis = np.array([np.sin(0.6), np.cos(0.6), 0.0])
+    turn = pin.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), axis).matrix()
+    for posture, center in drawn_cases:
+        wanted = by_coal(A1, posture, coal.Cylinder(0.05, 0.012), pin.SE3(turn, center))
+        poses = collision.poses([posture])
+        found = collision.nearest(Drum(center, axis, 0.05, 0.012), poses, collision.parts)
+        # Of solids that overlap each library tells the depth in its own way.
+        if wanted > 0.0:
+            assert found.distance == pytest.approx(wanted, abs=5e-6)
+        else:
+            assert found.distance <= 1e-6
+
+
+def test_the_nearest_of_many_postures_is_the_least_of_all():
+    collision, drawn_cases = cases(SOLO12, 40)
+    postures = [posture for posture, _ in drawn_cases]
+    ball = Ball(np.array([0.1, 0.1, 0.15]), 0.04)
+    each = [
+        collision.nearest(ball, collision.poses([posture]), collision.parts) for posture in postures
+    ]
+    together = collision.nearest(ball, collision.poses(postures), collision.parts)
+    least = min(each, key=lambda nearest: nearest.distance)
+    assert together.distance == pytest.approx(least.distance, abs=1e-9)
+    assert together.posture == least.posture
+
+
+def test_nothing_nearer_than_asked():
+    collision = collision_model(SOLO12)
+    far = Ball(np.array([0.0, 0.0, 1.0]), 0.04)
+    assert collision.nearest(far, collision.nominal, collision.parts, within=0.1) is None
+    assert collision.nearest(far, collision.nominal, collision.parts) is not None
+
+
+def test_parts_know_the_joints_that_move_them():
+    parts = {part.name: part for part in collision_model(SOLO12).parts}
+    assert (parts["base_link"].limb, parts["base_link"].joints) == ("", ())
+    lower = parts["FL_LOWER_LEG"]
+    assert (lower.limb, lower.joints) == ("FL_SHOULDER", ("FL_HAA", "FL_HFE", "FL_KFE"))
+
+
+def test_a_limb_that_touches_in_the_nominal_posture_with_a_joint_at_its_limit():
+    knee = "FR_calf_joint"
+    path = ROBOTS / f"{A1}.urdf"
+    limit = read_robot(path).tree.joints[knee].upper
+    collision = CollisionModel(read_robot(path, joints={knee: limit}))
+    (calf,) = (part for part in collision.parts if part.joints[-1:] == (knee,))
+    ball = Ball(collision.nominal.positions[0, calf.geoms[-1]], 0.01)
+    (reach,) = (each for each in reaches(collision, [ball]) if each.part == calf.name)
+    assert reach.joints
+    assert reach.joints.items() <= collision.robot.posture.items(), "nothing has to move"

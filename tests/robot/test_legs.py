@@ -1,0 +1,235 @@
+"""Legs and trunks of real robots, and of small ones made for what the real ones do not show."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from anatomy import ANATOMY, LEGGED, legs_of, tree_of
+from robots import ALL_URDFS, ROBOTS
+from urdf_text import inertial, joint, link, robot
+
+from ocs_design.robot.legs import find_legs, find_trunk
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.urdf import read_urdf
+
+LIMIT = '<limit lower="-2" upper="2" effort="3" velocity="4"/>'
+# Foot links whose origin is the middle of the ball, in files that do not say so with a sphere.
+BARE_FOOT_RADIUS = {"solo_description/robots/solo12": 0.016, "go2_description/urdf/go2": 0.022}
+
+
+def test_anatomy_covers_every_robot_that_can_be_read():
+    names = {str(path.relative_to(ROBOTS).with_suffix("")) for path in ALL_URDFS}
+    assert names - set(ANATOMY) == {"ur_description/urdf/ur3"}
+
+
+@pytest.mark.parametrize("name", ANATOMY)
+def test_legs_are_found_and_nothing_else(name):
+    legs = legs_of(name)
+    assert len(legs) == ANATOMY[name][1]
+    assert len({leg.name for leg in legs}) == len(legs)
+
+
+@pytest.mark.parametrize("name", ANATOMY)
+def test_trunk(name):
+    tree = tree_of(name)
+    assert find_trunk(tree, legs_of(name)) == ANATOMY[name][0]
+
+
+@pytest.mark.parametrize("name", LEGGED)
+def test_base_frame_is_the_frame_of_the_free_flyer(name):
+    tree = tree_of(name)
+    root = tree.bodies[0]
+    assert find_trunk(tree, legs_of(name)) == root.name
+    assert (root.links[root.name].position == 0.0).all()
+
+
+@pytest.mark.parametrize("name", LEGGED)
+def test_leg_joints_lead_from_trunk_to_foot_in_pinocchio(name):
+    model = pin.buildModelFromUrdf(str(ROBOTS / f"{name}.urdf"), pin.JointModelFreeFlyer())
+    for leg in legs_of(name):
+        support = [model.names[i] for i in model.supports[model.getJointId(leg.joints[-1])]]
+        assert support[-len(leg.joints) :] == list(leg.joints)
+        foot = model.frames[model.getFrameId(leg.name)]
+        assert model.names[foot.parentJoint] == leg.joints[-1]
+
+
+@pytest.mark.parametrize("name", LEGGED)
+def test_legs_of_one_robot_are_alike(name):
+    legs = legs_of(name)
+    assert len({len(leg.joints) for leg in legs}) == 1
+    assert np.ptp([leg.length for leg in legs]) < 0.01 * legs[0].length
+    assert np.ptp([leg.foot_radius for leg in legs]) < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("name", "length"),
+    [
+        ("solo_description/robots/solo12", 0.32),  # thigh and shank of 160 mm
+        ("bolt_description/robots/bolt", 0.40),  # 200 mm each
+        ("quadruped_description/urdf/quadruped", 0.32),
+        # Thigh and shank of 200 mm, of which the knee's limit of 0.916297857 rad takes some.
+        ("a1_description/urdf/a1", 0.4 * np.cos(0.5 * 0.916297857)),
+    ],
+)
+def test_length_is_that_of_thigh_and_shank(name, length):
+    assert legs_of(name)[0].length == pytest.approx(length, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "radius"),
+    [
+        ("a1_description/urdf/a1", 0.02),
+        ("anymal_b_simple_description/robots/anymal", 0.031),
+        ("hyq_description/robots/hyq_no_sensors", 0.02175),
+        ("laikago_description/urdf/laikago", 0.0265),
+    ],
+)
+def test_foot_is_the_collision_sphere_of_the_file(name, radius):
+    assert {leg.foot_radius for leg in legs_of(name)} == {radius}
+
+
+@pytest.mark.parametrize("name", BARE_FOOT_RADIUS)
+def test_foot_radius_from_a_mesh_is_that_of_the_ball(name):
+    for leg in legs_of(name):
+        assert leg.foot_radius == pytest.approx(BARE_FOOT_RADIUS[name], abs=1e-3)
+
+
+def test_wheels_are_feet_with_the_radius_of_the_wheel():
+    for leg in legs_of("centauro_description/urdf/centauro"):
+        assert leg.joints[-1].startswith("j_wheel")
+        assert leg.foot_radius == pytest.approx(0.124, abs=1e-3)
+        assert leg.foot == pytest.approx(np.zeros(3), abs=1e-3)
+
+
+def limb(name: str, xyz: str, shank: float, parent: str = "trunk") -> tuple[str, ...]:
+    """Two hinges about y, a thigh of 0.2 m and a shank that end in a bare foot link."""
+    return (
+        link(f"{name}_thigh", inertial(0.1, "1e-4 1e-4 1e-4", "0 0 -0.1")),
+        link(f"{name}_shank", inertial(0.1, "1e-4 1e-4 1e-4", "0 0 -0.1")),
+        link(f"{name}_foot"),
+        hinge(f"{name}_hip", parent, f"{name}_thigh", xyz),
+        hinge(f"{name}_knee", f"{name}_thigh", f"{name}_shank", "0 0 -0.2"),
+        joint(
+            f"{name}_ankle",
+            f"{name}_shank",
+            f"{name}_foot",
+            f'<origin xyz="0 0 {-shank}"/>',
+            kind="fixed",
+        ),
+    )
+
+
+def hinge(name: str, parent: str, child: str, xyz: str) -> str:
+    axis = f'<origin xyz="{xyz}"/><axis xyz="0 1 0"/>'
+    return joint(name, parent, child, axis, LIMIT)
+
+
+def feet_of(*elements: str) -> list[str]:
+    trunk = link("trunk", inertial(5.0))
+    return [
+        leg.name for leg in find_legs(read_urdf(robot(trunk, *elements), find_mesh=lambda _: None))
+    ]
+
+
+def test_three_legs_in_file_order():
+    limbs = [
+        *limb("c", "0.2 0 0", 0.2),
+        *limb("a", "-0.1 0.1 0", 0.2),
+        *limb("b", "-0.1 -0.1 0", 0.2),
+    ]
+    assert feet_of(*limbs) == ["c_foot", "a_foot", "b_foot"]
+
+
+def test_one_leg_cannot_be_told_from_an_arm():
+    assert feet_of(*limb("a", "0 0 0", 0.2)) == []
+
+
+def test_a_short_limb_beside_the_legs_is_none():
+    limbs = [*limb("a", "0 0.1 0", 0.2), *limb("b", "0 -0.1 0", 0.2), *limb("c", "0.1 0 0", 0.02)]
+    assert feet_of(*limbs) == ["a_foot", "b_foot"]
+
+
+def test_limbs_high_above_the_centre_of_mass_are_no_legs():
+    limbs = [*limb("a", "0 0.1 1", 0.2), *limb("b", "0 -0.1 1", 0.2)]
+    assert feet_of(*limbs) == []
+
+
+def test_slides_alone_are_no_legs():
+    def slides(name: str, y: float) -> list[str]:
+        at = f'<origin xyz="0 {y} 0"/><axis xyz="0 0 1"/>'
+        down = '<origin xyz="0 0 -0.3"/><axis xyz="0 0 1"/>'
+        return [
+            link(f"{name}_upper", inertial(0.1)),
+            link(f"{name}_lower", inertial(0.1, xyz="0 0 -0.3")),
+            joint(f"{name}_one", "trunk", f"{name}_upper", at, LIMIT, kind="prismatic"),
+            joint(f"{name}_two", f"{name}_upper", f"{name}_lower", down, LIMIT, kind="prismatic"),
+        ]
+
+    assert feet_of(*slides("a", 0.1), *slides("b", -0.1)) == []
+
+
+def test_a_second_pair_on_a_torso_is_arms():
+    torso = [link("torso", inertial(3.0)), hinge("waist", "trunk", "torso", "0 0 0.1")]
+    arms = [*limb("l", "0 0.2 0.3", 0.2, "torso"), *limb("r", "0 -0.2 0.3", 0.2, "torso")]
+    limbs = [*limb("a", "0 0.1 0", 0.2), *limb("b", "0 -0.1 0", 0.2)]
+    assert feet_of(*torso, *arms, *limbs) == ["a_foot", "b_foot"]
+
+
+def mjcf_leg(side: str, y: float) -> str:
+    """Hip with three hinges in one body, knee, ankle with two, and two bars for a foot."""
+    bars = "".join(
+        f'<geom type="capsule" fromto="-0.05 {b} -0.06 0.15 {b} -0.06" size="0.02"/>'
+        for b in (-0.03, 0.03)
+    )
+    return f"""
+    <body name="{side}_thigh" pos="0 {y} -0.05">
+      <joint name="{side}_roll" axis="1 0 0" range="-0.5 0.5"/>
+      <joint name="{side}_yaw" axis="0 0 1" range="-1 1"/>
+      <joint name="{side}_pitch" axis="0 1 0" range="-2 0.5"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.05"/>
+      <body name="{side}_shank" pos="0 0 -0.4">
+        <joint name="{side}_knee" axis="0 1 0" range="0 2.5"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.04"/>
+        <body name="{side}_foot" pos="0 0 -0.4">
+          <joint name="{side}_flex" axis="0 1 0" range="-1 1"/>
+          <joint name="{side}_tilt" axis="1 0 0" range="-1 1"/>
+          {bars}
+        </body>
+      </body>
+    </body>"""
+
+
+def mjcf_arm(side: str, y: float) -> str:
+    return f"""
+    <body name="{side}_arm" pos="0 {y} 0.2">
+      <joint name="{side}_shoulder" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/>
+      <body name="{side}_hand" pos="0 0 -0.3">
+        <joint name="{side}_elbow" axis="0 1 0" range="-2 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03"/>
+      </body>
+    </body>"""
+
+
+def test_a_humanoid_whose_root_is_its_chest(tmp_path):
+    """MJCF humanoids start at the torso: the pelvis and the legs hang below it."""
+    path = tmp_path / "humanoid.xml"
+    path.write_text(
+        f"""<mujoco model="humanoid"><compiler angle="radian"/><worldbody>
+        <body name="torso" pos="0 0 1.3"><freejoint/>
+          <geom type="box" size="0.1 0.2 0.2"/>
+          {mjcf_arm("left", 0.25)}{mjcf_arm("right", -0.25)}
+          <body name="pelvis" pos="0 0 -0.3"><joint name="waist" axis="0 0 1"/>
+            <geom type="box" size="0.1 0.15 0.05"/>
+            {mjcf_leg("left", 0.1)}{mjcf_leg("right", -0.1)}
+          </body>
+        </body></worldbody></mujoco>"""
+    )
+    found = read_robot(path)
+    assert (found.trunk, found.floating_base) == ("pelvis", "torso")
+    assert [leg.name for leg in found.legs] == ["left_foot", "right_foot"]
+    hinges = ("roll", "yaw", "pitch", "knee", "flex", "tilt")
+    assert found.legs[0].joints == tuple(f"left_{hinge}" for hinge in hinges)
+    # The middle of the soles: 0.05 m ahead of the ankle, 0.06 + 0.02 m below it.
+    assert found.legs[0].foot == pytest.approx([0.05, 0.0, -0.08], abs=1e-9)
+    assert found.standing_height == pytest.approx(0.05 + 0.8 * found.legs[0].length, abs=1e-4)
+    assert found.posture["left_knee"] > 0.5

@@ -1,0 +1,134 @@
+from pathlib import Path
+from zipfile import ZipFile
+
+import numpy as np
+import pytest
+import trimesh
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.meshes import check_mesh_file, mesh_bounds
+from ocs_design.robot.packages import MeshFinder
+
+
+@pytest.fixture(autouse=True)
+def no_ros(monkeypatch):
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+
+
+def make(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.touch()
+    return path
+
+
+def test_the_given_package_path_goes_first(tmp_path: Path, monkeypatch):
+    given = make(tmp_path / "given" / "m.stl")
+    make(tmp_path / "ros" / "bot" / "m.stl")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ros"))
+    finder = MeshFinder(tmp_path, {"bot": tmp_path / "given"})
+    assert finder("package://bot/m.stl") == given
+    assert not finder.missing
+
+
+@pytest.mark.parametrize(
+    ("variable", "entry", "package"),
+    [
+        ("ROS_PACKAGE_PATH", "src", "src/bot"),
+        ("ROS_PACKAGE_PATH", "src/bot", "src/bot"),
+        ("AMENT_PREFIX_PATH", "install", "install/share/bot"),
+    ],
+)
+def test_ros_environment_is_searched(tmp_path: Path, monkeypatch, variable, entry, package):
+    mesh = make(tmp_path / package / "meshes" / "m.stl")
+    monkeypatch.setenv(variable, f"/nowhere:{tmp_path / entry}")
+    assert MeshFinder(Path("/elsewhere"), {})("package://bot/meshes/m.stl") == mesh
+
+
+@pytest.mark.parametrize("scheme", ["package", "model"])
+@pytest.mark.parametrize("start", ["ws/bot/urdf", "ws/other/urdf/deep", "ws/bot"])
+def test_folders_above_the_robot_are_searched(tmp_path: Path, scheme, start):
+    mesh = make(tmp_path / "ws" / "bot" / "meshes" / "m.stl")
+    (tmp_path / start).mkdir(parents=True, exist_ok=True)
+    assert MeshFinder(tmp_path / start, {})(f"{scheme}://bot/meshes/m.stl") == mesh
+
+
+def test_plain_and_file_addresses(tmp_path: Path):
+    mesh = make(tmp_path / "a b" / "m.stl")
+    finder = MeshFinder(tmp_path, {})
+    for name in ("a b/m.stl", str(mesh), f"file://{tmp_path}/a%20b/m.stl", "file://a b/m.stl"):
+        assert finder(name) == mesh
+
+
+@pytest.mark.parametrize(
+    "name", ["gone.stl", "package://bot/m.stl", "package://", "http://x/m.stl", "", "a\0b"]
+)
+def test_what_is_missing_is_noted_once(tmp_path: Path, name):
+    finder = MeshFinder(tmp_path, {})
+    assert finder(name) is None
+    assert finder(name) is None
+    assert list(finder.missing) == [name]
+
+
+BOX = trimesh.creation.box(
+    extents=(1.0, 2.0, 3.0), transform=trimesh.transformations.translation_matrix((5, 0, 0))
+)
+EXPECTED = np.array([[4.5, -1.0, -1.5], [5.5, 1.0, 1.5]])
+
+
+@pytest.mark.parametrize("file_type", ["stl", "stl_ascii", "obj", "dae", "ply"])
+def test_bounds_of_every_format(tmp_path: Path, file_type):
+    path = tmp_path / f"box.{file_type.removesuffix('_ascii')}"
+    BOX.export(path, file_type=file_type)
+    np.testing.assert_allclose(mesh_bounds(path, (1.0, 1.0, 1.0)), EXPECTED, atol=1e-6)
+
+
+def test_bounds_of_a_scaled_and_mirrored_mesh(tmp_path: Path):
+    path = tmp_path / "box.STL"
+    BOX.export(path, file_type="stl")
+    expected = [[-0.011, -0.02, -0.03], [-0.009, 0.02, 0.03]]
+    np.testing.assert_allclose(mesh_bounds(path, (-0.002, 0.02, 0.02)), expected)
+
+
+def test_a_collada_file_in_inches_is_in_metres(tmp_path: Path):
+    path = tmp_path / "box.dae"
+    BOX.export(path)
+    unit = '<unit name="inch" meter="0.0254"/></asset>'
+    path.write_text(path.read_text().replace("</asset>", unit))
+    np.testing.assert_allclose(mesh_bounds(path, (1.0, 1.0, 1.0)), EXPECTED * 0.0254, atol=1e-6)
+
+
+def test_vertices_without_face_do_not_count(tmp_path: Path):
+    path = tmp_path / "m.obj"
+    path.write_text("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2/1/1 3//2 -1\n")
+    np.testing.assert_array_equal(mesh_bounds(path, (1, 1, 1)), [[0, 0, 0], [1, 1, 0]])
+
+
+@pytest.mark.parametrize("name", ["m.stl", "m.obj", "m.dae", "m.unknown"])
+def test_unreadable_meshes_have_no_bounds(tmp_path: Path, name):
+    path = tmp_path / name
+    assert mesh_bounds(tmp_path / "gone" / name, (1, 1, 1)) is None
+    path.write_bytes(b"\x00garbage\xff")
+    assert mesh_bounds(path, (1, 1, 1)) is None
+
+
+@pytest.mark.parametrize("vertex", ["v 0.0 0.0", "v"])
+def test_vertices_without_three_numbers_have_no_bounds(tmp_path: Path, vertex):
+    path = tmp_path / "m.obj"
+    path.write_text(f"{vertex}\nf 1 1 1\n")
+    assert mesh_bounds(path, (1, 1, 1)) is None
+
+
+def test_meshes_that_are_too_large_or_in_archives_are_not_opened(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr("ocs_design.robot.meshes.LARGEST_MESH", 1000)
+    box = trimesh.creation.box()
+    box.export(tmp_path / "binary.stl")
+    box.export(tmp_path / "text.stl", file_type="stl_ascii")
+    with ZipFile(tmp_path / "box.3mf", "w") as archive:
+        archive.writestr("3D/3dmodel.model", "<model/>")
+    np.testing.assert_allclose(mesh_bounds(tmp_path / "binary.stl", (1.0, 1.0, 1.0)), box.bounds)
+    assert mesh_bounds(tmp_path / "text.stl", (1.0, 1.0, 1.0)) is None
+    with pytest.raises(RobotError, match="larger than"):
+        check_mesh_file(tmp_path / "text.stl")
+    with pytest.raises(RobotError, match="not a mesh that can be read"):
+        check_mesh_file(tmp_path / "box.3mf")

@@ -1,0 +1,296 @@
+"""The MJCF reader against MuJoCo itself, and against the URDF reader on the same robot."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+import trimesh
+from robots import SOLO12
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.mjcf import read_mjcf
+from ocs_design.robot.tree import JointKind, ShapeKind, Tree
+from ocs_design.robot.urdf import read_urdf
+
+# Everything that makes a joint's frame differ from its body's: anchors, references, several joints
+# on one body, welded bodies, degrees, default classes.
+ZOO = """<mujoco model="zoo">
+<compiler angle="degree"/>
+<default><joint damping="0.5" armature="0.01" frictionloss="0.25"/></default>
+<worldbody>
+  <geom type="plane" size="1 1 .1"/>
+  <body name="table" pos="1 0 0"><geom type="box" size="1 1 1" density="5000"/></body>
+  <body name="trunk" pos="0 0 1" euler="10 20 30">
+    <freejoint/>
+    <geom type="box" size=".2 .1 .05" pos="0.01 0 0.02"/>
+    <body name="leg" pos=".2 0 0" euler="5 0 0">
+      <joint name="a" axis="1 0 0" pos="0.01 .02 .03" ref="10" range="-50 60"/>
+      <joint name="b" axis="0 1 0" pos="0 0 .05"/>
+      <joint name="s" type="slide" axis="0 0 1" ref=".02" range="-.1 .2"/>
+      <geom type="capsule" size=".02" fromto="0 0 0 0 0 -.2"/>
+      <body name="shoe" pos="0 0 -.2" euler="0 7 0">
+        <geom type="sphere" size=".03"/>
+        <body name="toe" pos=".03 0 0">
+          <joint name="t" axis="0 1 1" pos=".1 0 0"/>
+          <geom type="ellipsoid" size=".03 .02 .01" contype="0" conaffinity="0"/>
+        </body>
+        <body name="tail">
+          <joint name="swivel" type="ball"/><geom type="cylinder" size=".01 .02" pos=".1 0 0"/>
+        </body>
+      </body>
+    </body>
+  </body>
+  <body name="crate" pos="0 5 0"><freejoint/><geom type="box" size=".3 .3 .3"/></body>
+</worldbody>
+<actuator>
+  <motor joint="a" gear="3" ctrlrange="-2 2"/>
+  <position joint="b" kp="10" forcerange="-4 4"/>
+  <motor joint="t"/>
+</actuator>
+<keyframe>
+  <key name="home" qpos="0 0 1 1 0 0 0  .1 .2 .03 .4  1 0 0 0  0 0 0 1 0 0 0"/>
+  <key qpos="0 0 1 1 0 0 0  .5 .2 .03 .4  1 0 0 0  0 0 0 1 0 0 0"/>
+</keyframe>
+</mujoco>"""
+
+
+def read(text: str, folder: Path | None = None) -> Tree:
+    return read_mjcf(text.encode(), folder)
+
+
+def by_mujoco(text: str, base: str, posture: dict[str, float], pose: np.ndarray) -> MassProperties:
+    """Of all bodies under `base`, in its frame, with the base at `pose`."""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    data.qpos[:7] = pose
+    for name, value in posture.items():
+        data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
+    mujoco.mj_kinematics(model, data)
+    root = model.body(base).id
+    bodies = np.flatnonzero(model.body_rootid == root)
+    masses, points = model.body_mass[bodies], data.xipos[bodies]
+    com = masses @ points / masses.sum()
+    inertia = np.zeros((3, 3))
+    for body, mass, arm in zip(bodies, masses, points - com, strict=True):
+        axes = data.ximat[body].reshape(3, 3)
+        inertia += axes @ np.diag(model.body_inertia[body]) @ axes.T
+        inertia += mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    frame = data.xmat[root].reshape(3, 3)
+    return MassProperties(
+        masses.sum(), frame.T @ (com - data.xpos[root]), frame.T @ inertia @ frame
+    )
+
+
+def assert_same(ours: MassProperties, theirs: MassProperties, relative: float = 1e-12) -> None:
+    size = np.sqrt(np.trace(theirs.inertia) / theirs.mass)
+    assert ours.mass == pytest.approx(theirs.mass, rel=relative)
+    np.testing.assert_allclose(ours.com, theirs.com, atol=relative * size)
+    np.testing.assert_allclose(
+        ours.inertia, theirs.inertia, atol=relative * np.abs(theirs.inertia).max()
+    )
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_mass_com_and_inertia_are_those_of_mujoco(seed):
+    rng = np.random.default_rng(seed)
+    tree = read(ZOO)
+    posture = {name: rng.uniform(-1, 1) for name in tree.joints}
+    turn = rng.normal(size=4)
+    pose = np.concatenate([rng.normal(size=3), turn / np.linalg.norm(turn)])
+    assert_same(
+        tree.locked_mass_properties(posture, "trunk"), by_mujoco(ZOO, "trunk", posture, pose)
+    )
+
+
+def test_bodies_and_joints_of_the_zoo():
+    tree = read(ZOO)
+    assert tree.name == "zoo"
+    assert [body.name for body in tree.bodies] == ["trunk", "leg:a", "leg:b", "leg", "toe"]
+    assert set(tree.bodies[3].links) == {"leg", "shoe", "tail"}
+    a, slide = tree.joints["a"], tree.joints["s"]
+    assert (a.lower, a.upper) == pytest.approx((np.radians(-50), np.radians(60)))
+    assert (a.damping, a.armature, a.friction) == (0.5, 0.01, 0.25)
+    assert (slide.kind, slide.lower, slide.upper) == (JointKind.PRISMATIC, -0.1, 0.2)
+    assert np.isinf(tree.joints["b"].upper)
+
+
+def test_efforts_are_those_of_the_actuators():
+    efforts = {name: joint.effort for name, joint in read(ZOO).joints.items()}
+    assert efforts == {"a": 6.0, "b": 4.0, "s": np.inf, "t": np.inf}
+
+
+def test_a_joints_own_force_range_limits_its_actuators():
+    text = ZOO.replace('name="a"', 'name="a" actuatorfrcrange="-5 5"')
+    assert read(text).joints["a"].effort == 5.0
+
+
+def test_keyframes_become_named_postures():
+    postures = read(ZOO).named_postures
+    assert postures["home"] == {"a": 0.1, "b": 0.2, "s": 0.03, "t": 0.4}
+    assert postures["keyframe_1"]["a"] == 0.5
+
+
+def test_what_is_left_out_or_held_is_told():
+    warnings = " ".join(read(ZOO).warnings)
+    assert "crate" in warnings
+    assert "swivel" in warnings
+
+
+def test_shapes_stand_where_the_geoms_do():
+    shapes = {shape.link: shape for body in read(ZOO).bodies for shape in body.shapes}
+    trunk, leg, toe = shapes["trunk"], shapes["leg"], shapes["toe"]
+    assert (trunk.kind, trunk.size, trunk.collides) == (ShapeKind.BOX, (0.2, 0.1, 0.05), True)
+    np.testing.assert_allclose(trunk.position, [0.01, 0, 0.02])
+    assert (leg.kind, leg.size) == (ShapeKind.CAPSULE, (0.02, 0.1))
+    assert (toe.kind, toe.size, toe.collides) == (ShapeKind.BOX, (0.03, 0.02, 0.01), False)
+
+
+@pytest.mark.parametrize(("slope", "constant"), [(0.5, 0.1), (-2.0, 0.0)])
+def test_a_linear_joint_equality_is_a_mimic_as_mujoco_holds_it(slope, constant):
+    equality = (
+        f'<equality><joint joint1="a" joint2="s" polycoef="{constant} {slope} 0 0 0"/></equality>'
+    )
+    text = ZOO.replace("<actuator>", equality + "<actuator>")
+    tree = read(text)
+    posture = tree.complete({"s": 0.07, "b": 0.3})
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    for name, value in posture.items():
+        data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
+    mujoco.mj_forward(model, data)
+    assert tree.joints["a"].mimic is not None
+    assert abs(data.efc_pos[data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY]).max() < 1e-15
+
+
+def test_a_curved_joint_equality_and_a_loop_are_told():
+    equality = (
+        '<equality><joint joint1="a" joint2="s" polycoef="0 1 2 0 0"/>'
+        '<connect name="rod" body1="toe" body2="trunk" anchor="0 0 0"/></equality>'
+    )
+    tree = read(ZOO.replace("<actuator>", equality + "<actuator>"))
+    assert tree.joints["a"].mimic is None
+    assert any("rod" in warning for warning in tree.warnings)
+
+
+def mjcf_of(tree: Tree) -> str:
+    """The same numbers as MJCF, written by hand to the last digit."""
+
+    def digits(values) -> str:
+        return " ".join(repr(float(value)) for value in np.ravel(values))
+
+    def element(index: int) -> str:
+        body, mass = tree.bodies[index], tree.bodies[index].mass_properties
+        quaternion = np.empty(4)
+        mujoco.mju_mat2Quat(quaternion, body.placement.rotation.ravel())
+        inertia = mass.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        joint = (
+            f'<joint name="{body.joint.name}" axis="{digits(body.joint.axis)}"/>'
+            if body.joint
+            else ""
+        )
+        place = f'pos="{digits(body.placement.position)}" quat="{digits(quaternion)}"'
+        below = [i for i, each in enumerate(tree.bodies) if each.parent == index]
+        return (
+            f'<body name="{body.name}" {place}>'
+            f'{joint}<inertial mass="{mass.mass!r}" pos="{digits(mass.com)}" '
+            f'fullinertia="{digits(inertia)}"/>{"".join(map(element, below))}</body>'
+        )
+
+    return (
+        f'<mujoco model="{tree.name}"><compiler angle="radian"/><worldbody>{element(0)}</worldbody>'
+        "</mujoco>"
+    )
+
+
+def test_the_same_robot_as_urdf_and_as_mjcf_is_the_same():
+    urdf = read_urdf(SOLO12.read_bytes(), find_mesh=lambda _: None)
+    mjcf = read(mjcf_of(urdf))
+    assert list(mjcf.joints) == list(urdf.joints)
+    rng = np.random.default_rng(0)
+    for _ in range(5):
+        posture = {name: rng.uniform(-1, 1) for name in urdf.joints}
+        assert_same(
+            mjcf.locked_mass_properties(posture, "base_link"),
+            urdf.locked_mass_properties(posture, "base_link"),
+        )
+
+
+FIXED = """<mujoco><worldbody>
+  <body name="bench"><geom type="box" size="9 9 9"/></body>
+  <body name="arm"><geom type="box" size=".1 .1 .1"/>
+    <body name="hand" pos="0 0 1"><joint name="wrist"/><geom size=".1"/></body></body>
+</worldbody></mujoco>"""
+
+
+def test_without_a_free_body_the_one_with_joints_is_freed_with_a_warning():
+    tree = read(FIXED)
+    assert [body.name for body in tree.bodies] == ["arm", "hand"]
+    assert any("free joint" in warning for warning in tree.warnings)
+
+
+MESHES = """<mujoco><compiler meshdir="meshes"/><asset><mesh name="m" file="m.stl"/></asset>
+<worldbody>
+  <body name="trunk"><freejoint/>{inside}<geom type="mesh" mesh="m" {how}/></body>
+</worldbody>
+</mujoco>"""
+INERTIAL = '<inertial mass="1" pos="0 0 0" diaginertia="1 1 1"/>'
+SPHERE = '<geom size=".1"/>'
+
+
+@pytest.mark.parametrize(
+    ("inside", "how"), [(INERTIAL, ""), (SPHERE, 'mass="0"'), (SPHERE, 'density="0"')]
+)
+def test_a_missing_mesh_that_weighs_nothing_is_only_warned_of(tmp_path, inside, how):
+    tree = read(MESHES.format(inside=inside, how=how), tmp_path)
+    assert any("m.stl" in warning for warning in tree.warnings)
+
+
+@pytest.mark.parametrize(("inside", "how"), [("", ""), (SPHERE, ""), (SPHERE, 'mass="2"')])
+def test_a_missing_mesh_that_weighs_is_refused(tmp_path, inside, how):
+    with pytest.raises(RobotError, match=r"trunk.*m\.stl") as caught:
+        read(MESHES.format(inside=inside, how=how), tmp_path)
+    assert "<inertial>" in caught.value.hint
+
+
+def test_a_mesh_weighs_and_its_box_is_the_shape(tmp_path: Path):
+    (tmp_path / "meshes").mkdir()
+    box = trimesh.creation.box(extents=(1, 2, 3))
+    box.apply_translation((4, 0, 0))
+    box.export(tmp_path / "meshes" / "m.stl")
+    (body,) = read(MESHES.format(inside="", how=""), tmp_path).bodies
+    assert body.mass_properties.mass == pytest.approx(6000.0)
+    np.testing.assert_allclose(body.mass_properties.com, [4, 0, 0], atol=1e-6)
+    (shape,) = body.shapes
+    extents = np.abs(shape.rotation) @ np.array(shape.size)
+    np.testing.assert_allclose(extents, [0.5, 1, 1.5], atol=1e-6)
+    np.testing.assert_allclose(shape.position, [4, 0, 0], atol=1e-6)
+
+
+def test_included_files_are_read_from_the_folder(tmp_path: Path):
+    (tmp_path / "part.xml").write_text(FIXED.replace("mujoco>", "mujocoinclude>"))
+    tree = read('<mujoco><include file="part.xml"/></mujoco>', tmp_path)
+    assert tree.bodies[0].name == "arm"
+
+
+def test_a_missing_include_is_named(tmp_path: Path):
+    with pytest.raises(RobotError, match=r"part\.xml"):
+        read('<mujoco><include file="part.xml"/></mujoco>', tmp_path)
+
+
+def test_utf_16_is_read():
+    assert read_mjcf(ZOO.encode("utf-16"), None).name == "zoo"
+
+
+def test_warnings_of_mujoco_are_told_and_leave_no_log_file(tmp_path: Path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tree = read(ZOO.replace("<compiler", '<compiler settotalmass="5"'))
+    assert any(warning.startswith("MuJoCo: ") for warning in tree.warnings)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_body_without_a_name_is_told_by_the_one_above(tmp_path: Path):
+    nameless = '<body><joint/><geom type="mesh" mesh="m"/></body>'
+    with pytest.raises(RobotError, match="without a name below body 'trunk'"):
+        read(MESHES.format(inside=SPHERE + nameless, how='mass="0"'), tmp_path)

@@ -1,0 +1,89 @@
+"""The nearest inertia that MuJoCo takes, against a general optimiser."""
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import minimize
+
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.mujoco_bodies import inertial, nearest_physical_moments
+
+FLOOR = 1e-12
+MOMENT = st.floats(-1.0, 1.0)
+
+
+def compiles(found):
+    spec = mujoco.MjSpec()
+    body = spec.worldbody.add_body(
+        mass=found.mass,
+        ipos=found.position,
+        iquat=found.quaternion,
+        inertia=found.moments,
+        explicitinertial=True,
+    )
+    body.add_freejoint()
+    return spec.compile()
+
+
+@given(st.tuples(MOMENT, MOMENT, MOMENT))
+def test_moments_are_the_nearest_that_exist(moments):
+    asked = np.sort(moments)
+    found = nearest_physical_moments(asked, 1e-3)
+    least = minimize(
+        lambda m: np.sum((m - asked) ** 2),
+        np.ones(3),
+        method="SLSQP",
+        bounds=[(1e-3, None)] * 3,
+        constraints=[
+            {"type": "ineq", "fun": lambda m, k=k: m.sum() - 2.0 * m[k]} for k in range(3)
+        ],
+        options={"ftol": 1e-14},
+    )
+    assert found.min() >= 1e-3
+    assert found[0] + found[1] >= found[2] == found.max()
+    assert np.linalg.norm(found - asked) <= np.linalg.norm(least.x - asked) + 1e-6
+
+
+@given(st.tuples(*[st.floats(1e-6, 1e3)] * 3))
+def test_physical_moments_stay_as_they_are(spreads):
+    """Any three spreads of mass along the axes give moments of a real body."""
+    x, y, z = spreads
+    moments = np.sort([y + z, x + z, x + y])
+    np.testing.assert_array_equal(nearest_physical_moments(moments, FLOOR), moments)
+
+
+@pytest.mark.parametrize("excess", [1e-16, 4e-16, 1e-15, 1e-12])
+def test_mujoco_takes_a_plate_that_rounding_has_made_too_flat(excess):
+    raw = MassProperties(1.0, np.zeros(3), np.diag([1e-3, 1e-3, 2e-3 * (1.0 + excess)]))
+    found = inertial(raw)
+    assert found.warning is None
+    np.testing.assert_allclose(compiles(found).body_inertia[1], np.diag(raw.inertia), rtol=1e-9)
+
+
+def test_full_inertia_survives_the_principal_axes():
+    rng = np.random.default_rng(0)
+    for _ in range(100):
+        points = rng.normal(size=(20, 3)) * [1.0, 2.0, 0.5]
+        inertia = sum(p @ p * np.eye(3) - np.outer(p, p) for p in points)
+        found = inertial(MassProperties(2.0, np.array([0.1, 0.2, 0.3]), inertia))
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, found.quaternion)
+        axes = rotation.reshape(3, 3)
+        np.testing.assert_allclose(axes @ np.diag(found.moments) @ axes.T, inertia, rtol=1e-12)
+
+
+def test_an_impossible_inertia_is_mended_and_told():
+    found = inertial(MassProperties(1.0, np.zeros(3), np.diag([1.0, 1.0, 5.0])))
+    np.testing.assert_allclose(found.moments, [2.0, 2.0, 4.0], rtol=1e-12)
+    assert found.warning is not None
+    assert "2, 2, 4 kg m^2" in found.warning
+    compiles(found)
+
+
+def test_a_massless_body_weighs_next_to_nothing():
+    found = inertial(MassProperties.zero())
+    assert found.mass == 1e-9
+    assert found.warning is not None
+    compiles(found)

@@ -1,0 +1,108 @@
+"""Postures by name and joint by joint."""
+
+from dataclasses import replace
+
+import pytest
+from anatomy import legs_of, stand_of, tree_of
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.posture import resolve_posture
+
+SOLO12 = "solo_description/robots/solo12"
+UR5 = "ur_description/urdf/ur5_robot"
+
+
+def solo12(name=None, joints=None, tree=None):
+    return resolve_posture(
+        tree or tree_of(SOLO12), "base_link", legs_of(SOLO12), name, joints or {}
+    )
+
+
+def test_a_robot_with_legs_stands():
+    posture = solo12()
+    assert posture.name == "stand"
+    assert posture.values == stand_of(SOLO12).posture
+    assert posture.standing_height == stand_of(SOLO12).standing_height
+
+
+def test_a_robot_without_legs_is_at_zero():
+    posture = resolve_posture(tree_of(UR5), "base_link", (), None, {})
+    assert posture.name == "zero"
+    assert set(posture.values.values()) == {0.0}
+    assert posture.standing_height is None
+
+
+def test_zero_means_zero_and_straight_legs():
+    posture = solo12("zero")
+    assert set(posture.values.values()) == {0.0}
+    # Thigh and shank of 160 mm and the ball of the foot, whose frame is 8 mm beside the shank.
+    assert posture.standing_height == pytest.approx(0.32 + 0.0164, abs=1e-4)
+
+
+def test_a_posture_of_the_file():
+    posture = solo12("standing")
+    assert posture.name == "standing"
+    assert posture.values == tree_of(SOLO12).named_postures["standing"]
+
+
+def test_joints_replace_what_the_posture_says():
+    posture = solo12("zero", {"FL_KFE": -0.5})
+    assert posture.name == "zero + joints"
+    assert posture.values["FL_KFE"] == -0.5
+    assert posture.values["FR_KFE"] == 0.0
+
+
+def test_joints_of_a_partial_posture_rest_within_their_limits():
+    """A1's knees cannot be straight: -0.916 rad is as near to zero as they come."""
+    name = "a1_description/urdf/a1"
+    tree = replace(tree_of(name), named_postures={"sit": {"FL_thigh_joint": 1.0}})
+    values = resolve_posture(tree, "base", legs_of(name), "sit", {}).values
+    assert values["FL_thigh_joint"] == 1.0
+    assert values["FL_calf_joint"] == tree.joints["FL_calf_joint"].upper < 0.0
+
+
+def test_values_outside_the_limits_are_told():
+    name = "a1_description/urdf/a1"
+    posture = resolve_posture(tree_of(name), "base", legs_of(name), "zero", {})
+    (warning,) = posture.warnings
+    assert "limits" in warning
+    assert "FL_calf_joint" in warning
+
+
+def test_a_posture_of_the_file_behind_a_built_in_name_is_told():
+    tree = replace(tree_of(SOLO12), named_postures={"stand": {"FL_KFE": 1.0}})
+    (warning,) = solo12("stand", tree=tree).warnings
+    assert "'stand'" in warning
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wrong", "right"),
+    [
+        ({"name": "standin"}, "posture 'standin'", "stand"),
+        ({"joints": {"FL_HF": 0.1}}, "moving joint 'FL_HF'", "FL_HFE"),
+    ],
+)
+def test_an_unknown_name_lists_the_nearest_first(arguments, wrong, right):
+    with pytest.raises(RobotError) as caught:
+        solo12(**arguments)
+    assert wrong in caught.value.message
+    assert caught.value.hint.startswith(f"available: {right}")
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e308])
+def test_a_joint_needs_a_value_that_can_be(value):
+    with pytest.raises(RobotError, match="FL_HFE"):
+        solo12(joints={"FL_HFE": value})
+
+
+def test_stand_needs_legs():
+    with pytest.raises(RobotError, match="no legs"):
+        resolve_posture(tree_of(UR5), "base_link", (), "stand", {})
+
+
+def test_a_joint_that_follows_another_cannot_be_set():
+    tree = tree_of("tiago_pro_description/robots/tiago_pro")
+    follower = next(joint for joint in tree.joints.values() if joint.mimic is not None)
+    with pytest.raises(RobotError) as caught:
+        resolve_posture(tree, "base_footprint", (), "zero", {follower.name: 0.1})
+    assert follower.mimic[0] in caught.value.hint

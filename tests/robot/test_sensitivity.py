@@ -1,0 +1,57 @@
+"""How Solo12's inertia moves with its posture, against the figures of the theory."""
+
+import numpy as np
+import pytest
+from robots import ROBOTS, SOLO12
+
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.posture import posture_sensitivity
+from ocs_design.robot.reader import read_robot
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return {row.label: row.mass_properties for row in posture_sensitivity(read_robot(SOLO12))}
+
+
+def ratio(weighed):
+    return weighed.inertia[0, 0] / weighed.inertia[1, 1]
+
+
+def test_zero_is_that_of_the_theory(rows):
+    moments = [0.0367786, 0.0705134, 0.0802918]
+    assert np.diag(rows["zero"].inertia) == pytest.approx(moments, abs=1e-7)
+
+
+def test_the_ratio_spans_what_the_theory_says(rows):
+    """Of alpha* (docs/theory.md): it rises with abduction; 40 degrees belong to 0.75 to 1 rad."""
+    spread = [ratio(rows[f"legs spread by {angle} rad"]) for angle in ("0.25", "0.5", "0.75", "1")]
+    assert (np.diff(spread) > 0.0).all()
+    assert spread[2] < np.tan(np.radians(40.0)) < spread[3]
+    assert min(map(ratio, rows.values())) > 0.44
+    assert max(map(ratio, rows.values())) < 0.89
+
+
+def test_lower_stands_weigh_less_about_every_axis(rows):
+    traces = [np.trace(rows[f"stand at {share}% of the leg"].inertia) for share in (60, 70, 80, 90)]
+    assert (np.diff(traces) > 0.0).all()
+
+
+def test_named_postures_are_there(rows):
+    assert {"nominal (stand)", "standing", "straight_standing"} <= set(rows)
+
+
+def test_postures_beyond_the_limits_are_left_out():
+    """Talos cannot spread its legs by more than 0.5 rad."""
+    robot = read_robot(ROBOTS / "talos_data/robots/talos_reduced.urdf")
+    labels = [row.label for row in posture_sensitivity(robot)]
+    assert "legs spread by 0.5 rad" in labels
+    assert "legs spread by 0.75 rad" not in labels
+    assert robot.tree.joints["leg_left_2_joint"].upper < 0.75
+
+
+def test_a_robot_without_joints_has_one_inertia():
+    rows = posture_sensitivity(robot_by_hand(2.0, (0.02, 0.03, 0.04)))
+    assert all(
+        np.diag(row.mass_properties.inertia) == pytest.approx([0.02, 0.03, 0.04]) for row in rows
+    )

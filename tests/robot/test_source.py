@@ -1,0 +1,106 @@
+import gzip
+import hashlib
+import io
+import os
+import sys
+from pathlib import Path
+
+import pytest
+from urdf_text import TWO_LINKS
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot import source
+from ocs_design.robot.source import read_source
+
+
+def test_a_file_is_read_with_its_folder_and_hash(tmp_path: Path):
+    path = tmp_path / "robot.urdf"
+    path.write_bytes(TWO_LINKS)
+    read = read_source(path)
+    assert read.content == TWO_LINKS
+    assert read.folder == tmp_path
+    assert read.path_text == str(path)
+    assert read.sha256 == hashlib.sha256(TWO_LINKS).hexdigest()
+
+
+def test_gzip_is_told_by_its_bytes_and_hashed_as_it_is(tmp_path: Path):
+    zipped = gzip.compress(TWO_LINKS)
+    path = tmp_path / "robot.urdf"
+    path.write_bytes(zipped)
+    read = read_source(str(path))
+    assert read.content == TWO_LINKS
+    assert read.sha256 == hashlib.sha256(zipped).hexdigest()
+
+
+class StandardInput(io.TextIOWrapper):
+    def __init__(self, content: bytes, *, terminal: bool = False):
+        super().__init__(io.BytesIO(content))
+        self.terminal = terminal
+
+    def isatty(self):
+        return self.terminal
+
+
+@pytest.mark.parametrize("pack", [bytes, gzip.compress])
+def test_standard_input_is_read(monkeypatch, pack):
+    monkeypatch.setattr(sys, "stdin", StandardInput(pack(TWO_LINKS)))
+    read = read_source("-")
+    assert read.content == TWO_LINKS
+    assert read.folder is None
+
+
+def test_a_terminal_is_not_waited_for(monkeypatch):
+    monkeypatch.setattr(sys, "stdin", StandardInput(b"", terminal=True))
+    with pytest.raises(RobotError, match="standard input"):
+        read_source("-")
+
+
+def test_a_missing_file_suggests_its_neighbour(tmp_path: Path):
+    (tmp_path / "solo12.urdf").write_bytes(TWO_LINKS)
+    with pytest.raises(RobotError, match="does not exist") as caught:
+        read_source(tmp_path / "sole12.urdf")
+    assert "solo12.urdf" in caught.value.hint
+
+
+def test_a_missing_folder_is_named(tmp_path: Path):
+    with pytest.raises(RobotError, match="does not exist") as caught:
+        read_source(tmp_path / "gone" / "solo12.urdf")
+    assert "gone" in caught.value.hint
+
+
+def test_a_folder_suggests_a_file_in_it(tmp_path: Path):
+    (tmp_path / "solo12.urdf").write_bytes(TWO_LINKS)
+    with pytest.raises(RobotError, match="is a folder") as caught:
+        read_source(tmp_path)
+    assert "solo12.urdf" in caught.value.hint
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read every file")
+def test_a_file_without_permission_is_refused(tmp_path: Path):
+    path = tmp_path / "robot.urdf"
+    path.write_bytes(TWO_LINKS)
+    path.chmod(0)
+    with pytest.raises(RobotError, match="permission"):
+        read_source(path)
+
+
+@pytest.mark.parametrize("name", ["a" * 5000, "a\0b", "robot.urdf/inside"])
+def test_impossible_paths_are_refused(tmp_path: Path, name: str):
+    (tmp_path / "robot.urdf").write_bytes(TWO_LINKS)
+    with pytest.raises(RobotError):
+        read_source(str(tmp_path / name))
+
+
+def test_an_endless_file_is_refused(monkeypatch):
+    monkeypatch.setattr(source, "MAX_BYTES", 2**20)
+    with pytest.raises(RobotError, match="larger than 1 MiB"):
+        read_source("/dev/zero")
+
+
+def test_a_gzip_bomb_is_refused_before_it_unfolds(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr(source, "MAX_BYTES", 2**20)
+    path = tmp_path / "robot.urdf.gz"
+    path.write_bytes(gzip.compress(b" " * 2**24))
+    assert path.stat().st_size < 2**20
+    with pytest.raises(RobotError, match="larger than 1 MiB unzipped"):
+        read_source(path)

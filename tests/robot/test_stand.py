@@ -1,0 +1,176 @@
+"""The standing posture, judged by Pinocchio's kinematics."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from anatomy import ANATOMY, LEGGED, legs_of, stand_of, tree_of
+from robots import ROBOTS
+
+from ocs_design.robot.stance import SHARE_OF_LEG, stand
+
+SOLO12 = "solo_description/robots/solo12"
+# Ankles that cannot bend so far: 30 degrees in Romeo, not backwards at all in the simple humanoids.
+STRAIGHTER = {
+    "romeo_description/urdf/romeo": 0.95,
+    "romeo_description/urdf/romeo_small": 0.95,
+    "romeo_description/urdf/romeo_laas_small": 0.95,
+    "simple_humanoid_description/urdf/simple_humanoid": 1.0,
+    "simple_humanoid_description/urdf/simple_humanoid_classical": 1.0,
+}
+HUMAN = "human_description/robots/human"
+WHEELED = "centauro_description/urdf/centauro"
+# Stated, for asking each robot would read them all before the first test.
+BARE_FEET = [
+    name for name in LEGGED if name != WHEELED and (ANATOMY[name][1] == 4 or "bolt" in name)
+]
+SOLED = [name for name in LEGGED if name not in BARE_FEET and name != WHEELED]
+
+
+def standing(name, share=SHARE_OF_LEG):
+    tree, legs = tree_of(name), legs_of(name)
+    found = stand_of(name) if share == SHARE_OF_LEG else stand(tree, ANATOMY[name][0], legs, share)
+    return tree, legs, found
+
+
+def up_of(name):
+    return np.array([0.0, 1.0, 0.0] if name == HUMAN else [0.0, 0.0, 1.0])
+
+
+def pinocchio_frames(name, posture):
+    """Model and data of Pinocchio at a posture, its base in the origin."""
+    model = pin.buildModelFromUrdf(str(ROBOTS / f"{name}.urdf"), pin.JointModelFreeFlyer())
+    data, q = model.createData(), pin.neutral(model)
+    for index in range(2, model.njoints):
+        at, value = model.joints[index], posture[model.names[index]]
+        q[at.idx_q : at.idx_q + at.nq] = [value] if at.nq == 1 else [np.cos(value), np.sin(value)]
+    pin.framesForwardKinematics(model, data, q)
+    return model, data
+
+
+def soles(name, posture, tree, legs, up):
+    """Lowest point of each foot in the base frame and the rotation of its body, by Pinocchio."""
+    model, data = pinocchio_frames(name, posture)
+    for leg in legs:
+        place = data.oMf[model.getFrameId(tree.bodies[leg.body].name)]
+        yield place.act(leg.foot) - leg.foot_radius * up, place.rotation
+
+
+@pytest.mark.parametrize("name", LEGGED)
+def test_bare_feet_are_those_of_legs_without_ankles(name):
+    assert (len(legs_of(name)[0].joints) < 5) == (name in BARE_FEET)
+
+
+@pytest.mark.parametrize("name", LEGGED)
+def test_all_feet_are_on_one_plane_below_the_trunk(name):
+    tree, legs, found = standing(name)
+    up = up_of(name)
+    heights = [point @ up for point, _ in soles(name, found.posture, tree, legs, up)]
+    assert heights == pytest.approx([-found.standing_height] * len(legs), abs=1e-3)
+
+
+@pytest.mark.parametrize("name", LEGGED)
+def test_joint_limits_are_respected(name):
+    tree, _, found = standing(name)
+    for joint in tree.joints.values():
+        assert joint.lower - 1e-9 <= found.posture[joint.name] <= joint.upper + 1e-9
+
+
+@pytest.mark.parametrize("name", LEGGED)
+def test_every_foot_is_in_place(name):
+    _, _, found = standing(name)
+    assert max(found.misses) < 1e-3
+    assert max(found.tilts) < 1e-2
+    assert found.share == STRAIGHTER.get(name, SHARE_OF_LEG)
+    assert len(found.warnings) == (1 if name in STRAIGHTER else 0)
+
+
+@pytest.mark.parametrize("name", BARE_FEET)
+def test_bare_feet_are_below_the_hinges_that_swing_them(name):
+    """The hip is the last but one joint of these legs; along its axis the foot may be anywhere."""
+    tree, legs, found = standing(name)
+    up = up_of(name)
+    model, data = pinocchio_frames(name, found.posture)
+    for leg, (sole, _) in zip(legs, soles(name, found.posture, tree, legs, up), strict=True):
+        index = model.getJointId(leg.joints[-2])
+        swing = np.cross(data.oMi[index].rotation @ tree.joints[leg.joints[-2]].axis, up)
+        assert swing @ (sole - data.oMi[index].translation) == pytest.approx(0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", SOLED)
+def test_soles_stay_as_level_as_they_are_at_zero(name):
+    tree, legs, found = standing(name)
+    up = up_of(name)
+    zero = dict.fromkeys(tree.joints, 0.0)
+    stood, flat = (soles(name, p, tree, legs, up) for p in (found.posture, zero))
+    for (_, rotation), (_, level) in zip(stood, flat, strict=True):
+        assert rotation @ level.T @ up == pytest.approx(up, abs=1e-4)
+
+
+def test_solo12_bends_its_legs_as_two_equal_bars_do():
+    _, _, found = standing(SOLO12)
+    angle = np.arccos(0.8)
+    for leg, side in (("FL", 1.0), ("FR", 1.0), ("HL", -1.0), ("HR", -1.0)):
+        assert found.posture[f"{leg}_HAA"] == pytest.approx(0.0, abs=1e-6)
+        assert found.posture[f"{leg}_HFE"] == pytest.approx(side * angle, abs=1e-4)
+        assert found.posture[f"{leg}_KFE"] == pytest.approx(-2.0 * side * angle, abs=1e-4)
+    assert found.standing_height == pytest.approx(0.8 * 0.32 + 0.0164, abs=1e-4)
+
+
+def test_solo12_at_the_usual_stance_is_near_the_figures_of_the_theory():
+    """docs/theory.md, The robot's inertia, at HFE 0.8: the share of the leg there is cos(0.8)."""
+    tree, _, found = standing(SOLO12, share=float(np.cos(0.8)))
+    weighed = tree.locked_mass_properties(found.posture, "base_link")
+    assert np.diag(weighed.inertia) == pytest.approx([0.0300029, 0.0514912, 0.0680453], abs=1e-7)
+    assert weighed.com[2] == pytest.approx(-0.0240347, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "knees"),
+    [
+        (SOLO12, {"FL_LOWER_LEG": -1, "FR_LOWER_LEG": -1, "HL_LOWER_LEG": 1, "HR_LOWER_LEG": 1}),
+        ("anymal_b_simple_description/robots/anymal", {"LF_SHANK": -1, "RH_SHANK": 1}),
+        ("bolt_description/robots/bolt", {"FL_LOWER_LEG": 1, "FR_LOWER_LEG": 1}),
+        ("g1_description/urdf/g1_29dof_rev_1_0", {"left_knee_link": 1, "right_knee_link": 1}),
+        # Limits leave no choice: all knees back, and iCub's x axis points backwards.
+        ("a1_description/urdf/a1", {"FL_calf": -1, "RL_calf": -1}),
+        ("icub_description/robots/icub", {"l_lower_leg": -1, "r_lower_leg": -1}),
+    ],
+)
+def test_knees_point_to_the_usual_side(name, knees):
+    tree, legs, found = standing(name)
+    model, data = pinocchio_frames(name, found.posture)
+    feet = {tree.bodies[leg.body].name: leg for leg in legs}
+    for knee, side in knees.items():
+        index = tree.body_of_link[knee]
+        thigh = tree.bodies[tree.bodies[index].parent].name
+        foot = next(name for name in feet if knee in _chain(tree, name))
+        end = data.oMf[model.getFrameId(foot)].act(feet[foot].foot)
+        middle = 0.5 * (data.oMf[model.getFrameId(thigh)].translation + end)
+        assert side * (data.oMf[model.getFrameId(knee)].translation - middle)[0] > 0.01
+
+
+def _chain(tree, link):
+    index = tree.body_of_link[link]
+    while index >= 0:
+        yield tree.bodies[index].name
+        index = tree.bodies[index].parent
+
+
+def test_the_share_sets_the_height():
+    heights = [standing(SOLO12, share)[2].standing_height for share in (0.6, 0.7, 0.8, 0.9)]
+    assert np.diff(heights) == pytest.approx([0.032] * 3, abs=1e-5)
+
+
+def test_a_robot_without_legs_does_not_stand():
+    assert stand(tree_of("ur_description/urdf/ur5_robot"), "world", ()) is None
+
+
+def test_what_cannot_be_reached_is_said():
+    """A stance lower than the knees can bend: the nearest is taken, with a warning."""
+    tree = tree_of("romeo_description/urdf/romeo")
+    legs = legs_of("romeo_description/urdf/romeo")
+    low = stand(tree, "base_link", legs, 0.3)
+    assert low is not None
+    assert low.warnings
+    for name in legs[0].joints:
+        assert tree.joints[name].lower <= low.posture[name] <= tree.joints[name].upper

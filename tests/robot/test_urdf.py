@@ -1,0 +1,255 @@
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from urdf_text import LIMIT, TWO_LINKS, inertial, joint, link, robot
+
+from ocs_design.robot.tree import JointKind, ShapeKind, Tree
+from ocs_design.robot.urdf import read_urdf
+
+
+def read(content: bytes) -> Tree:
+    return read_urdf(content, find_mesh=lambda _: None)
+
+
+def joint_with(*inside: str, kind: str = "revolute"):
+    content = robot(
+        link("trunk", inertial()),
+        link("leg", inertial()),
+        joint("hip", "trunk", "leg", *inside, kind=kind),
+    )
+    tree = read(content)
+    return tree.joints["hip"], tree
+
+
+def test_a_joint_is_read_with_all_its_numbers():
+    hip, tree = joint_with(
+        LIMIT, '<axis xyz="0 3 4"/><dynamics damping="0.5" friction="0.25"/>', kind="prismatic"
+    )
+    assert hip.kind is JointKind.PRISMATIC
+    np.testing.assert_allclose(hip.axis, [0, 0.6, 0.8])
+    assert (hip.lower, hip.upper, hip.effort, hip.velocity) == (-1, 2, 3, 4)
+    assert (hip.damping, hip.friction) == (0.5, 0.25)
+    assert tree.warnings == ()
+
+
+def test_the_axis_is_x_unless_stated():
+    np.testing.assert_array_equal(joint_with(LIMIT)[0].axis, [1, 0, 0])
+
+
+def test_a_continuous_joint_has_no_limits():
+    hip, _ = joint_with(LIMIT, kind="continuous")
+    assert (hip.kind, hip.lower, hip.upper) == (JointKind.REVOLUTE, -np.inf, np.inf)
+
+
+def test_limits_the_wrong_way_round_are_ignored_with_a_warning():
+    hip, tree = joint_with('<limit lower="1" upper="-1"/>')
+    assert (hip.lower, hip.upper) == (-np.inf, np.inf)
+    (warning,) = tree.warnings
+    assert "hip" in warning
+
+
+@pytest.mark.parametrize("limit", ["", '<limit lower="-1" upper="1" effort="0" velocity="0"/>'])
+def test_zero_effort_and_velocity_are_not_stated(limit):
+    hip, _ = joint_with(limit)
+    assert (hip.effort, hip.velocity) == (np.inf, np.inf)
+
+
+def chain_of_mimics(*mimics: str) -> Tree:
+    names = [f"j{number}" for number in range(len(mimics))]
+    return read(
+        robot(
+            link("trunk", inertial()),
+            *(link(f"link_{name}", inertial()) for name in names),
+            *(
+                joint(name, "trunk", f"link_{name}", mimic, kind="continuous")
+                for name, mimic in zip(names, mimics, strict=True)
+            ),
+        )
+    )
+
+
+def test_mimics_of_mimics_follow_the_leader():
+    tree = chain_of_mimics(
+        '<mimic joint="j1" multiplier="2" offset="1"/>',
+        '<mimic joint="j2" multiplier="-3" offset="0.5"/>',
+        "",
+    )
+    assert tree.joints["j0"].mimic == ("j2", -6.0, 2.0)
+    assert tree.complete({"j2": 0.1}) == pytest.approx({"j2": 0.1, "j1": 0.2, "j0": 1.4})
+
+
+@pytest.mark.parametrize("leader", ["nobody", "j0"])
+def test_a_follower_without_leader_is_free_with_a_warning(leader):
+    tree = chain_of_mimics(f'<mimic joint="{leader}"/>')
+    assert tree.joints["j0"].mimic is None
+    (warning,) = tree.warnings
+    assert "j0" in warning
+
+
+def test_fixed_links_are_lumped_with_their_frames_and_masses():
+    tree = read(
+        robot(
+            link("trunk", inertial(1.0)),
+            link("head", inertial(3.0)),
+            joint("neck", "trunk", "head", '<origin xyz="0 0 2" rpy="0 0 1.5"/>', kind="fixed"),
+        )
+    )
+    (body,) = tree.bodies
+    assert body.link_masses == {"trunk": 1.0, "head": 3.0}
+    np.testing.assert_allclose(body.mass_properties.com, [0, 0, 1.5])
+    np.testing.assert_allclose(body.links["head"].position, [0, 0, 2])
+    # Two points 2 m apart of reduced mass 3/4 kg, and 0.1 kg m^2 each of their own.
+    np.testing.assert_allclose(np.diag(body.mass_properties.inertia), [3.2, 3.2, 0.2])
+
+
+WORLD = (link("world"), link("trunk", inertial(2.0)), link("leg", inertial()))
+HIP = joint("hip", "trunk", "leg", LIMIT)
+
+
+def test_a_massless_world_fixed_to_the_base_is_part_of_the_base_as_in_pinocchio():
+    content = robot(
+        *WORLD, joint("mount", "world", "trunk", '<origin xyz="1 2 3"/>', kind="fixed"), HIP
+    )
+    tree = read(content)
+    model = pin.buildModelFromXML(content.decode(), pin.JointModelFreeFlyer())
+    assert tree.bodies[0].links.keys() == {"world", "trunk"}
+    np.testing.assert_allclose(tree.bodies[0].mass_properties.com, model.inertias[1].lever)
+
+
+@pytest.mark.parametrize("kind", ["floating", "planar"])
+def test_what_floats_under_a_massless_root_is_the_base(kind):
+    tree = read(robot(*WORLD, joint("free", "world", "trunk", kind=kind), HIP))
+    assert tree.bodies[0].name == "trunk"
+    assert "world" not in tree.body_of_link
+    assert tree.warnings == ()
+
+
+def test_a_floating_joint_within_the_robot_is_held_with_a_warning():
+    tree = read(
+        robot(
+            link("trunk", inertial()),
+            link("load", inertial()),
+            joint("free", "trunk", "load", kind="floating"),
+        )
+    )
+    assert len(tree.bodies) == 1
+    assert any("free" in warning for warning in tree.warnings)
+
+
+GEOMETRIES = {
+    '<box size="2 4 6"/>': (ShapeKind.BOX, (1, 2, 3)),
+    '<sphere radius="2"/>': (ShapeKind.SPHERE, (2,)),
+    '<cylinder radius="2" length="6"/>': (ShapeKind.CYLINDER, (2, 3)),
+    '<capsule radius="2" length="6"/>': (ShapeKind.CAPSULE, (2, 3)),
+    '<mesh filename="a.stl" scale="1 -1 2"/>': (ShapeKind.MESH, (1, -1, 2)),
+    '<mesh filename="a.stl"/>': (ShapeKind.MESH, (1, 1, 1)),
+}
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+@pytest.mark.parametrize("tag", ["visual", "collision"])
+def test_shapes_are_placed_in_the_body(geometry, tag):
+    shape_element = f'<{tag}><origin xyz="1 0 0"/><geometry>{geometry}</geometry></{tag}>'
+    content = robot(
+        link("trunk", inertial()),
+        link("shell", shape_element),
+        joint(
+            "j",
+            "trunk",
+            "shell",
+            '<origin xyz="0 0 5" rpy="0 0 1.5707963267948966"/>',
+            kind="fixed",
+        ),
+    )
+    tree = read_urdf(content, find_mesh=lambda name: Path("/meshes") / name)
+    (shape,) = tree.bodies[0].shapes
+    assert (shape.kind, shape.size) == GEOMETRIES[geometry]
+    assert (shape.link, shape.collides) == ("shell", tag == "collision")
+    assert shape.mesh == (Path("/meshes/a.stl") if shape.kind is ShapeKind.MESH else None)
+    np.testing.assert_allclose(shape.position, [0, 1, 5], atol=1e-15)
+
+
+def test_a_shape_of_no_extent_is_left_out_with_a_warning():
+    box = '<collision><geometry><box size="0 1 1"/></geometry></collision>'
+    tree = read(robot(link("trunk", inertial(), box)))
+    assert tree.bodies[0].shapes == ()
+    assert any("trunk" in warning for warning in tree.warnings)
+
+
+def test_a_shape_without_inertial_is_warned_of():
+    shell = link("shell", '<visual><geometry><sphere radius="1"/></geometry></visual>')
+    tree = read(robot(link("trunk", inertial()), shell, joint("j", "trunk", "shell", kind="fixed")))
+    assert any("shell" in warning and "inertial" in warning for warning in tree.warnings)
+
+
+def test_a_moving_end_without_mass_is_warned_of():
+    tree = read(
+        robot(link("trunk", inertial()), link("foot"), joint("ankle", "trunk", "foot", LIMIT))
+    )
+    assert any("foot" in warning for warning in tree.warnings)
+
+
+def test_an_impossible_body_in_a_possible_robot_is_warned_of():
+    content = robot(
+        link("trunk", inertial(5.0, "1 1 1")),
+        link("arm", inertial(1.0, "0.1 0.1 0.5")),
+        joint("j", "trunk", "arm", LIMIT),
+    )
+    (warning,) = read(content).warnings
+    assert "arm" in warning
+    assert "triangle" in warning
+
+
+def test_an_impossible_link_in_a_possible_lump_is_not():
+    content = robot(
+        link("trunk", inertial(5.0, "1 1 1")),
+        link("dummy", inertial(0.001, "0 0 0.001")),
+        joint("j", "trunk", "dummy", kind="fixed"),
+    )
+    assert read(content).warnings == ()
+
+
+def test_thousands_of_links_in_a_chain_are_read():
+    count = 1_999
+    tree = read(
+        robot(
+            *(link(f"l{i}", inertial(0.001)) for i in range(count)),
+            *(joint(f"j{i}", f"l{i}", f"l{i + 1}", LIMIT) for i in range(count - 1)),
+        )
+    )
+    assert len(tree.bodies) == count
+    assert tree.locked_mass_properties({}, "l0").mass == pytest.approx(count * 0.001)
+
+
+LATIN = TWO_LINKS.replace(b'"leg"', '"J\xf6rg"'.encode("latin-1"))
+
+
+@pytest.mark.parametrize(
+    "declaration", [b"", b'<?xml version="1.0"?>', b'<?xml version="1.0" encoding="UTF-8"?>']
+)
+def test_undeclared_latin_1_is_read_with_a_warning(declaration):
+    tree = read(declaration + LATIN)
+    assert "J\xf6rg" in tree.body_of_link
+    assert any("Windows-1252" in warning for warning in tree.warnings)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b'<?xml version="1.0" encoding="ISO-8859-1"?>' + LATIN,
+        LATIN.decode("latin-1").encode("utf-8-sig"),
+        LATIN.decode("latin-1").encode("utf-16"),
+    ],
+    ids=["declared Latin-1", "byte order mark", "UTF-16"],
+)
+def test_declared_encodings_are_read_silently(content):
+    tree = read(content)
+    assert "J\xf6rg" in tree.body_of_link
+    assert tree.warnings == ()
+
+
+def test_a_default_namespace_does_not_matter():
+    tree = read(TWO_LINKS.replace(b"<robot ", b'<robot xmlns="http://www.ros.org" '))
+    assert set(tree.joints) == {"hip"}

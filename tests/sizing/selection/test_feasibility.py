@@ -1,0 +1,86 @@
+"""Whether there is a device: against the selection, which looks at every candidate by its mass."""
+
+import numpy as np
+import pytest
+from selections import has_device, random_problem, with_radius
+
+from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
+from ocs_design.sizing.selection import feasibility
+from ocs_design.sizing.selection.advice import PRECISION, single_changes
+from ocs_design.sizing.selection.feasibility import Field
+from ocs_design.sizing.selection.problem import limits_of, with_limit
+from ocs_design.sizing.selection.search import search
+
+SEEDS = (9, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (0, *range(10, 30))))
+
+
+@pytest.mark.parametrize(
+    "share", [0.6, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.4, 0.75, 0.85))]
+)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_as_the_selection_finds_it(seed, share):
+    """From a room in which no wheel turns the robot to nearly that in which some do."""
+    narrow = with_radius(random_problem(seed), share)
+    assert Field.of(narrow).possible == has_device(narrow)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", SEEDS)
+def test_bounds_rule_out_nothing_that_is_possible(seed):
+    problem = random_problem(seed)
+    fields = [Field.of(with_radius(problem, share)) for share in np.linspace(0.1, 1.0, 10)]
+    assert all(field.conceivable for field in fields if field.possible)
+    assert not fields[0].conceivable
+
+
+@pytest.mark.parametrize("limit", [RIM_LIMITS[0], BUS_VOLTAGE, TIME], ids=lambda limit: limit.name)
+def test_what_is_kept_from_a_like_problem_is_what_is_found_anew(limit):
+    problem = random_problem(9, motors=1)
+    now = limits_of(problem)[limit]
+    changed = with_limit(problem, limit, limit.loosened(now, 1.3))
+    kept, anew = Field.of(problem).changed(changed), Field.of(changed)
+    assert kept.drives.gear.tolist() == anew.drives.gear.tolist()
+    assert kept.needed == pytest.approx(anew.needed, rel=1e-14)
+    assert kept.drives.stall_torque == pytest.approx(anew.drives.stall_torque, rel=1e-14)
+
+
+def test_after_so_many_of_the_most_promising_the_answer_is_no(monkeypatch):
+    """However many are left."""
+    tried = []
+
+    def none_solved(candidates, guess):
+        tried.append(len(candidates))
+        return False
+
+    field = Field.of(random_problem(9))
+    assert field.possible
+    monkeypatch.setattr(feasibility, "any_solved", none_solved)
+    assert not field.possible
+    everything = sum(tried)
+    tried.clear()
+    monkeypatch.setattr(feasibility, "_MOST_SOLVED", 3)
+    assert not field.possible
+    assert 3 <= sum(tried) < everything
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", SEEDS)
+def test_each_change_mends_and_hardly_less_does(seed):
+    small = with_radius(random_problem(seed), 0.3)
+    changes = single_changes(Field.of(small))
+    for limit, value in changes.items():
+        back = (1.0 + 1.01 * PRECISION) ** (-1 if limit.loosens_upwards else 1)
+        assert has_device(with_limit(small, limit, value))
+        assert not has_device(with_limit(small, limit, value * back))
+    assert seed != 9 or "r_max" in {limit.name for limit in changes}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_no_device_is_lighter_than_its_own_bound(seed):
+    """Nor are its wheels smaller: of all that the search settles."""
+    found = search(random_problem(seed))
+    for settled in found.batches:
+        feasible = settled.point.feasible
+        assert (settled.mass >= settled.guess.mass)[feasible].all()
+        assert (settled.point.spin_inertia >= settled.guess.spin_inertia)[feasible].all()
+    assert any(settled.point.feasible.any() for settled in found.batches)

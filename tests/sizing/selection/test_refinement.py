@@ -1,0 +1,76 @@
+"""One candidate from anywhere near: the same device to all digits, or none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from drawn_selections import draw
+
+from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.selection.candidates import Candidates, drives_of
+from ocs_design.sizing.selection.fixed_point import FixedPoint
+from ocs_design.sizing.selection.refinement import refine
+from ocs_design.sizing.selection.select import select
+
+
+def candidates_of(problem, chosen):
+    """The chosen drive and material alone."""
+    pair = np.array([[problem.motors.index(chosen.motor), problem.gears.index(chosen.gear)]])
+    material = np.array([problem.materials.index(chosen.material)])
+    return Candidates(problem, drives_of(problem, pair), material)
+
+
+def beside(chosen, factors, turn):
+    """A start with other radii and height, turned by an angle [rad]; its masses do not matter."""
+    bore, radius, height = factors
+    sizes = (chosen.inner_radius * bore, chosen.outer_radius * radius, chosen.height * height)
+    nothing = np.zeros(1)
+    return FixedPoint(
+        spin_inertia=nothing,
+        radius=nothing,
+        angle=np.array([chosen.incidence + turn]),
+        shapes=ModuleShape(*np.array([*sizes, 1.0, 0.0, 1.0])[:, None]),
+        feasible=np.zeros(1, dtype=bool),
+        margin=nothing,
+        residual=nothing,
+        iterations=np.zeros(1, dtype=int),
+    )
+
+
+@pytest.mark.parametrize(
+    "seed", [2, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (15, 21, 53))]
+)
+@pytest.mark.parametrize(
+    ("factors", "turn"),
+    [((1.0, 1.0, 1.0), 0.0), ((0.97, 0.98, 0.95), 0.01), ((1.0, 1.02, 1.1), -0.02)],
+)
+def test_the_start_does_not_matter(seed, factors, turn):
+    problem = draw(seed).problem
+    chosen = select(problem, advise=False).best
+    turn = turn if problem.incidence is None else 0.0
+    candidates = candidates_of(problem, chosen)
+    found = refine(candidates, beside(chosen, factors, turn))
+    assert found.feasible.all()
+    mass = 2.0 * (found.shapes.mass[0] + candidates.drives.mass[0])
+    assert mass == pytest.approx(chosen.mass, rel=1e-9)
+    assert found.margin[0] >= 1.0 - 1e-9
+    assert found.residual[0] < 1e-9
+
+
+def test_what_cannot_be_is_not_possible():
+    problem = draw(2).problem
+    chosen = select(problem, advise=False).best
+    small = replace(problem.envelope, outer_radius_max=0.3 * problem.envelope.outer_radius_max)
+    less = replace(problem, envelope=small)
+    assert not refine(candidates_of(less, chosen), beside(chosen, (1.0, 1.0, 1.0), 0.0)).feasible
+
+
+def test_a_stated_incidence_and_spin_inertia_are_kept():
+    problem = draw(2).problem
+    chosen = select(problem, advise=False).best
+    more = replace(problem.requirement, spin_inertia=1.1 * chosen.spin_inertia)
+    stated = replace(problem, incidence=chosen.incidence, requirement=more)
+    found = refine(candidates_of(stated, chosen), beside(chosen, (0.99, 1.0, 1.0), 0.0))
+    assert found.feasible.all()
+    assert found.angle[0] == chosen.incidence
+    assert found.spin_inertia[0] == pytest.approx(1.1 * chosen.spin_inertia, rel=1e-9)

@@ -1,0 +1,56 @@
+"""Why motors fall out: the largest wheel that a refusal names, against rims one by one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from naive_wheel import Rims
+from rims import STEEL, UNLIMITED, room
+from selections import ALUMINIUM, random_problem
+
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE
+from ocs_design.sizing.selection.rejections import largest_wheel
+
+RADIUS, HEIGHT = 0.05, 0.015
+STEPS = 20_000
+
+
+def largest_of_all(limits, web):
+    """Of rims of every bore, as wide as may be and as tall as room and mass let them be."""
+    outer = limits.outer_radius_max
+    bores = np.linspace(
+        max(limits.inner_radius_min, BORE_SHARE * outer), outer - limits.wall_min, STEPS
+    )
+    largest = 0.0
+    for material in (STEEL, ALUMINIUM):
+        full = np.broadcast_to(outer, bores.shape), bores
+        tall = Rims(*full, np.full_like(bores, limits.height_max), material.density)
+        lower = np.minimum(1.0, limits.mass_max / tall.body[0])
+        rims = Rims(*full, lower * limits.height_max, material.density)
+        inertia = rims.body[1] + (rims.web[1] if web else 0.0)
+        largest = max(largest, float(inertia.max()))
+    return largest
+
+
+@pytest.mark.parametrize("web", [False, True])
+@pytest.mark.parametrize(
+    ("mass", "bore", "wall"),
+    [
+        (UNLIMITED, 0.0, 0.0),
+        (UNLIMITED, 0.4 * RADIUS, 0.1 * RADIUS),
+        (0.4, 0.1 * RADIUS, 0.05 * RADIUS),
+        (0.1, 0.1 * RADIUS, 0.5 * RADIUS),
+    ],
+    ids=["nothing but room", "a bore", "a mass", "a mass and a wall"],
+)
+def test_largest_wheel_is_the_largest_of_all(mass, bore, wall, web):
+    limits = room(RADIUS, HEIGHT, mass_max=mass, inner_radius_min=bore, wall_min=wall)
+    problem = replace(random_problem(9), web=web)
+    largest = largest_of_all(limits, web)
+    # Between two bores of the grid it may be larger by a step of it.
+    assert largest_wheel(problem, limits) == pytest.approx(largest, rel=4.0 / STEPS)
+
+
+def test_where_bore_and_wall_leave_no_room_there_is_none():
+    limits = room(RADIUS, HEIGHT, inner_radius_min=0.6 * RADIUS, wall_min=0.5 * RADIUS)
+    assert largest_wheel(random_problem(9), limits) == 0.0

@@ -1,0 +1,68 @@
+"""Which way a device is designed, and by which criterion its incidence goes."""
+
+import numpy as np
+import pytest
+from designed import MOTOR, designed
+from wheels import braked_inertia
+
+from ocs_design.common.errors import Infeasible
+
+
+@pytest.mark.parametrize("motor", ["none", MOTOR])
+def test_the_total_is_robot_and_device_braked(motor):
+    task, found = designed(motor)
+    expected = braked_inertia(task.robot, found.device)
+    assert found.sized.total.mass == pytest.approx(expected.mass, rel=1e-12)
+    np.testing.assert_allclose(found.sized.total.com, expected.com, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(found.sized.total.inertia, expected.inertia, rtol=1e-7, atol=1e-12)
+
+
+def test_what_was_minimised_is_the_device_or_one_rim():
+    _, bound = designed("none")
+    assert bound.choice is None
+    assert bound.sized.objective == bound.device.flywheel.mass
+    _, chosen = designed()
+    assert chosen.choice.chosen is chosen.choice.selection.best
+    assert chosen.sized.objective == pytest.approx(chosen.device.mass, rel=1e-12)
+    assert chosen.device.motor.name == MOTOR
+
+
+@pytest.mark.parametrize(("motor", "name"), [("none", "equal-rate"), (MOTOR, "lightest")])
+def test_without_a_word_the_incidence_goes_by_what_each_way_can_tell(motor, name):
+    assert designed(motor)[1].criterion == name
+
+
+@pytest.mark.parametrize("motor", ["none", MOTOR])
+def test_an_incidence_by_hand_is_kept(motor):
+    _, found = designed(motor, alpha=0.4)
+    assert (found.criterion, found.device.incidence) == ("by hand", 0.4)
+
+
+@pytest.mark.parametrize("motor", ["none", pytest.param(MOTOR, marks=pytest.mark.exhaustive)])
+def test_equal_rate_is_that_of_robot_and_device(motor):
+    """tan(alpha) = I_roll / I_pitch."""
+    task, found = designed(motor, criterion="equal-rate")
+    roll, pitch, _ = np.diag(braked_inertia(task.robot, found.device).inertia)
+    assert found.criterion == "equal-rate"
+    assert found.device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
+
+
+def test_a_motor_weighs_more_than_wheels_alone():
+    """And what it weighs, the wheels have to turn too."""
+    _, bound = designed("none", alpha=0.4)
+    _, chosen = designed(alpha=0.4)
+    assert chosen.device.mass > bound.device.mass + chosen.device.motor.mass
+    assert chosen.sized.total.inertia[1, 1] > bound.sized.total.inertia[1, 1]
+
+
+@pytest.mark.parametrize("motor", ["none", MOTOR])
+@pytest.mark.exhaustive
+def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
+    _, free = designed(motor)
+    mass = free.device.mass
+    assert designed(motor, mass_max=mass * 1.001)[1].device.mass == pytest.approx(mass, rel=1e-12)
+    with pytest.raises(Infeasible, match="mass_max allows") as caught:
+        designed(motor, mass_max=0.99 * mass)
+    assert caught.value.binding == ("mass_max",)
+    assert caught.value.relaxations == {"mass_max": pytest.approx(mass, rel=1e-12)}
+    assert "would do" in caught.value.hint

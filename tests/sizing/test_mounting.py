@@ -1,0 +1,103 @@
+"""How devices sit on robots: clearances by hand, and MuJoCo's contacts as a second opinion."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mounted import MEASURED, contacts, flown_postures, mounted
+from robots import SOLO12
+from sampled import every
+from wheels import paper_device
+
+from ocs_design.common.errors import SpecificationError
+from ocs_design.requirement.froude import default_envelope
+from ocs_design.robot.clearance import drawn, landing_ranges
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.mounting import mounting_of, placement_warnings
+
+BOX = robot_by_hand(6.0, (0.05, 0.05, 0.05))
+"""A cube: I = m a^2 / 6."""
+HALF = np.sqrt(0.05) / 2.0
+
+
+def device_at(x, y, z):
+    """The paper's wheels with lateral axes."""
+    device = paper_device(0.0)
+    left, right = device.modules
+    return replace(
+        device,
+        modules=(
+            replace(left, position=np.array([x, y, z])),
+            replace(right, position=np.array([x, -y, z])),
+        ),
+    )
+
+
+def on_box(x, y, z):
+    return mounting_of(BOX, device_at(x, y, z), (), BOX.mass_properties)
+
+
+def test_over_a_box():
+    found = on_box(0.0, 0.05, HALF + 0.03 + 0.004).nearest
+    assert found.part == "base"
+    assert found.distance == pytest.approx(0.004, abs=1e-6)
+
+
+def test_between_the_wheels():
+    found = on_box(0.0, 0.0065, HALF + 0.2).nearest
+    assert found.part == "ocs_right_flywheel"
+    # Two wheels 10 mm high, centres 13 mm apart.
+    assert found.distance == pytest.approx(0.003, abs=1e-6)
+
+
+def test_inside_the_robot():
+    assert on_box(0.0, 0.04, 0.0).nearest.distance < 0.0
+
+
+def test_nothing_of_a_box_moves():
+    mounting = on_box(0.0, 0.05, 0.3)
+    assert (mounting.landing, mounting.reachable) == (None, ())
+    np.testing.assert_array_equal(mounting.com_shift, 0.0)
+    np.testing.assert_array_equal(mounting.inertia_change, 0.0)
+
+
+def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly_an_error():
+    robot, device = read_robot(SOLO12), device_at(0.0, 0.05, 0.03)
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    arguments = (mounting, robot, device, default_envelope(robot))
+    (warning,) = placement_warnings(*arguments, stated=True)
+    assert "overlaps 'base_link'" in warning
+    assert "--position 0.0mm" in warning
+    with pytest.raises(SpecificationError, match="--strict: a module overlaps 'base_link'"):
+        placement_warnings(*arguments, stated=True, strict=True)
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_mujoco_sees_no_contact_of_device_and_robot(name):
+    """In the nominal posture and in postures of the landing ranges that were not drawn before."""
+    robot, device, mounting = mounted(name)
+    assert mounting.nearest.distance > 0.0
+    assert mounting.landing.distance > 0.0
+    postures = [{}, *drawn(landing_ranges(robot), 700)[-150:]]
+    for turned in (device, device.at_incidence(0.0)):
+        assert contacts(robot, turned, postures) == []
+
+
+def test_mujoco_sees_contact_where_a_limb_is_said_to_hit():
+    robot, device, mounting = mounted("solo_description/robots/solo12")
+    assert len(mounting.reachable) == 4
+    # As delivered, and by hand for the back-flip.
+    incidences = (device.incidence, 0.0)
+    for reach in mounting.reachable:
+        touched = [contacts(robot, device.at_incidence(a), [reach.joints]) for a in incidences]
+        assert any(reach.part in bodies for bodies in touched)
+
+
+@pytest.mark.parametrize("name", every(6, MEASURED))
+def test_mujoco_sees_no_contact_in_the_flights(name):
+    """Postures of the legs as simulated, from lift-off to the end of a flight that passes."""
+    robot, device, _ = mounted(name)
+    postures = flown_postures(name)
+    assert len(postures) > 100
+    assert contacts(robot, device, postures) == []

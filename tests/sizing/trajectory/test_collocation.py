@@ -1,0 +1,95 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from numpy.polynomial import Polynomial
+from scipy.integrate import quad
+
+from ocs_design.sizing.trajectory.collocation import (
+    DEGREE,
+    bernstein_basis,
+    collocation,
+    radau_points,
+)
+from ocs_design.sizing.trajectory.motion import Motion
+
+CUBIC = Polynomial([0.3, -1.2, 2.5, -0.7])
+PARABOLA = Polynomial([0.4, -2.0, 1.1])
+S = np.linspace(0.0, 1.0, 41)
+
+
+def test_three_radau_points_are_those_of_the_literature():
+    """Hairer and Wanner, Solving Ordinary Differential Equations II, table IV.5.6."""
+    root = np.sqrt(6.0)
+    np.testing.assert_allclose(
+        radau_points(3), [(4.0 - root) / 10.0, (4.0 + root) / 10.0, 1.0], rtol=1e-14
+    )
+
+
+def test_a_cubic_is_differentiated_and_written_in_bernstein_form_exactly():
+    table = collocation()
+    values = CUBIC(table.nodes)
+    np.testing.assert_allclose(
+        table.derivative @ values, CUBIC.deriv()(table.nodes[1:]), rtol=1e-12
+    )
+    np.testing.assert_allclose(
+        bernstein_basis(S, DEGREE) @ (table.bernstein @ values), CUBIC(S), rtol=1e-12
+    )
+
+
+def test_radau_quadrature_is_exact_to_the_fourth_power():
+    table = collocation()
+    for power in range(2 * DEGREE - 1):
+        assert table.weights @ table.nodes[1:] ** power == pytest.approx(1.0 / (power + 1))
+
+
+def test_torques_keep_their_values_and_their_square():
+    table = collocation()
+    middle = 2.0 * PARABOLA(0.5) - (PARABOLA(0.0) + PARABOLA(1.0)) / 2.0
+    coefficients = np.array([PARABOLA(0.0), middle, PARABOLA(1.0)])
+    np.testing.assert_allclose(table.torque @ coefficients, PARABOLA(table.nodes[1:]), rtol=1e-12)
+    elevated = bernstein_basis(S, DEGREE) @ (table.elevation @ coefficients)
+    np.testing.assert_allclose(elevated, PARABOLA(S), rtol=1e-12)
+    square = quad(lambda s: PARABOLA(s) ** 2, 0.0, 1.0)[0]
+    assert coefficients @ table.square @ coefficients == pytest.approx(square)
+
+
+@given(arrays(np.float64, DEGREE + 1, elements=st.floats(-10.0, 10.0)))
+def test_a_polynomial_lies_between_its_bernstein_coefficients(values):
+    coefficients = collocation().bernstein @ values
+    between = bernstein_basis(S, DEGREE) @ coefficients
+    assert between.min() >= coefficients.min() - 1e-9
+    assert between.max() <= coefficients.max() + 1e-9
+
+
+def _motion(torque, intervals):
+    """A motion whose torques are a parabola over 2 s; its states are cubics."""
+    lengths = np.full(intervals, 2.0 / intervals)
+    starts = np.append(0.0, np.cumsum(lengths)[:-1])[:, None]
+    nodes = np.append(0.0, (starts + lengths[:, None] * collocation().nodes[1:]).ravel())
+    first, middle, last = (torque(starts + part * lengths[:, None]) for part in (0.0, 0.5, 1.0))
+    torques = np.hstack([first, 2.0 * middle - (first + last) / 2.0, last]).ravel()
+    return Motion(lengths, np.tile(CUBIC(nodes), (6, 1)), np.tile(torques, (2, 1)))
+
+
+def test_a_motion_of_polynomials_survives_other_intervals():
+    motion = _motion(PARABOLA, 5)
+    lengths = np.array([0.3, 0.5, 0.1, 1.1])
+    moved = motion.onto(lengths)
+    times = np.linspace(0.0, 2.0, 57)
+    np.testing.assert_allclose(moved.state_at(times)[3], CUBIC(times), rtol=1e-10)
+    np.testing.assert_allclose(moved.torque_at(times)[1], PARABOLA(times), rtol=0, atol=1e-5)
+    within = moved.torque_within(np.array([0.0, 0.5]))
+    middles = moved.starts + np.array([0.0, 0.5])[:, None] * lengths
+    np.testing.assert_allclose(within[:, 0], PARABOLA(middles.T.ravel()), rtol=0, atol=1e-5)
+
+
+def test_intervals_get_short_where_torques_switch():
+    motion = _motion(lambda time: np.where(time < 1.21, 1.0, -1.0), 10)
+    lengths = motion.refined(20).lengths
+    middles = np.cumsum(lengths) - lengths / 2.0
+    assert lengths.sum() == pytest.approx(2.0)
+    assert lengths[np.argmin(np.abs(middles - 1.25))] < 0.3 * lengths.mean()
+    # Where nothing changes the evenly spread share is all that there is.
+    assert lengths.max() < 2.0 / 20 / 0.39

@@ -1,0 +1,274 @@
+"""Maneuvers in 3-D: laws of motion, limits, and integrators that know nothing of collocation."""
+
+import mujoco
+import numpy as np
+import pytest
+from gyrostats import (
+    BACK_FLIP,
+    DIAGONAL,
+    EC_45_FLAT,
+    FALL,
+    FULL,
+    PUSH,
+    asked,
+    body,
+    drop,
+    smallest_wheels,
+)
+from scipy.integrate import solve_ivp
+
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.common.errors import SpecificationError
+from ocs_design.requirement.maneuver import Disturbance, Flip
+from ocs_design.sizing.trajectory.boundary import Boundary, vertical_of
+from ocs_design.sizing.trajectory.collocation import collocation
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.plans import least_effort
+from ocs_design.sizing.trajectory.program import Turn, after_push
+
+FORTY = np.radians(40.0)
+CASES = {
+    "pitch": (body(FORTY), drop(30.0)),
+    "pitch and roll": (body(FORTY, armature=4e-5), drop(20.0, 15.0)),
+    "push": (body(FORTY), PUSH),
+    "back-flip": (body(0.0), BACK_FLIP),
+    "back-flip at an angle": (body(np.radians(35.0), 2.2e-4), BACK_FLIP),
+    "half a flip": (
+        body(0.0, inertia=DIAGONAL),
+        Flip(name="half", gravity=1.62, jump_height=1.0, angle=1.7, duration=0.8),
+    ),
+}
+
+
+@pytest.fixture(scope="module", params=[(name, h) for name in CASES for h in ("given", "least")])
+def solved(request):
+    """Smooth torques with the wheels that are given, switching ones with the smallest."""
+    name, wheels = request.param
+    gyrostat, maneuver = CASES[name]
+    if wheels == "least":
+        # Even intervals, on which the means at jumps of the torque cancel.
+        found = smallest_wheels(gyrostat, asked(maneuver), passes=(24,))
+        return found.gyrostat, asked(maneuver), found
+    return gyrostat, asked(maneuver), _planned(gyrostat, maneuver)
+
+
+def _planned(gyrostat, maneuver, line=EC_45_FLAT, **options):
+    return least_effort(Turn(asked(maneuver), gyrostat), line, **options)
+
+
+def _momentum(gyrostat, path):
+    return path.rate @ gyrostat.inertia + gyrostat.spin_inertia * path.wheel_speed @ gyrostat.axes.T
+
+
+def test_it_ends_at_rest_where_it_should(solved):
+    _, boundary, solution = solved
+    assert solution.solution.solved
+    assert not solution.fine.failure
+    path = solution.trajectory
+    assert path.time[-1] == pytest.approx(boundary.duration)
+    np.testing.assert_allclose(path.vertical[-1], boundary.final_vertical, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(path.rate[-1, :2], 0.0, rtol=0, atol=1e-6)
+    if abs(boundary.angle) > 0.0:
+        assert path.turned[-1] == pytest.approx(boundary.angle, rel=0.01)
+
+
+def test_limits_hold_at_every_sample(solved):
+    _, _, solution = solved
+    path, line = solution.trajectory, EC_45_FLAT
+    assert np.abs(path.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)
+    slope = line.no_load_speed / line.stall_torque
+    reached = np.abs(path.wheel_speed + slope * path.wheel_torque).max()
+    assert reached <= line.no_load_speed * (1.0 + 1e-6)
+    assert solution.fine.violation < 1e-6
+
+
+def test_momentum_is_kept_in_the_world(solved):
+    """Its length, and its part along the vertical."""
+    gyrostat, _, solution = solved
+    path = solution.trajectory
+    momentum = _momentum(gyrostat, path)
+    largest = np.abs(gyrostat.spin_inertia * path.wheel_speed).max()
+    length = np.linalg.norm(momentum, axis=1)
+    upward = np.einsum("ij,ij->i", momentum, path.vertical)
+    np.testing.assert_allclose(length, length[0], rtol=0, atol=1e-6 * largest)
+    np.testing.assert_allclose(upward, upward[0], rtol=0, atol=1e-6 * largest)
+
+
+def test_the_motors_pay_for_the_kinetic_energy(solved):
+    gyrostat, _, solution = solved
+    path = solution.trajectory
+    state = np.hstack([path.rate, path.wheel_speed])
+    energy = 0.5 * np.einsum("ni,ij,nj->n", state, gyrostat.mass_matrix, state)
+    power = np.einsum("ni,ni->n", path.wheel_torque, path.wheel_speed)
+    # Simpson's rule on pairs of steps, five in each interval of the plan. Where two intervals meet
+    # torques may jump, and the sample is the mean of both sides: what that adds on one side it
+    # takes on the other.
+    pairs = np.diff(path.time)[::2] / 3.0 * (power[:-2:2] + 4.0 * power[1:-1:2] + power[2::2])
+    error = energy[2::2] - energy[0] - np.cumsum(pairs)
+    inside = np.arange(len(pairs)) % 5 != 4
+    assert np.abs(error[inside]).max() < 2e-5 * energy.max()
+    assert abs(error[-1]) < 2e-5 * energy.max()
+
+
+def test_a_high_order_integrator_follows_the_plan():
+    """Least effort has no jumps: DOP853 with the torque between its samples ends level at rest."""
+    gyrostat, maneuver = CASES["pitch and roll"]
+    path = _planned(gyrostat, maneuver).trajectory
+    matrix = gyrostat.mass_matrix
+
+    def slope(time, state):
+        vertical, rate = state[:3], state[3:6]
+        torque = [np.interp(time, path.time, column) for column in path.wheel_torque.T]
+        turning = np.cross(matrix[:3] @ state[3:], rate)
+        change = np.linalg.solve(matrix, np.concatenate([turning, torque]))
+        return np.concatenate([np.cross(vertical, rate), change])
+
+    start = np.concatenate([path.vertical[0], path.rate[0], path.wheel_speed[0]])
+    answer = solve_ivp(slope, (0.0, path.time[-1]), start, "DOP853", rtol=1e-9, atol=1e-9)
+    end = answer.y[:, -1]
+    np.testing.assert_allclose(end[:3], [0.0, 0.0, 1.0], rtol=0, atol=1e-5)
+    np.testing.assert_allclose(end[3:6], 0.0, rtol=0, atol=1e-4)
+
+
+@pytest.mark.parametrize("name", ["pitch and roll", "back-flip at an angle", "push"])
+def test_mujoco_ends_where_the_plan_ends(name):
+    gyrostat, maneuver = CASES[name]
+    # Between its samples a trajectory is linear: on more intervals that is nearer to the plan.
+    path = _planned(gyrostat, maneuver, intervals=60).trajectory
+    model = _gyrostat_in_mujoco(gyrostat)
+    data = mujoco.MjData(model)
+    axis = np.cross(path.vertical[0], [0.0, 0.0, 1.0])
+    sine = np.linalg.norm(axis)
+    angle = np.arctan2(sine, path.vertical[0, 2])
+    if sine > 0.0:
+        mujoco.mju_axisAngle2Quat(data.qpos[3:7], axis / sine, angle)
+    data.qvel[3:6], data.qvel[6:] = path.rate[0], path.wheel_speed[0]
+    steps = round(path.time[-1] / 2e-4)
+    model.opt.timestep = path.time[-1] / steps
+    middles = (np.arange(steps) + 0.5) * model.opt.timestep
+    torques = [np.interp(middles, path.time, column) for column in path.wheel_torque.T]
+    for torque in np.column_stack(torques):
+        data.qfrc_applied[6:] = torque
+        mujoco.mj_step(model, data)
+    rotation = np.zeros(9)
+    mujoco.mju_quat2Mat(rotation, data.qpos[3:7])
+    np.testing.assert_allclose(rotation.reshape(3, 3)[2], path.vertical[-1], rtol=0, atol=2e-5)
+    np.testing.assert_allclose(data.qvel[3:6], path.rate[-1], rtol=0, atol=2e-4)
+    np.testing.assert_allclose(data.qvel[6:], path.wheel_speed[-1], rtol=0, atol=0.02)
+
+
+def _gyrostat_in_mujoco(gyrostat):
+    """Two wheels at the centre of mass, and what they leave of the inertia in the trunk."""
+    spin = gyrostat.spin_inertia
+    trunk, wheels = gyrostat.inertia.copy(), ""
+    for axis in gyrostat.axes.T:
+        trunk -= 0.5 * spin * (np.eye(3) + np.outer(axis, axis))
+        wheels += (
+            f'<body zaxis="{axis[0]} {axis[1]} {axis[2]}"><joint axis="0 0 1" damping="0" '
+            f'armature="{gyrostat.armature}"/>'
+            f'<inertial pos="0 0 0" mass="1e-3" diaginertia="{spin / 2} {spin / 2} {spin}"/></body>'
+        )
+    entries = trunk[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    full = " ".join(repr(float(entry)) for entry in entries)
+    return mujoco.MjModel.from_xml_string(
+        '<mujoco><option gravity="0 0 0" integrator="RK4" jacobian="dense"/><worldbody><body>'
+        f'<freejoint/><inertial pos="0 0 0" mass="2.5" fullinertia="{full}"/>{wheels}'
+        "</body></worldbody></mujoco>"
+    )
+
+
+def test_least_effort_without_limits_is_a_parabola_of_angle():
+    """A double integrator rest to rest: torque linear in time, effort 12 (J theta / T^1.5)^2."""
+    gyrostat = body(0.0, 1e-4, DIAGONAL)
+    free = DriveLine(np.inf, 1e5, np.inf, np.inf)
+    found = _planned(gyrostat, drop(30.0), free)
+    reduced = DIAGONAL[1, 1] - 2.0 * gyrostat.spin_inertia
+    each = reduced * np.radians(30.0) / 2.0
+    assert _effort(found) == pytest.approx(2.0 * 12.0 * each**2 / FALL**3, rel=1e-6)
+    torque = found.trajectory.wheel_torque[:, 0]
+    np.testing.assert_allclose(torque, np.linspace(torque[0], -torque[0], len(torque)), atol=1e-6)
+
+
+def _effort(planned):
+    """Integral of all squared torques [N^2 m^2 s]."""
+    motion = planned.solution.motions[0]
+    each = motion.torques.reshape(len(motion.torques), len(motion.lengths), -1)
+    return np.einsum("ika,ab,ikb,k->", each, collocation().square, each, motion.lengths)
+
+
+def test_a_mechanical_speed_limit_is_kept():
+    slow = DriveLine(1.4566, 650.4, 1.0, 480.0)
+    found = _planned(body(FORTY), drop(30.0), slow)
+    assert not found.failure
+    assert 479.0 < np.abs(found.trajectory.wheel_speed).max() < 480.01
+
+
+def test_what_is_out_of_reach_is_said_to_be():
+    weak = DriveLine(1.4566, 650.4, 0.3, np.inf)
+    found = _planned(body(FORTY), drop(30.0), weak)
+    assert not found.solution.solved
+    assert "Infeasible" in found.failure
+
+
+def test_an_axis_out_of_reach_is_left_alone():
+    """At alpha = 0 roll stays as it is, and the end of pitch is met."""
+    found = _planned(body(0.0, inertia=FULL), drop(20.0, 15.0))
+    assert not found.failure
+    assert found.trajectory.vertical[-1, 0] == pytest.approx(0.0, abs=1e-6)
+    assert np.degrees(found.fine.end_tilt) > 10.0
+
+
+def test_level_from_the_start_asks_for_nothing():
+    found = _planned(body(FORTY), drop(0.0))
+    assert not found.failure
+    assert _effort(found) < 1e-12
+
+
+def test_a_push_that_outlasts_the_flight_is_refused():
+    late = Disturbance(
+        name="late", takeoff_velocity=(0.0, 1.0), torque=(0.0, 1.0, 0.0), onset=0.2, duration=0.1
+    )
+    with pytest.raises(SpecificationError, match="late"):
+        asked(late)
+
+
+def test_a_push_leaves_what_eulers_equation_says():
+    inertia = CASES["push"][0].inertia
+    torque = np.array(PUSH.torque)
+
+    def slope(_, state):
+        """Of the upward direction in B and the rate."""
+        vertical, rate = state[:3], state[3:]
+        change = np.linalg.solve(inertia, torque - np.cross(rate, inertia @ rate))
+        return np.concatenate([np.cross(vertical, rate), change])
+
+    start = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+    end = solve_ivp(slope, (0.0, PUSH.duration), start, "DOP853", rtol=1e-10, atol=1e-12).y[:, -1]
+    attitude, rate = (np.asarray(each).ravel() for each in after_push(asked(PUSH))(inertia))
+    np.testing.assert_allclose(vertical_of(attitude), end[:3], rtol=0, atol=1e-8)
+    np.testing.assert_allclose(rate, end[3:], rtol=1e-8)
+
+
+def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
+    """Three wheels across each other take any momentum, the heading's too."""
+    gyrostat = Gyrostat(FULL, np.eye(3), 2e-4)
+    start = Boundary(
+        name="caught",
+        attitude=np.array([0.8, 0.0, 0.6, 0.0]),
+        final_attitude=np.array([0.8, 0.0, 0.0, 0.6]),
+        axis=np.array([0.0, 1.0, 0.0]),
+        angle=-1.3,
+        duration=1.0,
+        heading=True,
+        rate=np.array([0.3, -0.4, 0.2]),
+        wheel_speed=np.array([50.0, -80.0, 20.0]),
+    )
+    found = least_effort(Turn(start, gyrostat), EC_45_FLAT)
+    assert not found.failure
+    assert found.fine.end_tilt < 1e-5
+    path = found.trajectory
+    np.testing.assert_allclose(path.rate[0], start.rate, rtol=1e-12)
+    np.testing.assert_allclose(path.wheel_speed[0], start.wheel_speed, rtol=1e-12)
+    np.testing.assert_allclose(path.rate[-1], 0.0, rtol=0, atol=1e-5)
+    length = np.linalg.norm(_momentum(gyrostat, path), axis=1)
+    np.testing.assert_allclose(length, length[0], rtol=1e-7)

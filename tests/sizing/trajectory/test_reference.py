@@ -1,0 +1,42 @@
+import numpy as np
+import pytest
+from gyrostats import EC_45_FLAT, PUSH, STANDING, body, drop
+
+from ocs_design.sizing.trajectory.flight import limit_violation
+from ocs_design.sizing.trajectory.plans import PLANNED, reference
+
+FORTY = np.radians(40.0)
+
+
+def test_it_leaves_the_feedback_its_reserve():
+    found = reference(body(FORTY, 1.4e-4), EC_45_FLAT, drop(30.0), STANDING)
+    path = found.trajectory
+    assert found.note == path.note == ""
+    assert limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT.reserved(PLANNED)) < 1e-6
+    assert (np.diff(path.time) > 0.0).all()
+    np.testing.assert_allclose(np.linalg.norm(path.vertical, axis=1), 1.0, rtol=1e-9)
+
+
+def test_where_the_reserve_is_too_little_it_takes_all_and_says_so():
+    """Between the smallest wheel with all of the drive and the one with what is reserved."""
+    found = reference(body(FORTY, 9.2e-5), EC_45_FLAT, drop(30.0), STANDING)
+    assert f"{PLANNED:.1%}" in found.note
+    path = found.trajectory
+    assert path.note == found.note
+    used = limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT.reserved(PLANNED))
+    assert used == pytest.approx(1.0 / PLANNED - 1.0, abs=0.01)
+    assert limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT) < 1e-6
+
+
+def test_where_no_plan_exists_there_is_none():
+    found = reference(body(FORTY, 6e-5), EC_45_FLAT, drop(30.0), STANDING)
+    assert found.trajectory is None
+    assert "no optimal turn" in found.note
+    assert not found.planned.solution.solved
+
+
+def test_a_push_is_not_known_beforehand():
+    found = reference(body(FORTY), EC_45_FLAT, PUSH, STANDING)
+    assert found.trajectory is None
+    assert found.planned is None
+    assert "feedback" in found.note

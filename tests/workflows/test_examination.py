@@ -1,0 +1,82 @@
+"""The verdict over all findings, and that it can be had where packages are missing."""
+
+import json
+from dataclasses import replace
+from importlib import metadata
+from io import StringIO
+
+import pytest
+from commands import run
+from loading import HEAVY, modules_loaded_by
+from rich.console import Console
+
+from ocs_design.common.errors import MissingToolError
+from ocs_design.device.findings import Examination, Finding, State
+from ocs_design.report.text.doctor import print_examination
+from ocs_design.workflows import doctor
+from ocs_design.workflows.doctor import examination_to_json, examine
+
+
+def finding(state, *, required):
+    return Finding(name="it", state=state, required=required, purpose="all")
+
+
+@pytest.mark.parametrize(
+    ("state", "required", "code"),
+    [
+        (State.WORKS, True, 0),
+        (State.MISSING, False, 0),
+        (State.BROKEN, False, 0),
+        (State.MISSING, True, 5),
+        (State.UNFIT, True, 5),
+        (State.BROKEN, True, 5),
+    ],
+)
+def test_only_what_is_required_stands_in_the_way(state, required, code):
+    examination = Examination("1.0", (), (finding(state, required=required),))
+    assert examination.exit_code == code
+    document = json.loads(examination_to_json(examination))
+    assert document["healthy"] == (code == 0)
+    assert document["packages"][0]["state"] == state.value
+
+
+def test_it_needs_nothing_of_what_it_looks_for():
+    assert modules_loaded_by("import ocs_design.workflows.doctor").isdisjoint(
+        {*HEAVY, "msgspec", "rich"}
+    )
+
+
+def test_run_from_its_source_alone_it_says_so(monkeypatch):
+    def missing(name):
+        raise metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr(doctor.metadata, "requires", missing)
+    with pytest.raises(MissingToolError, match="not installed"):
+        examine()
+
+
+@pytest.mark.slow
+def test_here_everything_required_works():
+    done = run("doctor", "--json")
+    assert done.code == 0
+    found = {each["name"]: each for each in done.document["machine"] + done.document["packages"]}
+    assert found["mujoco"]["state"] == "works"
+    assert found["mujoco"]["found"] == metadata.version("mujoco")
+    assert {"Python", "this folder", "ffmpeg", "resvg-py"} <= set(found)
+
+
+def test_what_is_only_optional_is_not_to_be_mended():
+    lacking = [
+        replace(finding(state, required=required), name=name, cure=f"get {name}")
+        for name, state, required in (
+            ("needed", State.MISSING, True),
+            ("extra", State.MISSING, False),
+            ("torn", State.BROKEN, False),
+        )
+    ]
+    console = Console(file=StringIO(), width=80)
+    print_examination(console, Examination("1.0", (), tuple(lacking)))
+    said = console.file.getvalue()
+    mend, add = said.split("To mend")[1].split("To add")
+    assert "get needed" in mend and "get torn" in mend
+    assert "get extra" in add and "get extra" not in mend

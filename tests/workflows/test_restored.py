@@ -1,0 +1,146 @@
+"""From the records of a design back to what they were made from, to the last digit."""
+
+import json
+
+import msgspec
+import numpy as np
+import pytest
+from designed import MOTOR, designed
+from exported import LEGGED, LEGGED_PATHS
+from robots import ROBOTS
+
+from ocs_design.common.errors import OcsError, RobotError
+from ocs_design.device.records import ManeuverRecord, RobotRecord, design_to_json, read_design
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.reader import read_robot
+from ocs_design.workflows.recording import record_design
+from ocs_design.workflows.restoring import device_of, maneuver_of, robot_of, seat_of
+
+HUMAN = next(ROBOTS.rglob("human.urdf"))
+MIMIC = """<robot name="gripper">
+  <link name="base"><inertial><mass value="2"/>
+    <inertia ixx="0.03" iyy="0.05" izz="0.07" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="a"><inertial><origin xyz="0.1 0 0"/><mass value="0.1"/>
+    <inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="b"><inertial><origin xyz="0.2 0 0"/><mass value="0.1"/>
+    <inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="lead" type="continuous"><parent link="base"/><child link="a"/></joint>
+  <joint name="follow" type="continuous"><parent link="base"/><child link="b"/>
+    <mimic joint="lead" multiplier="-2" offset="0.1"/></joint>
+</robot>"""
+
+
+def through_json(record):
+    return msgspec.json.decode(msgspec.json.encode(record), type=RobotRecord)
+
+
+def check_same(again, robot):
+    assert again.posture == robot.posture
+    assert (again.trunk, again.name, again.sha256) == (robot.trunk, robot.name, robot.sha256)
+    assert again.mass == robot.mass
+    np.testing.assert_array_equal(again.com, robot.com)
+    np.testing.assert_array_equal(again.inertia, robot.inertia)
+
+
+@pytest.mark.parametrize("path", [*LEGGED_PATHS, HUMAN], ids=[*LEGGED, "human"])
+def test_a_robot_read_again_stands_as_it_did(path):
+    robot = read_robot(path)
+    again = robot_of(through_json(RobotRecord.of(robot)), path, {})
+    check_same(again, robot)
+    assert (again.mount is None) == (robot.mount is None)
+
+
+@pytest.mark.parametrize("path", [LEGGED_PATHS[0], HUMAN])
+def test_the_seat_is_the_robots(path):
+    robot = read_robot(path)
+    seat = seat_of(through_json(RobotRecord.of(robot)))
+    assert seat.trunk == robot.trunk
+    if robot.mount is None:
+        assert seat.mount is None
+    else:
+        assert seat.mount.link == robot.mount.link
+        for name in ("rotation", "position"):
+            ours, theirs = (getattr(each.mount.placement, name) for each in (seat, robot))
+            np.testing.assert_array_equal(ours, theirs)
+
+
+def test_joints_that_follow_others_follow_again(tmp_path):
+    (tmp_path / "g.urdf").write_text(MIMIC)
+    robot = read_robot(tmp_path / "g.urdf", joints={"lead": 0.3})
+    assert robot.posture["follow"] == pytest.approx(-0.5)
+    check_same(robot_of(RobotRecord.of(robot), tmp_path / "g.urdf", {}), robot)
+
+
+def test_a_robot_by_hand_is_made_of_its_record_alone():
+    robot = robot_by_hand(2.5, (0.03, 0.05, 0.07, 1e-3, 2e-3, -3e-3), (0.01, 0.0, -0.02), "box")
+    check_same(robot_of(through_json(RobotRecord.of(robot)), "nowhere", {}), robot)
+
+
+def test_a_trunk_named_by_the_user_stays_the_trunk():
+    path = LEGGED_PATHS[0]
+    robot = read_robot(path, trunk="FL_SHOULDER")
+    check_same(robot_of(RobotRecord.of(robot), path, {}), robot)
+
+
+def test_a_robot_that_lacks_a_joint_is_refused(tmp_path):
+    (tmp_path / "g.urdf").write_text(MIMIC)
+    record = RobotRecord.of(read_robot(tmp_path / "g.urdf"))
+    (tmp_path / "g.urdf").write_text(MIMIC.replace("lead", "other"))
+    with pytest.raises(RobotError, match="no joint or link 'lead'"):
+        robot_of(record, tmp_path / "g.urdf", {})
+
+
+@pytest.mark.parametrize("motor", [MOTOR, "none"])
+def test_a_device_comes_back_to_the_last_digit(tmp_path, motor):
+    task, made = designed(motor)
+    design = record_design(
+        task.robot, task.resolved, made, (), plans={}, mounting=None, seed=0, files={}
+    )
+    (tmp_path / "design.json").write_bytes(design_to_json(design))
+    again, device = device_of(read_design(tmp_path / "design.json").ocs), made.device
+    for name in ("incidence", "flywheel", "motor", "carrier"):
+        assert getattr(again, name) == getattr(device, name)
+    for ours, theirs in zip(again.modules, device.modules, strict=True):
+        assert ours.name == theirs.name
+        np.testing.assert_array_equal(ours.axis, theirs.axis)
+        np.testing.assert_array_equal(ours.position, theirs.position)
+
+
+def test_folders_of_packages_are_kept(tmp_path):
+    robot = read_robot(LEGGED_PATHS[0])
+    record = through_json(RobotRecord.of(robot, {"parts": tmp_path}))
+    assert record.package_paths == {"parts": str(tmp_path)}
+    assert "package_paths" in json.loads(msgspec.json.encode(record))
+
+
+DROP = {"height": 1.0, "roll": 0.0, "pitch": 0.5}
+
+
+def recorded(kind, figures):
+    return ManeuverRecord(kind=kind, name="it", gravity=9.81, incidence=None, parameters=figures)
+
+
+def drop(**changes):
+    figures = (DROP | changes).items()
+    return recorded("drop", {key: value for key, value in figures if value is not None})
+
+
+def test_a_maneuver_comes_back():
+    found = maneuver_of(drop())
+    assert (found.name, found.height, found.pitch) == ("it", 1.0, 0.5)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"height": None}, {"gravity": 9.81}, {"speed": 1.0}, {"pitch": (1.0, 2.0)}],
+    ids=["missing", "twice", "unknown", "several"],
+)
+def test_a_maneuver_with_other_figures_is_refused(changes):
+    with pytest.raises(OcsError, match=r"maneuver 'it': .*drop"):
+        maneuver_of(drop(**changes))
+
+
+def test_a_row_of_the_wrong_length_is_refused():
+    figures = {"takeoff_velocity": (0.5, 2.4), "torque": (0.2, 0.8), "onset": 0.1, "duration": 0.05}
+    with pytest.raises(OcsError, match="torque of a disturbance is not"):
+        maneuver_of(recorded("disturbance", figures))
