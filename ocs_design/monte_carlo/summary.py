@@ -164,8 +164,8 @@ def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
     if not count:
         return ""
     return (
-        f"{count} land off level in {axis}, which modules in line do not turn: without "
-        f"`incidence` in its [[maneuver]] they stay as they are designed, and do"
+        f"{count} land off level in {axis}, which modules turned into line cannot correct: without "
+        f"`incidence` in its [[maneuver]] they keep the angle of the design, and can"
     )
 
 

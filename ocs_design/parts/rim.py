@@ -85,6 +85,15 @@ def cylinder_transverse_inertia(
     return mass * (3.0 * (outer_radius**2 + inner_radius**2) + height**2) / 12.0
 
 
+def hoop_weights(poisson_ratio: Real) -> tuple[Real, Real]:
+    """Weights p = 3 + nu of R^2 and n = 1 - nu of r^2 in the hoop stress at the bore.
+
+    The rule of the hoop stress stands here alone: another one of the same form,
+    `rho w^2 / 4 (p R^2 + n r^2)`, needs no other change.
+    """
+    return 3.0 + poisson_ratio, 1.0 - poisson_ratio
+
+
 def hoop_stress(
     inner_radius: Real,
     outer_radius: Real,
@@ -98,8 +107,8 @@ def hoop_stress(
     rho w^2 / 4 ((3 + nu) R^2 + (1 - nu) r^2). With r -> 0 it is that of a disc with a pin hole,
     twice that of a solid one.
     """
-    stretch = (3.0 + poisson_ratio) * outer_radius**2 + (1.0 - poisson_ratio) * inner_radius**2
-    return density * wheel_speed**2 / 4.0 * stretch
+    outer, inner = hoop_weights(poisson_ratio)
+    return density * wheel_speed**2 / 4.0 * (outer * outer_radius**2 + inner * inner_radius**2)
 
 
 def stored_energy(spin_inertia: Real, wheel_speed: float) -> Real:

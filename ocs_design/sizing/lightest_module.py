@@ -200,7 +200,7 @@ def _bounds(
         inner = np.sqrt(bore)
         full = full + limits.cuts.spread(inner, outer)
         mass = mass + limits.cuts.area(inner, outer)
-    nu = limits.poisson_ratio
+    weight, bore_weight = limits.hoop_weights
     # At the largest mass t b^2 + m b = k - m a, m per pi rho.
     over, web = full / mass - outer**2, limits.web / mass
     by_mass = 2.0 * over / (1.0 + np.sqrt(np.maximum(1.0 + 4.0 * web * over, 1e-300)))
@@ -213,7 +213,7 @@ def _bounds(
     upper = (
         _bore_at_height(full, outer, limits, limits.height_max),
         (outer - limits.wall_min) ** 2,
-        (limits.stretch_max - (3.0 + nu) * outer**2) / (1.0 - nu),
+        (limits.stretch_max - weight * outer**2) / bore_weight,
     )
     return (
         np.maximum.reduce(np.broadcast_arrays(*lower)),

@@ -66,8 +66,7 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
 
 def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     """Above it a wheel of this spin inertia [kg m^2] breaks, is too flat, or has no room [m]."""
-    nu, stretch = limits.poisson_ratio, np.asarray(limits.stretch_max)
-    outer, inner = 3.0 + nu, 1.0 - nu
+    stretch, (outer, inner) = np.asarray(limits.stretch_max), limits.hoop_weights
     by_bore = (stretch - inner * np.asarray(limits.inner_radius_min) ** 2) / outer
     by_share = stretch / (outer + inner * BORE_SHARE**2)
     square = np.minimum(by_bore, by_share)
@@ -166,7 +165,7 @@ def _stretched_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
 
     With p = 3 + nu, n = 1 - nu and S the largest stretch.
     """
-    outer, inner = 3.0 + limits.poisson_ratio, 1.0 - limits.poisson_ratio
+    outer, inner = limits.hoop_weights
     stretch = np.asarray(limits.stretch_max)
     # An unlimited hoop stress leaves any radius light enough.
     over = asked.full / asked.mass - np.where(np.isinf(stretch), 0.0, stretch) / outer
@@ -177,7 +176,7 @@ def _stretched_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
 
 def _stretched_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
     """The hoop stress and the least height: (h - t) (S - p a)^2 = n^2 (h a^2 - k)."""
-    outer, inner = 3.0 + limits.poisson_ratio, 1.0 - limits.poisson_ratio
+    outer, inner = limits.hoop_weights
     stretch, web = np.asarray(limits.stretch_max), limits.web
     tall = np.asarray(limits.height_min) - web
     more = np.where(web > np.zeros_like(tall), 1.0 + web / tall, 1.0)
@@ -190,9 +189,9 @@ def _stretched_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
 
 def _stretched(square: FloatArray, limits: RimLimits) -> _Crossing:
     """Bore that the hoop stress leaves of a rim with that R^2 [m^2]."""
-    nu = limits.poisson_ratio
+    outer, inner = limits.hoop_weights
     square = np.maximum(square, 0.0)
-    bore = (limits.stretch_max - (3.0 + nu) * square) / (1.0 - nu)
+    bore = (limits.stretch_max - outer * square) / inner
     return _Crossing(np.sqrt(np.maximum(bore, 0.0)), np.sqrt(square))
 
 

@@ -47,6 +47,7 @@ from ocs_design.parts.rim import (
     WEB_DENSITY,
     WEB_THICKNESS,
     RimCuts,
+    hoop_weights,
 )
 from ocs_design.requirement.froude import Envelope
 
@@ -80,6 +81,11 @@ class RimLimits:
     web: float | FloatArray = 0.0
     outer_radius_min: float | FloatArray = 0.0
     cuts: RimCuts = NO_CUTS
+
+    @property
+    def hoop_weights(self) -> tuple[FloatArray, FloatArray]:
+        """Weights p of R^2 and n of r^2 in the stretch that `stretch_max` bounds."""
+        return hoop_weights(np.asarray(self.poisson_ratio, dtype=np.float64))
 
 
 @dataclass(frozen=True)
@@ -229,7 +235,7 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
             & (inner * slack >= limits.inner_radius_min)
             & (inner * slack >= BORE_SHARE * outer)
             & (mass <= limits.mass_max * slack)
-            & ((3.0 + limits.poisson_ratio) * outer**2 <= limits.stretch_max * slack)
+            & (limits.hoop_weights[0] * outer**2 <= limits.stretch_max * slack)
         )
     values = np.broadcast_arrays(inner, outer, height, mass)
     return RimShape(*(np.where(fits, value, np.nan) for value in values))
@@ -255,8 +261,9 @@ def largest_spin_inertia(limits: RimLimits) -> FloatArray:
     its mass as far out as it may be, its web to the same radius.
     """
     web, bore = np.asarray(limits.web), np.asarray(limits.inner_radius_min)
-    nu, per_height = limits.poisson_ratio, np.pi * np.asarray(limits.density) / 2.0
-    stretched = np.maximum(limits.stretch_max - (1.0 - nu) * bore**2, 0.0) / (3.0 + nu)
+    p, n = limits.hoop_weights
+    per_height = np.pi * np.asarray(limits.density) / 2.0
+    stretched = np.maximum(limits.stretch_max - n * bore**2, 0.0) / p
     outer = np.minimum(limits.outer_radius_max, np.sqrt(stretched))
     tall = np.asarray(limits.height_max)
     solid = per_height * (tall * (outer**4 - bore**4) + np.minimum(web, tall) * bore**4)
@@ -281,11 +288,11 @@ def flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
 
 def _hoop_radius(tall: FloatArray, limits: RimLimits) -> FloatArray:
     """Outer radius beyond which the hoop stress costs more bore than the radius gains [m]."""
-    nu, stretch, wall = limits.poisson_ratio, np.asarray(limits.stretch_max), limits.wall_min
+    (p, n), stretch, wall = limits.hoop_weights, np.asarray(limits.stretch_max), limits.wall_min
     # Written so that an unlimited hoop stress (inf) gives inf.
-    root = np.sqrt(np.maximum(1.0 - 8.0 * (1.0 + nu) * tall / stretch**2, 0.0))
-    by_height = (stretch + (1.0 - nu) ** 2 * tall / stretch) / (3.0 + nu + (1.0 - nu) * root)
-    discriminant = np.maximum(4.0 * stretch - (1.0 - nu) * (3.0 + nu) * wall**2, 0.0)
-    by_wall = ((1.0 - nu) * wall + np.sqrt(discriminant)) / 4.0
+    root = np.sqrt(np.maximum(1.0 - (p**2 - n**2) * tall / stretch**2, 0.0))
+    by_height = (stretch + n**2 * tall / stretch) / (p + n * root)
+    discriminant = np.maximum((p + n) * stretch - n * p * wall**2, 0.0)
+    by_wall = (n * wall + np.sqrt(discriminant)) / (p + n)
     radius: FloatArray = np.maximum(np.sqrt(by_height), by_wall)
     return radius

@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.rim import hoop_weights
 from ocs_design.sizing.bound.rim_problem import RimProblem
 
 if TYPE_CHECKING:
@@ -189,7 +190,7 @@ class RimConstraints:
         """The derivative is by the allowed stress [1 / Pa]."""
         nu = self._problem.material.poisson_ratio or 0.0
         stretch = self._problem.stretch_max / self._scale**2
-        outer, inner = (3.0 + nu) / stretch, (1.0 - nu) / stretch
+        outer, inner = (weight / stretch for weight in hoop_weights(nu))
         return Constraint(
             convex=self.a * outer + self.b * inner <= 1.0,
             value=lambda a, b: a * outer + b * inner - 1.0,

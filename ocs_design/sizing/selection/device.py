@@ -14,7 +14,7 @@ from ocs_design.device.layout import module_frames
 from ocs_design.device.records import TaskDemand
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
-from ocs_design.parts.rim import wheel_body
+from ocs_design.parts.rim import hoop_weights, wheel_body
 from ocs_design.requirement.bound import (
     AXES,
 )
@@ -158,8 +158,8 @@ def binding_limits(
         for field in fields(limits)
         if field.name != "cuts"
     }
-    nu = at["poisson_ratio"]
-    stretched = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
+    weight, bore_weight = hoop_weights(at["poisson_ratio"])
+    stretched = weight * outer**2 + bore_weight * inner**2
     bore = HUB if at["inner_radius_min"] > room.inner_radius_min else "r_min"
     seat = CUT_HEIGHT if limits.cuts.height_min >= at["height_min"] else WEB
     flat = seat if at["height_min"] > room.height_min else "h_min"

@@ -234,9 +234,10 @@ class Programme:
 
     def _room(self, shapes: ModuleShape) -> list[FloatArray]:
         """Ratios by which rims stay within their limits, shape (k,) each."""
-        limits, nu = self.candidates.limits, self.candidates.limits.poisson_ratio
+        limits = self.candidates.limits
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
-        stretch = (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2
+        weight, bore_weight = limits.hoop_weights
+        stretch = weight * outer**2 + bore_weight * inner**2
         pairs = (
             (outer, limits.outer_radius_max),
             (height, limits.height_max),
