@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ocs_design.requirement.choices import motor_choice
 from ocs_design.requirement.reading import read_specification
-from ocs_design.requirement.resolving import read_stated_robot, resolve
+from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.requirement.specification import AUTO, MotorSection, Specification
 from ocs_design.robot.meshes import size
 from ocs_design.sizing.placement import place_at, place_on_top
@@ -107,7 +107,7 @@ def lightest(stated: Specification, incidence: float | None) -> Candidate:
         stated: the specification; its `[motor]` names what may be chosen from.
         incidence: of the wheel axes [rad]; None: the best.
     """
-    robot = read_stated_robot(stated)
+    robot = read_specified_robot(stated)
     resolved = resolve(stated, robot, size(robot.tree, robot.posture, robot.trunk))
     choice = motor_choice(stated, robot)
     if choice is None:

@@ -16,8 +16,8 @@ from ocs_design.cli import errors
 from ocs_design.cli import options as opt
 from ocs_design.cli.commands import doctor, export, init, pareto, validate
 from ocs_design.cli.options import (
-    stated_package_paths,
-    stated_specification,
+    package_paths_of_command,
+    specified_by_command,
     typed_command,
     with_options,
 )
@@ -90,7 +90,7 @@ def size(
     """
     from ocs_design.report.text.console import Steps, make_console
 
-    specification = stated_specification(context)
+    specification = specified_by_command(context)
     console = make_console(color=not no_color)
     steps = Steps(console, quiet=quiet or as_json)
     with steps.step("load the solver and the simulator"), _quick_imports():
@@ -103,7 +103,7 @@ def size(
     outcome = design_ocs(
         specification,
         out=out,
-        package_paths=stated_package_paths(context),
+        package_paths=package_paths_of_command(context),
         force=force,
         strict=strict,
         steps=steps,
@@ -138,8 +138,8 @@ def inspect(
     from ocs_design.workflows.inspect import inspect_robot
 
     inspection = inspect_robot(
-        stated_specification(context),
-        package_paths=stated_package_paths(context),
+        specified_by_command(context),
+        package_paths=package_paths_of_command(context),
         strict=strict,
     )
     if as_json:

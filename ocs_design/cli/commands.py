@@ -11,8 +11,8 @@ import typer
 
 from ocs_design.cli import options as opt
 from ocs_design.cli.options import (
-    stated_package_paths,
-    stated_specification,
+    package_paths_of_command,
+    specified_by_command,
     typed_command,
     with_options,
 )
@@ -87,14 +87,14 @@ def init(
     from ocs_design.report.text.console import make_console
     from ocs_design.workflows.init import read_start, write_start
 
-    packages = stated_package_paths(context)
+    packages = package_paths_of_command(context)
 
     def start_from(specification: "Specification") -> "Start":
         """Read the robot."""
         return read_start(specification, package_paths=packages, strict=strict)
 
     asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
-    stated = stated_specification(context)
+    stated = specified_by_command(context)
     start = _ask_robot(stated, start_from) if asking else start_from(stated)
     file = out or start.default_file
     check_file_target(file, force=force)
@@ -239,7 +239,7 @@ def export(
             design,
             chosen,
             robot_file=robot,
-            package_paths=stated_package_paths(context),
+            package_paths=package_paths_of_command(context),
             strict=output.strict,
         )
         step.note = order.subject.name
@@ -321,7 +321,7 @@ def pareto(
         check_target(out, force=output.force)
     console = make_console(color=not output.no_color)
     steps = Steps(console, quiet=output.quiet or output.as_json)
-    specification, paths = stated_specification(context), stated_package_paths(context)
+    specification, paths = specified_by_command(context), package_paths_of_command(context)
     with steps.step("read the robot") as step:
         task = read_task(specification, package_paths=paths, strict=output.strict)
         step.note = task.robot.name
@@ -419,9 +419,9 @@ def validate(
         width = parse_quantity(until_width, Dimension.RATIO, "--until-width")
     request = Request(
         design=design,
-        stated=stated_specification(context),
+        stated=specified_by_command(context),
         robot_file=robot_file,
-        package_paths=stated_package_paths(context),
+        package_paths=package_paths_of_command(context),
         samples=samples,
         until_width=width,
         scheduler=scheduler,

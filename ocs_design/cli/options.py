@@ -329,7 +329,7 @@ def with_output(command: Command) -> Command:
     return run
 
 
-def stated_specification(context: typer.Context) -> "Specification":
+def specified_by_command(context: typer.Context) -> "Specification":
     """The file given with `--spec`, and over it every option of the command that is a key.
 
     Raises:
@@ -353,7 +353,7 @@ def typed_command() -> str:
     return shlex.join(["ocs-design", *sys.argv[1:]])
 
 
-def stated_package_paths(context: typer.Context) -> Mapping[str, Path]:
+def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
     """`NAME=DIR` pairs of `--package-path`.
 
     Raises:

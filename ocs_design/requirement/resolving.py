@@ -97,7 +97,7 @@ SCALES = 0.02
 """Of a robot's mass over what it weighs: a battery or a harness that its file lacks is more."""
 
 
-def read_stated_robot(
+def read_specified_robot(
     specification: Specification,
     *,
     package_paths: Mapping[str, Path] | None = None,

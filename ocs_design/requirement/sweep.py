@@ -45,7 +45,7 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
             return maneuver
 
 
-def told_change(before: Maneuver, after: Maneuver) -> str:
+def change_text(before: Maneuver, after: Maneuver) -> str:
     """The keys of `after` that are other than those of `before`, rounded up, as in `height 2 m`."""
     changes = []
     for name, how in kind_of(after)[1].items():

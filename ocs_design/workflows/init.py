@@ -11,7 +11,7 @@ from ocs_design.device.records import SCHEMA_VERSION
 from ocs_design.export.folder import write_whole
 from ocs_design.requirement.froude import SOLO12, example_shove
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
-from ocs_design.requirement.resolving import default_specification, read_stated_robot
+from ocs_design.requirement.resolving import default_specification, read_specified_robot
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.writing import commented_toml, with_files_from
 from ocs_design.robot.manual import robot_by_hand
@@ -53,11 +53,11 @@ def read_start(
     """Read the robot, if one is stated, and scale the defaults to it.
 
     Raises:
-        OcsError: see `read_stated_robot`.
+        OcsError: see `read_specified_robot`.
     """
     given = (stated.robot.file, stated.robot.mass, stated.robot.inertia)
     robot = (
-        read_stated_robot(stated, package_paths=package_paths, strict=strict)
+        read_specified_robot(stated, package_paths=package_paths, strict=strict)
         if any(item is not None for item in given)
         else None
     )

@@ -9,7 +9,7 @@ from ocs_design.common.arrays import vector
 from ocs_design.device.answers import Inspection, PostureLine
 from ocs_design.device.layout import Criterion, heading_drift, incidence_by_criterion
 from ocs_design.device.records import SCHEMA_VERSION, RobotRecord
-from ocs_design.requirement.resolving import read_stated_robot
+from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.posture import posture_sensitivity
 from ocs_design.robot.robot import Robot
@@ -24,9 +24,9 @@ def inspect_robot(
     """Read the robot of a specification and measure it over plausible postures.
 
     Raises:
-        OcsError: see `read_stated_robot`.
+        OcsError: see `read_specified_robot`.
     """
-    robot = read_stated_robot(specification, package_paths=package_paths, strict=strict)
+    robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
     roll, pitch = heading_drift(robot.inertia)
     return Inspection(
         schema_version=SCHEMA_VERSION,

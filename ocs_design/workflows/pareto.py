@@ -13,7 +13,7 @@ from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
 from ocs_design.common.units import format_quantity, parse_positive, si_unit
 from ocs_design.device.answers import Front, FrontDevice, FrontPoint
 from ocs_design.device.records import SCHEMA_VERSION, recorded
-from ocs_design.requirement.resolving import read_stated_robot
+from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Sweep, Task
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
@@ -40,7 +40,7 @@ def read_task(
     Raises:
         OcsError: the robot cannot be read, or the specification does not fit it.
     """
-    robot = read_stated_robot(specification, package_paths=package_paths, strict=strict)
+    robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
     return Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
 
 

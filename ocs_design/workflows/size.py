@@ -25,7 +25,7 @@ from ocs_design.report.html.page import write_report
 from ocs_design.report.story import flights_of, story_in
 from ocs_design.report.text.console import Steps
 from ocs_design.report.video.film import film_or_tell
-from ocs_design.requirement.resolving import Resolved, read_stated_robot, resolve
+from ocs_design.requirement.resolving import Resolved, read_specified_robot, resolve
 from ocs_design.requirement.specification import NO_MOTOR, Specification, ValidationSection
 from ocs_design.requirement.uncertainty import uncertainty_texts
 from ocs_design.robot.collision import forget_collision_model
@@ -96,7 +96,7 @@ def design_ocs(
     """
     steps = steps or Steps.silent()
     with steps.step("read the robot") as step:
-        robot = read_stated_robot(specification, package_paths=package_paths, strict=strict)
+        robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
         folder = out or Path(f"{safe_name(robot.name)}-ocs")
         check_target(folder, force=force)
         require_no_device(robot.tree.joints)

@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from ocs_design.cli.options import stated_package_paths, stated_specification
+from ocs_design.cli.options import package_paths_of_command, specified_by_command
 from ocs_design.common.errors import UsageError
 
 
 def stated(**parameters):
-    return stated_specification(SimpleNamespace(params={"spec": None, **parameters}))
+    return specified_by_command(SimpleNamespace(params={"spec": None, **parameters}))
 
 
 def test_nothing_stated_is_an_empty_specification():
@@ -56,7 +56,7 @@ def test_an_option_goes_over_the_file_and_leaves_the_rest(tmp_path):
 
 
 def package_paths(*texts):
-    return stated_package_paths(SimpleNamespace(params={"package_path": texts}))
+    return package_paths_of_command(SimpleNamespace(params={"package_path": texts}))
 
 
 def test_package_paths_are_pairs():

@@ -18,7 +18,7 @@ from ocs_design.actuation.wheel_pair import WheelPairTask, smallest_spin_inertia
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import read_specification
-from ocs_design.requirement.resolving import read_stated_robot
+from ocs_design.requirement.resolving import read_specified_robot
 
 ROOT = Path(__file__).parents[2]
 MACHINES = ROOT / "examples" / "machines"
@@ -90,7 +90,7 @@ def specification(name):
 )
 def test_the_specifications_ask_for_these_turns(name, axis, machine, copies):
     stated = specification(name)
-    robot = read_stated_robot(stated)
+    robot = read_specified_robot(stated)
     wanted = STANDING[machine]
     angle, duration = wanted.turn
     inertia = np.diag(robot.inertia)[:2]
@@ -105,7 +105,7 @@ def test_the_specifications_ask_for_these_turns(name, axis, machine, copies):
 
 def test_rex_hopper_aims_its_leg_within_its_jump():
     stated = specification("rex_hopper_flight")
-    robot = read_stated_robot(stated)
+    robot = read_specified_robot(stated)
     flight = 2.0 * sqrt(2.0 * 0.5 / 9.807)  # actuator_calc.ipynb
     for maneuver in stated.maneuvers:
         slew = maneuver.slew(TiltInertia.uncoupled(np.ones(2)), standing_height(robot))
@@ -147,7 +147,7 @@ def test_rex_hopper_is_the_sum_of_its_links():
         arm = data.xipos[body] - com
         inertia += turn @ np.diag(model.body_inertia[body]) @ turn.T
         inertia += model.body_mass[body] * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    robot = read_stated_robot(specification("rex_hopper_flight"))
+    robot = read_specified_robot(specification("rex_hopper_flight"))
     assert robot.mass == pytest.approx(model.body_mass.sum(), abs=5e-5)
     np.testing.assert_allclose(robot.inertia, inertia, atol=1e-6)
     assert np.diag(inertia)[:2] == pytest.approx(standing.REX_HOPPER_INERTIA, abs=1e-6)

@@ -6,7 +6,7 @@ from specifications import MANEUVERS
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.requirement.maneuver import Flip
-from ocs_design.requirement.sweep import slower, told_change
+from ocs_design.requirement.sweep import change_text, slower
 
 HEIGHT = 0.25
 INERTIA = TiltInertia(np.array([0.03, 0.05]), np.array(0.004))
@@ -39,4 +39,4 @@ def test_keys_are_told_rounded_to_the_safe_side():
         (flip, 1.05, "back-flip duration 2.1 s"),
         (flip, 1.5, "back-flip jump_height 1.9 m and duration 3 s"),
     ):
-        assert told_change(maneuver, slower(maneuver, factor, HEIGHT)) == told
+        assert change_text(maneuver, slower(maneuver, factor, HEIGHT)) == told

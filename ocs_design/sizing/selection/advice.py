@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.requirement.sweep import told_change
+from ocs_design.requirement.sweep import change_text
 from ocs_design.sizing.changes import Progress, advice, smallest_changes, unseen
 from ocs_design.sizing.limits import TIME, Limit
 from ocs_design.sizing.selection.feasibility import Field
@@ -150,4 +150,4 @@ def _change_text(field: Field, limit: Limit, value: float) -> str:
     before = field.problem.requirement.maneuvers
     after = slowed_maneuvers(field, value).requirement.maneuvers
     both = zip(before, after, strict=True)
-    return " with ".join(told_change(old, new) for old, new in both if old is not new)
+    return " with ".join(change_text(old, new) for old, new in both if old is not new)

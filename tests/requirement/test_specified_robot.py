@@ -4,7 +4,7 @@ import pytest
 from commands import SOLO12, run
 
 from ocs_design.common.errors import RobotError
-from ocs_design.requirement.resolving import read_stated_robot
+from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import RobotSection, Specification
 
 TOLD = "the parts' masses add up to 2.5"
@@ -12,7 +12,7 @@ TOLD = "the parts' masses add up to 2.5"
 
 def warnings_of(weighed, **options):
     stated = Specification(robot=RobotSection(file=SOLO12, weighed=weighed))
-    return read_stated_robot(stated, **options).warnings
+    return read_specified_robot(stated, **options).warnings
 
 
 @pytest.mark.parametrize(("weighed", "word"), [(2.7, "missing"), (2.2, "too heavy")])
