@@ -74,6 +74,16 @@ def test_what_is_cut_off_a_wheel_is_what_is_cut_off_its_solids(bore, wall, heigh
     np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
 
 
+def test_slopes_of_what_is_cut_off_are_those_of_its_figures():
+    """By an imaginary step, which has all digits."""
+    cuts, outer = RimCuts(1e-3, 9, hole_radius=0.5e-3, hole_depth=1e-3), 0.03
+    for inner in (0.012, 0.02, 0.024):
+        beside = inner + 1e-30j
+        assert cuts.area_slope() == pytest.approx(cuts.area(beside, outer).imag / 1e-30)
+        slope = cuts.spread(beside, outer).imag / 1e-30
+        assert cuts.spread_slope(inner, outer) == pytest.approx(slope, rel=1e-12)
+
+
 def test_without_a_hub_there_is_the_rim_alone():
     rim = wheel_body(0.02, 0.03, 0.01, STEEL.density, None)
     assert rim.mass == pytest.approx(np.pi * STEEL.density * 0.01 * (0.03**2 - 0.02**2))

@@ -57,6 +57,14 @@ def test_a_flip_peaks_at_twice_its_mean_rate():
     assert np.trapezoid(rates, times) == pytest.approx(2 * np.pi, rel=1e-6)
 
 
+@pytest.mark.parametrize("angle", np.radians([-360.0, -180.0, -20.0, 90.0, 270.0, 720.0]))
+def test_a_turn_strays_by_its_chord(angle):
+    """A pencil along the trunk ends as far from where it began; a whole turn brings it back."""
+    flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=angle, duration=2.0)
+    moved = Rotation.from_rotvec([0.0, angle, 0.0]).apply([1.0, 0.0, 0.0]) - [1.0, 0.0, 0.0]
+    assert flip.stray == pytest.approx(np.linalg.norm(moved), abs=1e-14)
+
+
 def test_summaries_carry_units():
     flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
     assert flip.summary == (

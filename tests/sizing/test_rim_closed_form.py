@@ -5,9 +5,15 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
+from naive_wheel import Rims, solid
 from rims import STEEL, paper_problem, random_problem
 
-from ocs_design.parts.rim import cylinder_mass, cylinder_spin_inertia, hoop_stress
+from ocs_design.parts.rim import (
+    RimCuts,
+    cylinder_mass,
+    cylinder_spin_inertia,
+    hoop_stress,
+)
 from ocs_design.sizing.bound.rim_problem import RimLimits, lightest_rim, smallest_spin_inertia
 
 POINTS = 500
@@ -174,3 +180,22 @@ def test_smallest_spin_inertia_is_where_feasibility_begins():
         assert lightest_rim(smallest * (1.0 + 1e-10), wider.limits).mass > 0.0
         met += 1
     assert met > 20
+
+
+def test_what_is_cut_off_the_smallest_rim_is_not_counted():
+    """A chamfered ring as solid cylinders and cones, and blind holes one by one."""
+    bore, wall, height, web = 0.02, 0.008, 0.01, 0.001
+    cuts = RimCuts(chamfer=1e-3, holes=8, hole_radius=1.25e-3, hole_depth=2e-3)
+    limits = replace(
+        paper_problem(1e-4, 0.05, 0.02).limits,
+        inner_radius_min=bore,
+        wall_min=wall,
+        height_min=height,
+        web=web,
+        cuts=cuts,
+    )
+    ring = Rims(bore + wall, bore, height, limits.density, cuts.chamfer).body[1]
+    disc = solid(bore, web, limits.density)[1]
+    drilled, own, _ = solid(cuts.hole_radius, cuts.hole_depth, limits.density)
+    holes = 2 * cuts.holes * (own + drilled * (bore + wall / 2.0) ** 2)
+    assert float(smallest_spin_inertia(limits)) == pytest.approx(ring + disc - holes, rel=1e-12)
