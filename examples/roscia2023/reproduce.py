@@ -4,8 +4,8 @@
     python examples/roscia2023/reproduce.py --tables    without the figures
 
 Roscia, Cumerlotti, Del Prete, Semini, Focchi: Orientation Control System: Enhancing Aerial
-Maneuvers for Quadruped Robots. Sensors 23:1234, 2023. Needs the extra `plot` for the figures. Takes
-ten seconds.
+Maneuvers for Quadruped Robots. Sensors 23:1234, 2023. The figures need
+matplotlib. Takes ten seconds.
 """
 
 import argparse
