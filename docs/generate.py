@@ -40,7 +40,7 @@ PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
 CLI_PAGE = ROOT / "docs" / "cli.md"
 WIDTH = 80
 
-OPTIONS = {"robot.joints": "--joint", "validation.enabled": "--no-validate"}
+OPTIONS = {"validation.enabled": "--no-validate"}
 """Options that are not named after their key."""
 
 
@@ -79,7 +79,7 @@ def section_keys(section: str) -> str:
     }
     rows = []
     for name, key in keys_of(SECTIONS[section]).items():
-        option = OPTIONS.get(f"{section}.{name}", f"--{name.replace('_', '-')}")
+        option = OPTIONS.get(f"{section}.{name}", f"--{key.option or name.replace('_', '-')}")
         shown = f"`{option}`" if option in known else ""
         rows.append((f"`{name}`", shown, accepts(key.value), key.summary))
     return table(("key", "option", "takes", "meaning"), rows)

@@ -20,8 +20,8 @@ from ocs_design.catalogue.motors import motors
 from ocs_design.device.device import Device
 from ocs_design.parts.module import drive_moments
 from ocs_design.parts.moments import Carrier
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.reading import read_specification
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import simulate
@@ -34,6 +34,7 @@ from ocs_design.sizing.motion import DrivenWheel
 from ocs_design.sizing.placement import place_on_top
 
 ROBOT = Path(__file__).with_name("solo12.urdf")
+MANEUVERS = read_specification(ROBOT.with_suffix(".toml")).maneuvers  # the paper's
 INNER_RADIUS, OUTER_RADIUS, HEIGHT = 0.022, 0.03, 0.01  # m
 INCIDENCE = np.radians(40.0)
 BATCH = 50  # devices that fly at once
@@ -42,8 +43,7 @@ BATCH = 50  # devices that fly at once
 def main() -> None:
     """Fly every motor and print what it did."""
     voltage = float(sys.argv[1]) if len(sys.argv) > 1 else 24.0
-    robot = read_robot(ROBOT)
-    maneuvers = default_maneuvers(robot)
+    robot, maneuvers = read_robot(ROBOT), MANEUVERS
     known = [motor for motor in motors().values() if not missing_figures(motor, DIRECT)]
     devices = [on_paper_wheel(robot, motor, voltage) for motor in known]
     rows = sorted(

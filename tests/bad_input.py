@@ -242,7 +242,12 @@ CASES = {
     ),
     "no voltage": ({}, f"{QUAD} --bus-voltage 0", EXIT_2, "--bus-voltage: 0 must be positive"),
     "a negative voltage": ({}, f"{QUAD} --bus-voltage=-24V", EXIT_2, "-24V must be positive"),
-    "a voltage in ampere": ({}, f"{QUAD} --bus-voltage 24A", EXIT_2, "--bus-voltage: .*'A'|V"),
+    "a voltage in ampere": (
+        {},
+        f"{QUAD} --bus-voltage 24A",
+        EXIT_2,
+        "--bus-voltage: .*24A.* a unit of current, not of voltage|Units of voltage: V, mV",
+    ),
     "the lightest device without motors": (
         {},
         f"{QUAD} --motor none --alpha-criterion lightest",
@@ -253,7 +258,7 @@ CASES = {
         {},
         f"{QUAD} --motor none --bus-voltage 24V --gear direct --co-design",
         SPECIFICATION,
-        "motor.bus_voltage: says nothing|motor.gear: says nothing|ocs.co_design: needs a motor",
+        "motor.gear: says nothing|supply.voltage: says nothing|ocs.co_design: needs a motor",
     ),
     "a motor whose figures are missing": (
         {

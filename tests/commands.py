@@ -38,8 +38,8 @@ class Result:
 
     @property
     def said(self):
-        """Standard error as one line, its panels' frames taken off and its words joined again."""
-        return re.sub(r"[│╭╮╰╯─\s]+", " ", self.stderr)
+        """Both streams as one line, panels' frames taken off and their words joined again."""
+        return re.sub(r"[│╭╮╰╯─\s]+", " ", f"{self.stderr}\n{self.stdout}")
 
 
 def run(*arguments, stdin=b""):

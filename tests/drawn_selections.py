@@ -14,6 +14,7 @@ from drawn_mounts import with_mounts
 from rims import PAPER_STEEL, STEEL
 
 from ocs_design.actuation.motor import DIRECT, Gear, Motor
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.parts.rim import NO_CUTS, RimCuts
 from ocs_design.requirement.froude import Envelope
@@ -72,11 +73,12 @@ def draw(seed):
             _gear(rng, "speeding up", rng.uniform(0.4, 0.8), scale, reverses=False),
         ),
         materials=tuple(MATERIALS[kind] for kind in kinds),
-        bus_voltage=voltage,
+        supply=Supply(voltage),
         incidence=rng.choice([None, None, rng.uniform(0.2, 0.9)]),
         wheel_speed_max=rng.choice([None, None, 1.5 * scale.speed]),
         web=seed % 2 == 0,
         cuts=RimCuts(0.3e-3) if seed % 4 == 0 else NO_CUTS,
+        web_material=ALUMINIUM if seed % 6 == 2 else None,
     )
     return Drawn(robot, with_mounts(problem, seed))
 

@@ -71,7 +71,8 @@ def check_wheels_in_pinocchio(model, device, trunk, prefix=""):
 
 
 def check_moments(inertia, device):
-    """Of a wheel in its own frame, z along its spin axis."""
+    """Of a wheel in its own frame, z along its spin axis, with its rotor as a flat disc."""
     wheel = device.flywheel
-    expected = np.diag([wheel.transverse_inertia] * 2 + [wheel.spin_inertia])
+    across = wheel.transverse_inertia + device.motor.rotor_inertia / 2.0
+    expected = np.diag([across, across, wheel.spin_inertia])
     np.testing.assert_allclose(inertia, expected, rtol=0.0, atol=1e-12 * wheel.spin_inertia)

@@ -64,7 +64,7 @@ HOUSING = Housing(
 )
 FOOT = Foot(HOUSING)
 
-CAGE = Cage(0.018, 0.036, MountHoles(0.0075, BoltCircle(0.025, 4, "M3")))
+CAGE = Cage(0.018, 0.036, MountHoles(0.0075, BoltCircle(0.025, 4, "M3")), 0.0015, 0.006)
 
 PARTS = {
     part.name: part

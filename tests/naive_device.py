@@ -7,31 +7,33 @@ time. Only the figures of web and hub, the outlines of what is printed (`naive_m
 types come from the package.
 """
 
+from dataclasses import replace
 from math import inf, sqrt
 
 import numpy as np
 from naive_inertia import compliance_of, coupling_on, inertia_on, let_go, wheels_of
 from naive_module import (
-    GAP,
-    behind,
     body_of,
     least_bore,
     least_outer,
     mount_of,
     printed,
     screws_around,
+    tallest,
 )
-from naive_wheel import hub_body
+from naive_wheel import hub_body, spokes
 from standing_parts import driving_parts
 
-from ocs_design.parts.rim import LIGAMENT, SEAT, SHOULDER, WEB_DENSITY, WEB_THICKNESS, hub_of
+from ocs_design.parts.rim import LIGAMENT, SHOULDER, STEP, hub_of
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 
 USABLE = 0.95
-"""Of voltage and current."""
+"""Of voltage, current and speed."""
 PROOF_SPEED = 1.2
 """At which a rim must hold, over the highest that its drive reaches."""
 LEAST_BORE = 0.01
+HEIGHTS = (0.0, 0.005, 0.01, 0.02)
+"""Of rims between which polynomials of the third degree are exact [m]."""
 
 
 class Drive:
@@ -40,12 +42,26 @@ class Drive:
     def __init__(self, problem, motor, gear, points=3000):
         rotor = motor.rotor_inertia or 0.0
         self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear)
-        self.behind = body_of(driving_parts(motor, gear))
+        # Posts of a cage are shorter behind a taller rim: no integral is beyond the third power.
+        self.driving = [body_of(driving_parts(motor, gear, height)) for height in HEIGHTS]
+        self.height_max = tallest(motor, gear)
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
-        self.chamfer = chamfer_of(problem)
+        self.chamfer, self.web_material = chamfer_of(problem), problem.web_material
         if problem.web:
-            hub = hub_of(motor, direct=gear.name == "direct", chamfer=problem.cuts.chamfer)
-            self.hub, widest = hub_body(hub), max(hub.radius, least_bore(motor, gear))
+            self.web = 1.0e-3 if problem.web_material is None else 1.5e-3
+            hub = hub_of(
+                motor,
+                direct=gear.name == "direct",
+                chamfer=problem.cuts.chamfer,
+                web_thickness=self.web,
+            )
+            # Its own figures are those of a hub in a solid web; holes where the widest has room.
+            widest = np.array([problem.envelope.outer_radius_max - least_wall(problem)])
+            holed = replace(hub, lightening=problem.lightening)
+            self.in_web = holed if spokes(widest, holed)[0] else hub
+            # The lid is 2 mm off the rim, and 0.5 mm off the heads of the hub's screws.
+            self.heads = hub.height + 2.0 * (hub.bolt_head - 1.5e-3) if hub.bolts else 0.0
+            self.hub, widest = hub_body(hub, 1.0), max(hub.radius, least_bore(motor, gear))
             self.hub_radius = widest + LIGAMENT
         # The rotor turns at N W, the other way round if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
@@ -59,7 +75,7 @@ class Drive:
         )
         self.proof_speed = PROOF_SPEED * min(free, mechanical)
         self.free = USABLE * free
-        self.top = min(self.free, mechanical)
+        self.top = min(self.free, USABLE * mechanical)
         boost = gear.ratio * gear.efficiency
         self.stall = USABLE * boost * voltage / motor.resistance * k_t
         self.limit = USABLE * min(boost * motor.peak_torque, gear.torque_max)
@@ -95,20 +111,34 @@ class Drive:
 
     def standing(self, rims):
         """Motor, gear, housing and foot, see `naive_module`, shape (7, n)."""
-        drive = behind(self.behind[:, None] + 0.0 * rims.height, -(rims.height / 2.0 + GAP))
+        drive = sum(
+            body[:, None] * np.prod([(rims.height - o) / (own - o) for o in HEIGHTS if o != own], 0)
+            for own, body in zip(HEIGHTS, self.driving, strict=True)
+        )
         shell = printed(rims.outer, rims.height, self.mount)
         return drive + shell + screws_around(rims.outer, rims.height)
 
     def wheel(self, rims):
         """Rim, web and hub: mass, inertia about the axis and across it, shape (3, n)."""
-        return rims.body + rims.web + self.hub[:, None] if self.webbed else rims.body
+        if not self.webbed:
+            return rims.body
+        density = self.web_density(rims.density)
+        web = rims.web(density, self.web, self.in_web)
+        return rims.body + web + density * self.hub[:, None]
+
+    def web_density(self, density):
+        """Of web and hub of a rim of that density [kg/m^3]."""
+        return density if self.web_material is None else self.web_material.density
 
     def seat(self, density):
         """Of a rim of that density the least height, for its web [m]."""
         if not self.webbed:
             return 0.0
-        seated = WEB_THICKNESS * max(1.0, WEB_DENSITY / density) + SHOULDER
-        return max(seated, WEB_THICKNESS + 2.0 * self.chamfer + SEAT, 4.0 * self.chamfer)
+        band = max(self.web + 2.0 * self.chamfer + STEP, 4.0 * self.chamfer, self.heads)
+        if self.web_material is None:
+            return band
+        seated = self.web * max(1.0, self.web_material.density / density) + SHOULDER
+        return max(seated, band)
 
     def turn(self, time, inertia, final):
         """Largest angle of wheels within a time, ending at a speed, less that speed times time."""
@@ -167,12 +197,19 @@ def holds(problem, drive, rims, material, slack=0.0):
         rims.height * more >= drive.seat(material.density)
     )
     seated &= rims.outer * more >= least_outer(drive.mount)
+    seated &= rims.height <= drive.height_max * more
+    if drive.webbed:
+        seated &= spokes(rims.inner * more, drive.in_web)
     if material.yield_strength is None or material.poisson_ratio is None:
         return seated
     nu = material.poisson_ratio
     squares = (3.0 + nu) * rims.outer**2 + (1.0 - nu) * rims.inner**2
     stress = material.density * drive.proof_speed**2 / 4.0 * squares
-    return seated & (stress * problem.envelope.stress_safety <= material.yield_strength * more)
+    safety = problem.envelope.stress_safety
+    if drive.webbed and drive.in_web.lightening and safety:
+        # At the edge of a hole there is so much more.
+        safety = max(safety, {5: 6.5, 6: 6.5, 7: 8.0, 8: 8.0}[drive.in_web.lightening])
+    return seated & (stress * safety <= material.yield_strength * more)
 
 
 def asked(maneuver, inertia, coupling, standing):
@@ -232,7 +269,7 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     inertia = inertia_on(problem, drive, rims, angle)
     coupling = coupling_on(problem, drive, rims, angle)
     shares = np.stack([np.sin(angle), np.cos(angle)])
-    inertia, coupling = let_go(inertia, coupling, shares, _chord(maneuver))
+    inertia, coupling = let_go(inertia, coupling, shares, chord_of(maneuver))
     through, left, time = asked(maneuver, inertia, coupling, problem.requirement.standing_height)
     # A cosine of 1e-17 is no lever.
     levers = np.where(shares > 1e-9, 2.0 * shares * spin, np.where(through != 0.0, 1e-30, 1.0))
@@ -252,7 +289,7 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     return np.where(load > 0.0, enough, 0.0)
 
 
-def _chord(maneuver):
+def chord_of(maneuver):
     """How far a turn leads off level."""
     if isinstance(maneuver, Disturbance):
         return 0.0

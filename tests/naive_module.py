@@ -17,9 +17,9 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.parts import motor_mount
 from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot
 from ocs_design.parts.housing import Housing
-from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, WALL, MountHoles
+from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, PANEL, WALL, MountHoles
 
-GAP = CLEARANCE + WALL
+GAP, DEEP = CLEARANCE + WALL, CLEARANCE + PANEL
 MARKS = ((24, 2.5e-3), (12, 4.0e-3))
 """How many there are of each length, 0.8 mm wide and 0.4 mm deep."""
 
@@ -44,13 +44,6 @@ def lifted(body, up):
     return np.stack([mass, y, z + mass * up, xx, yy, moved, yz + up * y])
 
 
-def behind(body, along):
-    """The same moved along the axis."""
-    mass, y, z, xx, yy, zz, yz = body
-    moved = yy + 2.0 * along * y + mass * along**2
-    return np.stack([mass, y + mass * along, z, xx, moved, zz, yz + along * z])
-
-
 def round_thing(mass, axial, across):
     """A body of revolution about the axis, its middle at the wheel's."""
     zero = 0.0 * mass
@@ -59,7 +52,7 @@ def round_thing(mass, axial, across):
 
 def printed(outer, height, mount):
     """Drum, lid and foot of each size, shape (7, n)."""
-    half = height / 2.0 + GAP
+    half = height / 2.0 + DEEP
     return drum_and_lid(outer, height, mount, half) + foot_of(outer, height, mount, half)
 
 
@@ -69,14 +62,14 @@ def drum_and_lid(outer, height, mount, half):
     inside = outer + CLEARANCE
     room = pi * inside**2, (pi * inside**4 / 4.0,) * 2
     whole = layer(area, (across, across), -half, half, "y")
-    whole = whole - layer(*room, -half + WALL, half - WALL, "y")
+    whole = whole - layer(*room, -half + PANEL, half - PANEL, "y")
     ears = outer + GAP + LID_SCREW.clearance_hole / 2.0
-    for radius, low in ((LID_SCREW.tapping_drill / 2.0, -half + WALL), (None, half - WALL)):
+    for radius, low in ((LID_SCREW.tapping_drill / 2.0, -half + PANEL), (None, half - PANEL)):
         hole = LID_SCREW.clearance_hole / 2.0 if radius is None else radius
-        high = half if radius is None else half - WALL
+        high = half if radius is None else half - PANEL
         around = 2.0 * pi * hole**2 * (ears**2 + hole**2 / 2.0)
         whole = whole - layer(4.0 * pi * hole**2, (around, around), low, high, "y")
-    return whole - layer(*_mount_outline(mount), -half, -half + WALL, "y")
+    return whole - layer(*_mount_outline(mount), -half, -half + PANEL, "y")
 
 
 def foot_of(outer, height, mount, half):
@@ -155,7 +148,7 @@ def mount_of(motor, gear):
 
 def screws_around(outer, height):
     """Four M2 x 6 on the lid, two M3 x 6 on the base, as points; one by one in `standing_parts`."""
-    m2, m3, half = screw("M2"), screw("M3"), height / 2.0 + GAP
+    m2, m3, half = screw("M2"), screw("M3"), height / 2.0 + DEEP
     lid, trunk = 4.0 * m2.mass(6e-3), 2.0 * m3.mass(6e-3)
     along, up = half - m2.centre(6e-3), -(outer + GAP + CLEARANCE) - m3.centre(6e-3)
     ears = lid * (outer + GAP + m2.clearance_hole / 2.0) ** 2 / 2.0
@@ -179,10 +172,9 @@ def body_of(pieces):
 def room_taken(outer, height, motor, gear):
     """Radius that housing, drive and base stay within, and the wheel's height on its foot."""
     mount = motor_mount.mount_of(motor, gear.room)
-    half, (depth, radius) = height / 2.0 + GAP, mount.behind(motor)
-    swept = np.maximum(
-        np.hypot(outer + GAP, half), np.hypot(half + PLATE_THICKNESS + depth, radius)
-    )
+    half, (depth, radius, least) = height / 2.0 + DEEP, mount.behind(motor)
+    back = np.maximum(half + PLATE_THICKNESS + depth, least)
+    swept = np.maximum(np.hypot(outer + GAP, half), np.hypot(back, radius))
     edge, _ = bases(outer, height, mount_of(motor, gear))
     return np.maximum(swept, edge), outer + GAP + CLEARANCE + BASE_THICKNESS
 
@@ -192,6 +184,14 @@ def least_bore(motor, gear):
     mount = motor_mount.mount_of(motor, gear.room)
     circle = mount.holes.screws
     return 0.0 if circle is None else circle.radius + screw(circle.thread).head_diameter / 2.0
+
+
+def tallest(motor, gear):
+    """Rim that leaves 6 mm of post between the plate and the motor's back."""
+    cage = motor_mount.mount_of(motor, gear.room).cage
+    if cage is None:
+        return np.inf
+    return 2.0 * (cage.front + motor.length - 0.006 - PLATE_THICKNESS - DEEP)
 
 
 def least_outer(mount):

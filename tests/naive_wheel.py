@@ -5,7 +5,7 @@ from math import pi
 
 import numpy as np
 
-from ocs_design.parts.rim import WEB_DENSITY, WEB_THICKNESS
+from ocs_design.parts.rim import WEB_THICKNESS
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,32 @@ class Rims:
         whole = turned(self.outer, -self.chamfer, self.height, self.density)
         return whole - turned(self.inner, self.chamfer, self.height, self.density)
 
-    @property
-    def web(self):
-        return solid(self.inner, WEB_THICKNESS, WEB_DENSITY)
+    def web(self, density, thickness=WEB_THICKNESS, hub=None):
+        disc = solid(self.inner, thickness, density)
+        if hub is None or not hub.lightening:
+            return disc
+        circle, radius = lightening(self.inner, hub)
+        mass, axial, across = solid(radius, thickness, density)
+        off = mass * circle**2
+        # Three and more in a ring have half of their distances' squares about any axis across.
+        return disc - hub.lightening * np.stack([mass, axial + off, across + off / 2.0])
+
+
+def lightening(bore, hub):
+    """Circle and radius of the holes in a web: a share of its area, about in its middle [m]."""
+    share = {5: 0.35, 6: 0.4, 7: 0.4, 8: 0.35}[hub.lightening]
+    square = np.maximum(share * (bore**2 - hub.radius**2), 0.0) / hub.lightening
+    return np.sqrt(0.42 * (bore**2 + hub.radius**2) - square / 2.0), np.sqrt(square)
+
+
+def spokes(bore, hub):
+    """Whether 3 mm are left around holes of 3 mm radius and more."""
+    if not hub.lightening:
+        return np.ones_like(bore, dtype=bool)
+    circle, radius = lightening(bore, hub)
+    between = 2.0 * (circle * np.sin(pi / hub.lightening) - radius)
+    left = np.minimum(np.minimum(circle - hub.radius, bore - circle) - radius, between)
+    return (left >= 3e-3 * (1.0 - 1e-9)) & (radius >= 3e-3 * (1.0 - 1e-9))
 
 
 def solid(radius, height, density):
@@ -56,13 +79,13 @@ def turned(radius, flare, height, density):
     return body
 
 
-def hub_body(hub):
+def hub_body(hub, density):
     """Beyond the web that it stands in, less its bore and its bolts' holes, one by one."""
-    boss = turned(hub.radius, -hub.chamfer, hub.height, WEB_DENSITY)
-    boss = boss - solid(hub.radius, WEB_THICKNESS, WEB_DENSITY)
-    body = boss - turned(hub.bore_radius, hub.chamfer, hub.height, WEB_DENSITY)
+    boss = turned(hub.radius, -hub.chamfer, hub.height, density)
+    boss = boss - solid(hub.radius, hub.web_thickness, density)
+    body = boss - turned(hub.bore_radius, hub.chamfer, hub.height, density)
     for bolt in range(hub.bolts):
-        mass, axial, across = solid(hub.bolt_hole_radius, hub.height, WEB_DENSITY)
+        mass, axial, across = solid(hub.bolt_hole_radius, hub.height, density)
         angle = 2.0 * pi * bolt / hub.bolts
         off = mass * hub.bolt_circle_radius**2
         body = body - np.array([mass, axial + off, across + off * np.sin(angle) ** 2])
@@ -73,4 +96,8 @@ def wheel_of(chosen):
     """Mass, inertia about the axis and across it of a selected wheel, without its rotor."""
     size = (chosen.outer_radius, chosen.inner_radius, chosen.height)
     rims = Rims(*size, chosen.material.density, chosen.cuts.chamfer)
-    return rims.body if chosen.hub is None else rims.body + rims.web + hub_body(chosen.hub)
+    if chosen.hub is None:
+        return rims.body
+    density = (chosen.web_material or chosen.material).density
+    web = rims.web(density, chosen.hub.web_thickness, chosen.hub)
+    return rims.body + web + hub_body(chosen.hub, density)

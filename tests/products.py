@@ -8,6 +8,8 @@ import numpy as np
 import pinocchio as pin
 from commands import Result
 
+from ocs_design.parts.carrier_plate import CarrierPlate
+
 OF_MANEUVERS = ("tilt", "rates", "wheel_speed", "wheel_torque")
 FIGURES = [
     "bound_pitch",
@@ -25,6 +27,9 @@ FILES = [
     "cad/bill_of_materials.csv",
     "cad/wheel.svg",
     "cad/wheel.pdf",
+    "cad/assembly.pdf",
+    "cad/housing.3mf",
+    *(f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")),
     "robot/solo12_ocs.glb",
     "robot/solo12_ocs.urdf",
     "robot/solo12_ocs.xml",
@@ -64,17 +69,28 @@ class Case:
     @property
     def files(self) -> list[str]:
         meshes = [f"robot/meshes/ocs_{part}.stl" for part in self.standing]
-        return [*FILES, *meshes, *(f"cad/{piece}.stl" for piece in self.pieces)]
+        pieces = [*self.pieces, *self.plates]
+        return [*FILES, *meshes, *self.cages, *(f"cad/{piece}.stl" for piece in pieces)]
+
+    @property
+    def cages(self) -> list[str]:
+        """What holds the motors by their backs, where it is printed."""
+        return ["cad/housing_cage.stl"] if "cage" in self.standing else []
+
+    @property
+    def plates(self) -> list[str]:
+        """What the feet stand on beside the trunk."""
+        return ["plate"] if "plate" in self.standing else []
 
 
 CASES = {
     "motor": Case(
         ("--ballistic",),
-        5,
-        ("24 V", "housing", "rated for"),
+        6,
+        ("24 V", "housing"),
         1e-5,
-        ("flywheel_rim", "flywheel_hub"),
-        ("housing", "foot"),
+        ("flywheel",),
+        ("housing", "foot", "cage", "plate"),
     ),
     "no motor": Case(
         ("--motor", "none", "--ballistic"), 5, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)
@@ -92,14 +108,15 @@ class Product:
 
 
 def device_of(document):
-    """Wheel, carrier, motor and modules as numbers, straight from the file."""
+    """Wheel, carrier, motor, modules and plate as numbers, straight from the file."""
     ocs = document["ocs"]
     modules = [
         SimpleNamespace(name=m["name"], axis=np.array(m["axis"]), position=np.array(m["position"]))
         for m in ocs["modules"]
     ]
     parts = {name: SimpleNamespace(**ocs[name]) for name in ("flywheel", "carrier", "motor")}
-    return SimpleNamespace(modules=modules, **parts)
+    plate = None if ocs["plate"] is None else CarrierPlate(**ocs["plate"])
+    return SimpleNamespace(modules=modules, plate=plate, **parts)
 
 
 def shifted(mass, offset):
@@ -108,7 +125,7 @@ def shifted(mass, offset):
 
 
 def with_modules(document, device, incidence):
-    """Robot and both braked modules about their common centre of mass, in numpy alone."""
+    """Robot, plate and both braked modules about their common centre of mass, in numpy alone."""
     robot, wheel = document["robot"], device.flywheel
     parts = [(robot["mass"], np.array(robot["com"]), np.array(robot["inertia"]))]
     for module, side in zip(device.modules, (1.0, -1.0), strict=True):
@@ -129,6 +146,9 @@ def with_modules(document, device, incidence):
         )
         place = module.position + carrier.along * outward + carrier.up * up
         parts.append((carrier.mass, place, own))
+    if device.plate is not None:
+        own = device.plate.own_mass_properties()
+        parts.append((own.mass, own.com + np.array(device.plate.position), own.inertia))
     mass = sum(part[0] for part in parts)
     com = sum(part[0] * part[1] for part in parts) / mass
     return mass, com, sum(own + shifted(m, c - com) for m, c, own in parts)

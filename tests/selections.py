@@ -7,6 +7,7 @@ from drawn_mounts import with_mounts
 from rims import STEEL
 
 from ocs_design.actuation.motor import DIRECT, Gear, Motor
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
@@ -76,7 +77,7 @@ def random_problem(seed, motors=3, *, mounted=True):
         motors=tuple(motor(rng, f"m{i}", torque, speed, voltage) for i in range(motors)),
         gears=(DIRECT, *(gear(rng, f"g{ratio:.2f}", ratio, 4.0 * torque) for ratio in ratios)),
         materials=(STEEL, ALUMINIUM),
-        bus_voltage=voltage,
+        supply=Supply(voltage),
         incidence=rng.choice([None, None, 0.6]),
         wheel_speed_max=rng.choice([None, speed * 1.5]),
     )  # fmt: skip

@@ -11,6 +11,7 @@ from ocs_design.requirement.specification import (
     RequirementSection,
     RobotSection,
     Specification,
+    SupplySection,
     ValidationSection,
 )
 from ocs_design.requirement.uncertainty import UncertaintySection, Uniform
@@ -32,6 +33,7 @@ FULL = Specification(
     robot=RobotSection(
         file='a "quoted" \\ path/ä\x7f.urdf',
         name="r",
+        legs=("FL_FOOT", "FR_FOOT"),
         trunk="t",
         posture="stand",
         joints={"a b": 1 / 3},
@@ -57,14 +59,22 @@ FULL = Specification(
         material="auto",
         stress_safety=2.5,
         web="disc",
+        lightening=5,
         chamfer=0.3e-3,
         balancing_holes=4,
         balancing_hole_diameter=2e-3,
         balancing_hole_depth=1.5e-3,
     ),
     motor=MotorSection(
-        name="auto", bus_voltage=24.0, gear="direct", motors="m.csv", gears="g.toml", torque_max=1.1
+        name="auto",
+        gear="direct",
+        any=True,
+        motors="m.csv",
+        with_catalogue=True,
+        gears="g.toml",
+        torque_max=1.1,
     ),
+    supply=SupplySection(voltage=24.0, current_max=40.0, power_max=1e3 / 3, controllers=0.035),
     validation=ValidationSection(
         enabled=False,
         projection="transpose",

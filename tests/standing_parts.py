@@ -9,11 +9,11 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Face
-from ocs_design.parts.cage import FLOOR, FRONT_GAP, cage_part
+from ocs_design.parts.cage import FLOOR, cage_part
 from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.printed import LID_SCREW, WALL
+from ocs_design.parts.printed import LID_SCREW, PANEL
 from ocs_design.robot.mass import MassProperties
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
@@ -32,8 +32,7 @@ def standing_parts(motor, gear, outer, height):
         yield part.mass_properties().moved(UPRIGHT, np.zeros(3))
     yield foot_part(foot).mass_properties().moved(np.eye(3), [0.0, 0.0, -foot.wheel_height])
     yield from shell_screws(foot)
-    for body in driving_parts(motor, gear):
-        yield body.moved(np.eye(3), [0.0, -foot.housing.half_height, 0.0])
+    yield from driving_parts(motor, gear, height)
 
 
 def shell_screws(foot):
@@ -53,30 +52,34 @@ def shell_screws(foot):
         yield point(each.mass(6e-3) / 2.0, x, y, up)
 
 
-def driving_parts(motor, gear):
-    """Motor, gear, cage and their screws, about the middle of the outside of the floor."""
+def driving_parts(motor, gear, height):
+    """Motor, gear, cage and their screws."""
     room, mounting = gear.room, motor.mounting
-    caged = mount_of(motor, room).cage
-    gap = FRONT_GAP if caged is not None else 0.0 if room is None else room.depth
-    up, gear_up = (0.0, 0.0) if room is None else (room.offset, room.center)
+    floor = -(height / 2.0 + 0.002 + PANEL)
+    plate = floor - PLATE_THICKNESS
+    cage = mount_of(motor, room).around(height).cage
+    up, gear_up, deep = (0.0, 0.0, 0.0) if room is None else (room.offset, room.center, room.depth)
     length, radius = motor.length or 0.0, (motor.diameter or 0.0) / 2.0
     across = motor.mass * (3.0 * radius**2 + length**2) / 12.0
     own = np.diag([across, motor.mass * radius**2 / 2.0, across])
-    yield MassProperties(motor.mass, [0.0, -PLATE_THICKNESS - gap - length / 2.0, up], own)
-    deep = 0.0 if room is None else room.depth
-    yield point(gear.mass, 0.0, -PLATE_THICKNESS - deep / 2.0, gear_up)
+    # In a cage it reaches up to the hub: 3 mm high on a rotor, 5 mm on a shaft and 1 mm to turn in.
+    on_rotor = mounting is not None and mounting.rotor is not None
+    on_shaft = max(0.005, (mounting and mounting.shaft_diameter) or 0.0)
+    front = plate - deep if cage is None else -0.0015 if on_rotor else -(on_shaft / 2.0 + 0.001)
+    yield MassProperties(motor.mass, [0.0, front - length / 2.0, up], own)
+    yield point(gear.mass, 0.0, plate - deep / 2.0, gear_up)
     if room is not None or mounting is None:
         return
-    if mounting.rotor is not None:
-        yield from screws_on(mounting.rotor, 5e-3 + metric(mounting.rotor), -PLATE_THICKNESS, -1.0)
+    if on_rotor:
+        yield from screws_on(mounting.rotor, 3e-3 + metric(mounting.rotor), 0.0015, -1.0)
     if mounting.stator_face is Face.OUTPUT and mounting.stator is not None:
-        through = WALL + PLATE_THICKNESS + metric(mounting.stator)
-        yield from screws_on(mounting.stator, through, WALL, -1.0)
-    if caged is not None:
-        back = PLATE_THICKNESS + FRONT_GAP + length + FLOOR
-        yield cage_part(caged).mass_properties().moved(UPRIGHT, [0.0, -back, 0.0])
-        yield from screws_on(caged.screws, 10.6e-3, WALL, -1.0)
-        yield from screws_on(mounting.stator, FLOOR + metric(mounting.stator), -back, 1.0)
+        through = PANEL + PLATE_THICKNESS + metric(mounting.stator)
+        yield from screws_on(mounting.stator, through, floor + PANEL, -1.0)
+    if cage is not None:
+        back = front - length - FLOOR
+        yield cage_part(cage).mass_properties().moved(UPRIGHT, [0.0, back, 0.0])
+        yield from screws_on(cage.passage.screws, 10.2e-3, floor + PANEL, -1.0)
+        yield from screws_on(mounting.stator, FLOOR + metric(mounting.stator), back, 1.0)
 
 
 def metric(circle):

@@ -10,7 +10,8 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Flywheel, Module
 from ocs_design.device.layout import module_axes
 from ocs_design.parts.moments import Carrier
-from ocs_design.requirement.froude import Scale
+from ocs_design.requirement.froude import Scale, default_maneuvers
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
 
@@ -32,6 +33,12 @@ PAPER_WHEEL = Flywheel(
     stress_margin=None,
     stored_energy=0.0,
 )
+
+
+def paper_maneuvers(robot: Robot) -> tuple[Maneuver, ...]:
+    """The default ones, the back-flip with both wheels turned to the pitch axis by hand."""
+    jump, drop, flip = default_maneuvers(robot)
+    return jump, drop, replace(flip, incidence=0.0)
 
 
 def motor(

@@ -121,7 +121,7 @@ def lightest(stated: Specification, incidence: float | None) -> Candidate:
         motors=choice.motors,
         gears=choice.gears,
         materials=choice.materials,
-        bus_voltage=choice.bus_voltage,
+        supply=choice.supply,
         incidence=incidence,
         wheel_speed_max=choice.wheel_speed_max,
     )
@@ -129,11 +129,11 @@ def lightest(stated: Specification, incidence: float | None) -> Candidate:
 
 
 def with_any_motor(stated: Specification) -> Specification:
-    """The same with the whole catalogue to choose from."""
+    """The same with the whole catalogue, motors that are not known whole among it."""
     return replace(
         stated,
         flywheel=replace(stated.flywheel, material=AUTO),
-        motor=MotorSection(name=AUTO, gear=AUTO, bus_voltage=stated.motor.bus_voltage),
+        motor=MotorSection(name=AUTO, gear=AUTO, any=True),
     )
 
 

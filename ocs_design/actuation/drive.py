@@ -3,22 +3,26 @@
 With N = motor speed / wheel speed and the gear's efficiency eta, taken as a loss whichever way the
 power flows, so that braking is not counted stronger than it is:
 
-    tau_s = N eta V k_t / R        w_0 = V / (k_t N)        tau_L = N eta peak torque
+    tau_s = N eta V k_t / R        w_0 = V / (k_t N)        tau_L = N eta (peak torque - k_t I_0)
 
-(`V = R i + k_t w`, docs/theory.md, What a motor can do).
+(`V = R i + k_t w`, docs/theory.md, What a motor can do). I_0 is the current of the motor's own
+friction, where its source gives it.
 """
 
 from dataclasses import dataclass, fields, replace
+from math import inf
 from typing import Any
 
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, Mounting
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import OcsError
 
 RESERVE = 0.95
-"""Share of voltage and current that a design may use; the rest is left to the feedback."""
+"""Share of voltage, current and mechanical speed that a design may use; the rest is left to the
+feedback, and to a robot that is not quite the one in its file."""
 
 FIGURES_HINT = (
     "Choose another motor, or state its figures in a catalogue file of your own; "
@@ -36,20 +40,24 @@ class DriveLine:
         no_load_speed: w_0 [rad/s], finite.
         torque_limit: tau_L, at the current limit [N m]; inf: not limited.
         speed_max: mechanical, of wheel, motor and gear [rad/s]; inf: not limited.
+        power_max: at the bus, drawn or fed back, times the gear's efficiency [W]; inf: not limited.
     """
 
     stall_torque: float | FloatArray
     no_load_speed: float | FloatArray
     torque_limit: float | FloatArray
     speed_max: float | FloatArray
+    power_max: float | FloatArray = inf
 
     def reserved(self, share: float | FloatArray = RESERVE) -> "DriveLine":
-        """What a part of voltage and current does; the mechanical limit stays."""
+        """What a part of voltage, current, power and mechanical speed does."""
         return replace(
             self,
             stall_torque=self.stall_torque * share,
             no_load_speed=self.no_load_speed * share,
             torque_limit=self.torque_limit * share,
+            speed_max=self.speed_max * share,
+            power_max=self.power_max * share,
         )
 
 
@@ -68,10 +76,11 @@ def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
             hint=FIGURES_HINT,
         )
     gain = gear.ratio * gear.efficiency
+    useful = peak - k_t * (motor.no_load_current or 0.0)
     return DriveLine(
         stall_torque=gain * bus_voltage * k_t / resistance,
         no_load_speed=bus_voltage / (k_t * gear.ratio),
-        torque_limit=min(gain * peak, gear.torque_max),
+        torque_limit=min(gain * useful, gear.torque_max),
         speed_max=min(min(speed, gear.motor_speed_max) / gear.ratio, gear.wheel_speed_max),
     )
 
@@ -94,17 +103,19 @@ def speed_limit(motor: Motor) -> float | None:
 def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
     """What this motor behind this gear needs and its source does not give, by name.
 
-    The rotor's inertia may be left out where that is conservative: where the rotor turns with the
-    wheel and no faster, it adds at least as much to the momentum as to what must be accelerated.
+    The rotor's inertia may be left out, or be the least that it can be, where that is conservative:
+    where the rotor turns with the wheel and no faster, it adds at least as much to the momentum as
+    to what must be accelerated. Elsewhere its source must state it.
     """
     helps = gear.ratio <= 1.0 and not gear.reverses
+    stated_inertia = None if motor.rotor_inertia_source else motor.rotor_inertia
     figures = {
         "mass": motor.mass,
         "torque constant": motor.torque_constant,
         "resistance": motor.resistance,
         "peak torque or current": motor.peak_torque,
         "highest speed or rated voltage": speed_limit(motor),
-        "rotor inertia": 0.0 if helps else motor.rotor_inertia,
+        "rotor inertia": 0.0 if helps else stated_inertia,
     }
     return tuple(name for name, figure in figures.items() if figure is None)
 
@@ -131,6 +142,23 @@ def _sense(gear: Gear) -> float:
     return -1.0 if gear.reverses else 1.0
 
 
+def power_less_friction(
+    supply: Supply, motors: int, motor: "Motor | Drive", peak_current: float
+) -> float:
+    """Power of a supply that the friction of its motors leaves at the least [W].
+
+    (R (i + I_0) + k_t w) (i + I_0) is by at most I_0 (V + R (i + I_0)) more than (R i + k_t w) i.
+
+    Args:
+        supply: of all motors. motors: how many.
+        motor: each of them. peak_current: through its winding [A]; inf: not known.
+    """
+    friction, drop = motor.no_load_current or 0.0, 0.0
+    if np.isfinite(peak_current) and motor.resistance is not None:
+        drop = motor.resistance * (peak_current + friction)
+    return max(supply.power - motors * friction * (supply.voltage + drop), 0.0)
+
+
 @dataclass(frozen=True)
 class Drive:
     """Motor at a voltage behind a gear: its voltage line, limits and inertia, all at the wheel.
@@ -146,6 +174,7 @@ class Drive:
         torque_limit: at the current limit of motor and drive, or of the gear [N m].
         rotor_inertia: what the rotor adds to the spin inertia of the wheel [kg m^2]: its own times
             the gear ratio, negative where the gear reverses.
+        rotor_inertia_source: empty: the maker's; else the estimate and its spread.
         source: where the figures come from.
         gear: name in the catalogue, or "direct".
         gear_ratio: motor speed over wheel speed.
@@ -160,10 +189,13 @@ class Drive:
         torque_constant: of the motor itself, six-step, between two lines [N m/A].
         resistance: of the motor between two lines [ohm].
         continuous_torque: that the winding stands for good [N m].
+        continuous_torque_source: empty: the maker's; else the estimate.
+        confidence: in the motor's figures, in words.
         mounting: its shaft and threads, where the wheel sits on it without a gear and any is known.
         no_load_current: that the motor itself draws turning freely at its rated voltage [A].
         gear_room: that its gear takes; None: there is no gear.
         saturation_torque: at the wheel, above which the motor's k_t falls off [N m].
+        controller_mass: of the controller that stands with the motor [kg]; 0: not counted.
     """
 
     name: str
@@ -190,6 +222,10 @@ class Drive:
     no_load_current: float | None = None
     gear_room: GearRoom | None = None
     saturation_torque: float | None = None
+    rotor_inertia_source: str = ""
+    continuous_torque_source: str = ""
+    confidence: str = ""
+    controller_mass: float = 0.0
 
     @classmethod
     def of(
@@ -217,7 +253,7 @@ class Drive:
             "armature": armature(rotor, gear),
             "continuous_torque": _geared(motor.continuous_torque, gain),
             "saturation_torque": _geared(motor.saturation_torque, gain),
-            "mounting": motor.mounting if gear == DIRECT else None,
+            "mounting": motor.mounting if gear.room is None else None,
             "gear": gear.name,
             "gear_ratio": gear.ratio,
             "gear_efficiency": gear.efficiency,

@@ -60,6 +60,37 @@ class Screw:
         return beside / (2.0 * self.mass(length))
 
     @property
+    def preload(self) -> float:
+        """Preload of a screw of class 8.8 that is tightened to 90 % of its yield strength [N].
+
+        VDI 2230-1:2015, with `MU` in the thread: `0.9 R_p A_s / sqrt(1 + 3 (3/2 d_2/d_0 (P / (pi
+        d_2) + 1.155 mu))^2)`, d_0 that of the stress area.
+        """
+        stressed = self.diameter - 0.9382 * self.pitch
+        flank = self._pitch_diameter
+        twist = 1.5 * flank / stressed * (self.pitch / (pi * flank) + 1.155 * MU)
+        area = pi / 4.0 * stressed**2
+        return 0.9 * YIELD_8_8 * area / sqrt(1.0 + 3.0 * twist**2)
+
+    def torque(self, preload: float) -> float:
+        """Tightening torque [N m] for a preload [N], with `MU` in the thread and under the head.
+
+        VDI 2230-1:2015: `F (0.16 P + 0.58 d_2 mu + D_km mu / 2)`, D_km between hole and head.
+        """
+        under_head = (self.head_diameter + self.clearance_hole) / 4.0
+        return preload * (0.16 * self.pitch + (0.58 * self._pitch_diameter + under_head) * MU)
+
+    @property
+    def head_area(self) -> float:
+        """What its head presses on, around a medium clearance hole [m^2]."""
+        return pi / 4.0 * (self.head_diameter**2 - self.clearance_hole**2)
+
+    @property
+    def _pitch_diameter(self) -> float:
+        """Of the basic profile, ISO 724 [m]."""
+        return self.diameter - 0.6495 * self.pitch
+
+    @property
     def _head_mass(self) -> float:
         head = pi / 4.0 * self.head_diameter**2 * self.head_height
         return STEEL * (head - sqrt(0.75) * self.key**2 * self.key_depth)
@@ -106,6 +137,10 @@ IN_PLASTIC = 2.0
 
 STEEL = 7850.0
 """[kg/m^3]."""
+
+MU, YIELD_8_8 = 0.12, 640e6
+"""Friction of plain or zinc-plated screws, a little oil (VDI 2230-1, table A5, class B: 0.08 to
+0.16); least yield strength of class 8.8 up to M16 [Pa] (ISO 898-1, table 3)."""
 
 SHORT_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20)
 """[mm], ISO 4762:2004, table 1, which goes on in steps of 5 mm."""

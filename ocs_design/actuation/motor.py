@@ -72,6 +72,32 @@ class Face(StrEnum):
     """The other: outrunners of aircraft."""
 
 
+BY_CONVENTION = "threads by convention"
+"""In `Motor.confidence`: threads are those that makers use for motors of that size."""
+
+
+class MotorKind(StrEnum):
+    """Which part of a motor turns, and what comes with it."""
+
+    OUTRUNNER = "outrunner"
+    """The bell around the stator turns: motors of aircraft, gimbals, flat motors."""
+    INRUNNER = "inrunner"
+    """The rotor turns inside a housing that stands still."""
+    FRAMELESS = "frameless"
+    """Stator and rotor without bearings, shaft and housing."""
+
+
+class ShaftForm(StrEnum):
+    """What a wheel's hub can hold on to."""
+
+    PLAIN = "plain"
+    """A cylinder, for a clamp or a collet."""
+    FLAT = "d-flat"
+    """With a flat, for a set screw beside the clamp."""
+    THREAD = "thread"
+    """With a thread, for a nut that presses the wheel on a shoulder."""
+
+
 @dataclass(frozen=True)
 class BoltCircle:
     """Threads around a motor's axis, evenly spaced.
@@ -127,6 +153,7 @@ class Mounting:
         rotor: threads in what turns, on the wheel's side.
         stator: threads in what stands still. stator_face: where they are.
         shaft_length: by which the shaft stands out there, from the motor's face [m].
+        shaft_form: what a hub can hold on to.
     """
 
     shaft_diameter: float | None = None
@@ -134,6 +161,7 @@ class Mounting:
     stator: BoltCircle | None = None
     stator_face: Face | None = None
     shaft_length: float | None = None
+    shaft_form: ShaftForm | None = None
 
 
 @dataclass(frozen=True)
@@ -228,6 +256,11 @@ class Motor:
         no_load_current: that it draws turning freely, at the rated voltage [A].
         saturation_torque: above which k_t falls off [N m]; no bound on the torque, for the maker's
             peak torque is measured with it.
+        kind: which part turns.
+        voltage_max: highest supply that the maker allows, if it is not the rated one [V].
+        rotor_inertia_source: empty: the source's own; else the estimate and its spread.
+        continuous_torque_source: the same of the continuous torque.
+        controller_mass: of the controller that comes with it [kg].
     """
 
     name: str
@@ -251,3 +284,114 @@ class Motor:
     mounting: Mounting | None = None
     no_load_current: float | None = None
     saturation_torque: float | None = None
+    kind: MotorKind | None = None
+    voltage_max: float | None = None
+    rotor_inertia_source: str = ""
+    continuous_torque_source: str = ""
+    controller_mass: float = 0.0
+
+
+INERTIA_SHARE = {
+    MotorKind.OUTRUNNER: (0.050, 0.085),
+    MotorKind.FRAMELESS: (0.018, 0.028),
+}
+"""Rotor inertia over mass times diameter squared, least and most of the motors where it is known.
+
+A thin bell with half of an outrunner's mass at 0.4 of its diameter would have 0.08. The catalogue's
+tests hold every known row within; docs/catalogue.md, Rotor inertia.
+"""
+
+
+def estimated_rotor_inertia(
+    kind: MotorKind | None, mass: float | None, diameter: float | None
+) -> tuple[float | None, str]:
+    """Least rotor inertia of a motor of that kind, mass [kg] and diameter [m], and how it is known.
+
+    The least, `INERTIA_SHARE` m D^2, is the safe side where the rotor turns with the wheel: the
+    wheel makes up for what is missing.
+
+    Returns:
+        [kg m^2], and a text that names the estimate; None and no text where it cannot be told.
+    """
+    share = None if kind is None else INERTIA_SHARE.get(kind)
+    if share is None or mass is None or diameter is None:
+        return None, ""
+    least, most = share
+    return least * mass * diameter**2, (
+        f"estimate: {least:g} m D^2, the least of known {kind} motors, which have up to {most:g}"
+    )
+
+
+CONVECTION = 10.0
+"""Heat that leaves a motor's surface in still air, radiation included [W/(m^2 K)].
+
+Free convection of gases gives 2 to 25 (Incropera, Fundamentals of Heat and Mass Transfer,
+table 1.1). Continuous torques of the catalogue's rows ask for 10 and more.
+"""
+
+TEMPERATURE_RISE = 75.0
+"""Of the winding above air of 25 degrees [K]; insulation of class B stands 130 (IEC 60085)."""
+
+COPPER_COEFFICIENT = 0.00393
+"""Change of copper's resistance per degree, over that at 20 degrees [1/K] (IEC 60028)."""
+
+
+def estimated_continuous_torque(
+    torque_constant: float | None,
+    resistance: float | None,
+    diameter: float | None,
+    length: float | None,
+) -> tuple[float | None, str]:
+    """Torque that a motor's own surface keeps cool [N m], and how it is known.
+
+    `R (1 + a dT) i^2 = h A dT` with the surface A of its body: a cylinder and both ends.
+
+    Args:
+        torque_constant: [N m/A]. resistance: between two lines, cold [ohm].
+        diameter, length: of its body [m].
+    """
+    if torque_constant is None or resistance is None or diameter is None or length is None:
+        return None, ""
+    surface = pi * diameter * (length + diameter / 2.0)
+    hot = resistance * (1.0 + COPPER_COEFFICIENT * TEMPERATURE_RISE)
+    current = math.sqrt(CONVECTION * surface * TEMPERATURE_RISE / hot)
+    return torque_constant * current, (
+        f"estimate: its surface in still air, {CONVECTION:g} W/(m^2 K), "
+        f"winding {TEMPERATURE_RISE:g} K warmer"
+    )
+
+
+def build_gaps(motor: Motor) -> tuple[str, ...]:
+    """What nobody can build with this motor without, in plain words; empty: it is complete.
+
+    How it is held and how it holds a wheel, its size, winding, limits, rotor inertia and heat.
+    """
+    mounting = motor.mounting or Mounting()
+    missing = {
+        "bolt circle of the stator": mounting.stator,
+        "bolt circle of the rotor, or diameter, length and form of the shaft": (
+            mounting.rotor or _joint(mounting)
+        ),
+        "body diameter": motor.diameter,
+        "body length": motor.length,
+        "mass": motor.mass,
+        "torque constant": motor.torque_constant,
+        "resistance": motor.resistance,
+        "peak torque or current": motor.peak_torque,
+        "highest voltage": motor.voltage_max or motor.rated_voltage,
+        "rotor inertia": motor.rotor_inertia,
+        "continuous torque": motor.continuous_torque,
+    }
+    gaps = tuple(name for name, figure in missing.items() if figure is None)
+    if motor.kind is None:
+        return ("kind: outrunner or inrunner", *gaps)
+    if motor.kind is MotorKind.FRAMELESS:
+        return ("bearings: it is frameless, and modules have none", *gaps)
+    return gaps
+
+
+def _joint(mounting: Mounting) -> ShaftForm | None:
+    """What a hub can hold on to on the shaft; None unless all of its figures are known."""
+    if mounting.shaft_diameter is None or mounting.shaft_length is None:
+        return None
+    return mounting.shaft_form

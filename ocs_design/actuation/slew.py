@@ -21,6 +21,7 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.unit_drive import (
     UnitDrive,
     brake_sweep,
+    braked_speed,
     farthest_slew,
     positive,
     quickest_time,
@@ -46,24 +47,31 @@ def slew_time(
     final = np.asarray(final_speed) / drive.no_load_speed
     excess = np.asarray(phi) / (drive.no_load_speed * unit)
     excess, final = np.broadcast_arrays(excess, final)
-    possible = (final < drive.highest) & np.isfinite(excess)
+    # A supply whose power the friction takes whole leaves no torque.
+    moves = (drive.torque > 0.0) | ((excess == 0.0) & (final == 0.0))
+    possible = (final < drive.highest) & np.isfinite(excess) & moves
     time = quickest_time(drive, np.where(possible, excess, 0.0), np.where(possible, final, 0.0))
     return np.where(possible, time * unit, np.inf)
 
 
 def in_units(line: DriveLine, reduced_inertia: ArrayLike) -> tuple[UnitDrive, FloatArray]:
-    """The shape of the drive, and its unit of time T_0 = I_red w_0 / a_0 [s]."""
+    """The shape of the drive, and its unit of time T_0 = I_red w_0 / a_0 [s].
+
+    Without torque that of 1 N m, which nothing lasts.
+    """
     drive = UnitDrive.of(line)
-    return drive, np.asarray(np.asarray(reduced_inertia) * drive.no_load_speed / drive.torque)
+    torque = positive(drive.torque)
+    return drive, np.asarray(np.asarray(reduced_inertia) * drive.no_load_speed / torque)
 
 
 @dataclass(frozen=True, eq=False)
 class SlewProfile:
     """A slew from rest over time; arrays of one shape, NaN where the slew cannot be done.
 
-    Up to `limited_until` the current limits the acceleration, from there to `coast_from` the
-    voltage does. From `brake_from` to `brake_limited_until` the current limits the braking, from
-    there to `end` the reverse voltage does. Phases that do not occur have no length.
+    Up to `limited_until` the current limits the acceleration, from there to `coast_from` the power
+    and then the voltage do. From `brake_from` to `brake_limited_until` the power and then the
+    current limit the braking, from there to `end` the reverse voltage does. Phases that do not
+    occur have no length.
 
     Attributes:
         line: of the drive at the wheel.
@@ -115,10 +123,8 @@ class SlewProfile:
         """x at a time [w_0]."""
         peak, final = self.peak_speed / drive.no_load_speed, self.final_speed / drive.no_load_speed
         rising = risen_speed(drive, rise_for(drive, np.clip(at, 0.0, self.coast_from) / unit))
-        limited = np.clip(at - self.brake_from, 0.0, self.brake_limited_until - self.brake_from)
-        free = np.clip(at - self.brake_limited_until, 0.0, self.end - self.brake_limited_until)
-        middle = peak - limited / unit / positive(drive.brake)
-        falling = (1.0 + middle) * np.exp(-free / unit / positive(drive.knee)) - 1.0
+        braked = np.clip(at - self.brake_from, 0.0, self.end - self.brake_from) / unit
+        falling = braked_speed(drive, peak, final, braked)
         speed = np.where(at < self.brake_from, np.minimum(rising, peak), falling)
         return np.where(at < self.end, speed, final + 0.0 * self.end)
 
@@ -135,7 +141,7 @@ def slew_profile(
     slew = farthest_slew(drive, np.where(possible, time, 0.0) / unit, final)
     up = rise_sweep(drive, slew.rise).time
     middle = np.minimum(np.maximum(drive.clamp, final), slew.peak)
-    limited = drive.brake * (slew.peak - middle)
+    limited = brake_sweep(drive, slew.peak, middle).time
     known = np.where(possible, unit, np.nan)
     return SlewProfile(
         line=line,

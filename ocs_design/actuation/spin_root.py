@@ -137,7 +137,8 @@ def _roots(demand: SpinDemand) -> FloatArray:
 
     asked = (demand.sweep > 0.0) | (demand.momentum > 0.0)
     answer = np.where(asked, np.inf, demand.least)
-    lane = np.flatnonzero(asked & (demand.duration > 0.0) & (low <= high))
+    able = (drive.torque > 0.0) & (demand.duration > 0.0)
+    lane = np.flatnonzero(asked & able & (low <= high))
     start, top = low[lane], high[lane]
     search = _Search(lane, demand.take(lane), start, start, top, top, np.zeros(lane.shape, bool))
     for _ in range(_STEPS):

@@ -14,6 +14,17 @@ first r = min(x, x_c) at the current limit, then l z on the voltage line, x = x_
 Then it may coast, at its cap, and it brakes to the final speed f. z is what is solved for: close to
 w_0 it tells speeds apart that x cannot.
 
+A supply gives no more than the power p, in units of tau_s w_0: a current j, in units of that at
+stall, takes j^2 + x j to speed a wheel up, and x j - j^2 comes back as it slows down. At p itself,
+with c = sqrt(p),
+
+    up    x = 2 c sinh u   j = c e^-u   dt = l (e^2u + 1) du   t = l (e^2u / 2 + u)
+    down  x = 2 c cosh u   j = c e^-u   dt = l (e^2u - 1) du   t = l (e^2u / 2 - u)
+
+and either way the angle is l c (e^3u / 3 + e^-u). Up that holds where p < l, from p / l - l to
+where the line takes over at 1 - p, and down from p / k + k, with k the current limit. At rest the
+power is all heat: a current above c is not used at all.
+
 With A the largest angle within the time t, dA/dt = x: a little more time is a little more time at
 the peak. So A is convex in t, and Newton's method finds the time for an angle from any start.
 """
@@ -22,6 +33,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray, Table
@@ -62,11 +74,12 @@ class UnitDrive(Table):
 
     Attributes:
         no_load_speed: w_0, the unit of speed [rad/s].
-        torque: a_0, the unit of torque [N m].
+        torque: a_0, the unit of torque [N m]; 0: nothing moves, and the rest is of no use.
         knee: l, of the torque at rest over that of the voltage line, 0..1; 0: no line.
         brake: q, of the torque at rest over the current limit, 0..1; 0: no current limit.
         clamp: x_b, from which up the current limits the braking; 1 at most, as every peak.
         cap: highest speed [w_0]; at most 1 without a line, inf: not limited below 1.
+        power: p [tau_s w_0]; inf: not limited, as without a line.
     """
 
     no_load_speed: FloatArray
@@ -75,6 +88,7 @@ class UnitDrive(Table):
     brake: FloatArray
     clamp: FloatArray
     cap: FloatArray
+    power: FloatArray
 
     @classmethod
     def of(cls, line: DriveLine) -> "UnitDrive":
@@ -82,7 +96,12 @@ class UnitDrive(Table):
         stall = np.asarray(line.stall_torque, dtype=np.float64)
         limit = np.asarray(line.torque_limit, dtype=np.float64)
         speed = np.asarray(line.no_load_speed, dtype=np.float64)
-        endless = np.isinf(stall)
+        with np.errstate(invalid="ignore"):
+            power = np.where(np.isinf(stall), np.inf, line.power_max / (stall * speed))
+            limit = np.where(np.isfinite(power), np.minimum(limit, np.sqrt(power) * stall), limit)
+        # Without any torque, as where friction takes all the power, the shape is of no use.
+        endless = np.isinf(stall) | (limit == 0.0)
+        power = np.where(endless, np.inf, power)
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = np.where(endless, 0.0, limit / stall)
             brake = np.where(endless, 1.0, np.minimum(1.0, stall / limit))
@@ -94,6 +113,7 @@ class UnitDrive(Table):
             brake=brake,
             clamp=np.clip(ratio - 1.0, 0.0, 1.0),
             cap=np.where(endless, np.minimum(cap, 1.0), np.where(cap < 1.0, cap, np.inf)),
+            power=power,
         )
 
     @property
@@ -104,17 +124,49 @@ class UnitDrive(Table):
     @property
     def end_of_limit(self) -> FloatArray:
         """x_c, up to which the current limits the acceleration."""
-        return 1.0 - self.knee
+        limited = self.power < self.knee
+        by_power = np.where(limited, self.power, 0.0) / positive(self.knee) - self.knee
+        return np.where(limited, by_power, 1.0 - self.knee)
+
+    @property
+    def spare(self) -> FloatArray:
+        """1 - x where the voltage line takes over."""
+        return np.minimum(self.power, self.knee)
+
+    @property
+    def regenerating(self) -> FloatArray:
+        """Speed from which up the supply limits the braking [w_0]; inf: nowhere."""
+        finite = np.isfinite(self.power)
+        current = self.knee / positive(self.brake)
+        limited = np.where(finite, self.power, 0.0) / positive(current) + current
+        return np.where(finite & (current > 0.0), limited, np.inf)
+
+    @property
+    def feels_power(self) -> NDArray[np.bool_]:
+        """Whether the supply limits anything."""
+        return (self.power < self.knee) | (self.regenerating < 1.0)
+
+    @property
+    def current(self) -> FloatArray:
+        """c, whose heat takes all the power; 1 where no power is limited."""
+        return np.sqrt(np.where(np.isfinite(self.power), self.power, 1.0))
 
     def accelerating(self, speed: FloatArray) -> FloatArray:
         """a(x) [a_0]."""
-        spare = (1.0 - speed) / positive(self.knee)
-        return np.where(speed > self.end_of_limit, spare, 1.0)
+        c, knee = self.current, positive(self.knee)
+        on_line = np.where(speed > 1.0 - self.spare, (1.0 - speed) / knee, 1.0)
+        by_power = 2.0 * c**2 / (speed + np.sqrt(speed**2 + 4.0 * c**2)) / knee
+        felt = (self.power < self.knee) & (speed > self.end_of_limit)
+        return np.where(felt, np.minimum(by_power, on_line), on_line)
 
     def braking(self, speed: FloatArray) -> FloatArray:
         """b(x), positive [a_0]."""
-        reverse = (1.0 + speed) / positive(self.knee)
-        return np.where(speed < self.clamp, reverse, 1.0 / positive(self.brake))
+        c, knee = self.current, positive(self.knee)
+        reverse = (1.0 + speed) / knee
+        braked = np.where(speed < self.clamp, reverse, 1.0 / positive(self.brake))
+        root = np.sqrt(np.maximum(speed**2 - 4.0 * c**2, 0.0))
+        by_power = 2.0 * c**2 / positive(speed + root) / knee
+        return np.where(speed > self.regenerating, by_power, braked)
 
 
 def positive(value: FloatArray) -> FloatArray:
@@ -126,6 +178,7 @@ def positive(value: FloatArray) -> FloatArray:
 # where the peak is hardly above the final speed.
 _TIME_STEPS = 8
 _LINE_STEPS = 4
+_POWER_STEPS = 12
 _DIGITS = 1e-13
 
 
@@ -134,10 +187,12 @@ class Rise(NamedTuple):
 
     Attributes:
         ramp: r, at the current limit [T_0].
+        gain: of speed at the limit of power [w_0].
         line: z, on the voltage line [l T_0].
     """
 
     ramp: FloatArray
+    gain: FloatArray
     line: FloatArray
 
 
@@ -171,41 +226,116 @@ class UnitSlew(NamedTuple):
 
 def risen_speed(drive: UnitDrive, rise: Rise) -> FloatArray:
     """x at the end of a rise [w_0]."""
-    speed: FloatArray = rise.ramp - drive.knee * np.expm1(-rise.line)
+    speed: FloatArray = rise.ramp + rise.gain - drive.spare * np.expm1(-rise.line)
     return speed
 
 
 def rise_sweep(drive: UnitDrive, rise: Rise) -> Sweep:
     """Time and angle of a rise."""
-    knee, z = drive.knee, rise.line
-    on_line = knee * (drive.end_of_limit * z + knee * exp_remainder(z))
-    return Sweep(rise.ramp + knee * z, rise.ramp**2 / 2.0 + on_line)
+    knee, spare, z = drive.knee, drive.spare, rise.line
+    on_line = knee * ((1.0 - spare) * z + spare * exp_remainder(z))
+    begin, c = drive.end_of_limit, 2.0 * drive.current
+    first, last = np.arcsinh(begin / c), np.arcsinh((begin + rise.gain) / c)
+    powered = _powered_sweep(drive, first, last, 1.0)
+    time, angle = (np.where(rise.gain > 0.0, each, 0.0) for each in powered)
+    return Sweep(rise.ramp + time + knee * z, rise.ramp**2 / 2.0 + angle + on_line)
+
+
+def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense: float) -> Sweep:
+    """From u to another at the limit of power; `sense` is 1 up and -1 down."""
+
+    def reached(u: FloatArray) -> Sweep:
+        """Since u = 0, but for a constant."""
+        grown = np.exp(u)
+        return Sweep(grown**2 / 2.0 + sense * u, drive.current * (grown**3 / 3.0 + 1.0 / grown))
+
+    return Sweep(
+        *(
+            drive.knee * (after - before)
+            for after, before in zip(reached(last), reached(first), strict=True)
+        )
+    )
 
 
 def brake_sweep(drive: UnitDrive, peak: FloatArray, final: FloatArray) -> Sweep:
-    """Braking from the peak to the final speed: at the current limit, then on the voltage line."""
-    middle = np.minimum(np.maximum(drive.clamp, final), peak)
+    """Braking from the peak to the final speed: within the power, the current, then the voltage."""
+    top = np.minimum(np.maximum(drive.regenerating, final), peak)
+    by_power = _fed_back_sweep(drive, peak, top)
+    middle = np.minimum(np.maximum(drive.clamp, final), top)
     ratio = (middle - final) / (1.0 + final)
     excess = log_remainder(ratio)
-    clamped = drive.brake * (peak - middle)
+    clamped = drive.brake * (top - middle)
     return Sweep(
-        clamped + drive.knee * (ratio - excess),
-        clamped * (peak + middle) / 2.0 + drive.knee * (final * ratio + excess),
+        by_power.time + clamped + drive.knee * (ratio - excess),
+        by_power.angle + clamped * (top + middle) / 2.0 + drive.knee * (final * ratio + excess),
     )
+
+
+def _fed_back_sweep(drive: UnitDrive, peak: FloatArray, end: FloatArray) -> Sweep:
+    """Braking from the peak to a lower speed at the limit of power; nothing where they are one."""
+    c, braked = 2.0 * drive.current, peak > end
+    first, last = (np.arccosh(np.maximum(speed / c, 1.0)) for speed in (end, peak))
+    swept = _powered_sweep(drive, first, last, -1.0)
+    return Sweep(*(np.where(braked, each, 0.0) for each in swept))
+
+
+def braked_speed(
+    drive: UnitDrive, peak: FloatArray, final: FloatArray, time: FloatArray
+) -> FloatArray:
+    """x after braking from a peak for `time` [T_0], which is no longer than to the final speed."""
+    top = np.minimum(np.maximum(drive.regenerating, final), peak)
+    by_power = _fed_back_sweep(drive, peak, top).time
+    middle = np.minimum(np.maximum(drive.clamp, final), top)
+    after = time - by_power
+    limited = np.clip(after, 0.0, drive.brake * (top - middle))
+    free = np.maximum(after - drive.brake * (top - middle), 0.0)
+    at_limit = top - limited / positive(drive.brake)
+    falling = (1.0 + at_limit) * np.exp(-free / positive(drive.knee)) - 1.0
+    # From below: the rest of the time to u at the end, v - log v = 2 t / l with v = e^2u.
+    c = 2.0 * drive.current
+    start = np.arccosh(np.maximum(top / c, 1.0))
+    left = np.maximum(by_power - time, 0.0) / positive(drive.knee)
+    asked = np.exp(2.0 * start) - 2.0 * start + 2.0 * left
+    root = np.sqrt(2.0 * np.maximum(asked - 1.0, 0.0))
+    v = 1.0 + root + root**2 / 2.0
+    for _ in range(_POWER_STEPS):
+        v = v - np.where(v > 1.0, (v - np.log(v) - asked) / positive(1.0 - 1.0 / v), 0.0)
+    u = np.log(np.maximum(v, 1.0)) / 2.0
+    return np.where(after < 0.0, np.minimum(c * np.cosh(u), peak), falling)
 
 
 def rise_for(drive: UnitDrive, time: FloatArray) -> Rise:
     """Rise that takes all of `time` [T_0], without a cap."""
-    ramp = np.minimum(time, drive.end_of_limit)
-    return Rise(ramp, np.where(drive.knee > 0.0, (time - ramp) / positive(drive.knee), 0.0))
+    begin, knee = drive.end_of_limit, positive(drive.knee)
+    ramp = np.minimum(time, begin)
+    limited, c = drive.power < drive.knee, 2.0 * drive.current
+    whole = rise_sweep(drive, Rise(begin, np.maximum(1.0 - drive.spare - begin, 0.0), 0.0 * begin))
+    # At the limit of power w + e^w = 2 t / l with w = 2u, from above.
+    first = np.arcsinh(begin / c)
+    asked = np.where(limited, np.exp(2.0 * first) + 2.0 * first, 1.0)
+    asked = asked + np.where(limited, 2.0 * (time - ramp) / knee, 0.0)
+    asked = np.minimum(asked, _UNLIMITED)
+    w = np.where(asked > 1.0, np.log(np.maximum(asked, 1.0)), asked)
+    for _ in range(_POWER_STEPS):
+        grown = np.exp(w)
+        step = (grown + w - asked) / (1.0 + grown)
+        w = w - step
+        if (np.abs(step) <= _DIGITS * (1.0 + np.abs(w))).all():
+            break
+    gain = np.clip(c * np.sinh(w / 2.0) - begin, 0.0, np.maximum(1.0 - drive.spare - begin, 0.0))
+    gain = np.where(limited & (time > ramp), gain, 0.0)
+    left = np.maximum(time - np.where(limited, whole.time, ramp), 0.0)
+    return Rise(ramp, gain, np.where(drive.knee > 0.0, left / knee, 0.0))
 
 
 def rise_to(drive: UnitDrive, speed: FloatArray) -> Rise:
     """Rise to `speed` [w_0]; an endless line phase where that is not below 1."""
-    ramp = np.minimum(speed, drive.end_of_limit)
-    span = np.where(drive.knee > 0.0, (speed - ramp) / positive(drive.knee), 0.0)
+    begin, spare = drive.end_of_limit, drive.spare
+    ramp = np.minimum(speed, begin)
+    gain = np.where(drive.power < drive.knee, np.minimum(speed, 1.0 - spare) - ramp, 0.0)
+    span = np.where(spare > 0.0, (speed - ramp - gain) / positive(spare), 0.0)
     with np.errstate(divide="ignore"):
-        return Rise(ramp, -np.log1p(-np.minimum(span, 1.0)))
+        return Rise(ramp, gain, -np.log1p(-np.minimum(span, 1.0)))
 
 
 def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> UnitSlew:
@@ -216,12 +346,54 @@ def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Unit
     capped = rise_to(drive, drive.cap)
     ramp = np.minimum((time + final) / 2.0, drive.end_of_limit)
     line = np.where(time + final > 2.0 * drive.end_of_limit, _line_phase(drive, time, final), 0.0)
-    rise = Rise(np.minimum(ramp, capped.ramp), np.minimum(line, capped.line))
+    rise = Rise(ramp, np.zeros_like(ramp), line)
+    beyond = np.isfinite(time) & (time + final > 2.0 * drive.end_of_limit)
+    felt = drive.feels_power & beyond
+    if felt.any():
+        rise = _powered_rise(drive, time, final, felt, rise)
+    rise = Rise(*(np.minimum(own, most) for own, most in zip(rise, capped, strict=True)))
     peak = risen_speed(drive, rise)
     up, down = rise_sweep(drive, rise), brake_sweep(drive, peak, final)
-    at_cap = (rise.ramp >= capped.ramp) & (rise.line >= capped.line)
+    at_cap = np.all([own >= most for own, most in zip(rise, capped, strict=True)], axis=0)
     coast = np.where(at_cap, np.maximum(time - up.time - down.time, 0.0), 0.0)
     return UnitSlew(rise, peak, coast, up.angle + coast * peak + down.angle)
+
+
+def _powered_rise(
+    drive: UnitDrive, time: FloatArray, final: FloatArray, felt: NDArray[np.bool_], rise: Rise
+) -> Rise:
+    """Rises without a cap where the supply may limit the slew, by Newton's method; others stay.
+
+    The times up to the peak and down from it are all the time. The time down grows by no more than
+    that up, so that the sum's slope over the time up is 1 to 2.
+    """
+    shape = felt.shape
+
+    def lanes(values: FloatArray) -> FloatArray:
+        """Where the supply limits the slew."""
+        return np.broadcast_to(values, shape)[felt]
+
+    own = UnitDrive(**{name: lanes(values) for name, values in vars(drive).items()})
+    whole, end = lanes(time), lanes(final)
+    low, high = np.minimum(rise_sweep(own, rise_to(own, end)).time, whole), whole
+    up = (low + high) / 2.0
+    for _ in range(_POWER_STEPS):
+        peak = risen_speed(own, rise_for(own, up))
+        excess = up + brake_sweep(own, np.maximum(peak, end), end).time - whole
+        low, high = np.where(excess < 0.0, up, low), np.where(excess < 0.0, high, up)
+        following = up - excess / (1.0 + own.accelerating(peak) / own.braking(peak))
+        outside = (following < low) | (following > high)
+        step = np.where(outside, (low + high) / 2.0, following) - up
+        up = up + step
+        if (np.abs(step) <= _DIGITS * whole).all():
+            break
+    found = rise_for(own, up)
+    parts = []
+    for values, better in zip(rise, found, strict=True):
+        part = np.broadcast_to(values, shape).copy()
+        part[felt] = better
+        parts.append(part)
+    return Rise(*parts)
 
 
 def quickest_time(drive: UnitDrive, excess: FloatArray, final: FloatArray) -> FloatArray:

@@ -31,7 +31,7 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_time
 from ocs_design.actuation.spin_root import SpinDemand, smallest_root
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
-from ocs_design.actuation.unit_drive import UnitDrive
+from ocs_design.actuation.unit_drive import UnitDrive, positive
 from ocs_design.common.arrays import FloatArray
 
 # |J_xy| over sqrt(I_xx I_yy) beyond which a bound says nothing.
@@ -239,7 +239,8 @@ def slew_reason(task: WheelPairTask, line: DriveLine) -> NDArray[np.int_]:
     with np.errstate(invalid="ignore"):
         # Constant torque raises a wheel's momentum by tau t to its peak, and back to the final one.
         peak = (torque * duration + final) / 2.0
-        done = 2.0 * (peak**2 - final**2 / 2.0) / torque - load.held * duration
+        swept = 2.0 * (peak**2 - final**2 / 2.0) / positive(torque)
+        done = np.where(torque > 0.0, swept, 0.0) - load.held * duration
         weak = np.where(peak >= final, done, -np.inf) < load.excess
     reason = np.where(weak, SlewReason.TORQUE, SlewReason.SPEED)
     return np.where(np.isinf(load.excess + load.held), SlewReason.AXIS, reason)

@@ -27,6 +27,8 @@ class Material:
         yield_strength, ultimate_strength: [Pa]; None if the source gives none.
         poisson_ratio: None if the source gives none.
         source: of the figures.
+        elastic_modulus: [Pa]; None if the source gives none.
+        thermal_expansion: per temperature, linear [1/K]; None if the source gives none.
     """
 
     name: str
@@ -35,12 +37,20 @@ class Material:
     ultimate_strength: float | None
     poisson_ratio: float | None
     source: str
+    elastic_modulus: float | None = None
+    thermal_expansion: float | None = None
 
     def __post_init__(self) -> None:
-        figures = (self.density, self.yield_strength, self.ultimate_strength)
+        figures = (
+            self.density,
+            self.yield_strength,
+            self.ultimate_strength,
+            self.elastic_modulus,
+            self.thermal_expansion,
+        )
         defect = ""
         if not all(figure is None or 0.0 < figure < math.inf for figure in figures):
-            defect = "density and strengths must be positive and finite"
+            defect = "density, strengths, modulus and expansion must be positive and finite"
         elif self.poisson_ratio is not None and not -1.0 < self.poisson_ratio < 0.5:
             defect = "Poisson's ratio must lie between -1 and 0.5"
         elif (self.yield_strength or 0.0) > (self.ultimate_strength or math.inf):
@@ -51,7 +61,14 @@ class Material:
             raise OcsError(f"material {self.name!r}: {defect}")
 
 
-_FIGURES = ("density_kg_m3", "yield_strength_pa", "ultimate_strength_pa", "poisson_ratio")
+_FIGURES = (
+    "density_kg_m3",
+    "yield_strength_pa",
+    "ultimate_strength_pa",
+    "poisson_ratio",
+    "elastic_modulus_pa",
+    "thermal_expansion_per_k",
+)
 
 
 @cache
@@ -70,6 +87,8 @@ def materials() -> Mapping[str, Material]:
             ultimate_strength=figures.get("ultimate_strength_pa"),
             poisson_ratio=figures.get("poisson_ratio"),
             source=row["source"],
+            elastic_modulus=figures.get("elastic_modulus_pa"),
+            thermal_expansion=figures.get("thermal_expansion_per_k"),
         )
     if len(found) < len(rows):
         raise OcsError("materials.csv names a material twice")
@@ -83,6 +102,21 @@ def material(name: str) -> Material:
         SpecificationError: there is none; the hint names the closest.
     """
     return entry(materials(), name, "material")
+
+
+_STEELS = ("stainless-", "steel-")
+"""What the names of the catalogue's steels begin with."""
+
+
+def strong_materials(*, steel: bool = False) -> tuple[Material, ...]:
+    """Materials whose stress can be checked, all or the steels alone."""
+    return tuple(
+        found
+        for found in materials().values()
+        if found.yield_strength is not None
+        and found.poisson_ratio is not None
+        and (not steel or found.name.startswith(_STEELS))
+    )
 
 
 def materials_to_json() -> bytes:

@@ -17,9 +17,14 @@ from ocs_design.actuation.motor import (
     BoltCircle,
     Face,
     Motor,
+    MotorKind,
     Mounting,
     ResistanceConvention,
+    ShaftForm,
     TorqueConstantConvention,
+    build_gaps,
+    estimated_continuous_torque,
+    estimated_rotor_inertia,
     line_to_line_resistance,
     six_step_current,
     six_step_torque_constant,
@@ -36,12 +41,13 @@ class MotorSheet:
     None is what the source does not give.
 
     Attributes:
-        name: unique. maker: of the motor.
+        name: unique. maker: of the motor. kind: which part of it turns.
         mass_kg: of the whole motor. diameter_m, length_m: of its body.
         kt_nm_per_a: torque constant, in the convention `kt_convention`.
         kv_rpm_per_v: speed constant, no-load speed per voltage of the supply.
         resistance_ohm: of the winding, measured between `resistance_between`.
         rated_voltage_v: at which the figures hold, or the highest of the maker's range.
+        voltage_max_v: highest supply that the maker allows, if it is not the rated voltage.
         no_load_speed_rpm, no_load_current_a: stated, at the rated voltage.
         stall_torque_nm, stall_current_a: at rest and at the rated voltage.
         speed_max_rpm: highest that the maker allows.
@@ -51,6 +57,7 @@ class MotorSheet:
         rotor_inertia_kg_m2: of the rotor.
         shaft_diameter_m: where it comes out of the motor on the wheel's side.
         shaft_length_m: by which it stands out there, from the face that the motor is mounted by.
+        shaft_form: what a hub can hold on to.
         rotor_bolt_circle_m, rotor_bolts, rotor_thread: threads in what turns, on the wheel's side:
             diameter of their circle, number, and size such as M3.
         stator_bolt_circle_m, stator_bolts, stator_thread: the same in what stands still, on its
@@ -92,6 +99,9 @@ class MotorSheet:
     stator_face: Face | None = None
     remark: str = ""
     saturation_torque_nm: float | None = None
+    kind: MotorKind | None = None
+    voltage_max_v: float | None = None
+    shaft_form: ShaftForm | None = None
 
     @property
     def torque_constant(self) -> float | None:
@@ -123,13 +133,20 @@ class MotorSheet:
     def mounting(self) -> Mounting | None:
         """None if nothing of it is stated."""
         found = Mounting(
-            self.shaft_diameter_m, self.rotor, self.stator, self.stator_face, self.shaft_length_m
+            self.shaft_diameter_m,
+            self.rotor,
+            self.stator,
+            self.stator_face,
+            self.shaft_length_m,
+            self.shaft_form,
         )
         return None if found == Mounting() else found
 
     def motor(self) -> Motor:
         """The motor in SI and in the one convention of `Motor`."""
         torque, basis = self._peak_torque()
+        inertia, inertia_source = self._rotor_inertia()
+        continuous, continuous_source = self._continuous_torque(torque)
         return Motor(
             name=self.name,
             maker=self.maker,
@@ -143,8 +160,8 @@ class MotorSheet:
             speed_max=_speed(self.speed_max_rpm),
             peak_torque=torque,
             peak_current=self._peak_current(),
-            continuous_torque=self.continuous_torque_nm,
-            rotor_inertia=self.rotor_inertia_kg_m2,
+            continuous_torque=continuous,
+            rotor_inertia=inertia,
             source=self.source,
             confidence=self.confidence,
             peak_basis=basis,
@@ -152,7 +169,26 @@ class MotorSheet:
             mounting=self.mounting,
             no_load_current=self.no_load_current_a,
             saturation_torque=self.saturation_torque_nm,
+            kind=self.kind,
+            voltage_max=self.voltage_max_v,
+            rotor_inertia_source=inertia_source,
+            continuous_torque_source=continuous_source,
         )
+
+    def _rotor_inertia(self) -> tuple[float | None, str]:
+        """Rotor inertia [kg m^2] and, where the source does not state it, the estimate's text."""
+        if self.rotor_inertia_kg_m2 is not None:
+            return self.rotor_inertia_kg_m2, ""
+        return estimated_rotor_inertia(self.kind, self.mass_kg, self.diameter_m)
+
+    def _continuous_torque(self, peak: float | None) -> tuple[float | None, str]:
+        """Continuous torque [N m], at most the short-term one, and its estimate's text."""
+        if self.continuous_torque_nm is not None:
+            return self.continuous_torque_nm, ""
+        torque, source = estimated_continuous_torque(
+            self.torque_constant, self.resistance, self.diameter_m, self.length_m
+        )
+        return torque if torque is None or peak is None else min(torque, peak), source
 
     def _peak_torque(self) -> tuple[float | None, str]:
         """Highest short-term torque [N m] and what it rests on.
@@ -307,6 +343,11 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
         yield f"shaft_diameter_m is {shaft:g}, but the motor is only {body:g} m wide"
     yield from _bolt_circle_faults(sheet, "rotor", sheet.rotor)
     yield from _bolt_circle_faults(sheet, "stator", sheet.stator)
+    voltage, most = sheet.rated_voltage_v, sheet.voltage_max_v
+    if voltage is not None and most is not None and voltage > most:
+        yield f"rated_voltage_v is {voltage:g}, above voltage_max_v, {most:g}"
+    if sheet.shaft_form is not None and sheet.shaft_diameter_m is None:
+        yield "shaft_form says nothing without shaft_diameter_m"
     if (sheet.stator is None) != (sheet.stator_face is None):
         yield "stator_face and the stator's bolt circle say nothing without each other"
     if not sheet.remark:
@@ -348,9 +389,14 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
 
 
 def motors_to_json(found: Iterable[Motor]) -> bytes:
-    """Motors as indented UTF-8 JSON, SI, each with what a direct drive lacks of it."""
+    """Motors as indented UTF-8 JSON, SI, each with what a direct drive and a builder lack of it."""
     rows = [
-        {**msgspec.to_builtins(motor), "missing": missing_figures(motor, DIRECT)} for motor in found
+        {
+            **msgspec.to_builtins(motor),
+            "missing": missing_figures(motor, DIRECT),
+            "build_gaps": build_gaps(motor),
+        }
+        for motor in found
     ]
     document = {"schema_version": 1, "motors": rows}
     return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"

@@ -92,7 +92,7 @@ def size(
 
     specification = specified_by_command(context)
     console = make_console(color=not no_color)
-    steps = Steps(console, quiet=quiet or as_json)
+    steps = Steps(make_console(color=not no_color, stderr=True), quiet=quiet or as_json)
     with steps.step("load the solver and the simulator"), _quick_imports():
         from ocs_design.device.records import design_to_json
         from ocs_design.report.text.size import print_design, print_outcome, print_solution
@@ -126,6 +126,7 @@ def inspect(
     context: typer.Context,
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
+    picture: opt.Picture = None,
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Also print each joint of the posture.")
     ] = False,
@@ -141,6 +142,7 @@ def inspect(
         specified_by_command(context),
         package_paths=package_paths_of_command(context),
         strict=strict,
+        picture=picture,
     )
     if as_json:
         sys.stdout.buffer.write(to_json(inspection))

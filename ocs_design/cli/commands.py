@@ -34,13 +34,13 @@ def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
     from ocs_design.report.text.doctor import print_examination
     from ocs_design.workflows.doctor import examination_to_json, examine
 
-    console = make_console(color=not no_color)
-    with Steps(console, quiet=as_json).step("import every package, draw with OpenGL"):
+    steps = Steps(make_console(color=not no_color, stderr=True), quiet=as_json)
+    with steps.step("import every package, draw with OpenGL"):
         examination = examine()
     if as_json:
         sys.stdout.write(examination_to_json(examination))
     else:
-        print_examination(console, examination)
+        print_examination(make_console(color=not no_color), examination)
     raise typer.Exit(examination.exit_code)
 
 
@@ -60,7 +60,7 @@ ALL = "all"
 QUESTIONS: Mapping[str, str] = {
     "flywheel.r_max": "Largest outer radius of a wheel",
     "flywheel.h_max": "Largest height of a wheel",
-    "motor.bus_voltage": "Voltage of the battery",
+    "supply.voltage": "Voltage of the battery",
 }
 """What is asked besides robot and maneuvers, by the path of its key."""
 
@@ -140,7 +140,7 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
         )
     for path, question in QUESTIONS.items():
         section, _, name = path.partition(".")
-        is_moot = section == "motor" and start.stated.motor.name == NO_MOTOR
+        is_moot = section in {"motor", "supply"} and start.stated.motor.name == NO_MOTOR
         if not is_moot and getattr(getattr(start.stated, section), name) is None:
             default = rounded_text(start.default, path)
             read = partial(_with_key, start, path, default)
@@ -228,12 +228,13 @@ def export(
     from ocs_design.export.formats import formats_named
     from ocs_design.report.text.answers import print_export
     from ocs_design.report.text.console import Steps, make_console
+    from ocs_design.report.text.layout import warn
     from ocs_design.workflows.export import ON_DESIGN, export_order, finishing, read_order
 
     names = [name.strip() for text in formats or () for name in text.split(",")]
     chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
-    console = make_console(color=not output.no_color)
-    steps = Steps(console, quiet=output.quiet or output.as_json)
+    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
+    steps = Steps(aside, quiet=output.quiet or output.as_json)
     with steps.step("read the design and its robot") as step:
         order = read_order(
             design,
@@ -250,6 +251,7 @@ def export(
     if output.as_json:
         sys.stdout.buffer.write(to_json(exported))
     elif not output.quiet:
+        warn(aside, exported.warnings)
         print_export(console, exported)
 
 
@@ -319,8 +321,8 @@ def pareto(
     sweep = sweep_of(against, maneuver)
     if out is not None:
         check_target(out, force=output.force)
-    console = make_console(color=not output.no_color)
-    steps = Steps(console, quiet=output.quiet or output.as_json)
+    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
+    steps = Steps(aside, quiet=output.quiet or output.as_json)
     specification, paths = specified_by_command(context), package_paths_of_command(context)
     with steps.step("read the robot") as step:
         task = read_task(specification, package_paths=paths, strict=output.strict)
@@ -407,11 +409,12 @@ def validate(
     """
     from ocs_design.report.text.console import Steps, make_console
 
-    console = make_console(color=not output.no_color)
-    steps = Steps(console, quiet=output.quiet or output.as_json)
+    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
+    steps = Steps(aside, quiet=output.quiet or output.as_json)
     with steps.step("load the simulator"):
         from ocs_design.common.units import Dimension, parse_quantity
         from ocs_design.device.answers import to_json
+        from ocs_design.report.text.layout import warn
         from ocs_design.report.text.validation import print_validated
         from ocs_design.workflows.validate import Request, validate_design, watch
     width = None
@@ -436,6 +439,7 @@ def validate(
     if output.as_json:
         sys.stdout.buffer.write(to_json(answer.found))
     elif not output.quiet:
+        warn(aside, answer.found.warnings)
         print_validated(console, answer.found, answer.folder, answer.files)
     if view:
         watch(answer)

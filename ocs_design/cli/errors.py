@@ -16,7 +16,7 @@ from ocs_design.common.errors import (
     SpecificationError,
 )
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 BROKEN_PIPE = 141
 
 

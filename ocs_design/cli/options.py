@@ -87,6 +87,14 @@ Trunk: TypeAlias = Annotated[
     Text,
     typer.Option("--trunk", metavar="LINK", help="Link that carries the device. Default: found."),
 ]
+Legs: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--legs",
+        metavar="LINK,...",
+        help="A link of each foot; none: the robot has no legs. Default: found.",
+    ),
+]
 Posture: TypeAlias = Annotated[
     Text,
     typer.Option(
@@ -135,8 +143,7 @@ AlphaCriterion: TypeAlias = Annotated[
     typer.Option(
         "--alpha-criterion",
         metavar="NAME",
-        help="lightest (default with a motor), equal-rate (default without), weighted, "
-        "simultaneous, pitch-only, roll-only.",
+        help="equal-rate (default), lightest, weighted, simultaneous, pitch-only, roll-only.",
     ),
 ]
 Position: TypeAlias = Annotated[
@@ -171,8 +178,9 @@ WebKind: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--web",
-        metavar="disc|none",
-        help="What joins a rim to its motor: a thin disc with a hub (default), or massless spokes.",
+        metavar="disc|aluminium|none",
+        help="What joins a rim to its motor: a thin disc with a hub in one piece (default), "
+        "one of aluminium that it is shrunk on, or massless spokes.",
     ),
 ]
 MaterialName: TypeAlias = Annotated[
@@ -180,16 +188,23 @@ MaterialName: TypeAlias = Annotated[
     typer.Option(
         "--material",
         metavar="NAME",
-        help="See `ocs-design catalogue materials`; auto (default): the lightest device.",
+        help="See `ocs-design catalogue materials`; steel (default): any steel; auto: any.",
     ),
 ]
 MotorName: TypeAlias = Annotated[
-    Text,
+    list[str] | None,
     typer.Option(
         "--motor",
         metavar="NAME",
-        help="See `ocs-design catalogue motors`; auto (default): the lightest device; none: size "
-        "the wheels by the bound alone.",
+        help="See `ocs-design catalogue motors`; may be repeated; auto (default): the lightest "
+        "device; none: size the wheels by the bound alone.",
+    ),
+]
+MotorsAny: TypeAlias = Annotated[
+    bool,
+    typer.Option(
+        "--motors-any",
+        help="Choose among motors that cannot be built with too: no threads known, say.",
     ),
 ]
 BusVoltage: TypeAlias = Annotated[
@@ -197,7 +212,31 @@ BusVoltage: TypeAlias = Annotated[
     typer.Option(
         "--bus-voltage",
         metavar="VOLTAGE",
-        help="Of the motors' supply. Default: 24V, above 20 kg 48V.",
+        help="Of the motors' supply. Default: 24V, above 20 kg 48V, above 60 kg 72V.",
+    ),
+]
+BusCurrent: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--bus-current",
+        metavar="CURRENT",
+        help="Most that all motors draw or feed back. Default: what the power leaves.",
+    ),
+]
+BusPower: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--bus-power",
+        metavar="POWER",
+        help="Most that all motors draw or feed back. Default: 400 W per kg of robot.",
+    ),
+]
+Controllers: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--controllers",
+        metavar="MASS",
+        help="Mass of one motor controller; auto (default): by its current; none: not counted.",
     ),
 ]
 GearName: TypeAlias = Annotated[
@@ -205,11 +244,18 @@ GearName: TypeAlias = Annotated[
     typer.Option(
         "--gear",
         metavar="NAME",
-        help="See `ocs-design catalogue gears`; direct: none; auto (default): the lightest device.",
+        help="See `ocs-design catalogue gears`; direct (default): none; auto: the lightest device.",
     ),
 ]
 MotorsFile: TypeAlias = Annotated[
-    Text, typer.Option("--motors", metavar="FILE", help="Motors of your own, CSV or TOML.")
+    Text,
+    typer.Option(
+        "--motors", metavar="FILE", help="Choose among these motors instead, CSV or TOML."
+    ),
+]
+WithCatalogue: TypeAlias = Annotated[
+    bool,
+    typer.Option("--with-catalogue", help="Choose among the catalogue's motors too: --motors."),
 ]
 GearsFile: TypeAlias = Annotated[
     Text, typer.Option("--gears", metavar="FILE", help="Gears of your own, CSV or TOML.")
@@ -241,6 +287,12 @@ AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON document on standard output.")
 ]
 Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
+Picture: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--picture", metavar="FILE", help="Draw trunk, legs and feet from three sides (.svg)."
+    ),
+]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 Verbose: TypeAlias = Annotated[
     bool,
@@ -255,6 +307,7 @@ ROBOT_OPTIONS: Mapping[str, object] = {
     "weighed": Weighed,
     "spec": Spec,
     "trunk": Trunk,
+    "legs": Legs,
     "posture": Posture,
     "joint": Joints,
     "package_path": PackagePaths,
@@ -280,16 +333,23 @@ TASK_OPTIONS: Mapping[str, object] = {
     "material": MaterialName,
     "motor": MotorName,
     "bus_voltage": BusVoltage,
+    "bus_current": BusCurrent,
+    "bus_power": BusPower,
+    "controllers": Controllers,
     "gear": GearName,
+    "motors_any": MotorsAny,
     "motors": MotorsFile,
+    "with_catalogue": WithCatalogue,
     "gears": GearsFile,
 }
 """The same, and what the device must do and may be."""
 
 
+STARTED = ("r_max", "h_max", "motor", "gear", "bus_voltage", "bus_current", "bus_power")
+
 START_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
-    **{name: TASK_OPTIONS[name] for name in ("r_max", "h_max", "motor", "bus_voltage", "gear")},
+    **{name: TASK_OPTIONS[name] for name in STARTED},
 }
 """What names a robot, and what a specification to start from most often states."""
 

@@ -37,6 +37,8 @@ class Dimension(StrEnum):
     DAMPING = "damping"
     INERTIA = "moment of inertia"
     VOLTAGE = "voltage"
+    CURRENT = "current"
+    POWER = "power"
     STRESS = "stress"
     RATIO = "ratio"
 
@@ -86,6 +88,8 @@ UNITS: dict[Dimension, dict[str, Fraction]] = {
         "g mm2": Fraction(1, 10**9),
     },
     Dimension.VOLTAGE: {"V": _ONE, "mV": _MILLI},
+    Dimension.CURRENT: {"A": _ONE, "mA": _MILLI},
+    Dimension.POWER: {"W": _ONE, "kW": Fraction(1000), "mW": _MILLI},
     Dimension.STRESS: {
         "Pa": _ONE,
         "kPa": Fraction(10**3),

@@ -47,8 +47,56 @@ class PostureLine:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LegLine:
+    """A leg: link of its foot, what it ends in (`ball`, `sole`, `wheel`, `point`), its joints."""
+
+    foot: str
+    ends_in: str
+    length: float
+    joints: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReadingLine:
+    """A way to read a robot: trunk, links of the feet, and how sure that is, 0 to 1."""
+
+    trunk: str
+    legs: tuple[str, ...]
+    confidence: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecognitionRecord:
+    """What was recognised of a robot.
+
+    Attributes:
+        trunk: link that carries the device.
+        legs: with their feet.
+        forward, left, up: axes of the trunk's link, as `+x`.
+        stated: what the user named: `trunk`, `legs`.
+        confidence: share of the signs that speak for it, 0 to 1; 1 where it was stated.
+        speaks_for, speaks_against: the signs.
+        likely: readings to choose from where it is not clear; empty where it is.
+    """
+
+    trunk: str
+    legs: tuple[LegLine, ...]
+    forward: str
+    left: str
+    up: str
+    stated: tuple[str, ...]
+    confidence: float
+    speaks_for: tuple[str, ...]
+    speaks_against: tuple[str, ...]
+    likely: tuple[ReadingLine, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """Everything that is known of a robot without a device."""
+    """Everything that is known of a robot without a device.
+
+    `recognition` is None for a robot by hand.
+    """
 
     schema_version: int
     robot: RobotRecord
@@ -57,6 +105,7 @@ class Inspection:
     incidence_by_criterion: Mapping[str, float]
     heading_drift: tuple[float, float]
     incidence_by_posture: tuple[PostureLine, ...]
+    recognition: RecognitionRecord | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +113,8 @@ class FrontDevice:
     """The lightest device of a point; SI.
 
     Attributes:
-        mass: of both modules: rims, motors, gears and housings. share: of the robot's.
+        mass: of both modules and of the plate under them, as `size` tells it. share: of the
+            robot's.
         motor, gear, material: names in the catalogue.
         incidence: of the wheel axes.
         outer_radius, inner_radius, height, rim_mass: of one rim.

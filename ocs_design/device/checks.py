@@ -9,8 +9,10 @@ from math import isfinite
 
 import numpy as np
 
+from ocs_design.actuation.fasteners import SCREW_NAMES
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device
+from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.robot.mass import MassProperties
 
 LARGEST = 1e12
@@ -29,7 +31,7 @@ _OR_NONE = (
 _OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "center")
 """Lengths [m] that are zero where there is no such thing."""
 
-_LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter"}
+_LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter", "half_length"}
 _POSITIVE = {"density", "mass", "spin_inertia", "gear_efficiency", "no_load_speed", "speed_max"}
 _POSITIVE |= {
     "stall_torque",
@@ -55,9 +57,11 @@ def check_device(device: Device) -> None:
     """
     faults = [
         fault
-        for part in ("flywheel", "motor", "carrier")
+        for part in ("flywheel", "motor", "carrier", "plate")
         for fault in _figures(getattr(device, part), part)
     ]
+    if device.plate is not None:
+        faults += _plate_faults(device.plate)
     if not isfinite(device.incidence):
         faults.append(f"ocs.incidence is {device.incidence}")
     for module in device.modules:
@@ -76,6 +80,21 @@ def check_device(device: Device) -> None:
             f"the design's device cannot be: {'; '.join(faults)}",
             hint="run `ocs-design size` again to write the design anew",
         )
+
+
+def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
+    """Faults of what is no figure of its own: names of threads, places of holes."""
+    if not {plate.thread, plate.foot_thread} <= set(SCREW_NAMES):
+        yield "plate.thread and plate.foot_thread must be " + ", ".join(SCREW_NAMES)
+    if len(plate.trunk) != len(plate.sleeves):
+        yield "plate.trunk and plate.sleeves must have one length each"
+    if plate.half_length < 2.0 * plate.radius:
+        yield "plate.half_length is below twice plate.radius"
+    if not 0.0 < plate.neck <= plate.radius:
+        yield "plate.neck is not between 0 and plate.radius"
+    lengths = np.array([*plate.position, *plate.sleeves, *np.ravel([*plate.trunk, *plate.feet])])
+    if not (np.abs(lengths) <= LARGEST_LENGTH).all() or min(plate.sleeves, default=0.0) < 0.0:
+        yield "a place of the plate is beyond all measure"
 
 
 def _figures(value: object, path: str) -> Iterator[str]:

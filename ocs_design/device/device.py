@@ -5,11 +5,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ocs_design.actuation.drive import Drive
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
+from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
-from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts
+from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, WebHoles
 from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.robot.mass import MassProperties, combine
 
 NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
 """Of the assumed motor, which weighs nothing."""
@@ -24,6 +27,7 @@ class Web:
         thickness: of the disc, which fills the rim's bore [m].
         mass: with the hub and its holes [kg].
         hub: in its middle.
+        holes: that lighten it; None: none.
     """
 
     material: str
@@ -31,6 +35,7 @@ class Web:
     thickness: float
     mass: float
     hub: Hub
+    holes: WebHoles | None = None
 
 
 @dataclass(frozen=True)
@@ -102,6 +107,8 @@ class Device:
         motor: of each module.
         carrier: what of each module stands still with the trunk, in the module's own frame
             (`device.layout.module_frames`).
+        supply: of all motors; None: not known.
+        plate: that the feet stand on; None: they stand on the trunk.
     """
 
     incidence: float
@@ -109,11 +116,18 @@ class Device:
     flywheel: Flywheel
     motor: Drive
     carrier: Carrier = NO_CARRIER
+    supply: Supply | None = None
+    plate: CarrierPlate | None = None
 
     @property
     def mass(self) -> float:
-        """Mass of all modules: wheels, motors, gears, housings and feet [kg]."""
-        return 2.0 * (self.flywheel.mass + self.carrier.mass)
+        """Mass of all modules, wheels, motors, gears, housings and feet, and of the plate [kg]."""
+        plate = 0.0 if self.plate is None else self.plate.mass
+        return 2.0 * (self.flywheel.mass + self.carrier.mass) + plate
+
+    def plated(self, robot: MassProperties) -> MassProperties:
+        """A robot, in B, with the plate under the feet where there is one."""
+        return robot if self.plate is None else combine([robot, self.plate.mass_properties()])
 
     @property
     def axes(self) -> FloatArray:

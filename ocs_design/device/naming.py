@@ -6,6 +6,9 @@ from ocs_design.common.errors import RobotError
 from ocs_design.device.device import SIDES, Device, Module
 
 PREFIX = "ocs_"
+PLATE = f"{PREFIX}plate"
+"""Link and fixed joint in URDF, body in MJCF: the plate that the feet stand on."""
+
 IMU = f"{PREFIX}imu"
 """Site in MJCF, at the base frame B."""
 
@@ -71,6 +74,11 @@ def carrier_names(device: Device) -> tuple[str, ...]:
     if device.carrier.mass == 0.0:
         return ()
     return tuple(carrier_name(module) for module in device.modules)
+
+
+def plate_names(device: Device) -> tuple[str, ...]:
+    """Name of the plate under the feet; none where there is none."""
+    return () if device.plate is None else (PLATE,)
 
 
 def joint_names(device: Device) -> tuple[str, ...]:

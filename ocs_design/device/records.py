@@ -1,7 +1,8 @@
 """`design.json`: the one artefact that other commands and programs read.
 
 Field names and units are the contract of `docs/output.md`: SI, radians, the base frame B, full
-double precision. The dataclasses are the schema; a change of meaning needs a new `SCHEMA_VERSION`.
+double precision. The dataclasses are the schema; a change of meaning needs a new `SCHEMA_VERSION`,
+and a step in `_renewed` that reads what older versions wrote.
 """
 
 from collections.abc import Mapping
@@ -12,10 +13,12 @@ from typing import Any, Literal, TypeVar
 import msgspec
 
 from ocs_design.actuation.drive import Drive
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import Matrix, Vector, matrix, vector
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import read_plain_file
 from ocs_design.device.device import NO_CARRIER, Flywheel
+from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
 from ocs_design.robot.robot import Mount, Robot
 
@@ -113,12 +116,13 @@ class TaskDemand:
 
 @dataclass(frozen=True, kw_only=True)
 class RankedRecord:
-    """One of the lightest devices; masses are of both modules [kg].
+    """One of the lightest devices.
 
     Attributes:
         motor, gear, material: names in the catalogues. gear_ratio: motor speed over wheel speed.
         incidence: [rad].
-        mass, wheels_mass, motors_mass, gears_mass, housings_mass: [kg].
+        mass: of the whole device, the sum of those that follow. wheels_mass, motors_mass,
+            gears_mass, housings_mass, plate_mass: [kg].
         spin_inertia: of each wheel [kg m^2].
         outer_radius, height: of its rim [m].
     """
@@ -136,6 +140,7 @@ class RankedRecord:
     spin_inertia: float
     outer_radius: float
     height: float
+    plate_mass: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,7 +193,7 @@ class SelectionRecord:
     """The choice of motor, gear, material and incidence.
 
     Attributes:
-        bus_voltage: [V]. reserve: share of voltage and current that the design may use.
+        bus_voltage: [V]. reserve: share of voltage, current and speed limit that it may use.
         candidates: how many combinations were looked at.
         binding_maneuver: what asks for the most spin inertia. binding: limits that hold the mass.
         tasks: of the chosen drive. ranking: lightest first. rejections: by motor.
@@ -208,7 +213,10 @@ class SelectionRecord:
     prices: tuple[PriceRecord, ...] = ()
 
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
+
+OLDEST_VERSION = 1
+"""Of the documents that are still read."""
 
 LARGEST = 16 << 20
 """Of a `design.json` [bytes]; that of a humanoid takes a fiftieth."""
@@ -255,7 +263,10 @@ class AxisInertia:
 
 @dataclass(frozen=True, kw_only=True)
 class RequirementRecord:
-    """What was asked of the device, and everything that was assumed to ask it."""
+    """What was asked of the device, and everything that was assumed to ask it.
+
+    `reliability` is the share of flights that shall pass as built; None: none was asked for.
+    """
 
     maneuvers: tuple[ManeuverRecord, ...]
     rate_change: float | None
@@ -264,6 +275,7 @@ class RequirementRecord:
     spin_inertia_by_hand: float | None
     demands: tuple[DemandRecord, ...]
     assumptions: tuple[str, ...]
+    reliability: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -310,7 +322,8 @@ class MountingRecord:
 class OcsRecord:
     """The device. `mass_total` is of both modules; `total_...` of robot and braked device.
 
-    `fitting` is what is left to do by hand: see `export.fitting`.
+    `fitting` is what is left to do by hand: see `export.fitting`. `layout` is how the axes lie: of
+    a pair at plus and minus the incidence.
     """
 
     incidence: float
@@ -328,9 +341,11 @@ class OcsRecord:
     flywheel: Flywheel
     motor: Drive
     carrier: Carrier = NO_CARRIER
+    plate: CarrierPlate | None = None
     warnings: tuple[str, ...] = ()
     fitting: tuple[str, ...] = ()
     mounting: MountingRecord | None = None
+    layout: Literal["pair"] = "pair"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -351,7 +366,7 @@ class SizingRecord:
 class MarginRecord:
     """Demand against capacity; `margin` is capacity over demand, None where there is no limit.
 
-    `maneuver` is the one that sets it, empty if none does; `note` is what the figures rest on.
+    `scenario` is the one that sets it, empty if none does; `note` is what the figures rest on.
     """
 
     name: str
@@ -359,16 +374,24 @@ class MarginRecord:
     capacity: float | None
     unit: str
     margin: float | None
-    maneuver: str = ""
+    scenario: str = ""
     note: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ValidationRecord:
-    """One simulated run. `passed` is None where it could not be judged; `reason` says why.
+    """One simulated run.
 
-    `note` says how the turn was changed to suit the wheels; empty if it was not. `can_stand` says
-    whether the legs bear this landing when level; None: no legs, or a file that does not say.
+    Attributes:
+        scenario: name of the maneuver. ocs: with the device, or the bare robot.
+        passed: a level touchdown, the turn done, and upright at the end where the legs bear a level
+            landing; None: it could not be judged.
+        level: whether it touches down level, within 5 deg; None: not judged.
+        stands: whether it is upright at the end; None: not judged, or it has no legs.
+        reason: for `passed`, one sentence.
+        note: how the turn was changed to suit the wheels; empty if it was not.
+        metrics: by their names, SI.
+        can_stand: whether the legs bear this landing when level; None: no legs, or an old file.
     """
 
     scenario: str
@@ -378,6 +401,8 @@ class ValidationRecord:
     note: str
     metrics: Mapping[str, float | bool | None]
     can_stand: bool | None = None
+    level: bool | None = None
+    stands: bool | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -396,6 +421,39 @@ class ControlRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Alternative:
+    """A lighter or simpler device that one change of the question would give.
+
+    Attributes:
+        change: what would be different, as a person would say it.
+        mass_total: of both modules [kg]; None: there is no device then.
+        motor: its name; empty where there is no device.
+        note: what speaks for or against it; empty if nothing does.
+    """
+
+    change: str
+    mass_total: float | None
+    motor: str
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenPoint:
+    """What keeps a device from being built, and the cure."""
+
+    what: str
+    cure: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Buildable:
+    """Whether the device can be built as it stands; None where that cannot be told."""
+
+    yes: bool | None
+    open: tuple[OpenPoint, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class OcsDesign:
     """A designed, exported and simulated orientation control system."""
 
@@ -408,6 +466,9 @@ class OcsDesign:
     sizing: SizingRecord
     selection: SelectionRecord | None = None
     margins: tuple[MarginRecord, ...]
+    supply: Supply | None = None
+    alternatives: tuple[Alternative, ...] = ()
+    buildable: Buildable = field(default_factory=lambda: Buildable(yes=None))
     validation: tuple[ValidationRecord, ...]
     control: ControlRecord | None = None
     reality: Mapping[str, str] = field(default_factory=dict)
@@ -434,15 +495,40 @@ def read_design(path: Path) -> OcsDesign:
         ) from error
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: not a design.json: {error}") from error
-    if version != SCHEMA_VERSION:
+    if not OLDEST_VERSION <= version <= SCHEMA_VERSION:
         raise OcsError(
-            f"{path}: schema_version {version}, but this version reads {SCHEMA_VERSION}",
+            f"{path}: schema_version {version}, but this version reads {OLDEST_VERSION} to "
+            f"{SCHEMA_VERSION}",
             hint="run `ocs-design size` again to write it anew",
         )
     try:
-        return msgspec.json.decode(content, type=OcsDesign)
+        if version == SCHEMA_VERSION:
+            return msgspec.json.decode(content, type=OcsDesign)
+        return msgspec.convert(_renewed(msgspec.json.decode(content)), OcsDesign)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: {error}", hint="run `ocs-design size` again") from error
+
+
+def _renewed(document: dict[str, Any]) -> dict[str, Any]:
+    """Document of version 1 in the names of version 2; what it lacks takes its default.
+
+    Version 1 said of a run only whether it passed, which takes a level touchdown, and an upright
+    end where the legs bear one.
+    """
+    margins, runs = (document.get(name) for name in ("margins", "validation"))
+    for margin in _objects(margins):
+        margin["scenario"] = margin.pop("maneuver", "")
+    for run in _objects(runs):
+        if run.get("passed") is True:
+            run["level"] = True
+            run["stands"] = True if run.get("can_stand") is True else None
+    return {**document, "schema_version": SCHEMA_VERSION}
+
+
+def _objects(entries: object) -> list[dict[str, Any]]:
+    """Objects in a list of any document; what is none of them is refused when it is converted."""
+    found = entries if isinstance(entries, list) else []
+    return [each for each in found if isinstance(each, dict)]
 
 
 class _Version(msgspec.Struct):

@@ -12,14 +12,23 @@ from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders
 from ocs_design.parts.printed import WALL
 from ocs_design.robot.tree import Drum
 
+PLATE_DISCS = 0.5
+"""Distance of the discs that stand for a plate's neck, over half its width."""
+
 _UP = np.array([0.0, 0.0, 1.0])
 
 
 def motor_mount(device: Device) -> MotorMount:
     """How the motor is held, as far as that is known and fits the housing's floor."""
-    mount = mount_of(device.motor, device.motor.gear_room)
+    mount = mount_of(device.motor, device.motor.gear_room).around(device.flywheel.height)
     floor = housing_outer_radius(device.flywheel.outer_radius) - 2.0 * WALL
     return mount if mount.holes.reach <= floor else MotorMount()
+
+
+def foot_of(device: Device) -> Foot:
+    """Foot of one module, around the housing that it carries."""
+    wheel, mount = device.flywheel, motor_mount(device).holes
+    return Foot(Housing(wheel.outer_radius, wheel.height, mount))
 
 
 def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
@@ -54,8 +63,8 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
     wheel = device.flywheel
     if device.carrier.mass == 0.0:
         return ModuleSolids((Drum(module.position, module.axis, wheel.outer_radius, wheel.height),))
-    housing = Housing(wheel.outer_radius, wheel.height, motor_mount(device).holes)
-    foot, tall = Foot(housing), 2.0 * housing.half_height
+    foot = foot_of(device)
+    housing, tall = foot.housing, 2.0 * foot.housing.half_height
     down = foot.wheel_height - BASE_THICKNESS / 2.0
     base = Drum(module.position - down * _UP, _UP, foot.base_radius, BASE_THICKNESS)
     drum = Drum(module.position, module.axis, housing.radius, tall)
@@ -71,3 +80,45 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
         for solid in drive_solids(device)
     ]
     return ModuleSolids((drum, *driving), (base,))
+
+
+def plate_solids(device: Device) -> tuple[Drum, ...]:
+    """What the plate under the feet fills, none without one: discs side by side, and its sleeves.
+
+    The first and the last disc are its ends. Between two of them the neck's edge is up to 3 % of
+    their radius farther out. The roundings where it meets the ends are left out.
+    """
+    plate = device.plate
+    if plate is None:
+        return ()
+    middle, straight = np.array(plate.position), plate.half_length - plate.radius
+    count = 1 + int(np.ceil(2.0 * straight / (PLATE_DISCS * plate.neck)))
+    up = plate.thickness / 2.0 * _UP
+    along_neck = [(across, plate.neck) for across in np.linspace(-straight, straight, count)[1:-1]]
+    discs = [
+        Drum(middle + up + np.array([0.0, across, 0.0]), _UP, radius, plate.thickness)
+        for across, radius in ((-straight, plate.radius), *along_neck, (straight, plate.radius))
+    ]
+    sleeves = [
+        Drum(middle + np.array([x, y, -length / 2.0]), _UP, plate.sleeve_radius, length)
+        for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
+        if length > 0.0
+    ]
+    return (*discs, *sleeves)
+
+
+def plate_heads(device: Device) -> tuple[Drum, ...]:
+    """Heads of the screws that hold the plate on the trunk."""
+    plate = device.plate
+    if plate is None:
+        return ()
+    held, top = plate.screw, np.array([*plate.position[:2], plate.top])
+    return tuple(
+        Drum(
+            top + np.array([x, y, held.head_height / 2.0]),
+            _UP,
+            held.head_diameter / 2.0,
+            held.head_height,
+        )
+        for x, y in plate.trunk
+    )

@@ -3,25 +3,20 @@
 from collections.abc import Iterator
 from math import sqrt
 
-import numpy as np
-
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
+from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import printed_foot, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
-from ocs_design.parts.foot import TRUNK_SCREW, Foot
-from ocs_design.robot.meshes import trunk_extent, trunk_top
-from ocs_design.robot.robot import Robot
+from ocs_design.parts.carrier_plate import SHOCK
+from ocs_design.parts.foot import TRUNK_SCREW, Foot, stem_shock
+from ocs_design.parts.motor_mount import motor_front
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 
 _UNDRILLED = "drill floor and plate for it"
-
-_LEFT = np.array([0.0, 1.0, 0.0])
-
-_STANDS = 1e-4
-"""Distance from the trunk's top up to which a foot stands on it [m]."""
 
 
 def device_notes(device: Device) -> tuple[str, ...]:
@@ -46,7 +41,12 @@ def drive_notes(device: Device) -> tuple[str, ...]:
     if motor.gear != DIRECT.name:
         return (*_geared(motor), *_apart(device, foot))
     mounting = motor.mounting or Mounting()
-    return (*_held(mounting, device), *_driven(mounting, device, foot), *_apart(device, foot))
+    return (
+        *_held(mounting, device),
+        *_driven(mounting, device),
+        *_apart(device, foot),
+        *_shaken(device, foot),
+    )
 
 
 def _geared(motor: Drive) -> Iterator[str]:
@@ -55,7 +55,10 @@ def _geared(motor: Drive) -> Iterator[str]:
     beside = (
         f", its axis {format_quantity(room.offset, 'mm')} above the wheel's" if room.offset else ""
     )
-    unknown = "shaft and the motor's threads" if room.depth else "room and the threads of both"
+    unknown = "shafts" if room.depth else "room and threads"
+    known = known_motors(None).get(motor.name)
+    stator = None if known is None or known.mounting is None else known.mounting.stator
+    threads = "" if stator is None else f"; the motor's threads are {stator}"
     stands = (
         f"the motor stands {format_quantity(room.depth, 'mm')} behind the plate{beside}, where it "
         "is counted and shown"
@@ -64,7 +67,7 @@ def _geared(motor: Drive) -> Iterator[str]:
     )
     yield (
         f"how motor and gear are held is not designed, because the gear's {unknown} are not in the "
-        f"catalogue: {stands}; {_UNDRILLED}"
+        f"catalogue: {stands}; {_UNDRILLED}{threads}"
     )
 
 
@@ -75,7 +78,8 @@ def _held(mounting: Mounting, device: Device) -> Iterator[str]:
         bare = mount.holes.pilot_radius == 0.0
         hole = format_quantity(2.0 * mount.holes.pilot_radius, "mm")
         there = "" if bare else f", besides the hole of {hole} for the rotating parts"
-        yield f"the motor's threads are not in the catalogue: {_UNDRILLED}{there}"
+        which = "the motor's threads" if mounting.rotor is None else "the threads of its stator"
+        yield f"{which} are not in the catalogue: {_UNDRILLED}{there}"
     elif mount.holes.screws is None and mounting.stator_face is Face.BACK:
         yield (
             f"the motor's threads, {stator}, are at its back, and its size is not known or its "
@@ -88,11 +92,13 @@ def _held(mounting: Mounting, device: Device) -> Iterator[str]:
         )
 
 
-def _driven(mounting: Mounting, device: Device, foot: Foot) -> Iterator[str]:
+def _driven(mounting: Mounting, device: Device) -> Iterator[str]:
     """Notes on how the wheel is driven: by the shaft, or by threads behind plate and floor."""
-    web, middle = device.flywheel.web, foot.back + motor_mount(device).gap
-    if web is None:
+    web, mount = device.flywheel.web, motor_mount(device)
+    # In a cage it reaches through plate and floor to the hub.
+    if web is None or (mount.cage is not None and mounting.rotor is not None):
         return
+    middle = -motor_front(mount, device.flywheel.height)
     half = web.hub.height / 2.0
     near, reach, far = (
         format_quantity(length, "mm", digits=3) for length in (middle - half, middle, middle + half)
@@ -125,6 +131,18 @@ def _apart(device: Device, foot: Foot) -> Iterator[str]:
         yield _overlap("motors", reach - room)
 
 
+def _shaken(device: Device, foot: Foot) -> Iterator[str]:
+    """Landings that the feet do not bear."""
+    module = device.flywheel.mass + device.carrier.mass
+    bears = stem_shock(foot, module)
+    if bears < SHOCK:
+        yield (
+            f"printed of PETG the feet bear {bears / STANDARD_GRAVITY:.0f} g of {module:.2g} kg "
+            "along the wheel's axis: print them of a stronger material, such as PA-CF, where "
+            "landings are harder"
+        )
+
+
 def _overlap(parts: str, beyond: float) -> str:
     each = format_quantity(beyond, "mm", digits=2)
     return (
@@ -133,40 +151,28 @@ def _overlap(parts: str, beyond: float) -> str:
     )
 
 
-def trunk_notes(robot: Robot, device: Device) -> tuple[str, ...]:
-    """Notes on the trunk under the feet: whether it is level there and wide enough.
-
-    The trunk is the box around its shapes.
-
-    Args:
-        robot: that carries the device.
-        device: whose feet are looked at, if it has any.
-    """
+def trunk_notes(device: Device) -> tuple[str, ...]:
+    """Note on the holes that the trunk needs for the plate, or for the feet themselves."""
     if device.carrier.mass == 0.0:
         return ()
-    underside = float(device.modules[0].position[2]) - printed_foot(device).wheel_height
-    above = underside - trunk_top(robot.tree, robot.trunk)
-    if abs(above) > _STANDS:
-        gap = format_quantity(abs(above), "mm", digits=3)
-        where = "above" if above > 0.0 else "below"
+    plate = device.plate
+    if plate is None:
         return (
-            f"the feet are {gap} {where} the trunk's top: make a level bracket for each and fix it "
-            "to the trunk; the device's mass does not include it",
+            f"the trunk needs threads {TRUNK_SCREW.name} for the feet's screws, which stand at 45 "
+            "degrees to the lateral direction on a circle of "
+            f"{format_quantity(2.0 * printed_foot(device).slot_radius, 'mm', digits=3)}",
         )
-    foot, out = printed_foot(device), float(device.modules[0].position[1])
-    half = min(trunk_extent(robot.tree, robot.trunk, side) for side in (_LEFT, -_LEFT))
-    over = out + foot.base_radius - half
-    # Without shapes the trunk has no width.
-    if half <= 0.0 or over <= 0.0:
-        return ()
-    beyond = format_quantity(over, "mm", digits=2)
-    screw = out + foot.slot_radius / sqrt(2.0) + TRUNK_SCREW.clearance_hole / 2.0 - half
-    if screw <= 0.0:
-        return (f"the feet stand {beyond} over the trunk's sides; their screws are on it",)
-    width = format_quantity(2.0 * (half + over), "mm")
+    x, y, _ = plate.position
+    places = ", ".join(
+        f"({1e3 * (x + along):.1f}, {1e3 * (y + across):.1f})" for along, across in plate.trunk
+    )
+    longest = max(plate.sleeves)
+    sleeved = (
+        f"; sleeves of up to {format_quantity(longest, 'mm', digits=3)} go under it"
+        if longest > 0.0
+        else ""
+    )
     return (
-        f"the feet stand {beyond} over the trunk's sides, and the outer screw of each is "
-        f"{format_quantity(screw, 'mm', digits=2)} off it: put a plate of {width} across the "
-        "trunk under both, which the device's mass does not include, or ask for a smaller device "
-        "with --r-max",
+        f"a plate carries the feet; the trunk needs threads {plate.thread} for its "
+        f"{len(plate.trunk)} screws at x, y = {places} mm of the base frame{sleeved}",
     )

@@ -4,10 +4,12 @@ It is attached to the robot's own model, not pasted into its text; simulations a
 """
 
 import mujoco
+import numpy as np
 
 from ocs_design.device.device import Device
 from ocs_design.device.naming import (
     IMU,
+    PLATE,
     PREFIX,
     carrier_name,
     carrier_names,
@@ -16,6 +18,7 @@ from ocs_design.device.naming import (
     imu_sensors,
     joint_name,
     joint_names,
+    plate_names,
     require_free,
     torque_sensor,
     velocity_sensor,
@@ -38,7 +41,7 @@ _JOINT, _SITE = mujoco.mjtObj.mjOBJ_JOINT, mujoco.mjtObj.mjOBJ_SITE
 
 
 def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
-    """Attach flywheels with their joints and motors, and their carriers, to the trunk.
+    """Attach flywheels with their joints and motors, their carriers and the plate to the trunk.
 
     Args:
         spec: of `build_spec(robot)`; changed in place. Its keyframes keep the robot's own values.
@@ -46,7 +49,8 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         device: its wheels turn about the z axis of their own frames.
     """
     bodies, joints = flywheel_names(device), joint_names(device)
-    require_free("body", (body.name for body in spec.bodies), bodies + carrier_names(device))
+    fixed = carrier_names(device) + plate_names(device)
+    require_free("body", (body.name for body in spec.bodies), bodies + fixed)
     require_free("joint", (joint.name for joint in spec.joints), joints)
     require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
     require_free("geom", (geom.name for geom in spec.geoms), bodies)
@@ -81,6 +85,10 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         carrier = carrier_inertial(device, module)
         if carrier is not None:
             _add_body(wheels, carrier_name(module), carrier, place).set_frame(frame)
+    if device.plate is not None:
+        own = device.plate.own_mass_properties()
+        place = base @ Placement(np.eye(3), np.array(device.plate.position))
+        _add_body(wheels, PLATE, own, place).set_frame(frame)
     # Bodies added in any other way shift the values of keyframes to wrong joints.
     trunk.attach_frame(frame, PREFIX, "")
 

@@ -6,17 +6,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ocs_design.actuation.drive import Drive
-from ocs_design.actuation.fasteners import STEEL
+from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
+from ocs_design.device.joints import joints_of
+from ocs_design.device.records import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import printed_foot, printed_parts
+from ocs_design.export.electrics import electrics
 from ocs_design.export.formats import Notes, Subject
+from ocs_design.parts.carrier_plate import SLEEVE_WALL, CarrierPlate, plate_part, sleeve_part
 from ocs_design.parts.foot import TRUNK_SCREWS
 from ocs_design.parts.housing import LID_SCREWS
-from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 
 COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
 
@@ -53,12 +56,20 @@ class BillRow:
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `bill_of_materials.csv`."""
-    export_bill_of_materials(subject.device, folder / "bill_of_materials.csv")
+    path = folder / "bill_of_materials.csv"
+    export_bill_of_materials(subject.device, path, subject.margins)
     return ()
 
 
-def bill_rows(device: Device) -> Sequence[BillRow]:
-    """All parts that the device holds; together they weigh what it weighs."""
+def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[BillRow]:
+    """All parts that the device holds; together they weigh what it weighs.
+
+    Controllers, battery and what is used up are listed without a mass: they are not chosen.
+
+    Args:
+        device: to build.
+        margins: of its flights, which say what the battery gives and takes; empty: not known.
+    """
     motor, count = device.motor, len(device.modules)
     rows = list(_wheel(device.flywheel, count))
     if motor.mass > 0.0:
@@ -68,17 +79,15 @@ def bill_rows(device: Device) -> Sequence[BillRow]:
     if motor.gear != DIRECT.name:
         source = f"ratio {motor.gear_ratio:g}; see `ocs-design catalogue gears -v`"
         rows.append(BillRow(f"gear {motor.gear}", count, "", "", motor.gear_mass, source))
-    rating = controller_rating(motor)
-    if rating:
-        # Not chosen, so its mass is not known.
-        source = f"for {rating}, of your choice; the device's mass does not include it"
-        rows.append(BillRow("motor controller", count, "", "", 0.0, source))
-    printed = device.carrier.mass - motor.mass - motor.gear_mass
+    printed = device.carrier.mass - motor.mass - motor.gear_mass - motor.controller_mass
     if printed > _MASSLESS:
         foot, mount = printed_foot(device), motor_mount(device)
         drum, lid, base, *caged = (part.mass_properties().mass for part in printed_parts(device))
         size = f"{_mm(2.0 * foot.housing.radius)} x {_mm(2.0 * foot.housing.half_height)}"
-        made = f"3-D print, wall {_mm(WALL)}, {_mm(CLEARANCE)} clear of the rim"
+        made = (
+            f"3-D print, wall {_mm(WALL)}, floor and lid {_mm(PANEL)}, "
+            f"{_mm(CLEARANCE)} clear of the rim"
+        )
         rows.append(BillRow("housing", count, "PETG", size, drum + lid, made))
         size = f"{_mm(2.0 * foot.base_radius)} x {_mm(foot.wheel_height)} to the axis"
         made = "3-D print, turned to the incidence by hand"
@@ -101,12 +110,67 @@ def bill_rows(device: Device) -> Sequence[BillRow]:
             )
             for each in (*screwed, LID_SCREWS, TRUNK_SCREWS)
         ]
-    return rows
+    plate = () if device.plate is None else _plate_rows(device.plate)
+    return [*rows, *plate, *_electrics(device, margins), *_used_up(device)]
 
 
-def export_bill_of_materials(device: Device, path: Path) -> Path:
-    """Write the rows and their sum as CSV, UTF-8, masses to the milligram."""
-    rows = bill_rows(device)
+def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
+    """The plate under the feet, its sleeves and the screws that hold it on the trunk."""
+    size = f"{_mm(2.0 * plate.radius)} x {_mm(2.0 * plate.half_length)} x {_mm(plate.thickness)}"
+    made = (
+        f"milled or cut by water jet to plate.dxf, neck {_mm(2.0 * plate.neck)}; "
+        f"{len(plate.feet)} threads {plate.foot_thread} for the feet"
+    )
+    yield BillRow("plate under the feet", 1, plate.material, size, plate_part(plate).mass(), made)
+    for length in sorted({length for length in plate.sleeves if length > 0.0}):
+        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(SLEEVE_WALL)} wall"
+        made = f"cut to {_mm(length)}, between plate and trunk"
+        count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
+        yield BillRow("sleeve under the plate", count, plate.material, stock, mass, made)
+    for length in sorted(set(plate.screw_lengths)):
+        yield BillRow(
+            part=f"screw {plate.screw.designation(length)}",
+            quantity=plate.screw_lengths.count(length),
+            material="steel",
+            stock="",
+            mass=plate.screw.mass(length),
+            source="plate on trunk; longer if its thread begins deeper",
+        )
+
+
+def _electrics(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:
+    """Controllers and battery, which are not chosen."""
+    ratings, left_out = electrics(device, margins), "of your choice; not in the device's mass"
+    controller, battery = ratings.controller(), ratings.battery()
+    if controller:
+        mass = device.motor.controller_mass
+        counted = "of your choice; mass by a rule over its current" if mass else left_out
+        source = f"{controller}; {counted}"
+        yield BillRow("motor controller", ratings.controllers, "", "", mass, source)
+    if battery:
+        yield BillRow("battery", 1, "", "", 0.0, f"{battery}; {left_out}")
+        braking = "switches on above the full battery, below the controllers' limit"
+        yield BillRow("brake resistor with switch", 1, "", "", 0.0, f"{braking}; {left_out}")
+
+
+def _used_up(device: Device) -> Iterator[BillRow]:
+    """What is used up in putting it together; wheels alone are not put together."""
+    if device.carrier.mass == 0.0:
+        return
+    if any(joint.note.startswith("bonded") for joint in joints_of(device)):
+        where = "wheel on shaft; follow its maker's sheet"
+        yield BillRow("retaining compound", 1, "", "", 0.0, where)
+    screwed = (each.fastening for each in motor_mount(device).screwed)
+    if any(each.depth < IN_PLASTIC for each in screwed):
+        where = "medium strength, removable; screws in metal only: it attacks prints"
+        yield BillRow("threadlocker", 1, "", "", 0.0, where)
+
+
+def export_bill_of_materials(
+    device: Device, path: Path, margins: Sequence[MarginRecord] = ()
+) -> Path:
+    """Write the rows and their sum as CSV, UTF-8, masses to the milligram; see `bill_rows`."""
+    rows = bill_rows(device, margins)
     with path.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(COLUMNS)
@@ -162,7 +226,11 @@ def _web(web: Web) -> str:
         if hub.bolts
         else "bolt circle not in the catalogue: drill to the motor"
     )
-    return f"web {_mm(web.thickness)}, hub bore {_mm(2.0 * hub.bore_radius)}, {bolts}"
+    thick, holes = f"web {_mm(web.thickness)}", web.holes
+    if holes is not None:
+        size, place = _mm(2.0 * holes.hole_radius), _mm(2.0 * holes.circle_radius)
+        thick += f" with {holes.count} lightening holes {size} on a circle of {place}"
+    return f"{thick}, hub bore {_mm(2.0 * hub.bore_radius)}, {bolts}"
 
 
 def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
@@ -173,16 +241,6 @@ def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
         return f"round bar {outside} x {cut}"
     inside = math.floor(_rounded(1e3 * (2.0 * inner_radius - _ALLOWANCE)))
     return f"tube {outside} x {inside} inside x {cut}"
-
-
-def controller_rating(motor: Drive) -> str:
-    """Current and voltage of a motor's controller; empty where its data do not tell them."""
-    limit, k_t, supply = motor.torque_limit, motor.torque_constant, motor.bus_voltage
-    if limit is None or k_t is None or supply is None:
-        return ""
-    current = limit / (motor.gear_ratio * motor.gear_efficiency * k_t)
-    saturates = motor.saturation_torque is not None and limit > motor.saturation_torque
-    return f"{'more than ' if saturates else ''}{math.ceil(_rounded(current))} A at {supply:g} V"
 
 
 def _grams(mass: float) -> str:

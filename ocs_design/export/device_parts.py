@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.solids import motor_mount
 from ocs_design.parts.cage import cage_part
+from ocs_design.parts.carrier_plate import plate_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.part import Part
@@ -33,6 +34,10 @@ def wheel_geometry(flywheel: Flywheel) -> Wheel:
     if web is None:
         return Wheel(rim)
     bolts = HoleRing(web.hub.bolt_circle_radius, web.hub.bolts, web.hub.bolt_hole_radius)
+    holes = web.holes
+    lightening = None
+    if holes is not None:
+        lightening = HoleRing(holes.circle_radius, holes.count, holes.hole_radius)
     hub = Hub(
         web_thickness=web.thickness,
         radius=web.hub.radius,
@@ -41,6 +46,7 @@ def wheel_geometry(flywheel: Flywheel) -> Wheel:
         material=web.material,
         density=web.density,
         bolts=bolts if web.hub.bolts else None,
+        lightening=lightening,
         chamfer=web.hub.chamfer,
     )
     return Wheel(rim, hub)
@@ -52,6 +58,11 @@ def wheel_pieces(flywheel: Flywheel) -> Mapping[str, Part]:
     if len(pieces) == 1:
         return {"flywheel": pieces[0]}
     return {f"flywheel_{piece.name}": piece for piece in pieces}
+
+
+def plate_pieces(device: Device) -> Mapping[str, Part]:
+    """The plate under the feet by the name of its file; none where there is none."""
+    return {} if device.plate is None else {"plate": plate_part(device.plate)}
 
 
 def printed_foot(device: Device) -> Foot:

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ocs_design.device.device import Device, Flywheel
-from ocs_design.device.naming import carrier_name, flywheel_name, joint_name
+from ocs_design.device.naming import PLATE, carrier_name, flywheel_name, joint_name
 from ocs_design.export.formats import Seat
 from ocs_design.export.module_bodies import (
     carrier_inertial,
@@ -15,7 +15,14 @@ from ocs_design.export.module_bodies import (
     wheel_rpy,
 )
 from ocs_design.export.templates import fill, numbers, quoted
-from ocs_design.export.visuals import Visual, carrier_visuals, plain_carrier_visuals
+from ocs_design.export.visuals import (
+    Visual,
+    carrier_visuals,
+    plain_carrier_visuals,
+    plain_plate_visuals,
+    plate_visuals,
+)
+from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Mount
@@ -84,7 +91,22 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
                 "visuals": visuals_urdf(look(device, module)),
             }
             elements.append(fill("carrier.urdf", carrier))
+    if device.plate is not None:
+        shown = plain_plate_visuals(device) if mesh is None else plate_visuals(device)
+        elements.append(fill("carrier.urdf", plate_urdf(device.plate, parent, visuals_urdf(shown))))
     return "".join(elements)
+
+
+def plate_urdf(plate: CarrierPlate, parent: str, visuals: str) -> dict[str, str]:
+    """Values of the plate under the feet, for the template of what stands still."""
+    return {
+        **inertial_values(plate.own_mass_properties()),
+        "link": PLATE,
+        "parent": quoted(parent),
+        "position": numbers(plate.position),
+        "rpy": numbers(np.zeros(3)),
+        "visuals": visuals,
+    }
 
 
 def visuals_urdf(visuals: Iterable[Visual]) -> str:
@@ -116,11 +138,13 @@ def visual_values(visual: Visual) -> dict[str, str]:
 
 
 def inertial_values(body: MassProperties) -> dict[str, str]:
-    """Mass properties of a body that is symmetric to its yz plane, for templates."""
+    """Mass properties of a body, for templates."""
     moments = {f"i{axis}{axis}": body.inertia[k, k] for k, axis in enumerate("xyz")}
     return {
         "mass": numbers(body.mass),
         "com": numbers(body.com),
+        "ixy": numbers(body.inertia[0, 1]),
+        "ixz": numbers(body.inertia[0, 2]),
         "iyz": numbers(body.inertia[1, 2]),
         **{name: numbers(value) for name, value in moments.items()},
     }

@@ -5,7 +5,7 @@ the command line, its help and `--formats all` follow. Importing this loads no w
 """
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import import_module
 from importlib.util import find_spec
@@ -16,6 +16,7 @@ from ocs_design.common.errors import MissingToolError, UsageError
 
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
+    from ocs_design.device.records import MarginRecord, OcsDesign
     from ocs_design.export.robot_model import RobotModel
     from ocs_design.robot.robot import Mount, Robot
 
@@ -49,17 +50,30 @@ class Subject:
         device: on the robot.
         seat: where the device sits.
         robot: that carries it; None where only its parts and its snippets are wanted.
+        margins: of its recorded flights; empty: none are known.
+        fitting: what the design leaves to do by hand, one sentence each.
     """
 
     name: str
     device: "Device"
     seat: Seat
     robot: "Robot | None"
+    margins: "tuple[MarginRecord, ...]" = ()
+    fitting: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
         """Device on a robot that was read."""
         return cls(name, device, robot, robot)
+
+    def recorded(self, design: "OcsDesign") -> "Subject":
+        """The subject with what its design records besides the device."""
+        return replace(
+            self,
+            device=replace(self.device, supply=design.supply),
+            margins=design.margins,
+            fitting=design.ocs.fitting,
+        )
 
     @cached_property
     def model(self) -> "RobotModel":
@@ -94,6 +108,7 @@ class Format:
         module: that writes it, below `ocs_design.export`.
         needs_robot: whether the robot's own file has to be there.
         on_request: whether it is written only if it is named.
+        needs_margins: whether it tells what the flights asked for, and so waits for them.
         library: module of an optional dependency that it needs; empty: none.
         extra: of ours that installs the library.
     """
@@ -104,6 +119,7 @@ class Format:
     module: str
     needs_robot: bool = False
     on_request: bool = False
+    needs_margins: bool = False
     library: str = ""
     extra: str = ""
 
@@ -132,14 +148,19 @@ class Format:
 
 FORMATS = (
     Format("stl", "wheel as meshes", "cad", "stl"),
-    Format("bom", "parts list with stock and masses", "cad", "bill_of_materials"),
+    Format(
+        "bom", "parts list with stock and masses", "cad", "bill_of_materials", needs_margins=True
+    ),
     Format("drawing", "technical drawing of the wheel", "cad", "drawing.wheel_sheet"),
     Format("3mf", "wheel for slicers", "cad", "threemf", on_request=True),
     Format("step", "exact parts", "cad", "step", on_request=True, library="OCP", extra="step"),
     Format(
         "dxf", "wheel in the plane", "cad", "dxf", on_request=True, library="ezdxf", extra="dxf"
     ),
-    Format("printed", "housing and foot for printing", "cad", "printed", on_request=True),
+    Format("printed", "housing, foot and cage for printing", "cad", "printed"),
+    Format(
+        "assembly", "how to build it, step by step", "cad", "assembly.booklet", needs_margins=True
+    ),
     Format("urdf", "whole robot", "robot", "urdf", needs_robot=True),
     Format("mjcf", "whole robot", "robot", "mjcf", needs_robot=True),
     Format("glb", "whole robot to look at", "robot", "glb", needs_robot=True),

@@ -18,14 +18,13 @@ from ocs_design.export.meshes import Mesh, part_mesh, solid_mesh
 from ocs_design.export.opengl import draw
 from ocs_design.export.robot_model import RobotModel
 from ocs_design.export.stl import wheel_meshes
-from ocs_design.export.visuals import GEAR, MOTOR, PRINT, SHELL, Color, cage_placement
+from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, SHELL, Color, cage_placement
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.solids import hollow_cylinder
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Placement
 
 STEEL: Color = (0.55, 0.57, 0.6, 1.0)
-ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
 
 _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
 """Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""

@@ -10,22 +10,11 @@ from ocs_design.export.threemf import threemf_bytes
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write `housing_<part>.stl` and `housing.3mf`; the note says what the parts weigh."""
+    """Write `housing_<part>.stl` and `housing.3mf`; wheels alone get a housing and no cage."""
     parts = printed_parts(subject.device)
     meshes = {part.name: part_mesh(part) for part in parts}
     for name, mesh in meshes.items():
         content = stl_bytes(mesh, name, units_per_metre=MILLIMETRES)
         (folder / f"housing_{name}.stl").write_bytes(content)
     (folder / "housing.3mf").write_bytes(threemf_bytes(meshes))
-    masses = {part.name: 1e3 * part.mass_properties().mass for part in parts}
-    shell, cage = masses["drum"] + masses["lid"], masses.get("cage")
-    caged = "" if cage is None else f", the motor's cage {cage:.1f} g"
-    counted = (
-        ""
-        if subject.device.carrier.mass > 0.0
-        else ("; the mass of a device without motors includes none of them")
-    )
-    return (
-        f"printed parts of one module: drum and lid {shell:.1f} g, foot {masses['foot']:.1f} g"
-        f"{caged}{counted}",
-    )
+    return ()

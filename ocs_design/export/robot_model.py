@@ -6,9 +6,9 @@ from pathlib import PurePath
 import mujoco
 
 from ocs_design.device.device import Device
-from ocs_design.device.naming import carrier_name, flywheel_names
+from ocs_design.device.naming import PLATE, carrier_name, flywheel_names
 from ocs_design.export.attach import add_sensors, attach_device
-from ocs_design.export.visuals import WHEEL_MESH, carrier_visuals, device_meshes
+from ocs_design.export.visuals import WHEEL_MESH, carrier_visuals, device_meshes, plate_visuals
 from ocs_design.robot.mjcf_spec import compiled
 from ocs_design.robot.mujoco_bodies import GEOM_TYPES, HIDDEN_GROUP, VISUAL_GROUP, quaternion
 from ocs_design.robot.mujoco_model import build_spec
@@ -47,18 +47,22 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
         solid.group = HIDDEN_GROUP
         mesh, kind = PurePath(WHEEL_MESH).stem, mujoco.mjtGeom.mjGEOM_MESH
         spec.body(name).add_geom(type=kind, meshname=mesh, rgba=solid.rgba, **quiet)
-    for module in device.modules:
-        for visual in carrier_visuals(device, module):
-            geom = spec.body(carrier_name(module)).add_geom(
-                type=GEOM_TYPES[visual.kind],
-                pos=visual.place.position,
-                quat=quaternion(visual.place.rotation),
-                rgba=visual.color,
-                **quiet,
-            )
-            if visual.mesh is None:
-                geom.size = [*visual.size, 0.0, 0.0][:3]
-            else:
-                geom.meshname = visual.mesh.stem
+    shown = [
+        (carrier_name(module), visual)
+        for module in device.modules
+        for visual in carrier_visuals(device, module)
+    ]
+    for body, visual in (*shown, *((PLATE, visual) for visual in plate_visuals(device))):
+        geom = spec.body(body).add_geom(
+            type=GEOM_TYPES[visual.kind],
+            pos=visual.place.position,
+            quat=quaternion(visual.place.rotation),
+            rgba=visual.color,
+            **quiet,
+        )
+        if visual.mesh is None:
+            geom.size = [*visual.size, 0.0, 0.0][:3]
+        else:
+            geom.meshname = visual.mesh.stem
     spec.compiler.saveinertial = True
     return RobotModel(spec, compiled(spec), built.warnings)

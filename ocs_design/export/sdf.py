@@ -1,11 +1,12 @@
 """Device alone as links and joints of an SDF model (sdformat.org, specification 1.9)."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 
 from ocs_design.device.device import Device, Module
-from ocs_design.device.naming import carrier_name, flywheel_name, joint_name
+from ocs_design.device.naming import PLATE, carrier_name, flywheel_name, joint_name
 from ocs_design.export.device_urdf import inertial_values, trunk_link, visual_values
 from ocs_design.export.formats import Seat
 from ocs_design.export.module_bodies import (
@@ -16,7 +17,7 @@ from ocs_design.export.module_bodies import (
     wheel_rpy,
 )
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
-from ocs_design.export.visuals import plain_carrier_visuals
+from ocs_design.export.visuals import Visual, plain_carrier_visuals, plain_plate_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.rotations import rpy_from_rotation
 from ocs_design.robot.tree import ShapeKind
@@ -40,6 +41,7 @@ def export_snippet_sdf(device: Device, seat: Seat, path: Path) -> Path:
         parent = quoted(seat.mount.link)
         base = fill("base_frame.sdf", {"frame": BASE_FRAME, "parent": parent, "pose": pose})
     modules = "".join(_module(device, module, place) for module in device.modules)
+    modules += _plate(device, place)
     values = {**place, "parent_in_comment": in_comment(link), "device": base + modules}
     path.write_bytes(fill("ocs.sdf", values).encode("utf-8"))
     return path
@@ -65,8 +67,31 @@ def _module(device: Device, module: Module, place: dict[str, str]) -> str:
     link = carrier_name(module)
     # Unlike in URDF, a link and a joint of a model may not share a name.
     names = {"link": link, "joint": f"{link}_fixed"}
+    visuals = _visuals(plain_carrier_visuals(device, module))
+    values = {**placed, **inertial_values(carrier), **names, "visuals": visuals}
+    return wheel + fill("carrier.sdf", values)
+
+
+def _plate(device: Device, place: dict[str, str]) -> str:
+    """The plate under the feet; empty where there is none."""
+    plate = device.plate
+    if plate is None:
+        return ""
+    values = {
+        **place,
+        "pose": numbers([*plate.position, 0.0, 0.0, 0.0]),
+        **inertial_values(plate.own_mass_properties()),
+        "link": PLATE,
+        "joint": f"{PLATE}_fixed",
+        "visuals": _visuals(plain_plate_visuals(device)),
+    }
+    return fill("carrier.sdf", values)
+
+
+def _visuals(shown: Iterable[Visual]) -> str:
+    """Visual elements of a link."""
     visuals = []
-    for index, visual in enumerate(plain_carrier_visuals(device, module)):
+    for index, visual in enumerate(shown):
         if visual.kind is ShapeKind.BOX:
             geometry = f"<box><size>{numbers(2.0 * np.array(visual.size))}</size></box>"
         else:
@@ -79,8 +104,7 @@ def _module(device: Device, module: Module, place: dict[str, str]) -> str:
             "transparency": numbers(1.0 - visual.color[3]),
         }
         visuals.append(fill("visual.sdf", look))
-    values = {**placed, **inertial_values(carrier), **names, "visuals": "".join(visuals)}
-    return wheel + fill("carrier.sdf", values)
+    return "".join(visuals)
 
 
 def _limit(device: Device) -> str:

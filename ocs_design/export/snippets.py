@@ -1,5 +1,6 @@
 """Device alone, to paste, include or attach: URDF, xacro, ros2_control, MJCF and SDF."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from textwrap import indent
 
@@ -8,6 +9,7 @@ import numpy as np
 from ocs_design.device.device import Device, Module
 from ocs_design.device.naming import (
     IMU,
+    PLATE,
     PREFIX,
     carrier_name,
     flywheel_name,
@@ -24,6 +26,7 @@ from ocs_design.export.device_urdf import (
     inertial_values,
     limit_urdf,
     mount_urdf,
+    plate_urdf,
     ros2_control_urdf,
     trunk_link,
     visuals_urdf,
@@ -38,7 +41,7 @@ from ocs_design.export.module_bodies import (
 )
 from ocs_design.export.sdf import export_snippet_sdf
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
-from ocs_design.export.visuals import plain_carrier_visuals
+from ocs_design.export.visuals import Visual, plain_carrier_visuals, plain_plate_visuals
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.rotations import rpy_from_rotation
 
@@ -101,6 +104,7 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
         "carrier": indent(_macro_carrier(device), "  "),
+        "plate": indent(_macro_plate(device), "  "),
         "plugin": MOCK_PLUGIN,
         "ros2_control": indent(control, "    "),
     }
@@ -124,6 +128,15 @@ def _macro_carrier(device: Device) -> str:
         f"    <xacro:unless {is_left}>\n{two}    </xacro:unless>\n"
     )
     return fill("carrier.urdf", {**_MACRO_PLACE, **own, **sided, "visuals": visuals})
+
+
+def _macro_plate(device: Device) -> str:
+    """The plate under the feet, on the macro's own base."""
+    if device.plate is None:
+        return ""
+    values = plate_urdf(device.plate, "", visuals_urdf(plain_plate_visuals(device)))
+    named = {"link": "${prefix}" + PLATE, "parent": "${prefix}ocs_base"}
+    return fill("carrier.urdf", {**values, **named})
 
 
 def export_snippet_ros2_control(device: Device, path: Path) -> Path:
@@ -153,7 +166,8 @@ def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
     values = {
         **_names(seat),
         "base_quaternion": numbers(quaternion(rotation)),
-        "modules": "".join(_module_mjcf(device, module) for module in device.modules),
+        "modules": "".join(_module_mjcf(device, module) for module in device.modules)
+        + _plate_mjcf(device),
         "motors": "".join(f"    {motor}\n" for motor in motors),
         "imu": imu,
         "sensors": "".join(f"    {sensor}\n" for sensor in sensors),
@@ -183,7 +197,29 @@ def _module_mjcf(device: Device, module: Module) -> str:
     if carrier is None:
         return turning
     name = carrier_name(module).removeprefix(PREFIX)
-    geoms = "".join(
+    geoms = _geoms(plain_carrier_visuals(device, module))
+    values = {**place, **inertial_values(carrier), "body": name, "geoms": geoms}
+    return turning + fill("carrier.xml", values)
+
+
+def _plate_mjcf(device: Device) -> str:
+    """The plate under the feet; empty where there is none."""
+    plate = device.plate
+    if plate is None:
+        return ""
+    values = {
+        "position": numbers(plate.position),
+        "quaternion": numbers(quaternion(np.eye(3))),
+        **inertial_values(plate.own_mass_properties()),
+        "body": PLATE.removeprefix(PREFIX),
+        "geoms": _geoms(plain_plate_visuals(device)),
+    }
+    return fill("carrier.xml", values)
+
+
+def _geoms(visuals: Iterable[Visual]) -> str:
+    """Geoms to look at, of a body."""
+    return "".join(
         fill(
             "visual.xml",
             {
@@ -194,10 +230,8 @@ def _module_mjcf(device: Device, module: Module) -> str:
                 "color": numbers(visual.color),
             },
         )
-        for visual in plain_carrier_visuals(device, module)
+        for visual in visuals
     )
-    values = {**place, **inertial_values(carrier), "body": name, "geoms": geoms}
-    return turning + fill("carrier.xml", values)
 
 
 def _names(seat: Seat) -> dict[str, str]:

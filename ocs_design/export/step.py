@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
+from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
 from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeEdge,
@@ -24,17 +25,21 @@ from OCP.Message import Message, Message_PrinterOStream
 from OCP.ShapeUpgrade import ShapeUpgrade_UnifySameDomain
 from OCP.StepBasic import StepBasic_Product
 from OCP.STEPControl import STEPControl_Controller, STEPControl_StepModelType, STEPControl_Writer
+from OCP.StepRepr import StepRepr_NextAssemblyUsageOccurrence
 from OCP.TCollection import TCollection_HAsciiString
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
-from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape
+from OCP.TopoDS import TopoDS_Compound, TopoDS_Edge, TopoDS_Face, TopoDS_Shape
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.export.device_parts import printed_parts, wheel_pieces
+from ocs_design.device.device import Device
+from ocs_design.export.assembly.placed import placed_parts
+from ocs_design.export.device_parts import plate_pieces, printed_parts, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.part import Part
 from ocs_design.parts.solids import Prism, Revolution, Solid
+from ocs_design.robot.tree import Placement
 
 MILLIMETRES = 1000.0
 """Units per metre: Open CASCADE's tolerances are made for millimetres."""
@@ -52,15 +57,37 @@ _TIMESTAMP = "2000-01-01T00:00:00"
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write `flywheel.step`, or one file for each of its pieces, and one for each printed part."""
-    printed = {f"housing_{part.name}": part for part in printed_parts(subject.device)}
-    for name, part in {**wheel_pieces(subject.device.flywheel), **printed}.items():
+    """Write `flywheel.step`, or one file for each of its pieces, and one for each other part.
+
+    `plate.step` is what the feet stand on, where that is designed; `module.step` has all of one
+    module in its place, motor and gear as cylinders.
+    """
+    device = subject.device
+    printed = {f"housing_{part.name}": part for part in printed_parts(device)}
+    metal = {**wheel_pieces(device.flywheel), **plate_pieces(device)}
+    for name, part in {**metal, **printed}.items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
+    (folder / "module.step").write_bytes(module_bytes(device))
     return ()
+
+
+def module_bytes(device: Device) -> bytes:
+    """STEP of one module, a solid for each piece, in the frame of the left wheel."""
+    compound, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(compound)
+    placed = placed_parts(device)
+    for part, place in placed.values():
+        builder.Add(compound, _moved(part_brep(part), place))
+    return _written(compound, "module", *placed)
 
 
 def step_bytes(part: Part) -> bytes:
     """STEP of the part as one solid that bears its name; the same bytes every time."""
+    return _written(part_brep(part), part.name)
+
+
+def _written(shape: TopoDS_Shape, name: str, *pieces: str) -> bytes:
+    """File of a shape, or of an assembly of pieces, with their names."""
     # Open CASCADE reports to standard output, where a command's JSON goes.
     Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())
     # Before that there are no settings.
@@ -69,19 +96,24 @@ def step_bytes(part: Part) -> bytes:
         Interface_Static.SetCVal_s(setting, value)
     Interface_Static.SetIVal_s(_CURVES_ON_SURFACES, 0)
     writer = STEPControl_Writer()
-    writer.Transfer(part_brep(part), STEPControl_StepModelType.STEPControl_AsIs)
+    writer.Transfer(shape, STEPControl_StepModelType.STEPControl_AsIs)
     # Name and time in place of counters and clocks.
-    model, title = writer.Model(), TCollection_HAsciiString(part.name)
+    model, title = writer.Model(), TCollection_HAsciiString(name)
     header = APIHeaderSection_MakeHeader(model)
     header.SetName(title)
     header.SetDescriptionValue(1, title)
     header.SetTimeStamp(TCollection_HAsciiString(_TIMESTAMP))
     header.SetOriginatingSystem(TCollection_HAsciiString("ocs-design"))
+    names = [name, *pieces] if pieces else [name]
     for number in range(1, model.NbEntities() + 1):
         entity = model.Value(number)
         if isinstance(entity, StepBasic_Product):
-            entity.SetName(title)
-            entity.SetId(title)
+            # The whole first, then its pieces in the order that they were added.
+            called = TCollection_HAsciiString(names.pop(0))
+            entity.SetName(called)
+            entity.SetId(called)
+        elif isinstance(entity, StepRepr_NextAssemblyUsageOccurrence):
+            entity.SetId(TCollection_HAsciiString(str(number)))
     buffer = BytesIO()
     writer.WriteStream(buffer)
     return buffer.getvalue()
@@ -121,11 +153,14 @@ def _shape(solid: Solid) -> TopoDS_Shape:
             face = _face([_edge(*edge, solid.low) for edge in solid.outline.edges()])
             length = round(MILLIMETRES * (solid.high - solid.low), DECIMALS)
             shape = BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, length)).Shape()
-            place = solid.placement
-            rows = np.column_stack([place.rotation, MILLIMETRES * place.position])
-            transformation = gp_Trsf()
-            transformation.SetValues(*rows.ravel().tolist())
-            return BRepBuilderAPI_Transform(shape, transformation, True).Shape()
+            return _moved(shape, solid.placement)
+
+
+def _moved(shape: TopoDS_Shape, place: Placement) -> TopoDS_Shape:
+    rows = np.column_stack([place.rotation, MILLIMETRES * place.position])
+    transformation = gp_Trsf()
+    transformation.SetValues(*rows.ravel().tolist())
+    return BRepBuilderAPI_Transform(shape, transformation, True).Shape()
 
 
 def _edge(start: FloatArray, end: FloatArray, bulge: float, height: float) -> TopoDS_Edge:

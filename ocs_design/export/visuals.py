@@ -14,10 +14,11 @@ import numpy as np
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import printed_foot
-from ocs_design.export.meshes import Mesh, part_mesh
+from ocs_design.export.meshes import Mesh, merged, part_mesh
 from ocs_design.export.module_bodies import carrier_placement
 from ocs_design.export.stl import METRES, stl_bytes, wheel_stl
 from ocs_design.parts.cage import Cage, cage_part
+from ocs_design.parts.carrier_plate import CarrierPlate, plate_part, sleeve_part
 from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
 from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.part import Part
@@ -31,6 +32,9 @@ CAGE_MESH = Path("meshes/ocs_cage.stl")
 """Meshes in metres beside every exported robot file: drum with lid in the frame of the left wheel,
 foot and cage in their own."""
 
+PLATE_MESH = Path("meshes/ocs_plate.stl")
+"""The plate under the feet with its sleeves, in its own frame, likewise."""
+
 Color: TypeAlias = tuple[float, float, float, float]
 """Red, green, blue and opacity, 0..1, as screens take them (sRGB)."""
 
@@ -38,7 +42,9 @@ SHELL: Color = (0.25, 0.45, 0.75, 0.3)
 PRINT: Color = (0.25, 0.45, 0.75, 1.0)
 MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
 GEAR: Color = (0.75, 0.6, 0.3, 1.0)
+ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
 _COLORS = {"housing": SHELL, "foot": PRINT, "cage": SHELL, "motor": MOTOR, "gear": GEAR}
+_COLORS["plate"] = ALUMINIUM
 
 _SECTIONS = 64
 """Chords of a full circle: a quarter of those that are printed."""
@@ -49,7 +55,7 @@ class Visual:
     """Shape without mass and contact.
 
     Attributes:
-        name: housing, foot, cage, motor or gear.
+        name: housing, foot, cage, motor, gear or plate.
         kind, size: see `ShapeKind`: box, cylinder or mesh.
         place: of the shape's frame in that of the module's wheel.
         mesh: of `carrier_meshes`; None for the other kinds.
@@ -81,7 +87,45 @@ def device_meshes(device: Device) -> Mapping[Path, bytes]:
         path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
         for path, mesh in carrier_meshes(device).items()
     }
-    return {**wheel, **carrier}
+    if device.plate is None:
+        return {**wheel, **carrier}
+    mesh = plate_mesh(device.plate)
+    plate = {PLATE_MESH: stl_bytes(mesh, PLATE_MESH.stem, units_per_metre=METRES)}
+    return {**wheel, **carrier, **plate}
+
+
+def plate_mesh(plate: CarrierPlate) -> Mesh:
+    """The plate with its sleeves, in its own frame."""
+    meshes = [part_mesh(plate_part(plate), _SECTIONS)]
+    for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True):
+        if length > 0.0:
+            sleeve = part_mesh(sleeve_part(plate, length), _SECTIONS)
+            meshes.append(Mesh(sleeve.vertices + np.array([x, y, 0.0]), sleeve.triangles))
+    return merged(meshes)
+
+
+def plate_visuals(device: Device) -> tuple[Visual, ...]:
+    """The plate under the feet as a mesh, in its own frame; none where there is none."""
+    return () if device.plate is None else (_mesh("plate", PLATE_MESH, _shifted(0.0, 0.0, 0.0)),)
+
+
+def plain_plate_visuals(device: Device) -> tuple[Visual, ...]:
+    """The plate under the feet of a box and cylinders, for files that stand alone."""
+    plate = device.plate
+    if plate is None:
+        return ()
+    half, straight = plate.thickness / 2.0, plate.half_length - plate.radius
+    sleeves = (
+        _cylinder("plate", plate.sleeve_radius, length / 2.0, _shifted(x, y, -length / 2.0))
+        for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
+        if length > 0.0
+    )
+    return (
+        Visual("plate", ShapeKind.BOX, (plate.neck, straight, half), _shifted(0.0, 0.0, half)),
+        _cylinder("plate", plate.radius, half, _shifted(0.0, straight, half)),
+        _cylinder("plate", plate.radius, half, _shifted(0.0, -straight, half)),
+        *sleeves,
+    )
 
 
 @lru_cache(maxsize=1)
@@ -122,8 +166,8 @@ def plain_carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
     return (
         _cylinder("housing", foot.housing.radius, foot.housing.half_height, turn),
         _cylinder("foot", foot.base_radius, half_base, base),
-        # The plate, and its round top.
-        Visual("foot", ShapeKind.BOX, (foot.half_width, half_height, half_plate), plate),
+        # The plate's stem, and its disc.
+        Visual("foot", ShapeKind.BOX, (foot.stem, half_height, half_plate), plate),
         _cylinder("foot", foot.half_width, half_plate, top),
         *_drive(device, turn, {"cage"}),
         *_drive(device, turn, {"motor", "gear"}),

@@ -255,6 +255,8 @@ def replayed(
                 note=world.note,
                 can_stand=flight.can_stand,
                 poses=poses_of(recording, number, world),
+                level=verdict.level,
+                stands=verdict.stands,
             )
         )
     return tuple(runs)

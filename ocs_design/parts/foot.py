@@ -1,9 +1,9 @@
 """The foot: a turntable with a plate, which holds motor and housing at the incidence angle.
 
 A disc on the trunk, held by two screws through arc slots, with marks along its edge: a line on the
-trunk that points forward stands at the mark of the angle. On it a plate behind the housing's floor,
-half round above the wheel's axis. Its own frame is the one that it is printed in: origin in the
-middle of its underside, z up, the wheel's axis along y.
+trunk from one foot to the other stands at the mark of the angle. On it a plate behind the housing's
+floor: a stem with a disc around the mount's holes. Its own frame is the one that it is printed in:
+origin in the middle of its underside, z up, the wheel's axis along y.
 
 Sizes, the rim's outer radius R and height h and the reach of the mount's holes [m], are numbers,
 arrays that broadcast, or CasADi's symbols.
@@ -19,8 +19,8 @@ from ocs_design.actuation.fasteners import Fastening, screw
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import CLEARANCE, DENSITY, UPRIGHT, WALL, MountHoles
-from ocs_design.parts.shapes import ArcSlot, Disc, Rectangle, Tongue
+from ocs_design.parts.printed import CLEARANCE, DENSITY, STRENGTH, UPRIGHT, WALL, MountHoles
+from ocs_design.parts.shapes import ArcSlot, Disc, Keyhole, Rectangle
 from ocs_design.parts.solids import Prism
 from ocs_design.robot.tree import Placement
 
@@ -28,13 +28,21 @@ BASE_THICKNESS = 3.0e-3
 """[m]: the trunk's screws press on it."""
 
 PLATE_THICKNESS = 5.0e-3
-"""[m]: 20 g on a module of 0.35 kg, 40 mm above the base, bend a plate 30 mm wide with 22 MPa."""
+"""[m]: 20 g on a module of 0.3 kg, 45 mm above the base, bend a stem 40 mm wide with 16 MPa, on one
+of 1.2 kg, 80 mm above it, one 75 mm wide with 60 MPa: that one bears 15 g."""
 
 PLATE_MARGIN = 3.0e-3
 """Margin of the plate around the mount's holes [m]."""
 
 PLATE_SHARE = 0.5
-"""Least half width of the plate over the housing's radius."""
+"""Least radius of the plate's disc over the housing's radius."""
+
+STEM_SHARE = 0.45
+"""Least half width of its stem, likewise."""
+
+STEEPEST = sqrt(0.5)
+"""Least half width of the stem over the disc's radius: printed upright, the disc grows out of it at
+45 degrees at most, which needs no support."""
 
 HALF_SWING = pi / 4.0
 """Angle of each slot to both sides of the wheel's axis [rad]: incidence 0..90 degrees.
@@ -51,6 +59,10 @@ TRUNK_SCREWS = Fastening(
 
 AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
 """Room of heads, or of a wall, around the middle of a slot [m]."""
+
+KNEE = 1.0e-3
+"""Over which the base's radius goes over from what its slots ask for to what its stem does [m]: the
+selection follows its slope."""
 
 LONG_MARKS = 12
 """All around, every 30 degrees, with two short ones after each: left and right feet are the same
@@ -79,6 +91,12 @@ def base_radius(outer_radius: Real, height: Real, mount_reach: Real | float) -> 
     return Foot(Housing(outer_radius, height, MountHoles(reach))).base_radius
 
 
+def _rounded(one: Real, other: Real | float) -> Real:
+    """The larger of two, or up to half of `KNEE` more where they are alike, without a kink."""
+    apart: Real = ((one - other) ** 2 + KNEE**2) ** 0.5
+    return (one + other + apart) / 2.0
+
+
 def larger(one: Real, other: Real | float) -> Real:
     """The larger of two, by operators alone."""
     return (one + other + abs(one - other)) / 2.0
@@ -101,9 +119,14 @@ class Foot(Generic[Real]):
 
     @property
     def half_width(self) -> Real:
-        """Half of the plate's width [m]."""
+        """Radius of the plate's disc [m]."""
         housing = self.housing
         return larger(PLATE_SHARE * housing.radius, housing.mount.reach + PLATE_MARGIN)
+
+    @property
+    def stem(self) -> Real:
+        """Half the width of the plate's stem [m]."""
+        return larger(STEM_SHARE * self.housing.radius, STEEPEST * self.half_width)
 
     @property
     def back(self) -> Real:
@@ -117,14 +140,14 @@ class Foot(Generic[Real]):
 
     @property
     def corner(self) -> Real:
-        """Radius of the plate's corners around the middle of the base [m]."""
-        radius: Real = (self.half_width**2 + self.back**2) ** 0.5
+        """Radius of the stem's corners around the middle of the base [m]."""
+        radius: Real = (self.stem**2 + self.back**2) ** 0.5
         return radius
 
     @property
     def base_radius(self) -> Real:
         """Radius around the marks outside the slots, the heads in them and the plate [m]."""
-        return larger(self.slot_radius + AROUND_SLOT, self.corner) + (LONG_MARK_LENGTH + WALL)
+        return _rounded(self.slot_radius + AROUND_SLOT, self.corner) + (LONG_MARK_LENGTH + WALL)
 
     @property
     def placement(self) -> Placement:
@@ -132,15 +155,29 @@ class Foot(Generic[Real]):
         return Placement(UPRIGHT.T, np.array([0.0, self.wheel_height, 0.0]))
 
     @property
-    def plate(self) -> Tongue[Real]:
-        """The plate from the base up to half a disc around the wheel's axis; y points down."""
-        return Tongue(self.half_width, -self.wheel_height, -BASE_THICKNESS)
+    def plate(self) -> Keyhole[Real]:
+        """The plate from the base up to a disc around the wheel's axis; y points down."""
+        return Keyhole(self.half_width, self.stem, -self.wheel_height, -BASE_THICKNESS)
 
     @property
     def slot(self) -> ArcSlot[Real]:
         """The slot away from the other module; the other one is opposite."""
         ends = pi / 2.0 - HALF_SWING, pi / 2.0 + HALF_SWING
         return ArcSlot(self.slot_radius, TRUNK_SCREW.clearance_hole, *ends)
+
+
+def stem_shock(foot: Foot[float], mass: float) -> float:
+    """Acceleration along the wheel's axis at which a stem of PETG yields at the base [m/s^2].
+
+    M = m a H and sigma = 6 M / (w t^2): Roark's Formulas for Stress and Strain, 7th edition, table
+    8.1, case 1a, with the section modulus of a rectangle.
+
+    Args:
+        foot: with its stem, 2 `stem` wide and as thick as the plate.
+        mass: of the module above it [kg].
+    """
+    arm, width = foot.wheel_height - BASE_THICKNESS, 2.0 * foot.stem
+    return STRENGTH * width * PLATE_THICKNESS**2 / (6.0 * mass * arm)
 
 
 def foot_part(foot: Foot[float]) -> Part[float]:
@@ -172,10 +209,12 @@ def foot_moments(foot: Foot[Real]) -> MassMoments[Real]:
 def foot_mass_per_height(foot: Foot[Real]) -> Real:
     """Change of the base's mass with the rim's height, R held [kg/m]."""
     corner = foot.corner
-    by_slot = 1.0 * (foot.slot_radius + AROUND_SLOT > corner)
+    beyond = foot.slot_radius + AROUND_SLOT - corner
+    by_slot = (1.0 + beyond / (beyond**2 + KNEE**2) ** 0.5) / 2.0
     outward = by_slot * sqrt(0.5) + (1.0 - by_slot) * foot.back / (2.0 * corner)
     slots = pi * TRUNK_SCREW.clearance_hole * sqrt(0.5)
-    return DENSITY * BASE_THICKNESS * (2.0 * pi * foot.base_radius * outward - slots)
+    slope: Real = DENSITY * BASE_THICKNESS * (2.0 * pi * foot.base_radius * outward - slots)
+    return slope
 
 
 def trunk_screw_moments(foot: Foot[Real]) -> MassMoments[Real]:

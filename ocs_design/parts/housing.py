@@ -20,6 +20,7 @@ from ocs_design.parts.printed import (
     CLEARANCE,
     DENSITY,
     LID_SCREW,
+    PANEL,
     UPRIGHT,
     WALL,
     MountHoles,
@@ -34,7 +35,7 @@ from ocs_design.parts.solids import Prism
 FIRST_EAR = pi / 4.0
 """Angle from the x axis [rad]: nothing stands out below, above, before and behind."""
 
-LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, WALL, "lid on drum, which is tapped", IN_PLASTIC)
+LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, PANEL, "lid on drum, which is tapped", IN_PLASTIC)
 
 
 def housing_outer_radius(outer_radius: Real) -> Real:
@@ -44,7 +45,7 @@ def housing_outer_radius(outer_radius: Real) -> Real:
 
 def half_height(height: Real) -> Real:
     """Distance from the wheel's middle to the outside of floor and lid [m]."""
-    return height / 2.0 + (CLEARANCE + WALL)
+    return height / 2.0 + (CLEARANCE + PANEL)
 
 
 @dataclass(frozen=True)
@@ -99,14 +100,14 @@ def housing_parts(housing: Housing[float]) -> tuple[Part[float], Part[float]]:
             hint="choose a smaller motor, or allow a larger outer radius",
         )
     drum, lid = undrilled(housing)
-    holes = mount.prisms(-housing.half_height, -housing.half_height + WALL)
+    holes = mount.prisms(-housing.half_height, -housing.half_height + PANEL)
     return Part(drum.name, drum.density, drum.solids, (*drum.holes, *holes)), lid
 
 
 def undrilled(housing: Housing[Real]) -> tuple[Part[Real], Part[Real]]:
     """Drum and lid without the mount's holes; see `Housing` for sizes."""
     low, high, held = -housing.half_height, housing.half_height, housing.lid_screw
-    floor, under = low + WALL, high - WALL
+    floor, under = low + PANEL, high - PANEL
     band: Shape[Real] = housing.band
     room: Prism[Real] = Prism(Disc(housing.inner_radius), floor, under)
     drum, lid = Prism(band, low, under), Prism(band, under, high)
@@ -146,7 +147,7 @@ class PlainDrum:
     def mass(self, outer_radius: Real, height: Real) -> Real:
         """Mass of both discs and the band [kg]."""
         across, inside = housing_outer_radius(outer_radius), height + 2.0 * CLEARANCE
-        discs = 2.0 * pi * DENSITY * WALL * across**2
+        discs = 2.0 * pi * DENSITY * PANEL * across**2
         return discs + cylinder_mass(across - WALL, across, inside, DENSITY)
 
     def mass_per_height(self, outer_radius: Real, height: Real) -> Real:

@@ -9,6 +9,7 @@ from ocs_design.actuation.motor import Gear, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts import foot as feet
 from ocs_design.parts import housing as housings
+from ocs_design.parts.cage import NO_POSTS, Posts
 from ocs_design.parts.foot import (
     TRUNK_SCREWS,
     Foot,
@@ -26,7 +27,7 @@ from ocs_design.parts.housing import (
     lid_screw_moments,
 )
 from ocs_design.parts.moments import Carrier, MassMoments, Real, point, round_body
-from ocs_design.parts.motor_mount import HeldMotor, MotorMount, mount_of
+from ocs_design.parts.motor_mount import MotorMount, mount_of
 from ocs_design.parts.printed import LID_SCREW, MountHoles
 
 SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
@@ -45,25 +46,28 @@ class Shell(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Printed:
-    """Drum, lid and foot, with their screws.
+    """Drum, lid and foot, with their screws, and the posts of a cage.
 
     Attributes:
         mount_reach: of the holes in floor and plate, which the foot's plate is as wide as [m]; a
             scalar, or an array that broadcasts. The holes themselves are not in any mass.
+        posts: of the motor's cage, whose floor is not in any mass either.
     """
 
     mount_reach: float | FloatArray
+    posts: Posts[Any] = NO_POSTS
 
     def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
         """Mass of all of it [kg]."""
         foot = _foot(outer_radius, height, np.asarray(self.mount_reach))
         parts = (*housings.undrilled(foot.housing), feet.undrilled(foot))
-        return sum((part.mass() for part in parts), SHELL_SCREWS + 0.0 * height)
+        return sum((part.mass() for part in parts), SHELL_SCREWS + self.posts.mass(height))
 
     def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
         """Change of its mass with the rim's height, R held [kg/m]."""
         foot = _foot(outer_radius, height, np.asarray(self.mount_reach))
-        return housing_mass_per_height(outer_radius) + foot_mass_per_height(foot)
+        around = housing_mass_per_height(outer_radius) + foot_mass_per_height(foot)
+        return around + self.posts.mass_per_height()
 
 
 def shell_moments(outer_radius: Real, height: Real, mount_reach: Real) -> MassMoments[Real]:
@@ -84,11 +88,11 @@ def drive_moments(motor: Motor) -> MassMoments[float]:
 
     A solid cylinder; a thin disc if its length is not known, a point without its diameter. Either
     errs on the side of less inertia, by little: a motor of 0.1 kg and 40 mm has 2e-5 kg m^2 about
-    its axis, Solo12 5e-2 kg m^2.
+    its axis, Solo12 5e-2 kg m^2. Its controller, a board behind it, is a point in the middle too.
     """
     mass, radius = motor.mass or 0.0, (motor.diameter or 0.0) / 2.0
     across = mass * (3.0 * radius**2 + (motor.length or 0.0) ** 2) / 12.0
-    return round_body(mass, mass * radius**2 / 2.0, across)
+    return round_body(mass, mass * radius**2 / 2.0, across) + point(motor.controller_mass)
 
 
 def gear_moments(gear: Gear) -> MassMoments[float]:
@@ -97,22 +101,32 @@ def gear_moments(gear: Gear) -> MassMoments[float]:
     return point(gear.mass).shifted(-(plate_back(0.0) + room.depth / 2.0), room.center)
 
 
-def behind_floor(motor: Motor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
-    """Moments of what is the same for any wheel, about the middle of the outside of the floor.
+def by_floor(motor: Motor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
+    """Moments of what stands at the floor, about the middle of its outside: the same for any wheel.
 
-    The motor stands behind the foot's plate; its mount's holes go through floor and plate.
+    Screws and gear, less the mount's holes through floor and plate, and a motor behind the plate.
     """
-    driving = drive_moments(motor).shifted(motor_middle(motor, mount), mount.up)
-    return driving + gear_moments(gear) + mount.moments()
+    held = gear_moments(gear) + mount.by_floor()
+    if mount.cage is not None:
+        return held
+    middle = plate_back(0.0) + mount.gap + (motor.length or 0.0) / 2.0
+    return held + drive_moments(motor).shifted(-middle, mount.up)
 
 
-def motor_middle(motor: HeldMotor, mount: MotorMount) -> float:
-    """Place of the motor's middle along the axis from the outside of the housing's floor [m]."""
-    return -(plate_back(0.0) + mount.gap + (motor.length or 0.0) / 2.0)
+def by_wheel(motor: Motor, mount: MotorMount) -> MassMoments[float]:
+    """Moments of what stands at the wheel's hub, about the wheel's middle: the same for any rim.
+
+    Screws, and a motor in its cage with the cage's floor; of its posts see `Posts`.
+    """
+    if mount.cage is None:
+        return mount.by_wheel()
+    middle = mount.cage.front + (motor.length or 0.0) / 2.0
+    return mount.by_wheel() + drive_moments(motor).shifted(-middle, 0.0)
 
 
 def standing(motor: Motor, gear: Gear, outer_radius: float, height: float) -> Carrier:
     """All that stands still around a wheel of that outer radius and height [m]."""
     mount = mount_of(motor, gear.room)
-    behind = behind_floor(motor, gear, mount).shifted(-half_height(height), 0.0)
-    return Carrier.of(behind + shell_moments(outer_radius, height, mount.holes.reach))
+    held = by_floor(motor, gear, mount).shifted(-half_height(height), 0.0) + by_wheel(motor, mount)
+    shell = shell_moments(outer_radius, height, mount.holes.reach)
+    return Carrier.of(held + mount.posts.moments(height) + shell)

@@ -1,28 +1,35 @@
 """How a motor is held behind the foot's plate, and with which screws.
 
-By the face that its shaft comes out of, through plate and floor; by its back, in a cage; or, where
-its threads are not known or a gear is between, on the plate with nothing but a hole for what turns.
+By the face that its shaft comes out of, through plate and floor; by its back, in a cage, from which
+it reaches through plate and floor up to the wheel's hub; or, where its threads are not known or a
+gear is between, on the plate with nothing but a hole for what turns.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-from math import sin
-from typing import Protocol
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from math import inf, sin
+from operator import add
+from typing import Generic, NamedTuple, Protocol
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
-from ocs_design.parts.cage import FLOOR, FRONT_GAP, HALF_POST, Cage
+from ocs_design.parts.cage import FLOOR, HALF_POST, NO_POSTS, Cage, Posts
 from ocs_design.parts.foot import PLATE_THICKNESS, plate_back
 from ocs_design.parts.housing import half_height
-from ocs_design.parts.moments import MassMoments, ring
-from ocs_design.parts.printed import LID_SCREW, WALL, MountHoles, ear_radius
-from ocs_design.parts.rim import HUB_HEIGHT, HUB_WALL
+from ocs_design.parts.moments import MassMoments, Real, nothing, ring
+from ocs_design.parts.printed import LID_SCREW, PANEL, WALL, MountHoles, ear_radius
+from ocs_design.parts.rim import BOLTED_HUB_HEIGHT, HUB_WALL, hub_height
 
 SHAFT_ROOM = 1.0e-3
 """Room around a shaft that turns in a hole of a print [m]: prints are out by 0.2 mm."""
 
 ROTOR_ROOM = HUB_WALL + SHAFT_ROOM
 """Room around the holes of what is screwed to a rotor [m]: its wall, and the same to turn in."""
+
+LEAST_RIM = 2.0e-3
+"""Height of a rim that a cage leaves room for, at the least [m]: a motor as flat as that is not
+held by a cage."""
 
 _LEAST_EDGE = 0.1
 """Least angle of a post's wall beside its ear [rad]."""
@@ -55,21 +62,37 @@ class Screwed:
         circle: that they are on.
         along: of the undersides of their heads, from the outside of the housing's floor [m].
         towards: 1: their tips point to the wheel, -1: away from it.
+        by_wheel: whether `along` is from the wheel's middle instead.
     """
 
     fastening: Fastening
     circle: BoltCircle
     along: float
     towards: float
+    by_wheel: bool = False
 
     def moments(self) -> MassMoments[float]:
-        """Moments as points, about the middle of the outside of the housing's floor.
+        """Moments as points, about what `along` is from.
 
         A screw's own inertia is 1e-9 kg m^2.
         """
         along = self.along + self.towards * self.fastening.centre
         heads = ring(self.fastening.mass, self.circle.radius, self.circle.bolts)
         return heads.shifted(along, 0.0)
+
+
+class Behind(NamedTuple, Generic[Real]):
+    """How far back a motor and what holds it reach.
+
+    Attributes:
+        depth: behind the foot's plate, whatever the rim's height [m].
+        radius: to the sides [m].
+        from_wheel: behind the wheel's middle at the least, whatever the rim's height [m].
+    """
+
+    depth: Real | float
+    radius: Real | float
+    from_wheel: Real | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -89,26 +112,45 @@ class MotorMount:
     gap: float = 0.0
     up: float = 0.0
 
+    def around(self, rim_height: float) -> "MotorMount":
+        """The mount behind a rim of that height [m]."""
+        if self.cage is None:
+            return self
+        return replace(self, cage=replace(self.cage, rim_height=rim_height))
+
+    @property
+    def posts(self) -> Posts[float]:
+        """Posts of its cage."""
+        return NO_POSTS if self.cage is None else self.cage.posts
+
+    @property
+    def rim_height_max(self) -> float:
+        """Height of a rim that it leaves room for [m]; inf: any."""
+        return inf if self.cage is None else self.cage.rim_height_max
+
     @property
     def head_reach(self) -> float:
         """Radius that the heads in the housing stay within [m]; 0: there are none."""
         found = self.holes.screws
         return 0.0 if found is None else found.radius + screw(found.thread).head_diameter / 2.0
 
-    def behind(self, motor: HeldMotor) -> tuple[float, float]:
-        """How far back from the plate and how far to the sides they reach with the motor [m]."""
+    def behind(self, motor: HeldMotor) -> Behind[float]:
+        """How far back it reaches with the motor."""
         if self.cage is not None:
             heads = max(each.fastening.screw.head_height for each in self.screwed)
-            return self.cage.length + heads, self.cage.reach
-        return self.gap + (motor.length or 0.0), (motor.diameter or 0.0) / 2.0
+            return Behind(0.0, self.cage.reach, self.cage.back + heads)
+        return Behind(self.gap + (motor.length or 0.0), (motor.diameter or 0.0) / 2.0)
 
-    def moments(self) -> MassMoments[float]:
-        """Moments of cage and screws less the holes, about the middle of the floor's outside."""
-        walls = self.holes.cut_out(WALL + PLATE_THICKNESS)
-        total = walls.shifted((WALL - PLATE_THICKNESS) / 2.0, 0.0)
-        if self.cage is not None:
-            total += self.cage.moments().shifted(-PLATE_THICKNESS, 0.0)
-        return sum((each.moments() for each in self.screwed), total)
+    def by_floor(self) -> MassMoments[float]:
+        """Moments of screws less the holes, about the middle of the outside of the floor."""
+        walls = self.holes.cut_out(PANEL + PLATE_THICKNESS)
+        total = walls.shifted((PANEL - PLATE_THICKNESS) / 2.0, 0.0)
+        return reduce(add, (each.moments() for each in self.screwed if not each.by_wheel), total)
+
+    def by_wheel(self) -> MassMoments[float]:
+        """Moments of screws and of the cage's floor about the wheel's middle; see `posts` too."""
+        total = nothing() if self.cage is None else self.cage.floor_moments()
+        return reduce(add, (each.moments() for each in self.screwed if each.by_wheel), total)
 
 
 def mount_of(motor: HeldMotor, room: GearRoom | None) -> MotorMount:
@@ -121,10 +163,10 @@ def mount_of(motor: HeldMotor, room: GearRoom | None) -> MotorMount:
     stator, rotor = mounting.stator, mounting.rotor
     wheel: tuple[Screwed, ...] = ()
     if rotor is not None:
-        # Counted with the motor. Their spin inertia is left out: it would be 0.3 % of that of the
-        # lightest wheel on such a motor, and on the safe side.
-        fastening = _fastening(rotor, HUB_HEIGHT, f"wheel on rotor; {_DEPTH}", 1.0)
-        wheel = (Screwed(fastening, rotor, -PLATE_THICKNESS, -1.0),)
+        # Counted with what stands still. Their spin inertia is left out: it would be 0.3 % of that
+        # of the lightest wheel on such a motor, and on the safe side.
+        fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, f"wheel on rotor; {_DEPTH}", 1.0)
+        wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, by_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
         held = _through_walls(stator, f"motor on housing and foot; {_DEPTH}", 1.0)
         return MotorMount(screwed_by_face(mounting, stator), None, (*wheel, held))
@@ -134,11 +176,24 @@ def mount_of(motor: HeldMotor, room: GearRoom | None) -> MotorMount:
         cage = cage_of(mounting, motor.diameter, motor.length)
     if cage is None or stator is None:
         return MotorMount(MountHoles(pilot), None, wheel)
-    on_plate = _through_walls(cage.screws, "cage on housing and foot, it is tapped", IN_PLASTIC)
+    passage = cage.passage
+    assert passage.screws is not None
+    on_plate = _through_walls(passage.screws, "cage on housing and foot, it is tapped", IN_PLASTIC)
     fastening = _fastening(stator, FLOOR, f"motor in its cage; {_DEPTH}", 1.0)
-    held = Screwed(fastening, stator, -(PLATE_THICKNESS + cage.length), 1.0)
-    screwed = (*wheel, held, on_plate)
-    return MotorMount(MountHoles(pilot, cage.screws), cage, screwed, gap=FRONT_GAP)
+    held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)
+    return MotorMount(passage, cage, (*wheel, held, on_plate))
+
+
+def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
+    """True if known screws hold the motor: through plate and floor, or in a cage.
+
+    False behind any gear: how gear and motor are fixed to each other is in no row of the catalogue.
+
+    Args:
+        motor: with its mounting and size.
+        room: of the gear between motor and wheel; None: direct drive.
+    """
+    return mount_of(motor, room).holes.screws is not None
 
 
 def cage_of(mounting: Mounting, diameter: float | None, length: float | None) -> Cage | None:
@@ -151,10 +206,12 @@ def cage_of(mounting: Mounting, diameter: float | None, length: float | None) ->
     stator = mounting.stator
     if stator is None or diameter is None or length is None:
         return None
-    cage = Cage(diameter / 2.0, length, screwed_by_face(mounting, stator))
+    # Behind its rotor's threads, or clear of a hub on its shaft.
+    front = hub_height(mounting) / 2.0 + (SHAFT_ROOM if mounting.rotor is None else 0.0)
+    cage = Cage(diameter / 2.0, length, screwed_by_face(mounting, stator), front)
     room_for_ears = sin(HALF_POST - _LEAST_EDGE) * cage.across > ear_radius(LID_SCREW)
-    inside = for_what_turns(mounting) + WALL <= cage.bore
-    return cage if room_for_ears and inside and stator.reach + WALL <= cage.bore else None
+    fits = stator.reach + WALL <= cage.bore and cage.rim_height_max >= LEAST_RIM
+    return cage if room_for_ears and fits else None
 
 
 def screwed_by_face(mounting: Mounting, stator: BoltCircle) -> MountHoles:
@@ -177,8 +234,8 @@ def for_what_turns(mounting: Mounting) -> float:
 
 def _through_walls(circle: BoltCircle, purpose: str, depth: float) -> Screwed:
     """Screws through floor and plate, with their heads inside the housing."""
-    thickness = WALL + PLATE_THICKNESS
-    return Screwed(_fastening(circle, thickness, purpose, depth), circle, WALL, -1.0)
+    thickness = PANEL + PLATE_THICKNESS
+    return Screwed(_fastening(circle, thickness, purpose, depth), circle, PANEL, -1.0)
 
 
 def _fastening(circle: BoltCircle, thickness: float, purpose: str, depth: float) -> Fastening:
@@ -203,10 +260,21 @@ class DriveSolid:
     up: float = 0.0
 
 
+def motor_front(mount: MotorMount, height: float) -> float:
+    """Place of the motor's front along the left wheel's axis from its middle [m].
+
+    Args:
+        mount: that holds it. height: of the rim [m].
+    """
+    if mount.cage is not None:
+        return -mount.cage.front
+    return -(plate_back(half_height(height)) + mount.gap)
+
+
 def drive_cylinders(
     motor: HeldMotor, room: GearRoom | None, mount: MotorMount, height: float
 ) -> Iterator[DriveSolid]:
-    """Gear, motor and cage behind the plate of a rim of that height [m], as far as sizes are known.
+    """Gear, motor and cage of a wheel whose rim has that height [m], as far as sizes are known.
 
     A gear is what turns with the wheel, and beside it what turns with the motor. The cage has the
     heads of the motor's screws behind it.
@@ -217,8 +285,8 @@ def drive_cylinders(
         if room.offset > 0.0:
             yield DriveSolid("gear", room.motor_radius, back - room.depth, back, room.offset)
     if motor.diameter is not None and motor.length is not None:
-        front = back - mount.gap
+        front = motor_front(mount, height)
         yield DriveSolid("motor", motor.diameter / 2.0, front - motor.length, front, mount.up)
     if mount.cage is not None:
-        depth, radius = mount.behind(motor)
-        yield DriveSolid("cage", radius, back - depth, back)
+        behind = mount.behind(motor)
+        yield DriveSolid("cage", mount.cage.reach, -behind.from_wheel, back)

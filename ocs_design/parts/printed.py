@@ -19,7 +19,15 @@ from ocs_design.parts.solids import HERE, Prism
 from ocs_design.robot.tree import Placement
 
 WALL = 1.6e-3
-"""[m], four lines of a 0.4 mm nozzle: walls and floors that hold screws without infill."""
+"""[m], four lines of a 0.4 mm nozzle: walls that hold screws without infill."""
+
+PANEL = 1.2e-3
+"""[m], six layers of 0.2 mm: the drum's floor, which the foot's plate backs, and the lid, a guard.
+
+10 N, the force of the test finger of IEC 60529, move the middle of a lid of 45 mm radius whose edge
+is held by 1.4 mm, and what is over the rim by less than 0.1 mm: W a^2 / (16 pi D), Roark, 7th
+edition, table 11.2, case 17, with 1.8 GPa.
+"""
 
 CLEARANCE = 2.0e-3
 """[m], between rim and shell on all sides: ten times what a printer is out over 100 mm (0.2 %), and
@@ -28,6 +36,9 @@ room for a screw's head."""
 DENSITY = 1270.0
 """[kg/m^3], of PETG: tougher than PLA, prints without a heated chamber. Prusament PETG, technical
 data sheet, Prusa Polymers, 2020: 1.27 g/cm^3."""
+
+STRENGTH = 47e6
+"""Tensile yield strength of PETG [Pa]: Prusament PETG, technical data sheet, 47 +- 2 MPa."""
 
 LID_SCREW = screw("M2")
 

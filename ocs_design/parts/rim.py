@@ -16,20 +16,33 @@ over pi rho,
 
 Holes of radius q and depth p, n in each face on the radius s, take n q^2 p twice, at s^2 + q^2 / 2.
 
-A thin web and a hub, turned from one piece of aluminium, join the rim to its motor. The web is a
-disc in the wheel's middle plane that fills the rim's bore, the hub a cylinder around the axis with
-a bore and bolt holes, both symmetric to that plane.
+A thin web and a hub join the rim to its motor. All three are turned from one piece of the rim's
+material; or web and hub are of aluminium, and the rim is shrunk on. The web is a disc in the
+wheel's middle plane that fills the rim's bore, the hub a cylinder around the axis with a bore and
+bolt holes, both symmetric to that plane.
+
+Lightening holes take a fixed share of the web between hub, x, and bore, r, whatever its size: n of
+radius q with n q^2 = s (r^2 - x^2), on a circle c with c^2 + q^2 / 2 = g (r^2 + x^2). So they take
+
+    mass           pi rho t s (r^2 - x^2)
+    spin inertia   pi rho t s g (r^4 - x^4),
+
+and the web is a plain disc of a thickness that counts (1 - s) t as mass and (1 - 2 s g) t as spin
+inertia, less what that leaves out within the hub.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from math import pi, sin
+from math import inf, pi, sin, sqrt
 
 import numpy as np
 
+from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Motor, Mounting
 from ocs_design.parts.moments import Carrier, MassMoments, Real
 from ocs_design.parts.part import Part
+from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Prism
 
@@ -39,29 +52,58 @@ CHAMFER_SHARE = 0.25
 LIGAMENT = 1.0e-3
 """Material between holes, to their edges and between their bottoms, at least [m]."""
 
-WEB_THICKNESS = 1.5e-3
-"""[m]: thinner ones sing on the lathe, and weigh little less."""
+WEB_THICKNESS = 1.0e-3
+"""[m]: metal is turned to 0.8 mm without special care. In steel a rim of 45 g on a web of 38 mm
+radius rocks at 820 Hz, more than four times as fast as it spins."""
+
+SHRUNK_WEB_THICKNESS = 1.5e-3
+"""[m] of a web of aluminium that a rim is shrunk on: Solo12's would buckle at 1 mm."""
 
 WEB_MATERIAL = "aluminium-6061-t6"
-"""Name in the catalogue of materials."""
-
-WEB_DENSITY = 2710.0
-"""Its density [kg/m^3]: Hibbeler, Mechanics of Materials, Appendix C."""
+"""Name in the catalogue of materials of a web that a rim is shrunk on."""
 
 SHOULDER = 0.5e-3
-"""Least height of a rim over its web [m]: it is seated on its edge."""
+"""Least height of a rim over the web that it is shrunk on [m]."""
 
-SEAT = 0.1e-3
+STEP = 0.1e-3
 """Least length of a rim's bore between its chamfers, over its web's thickness [m]."""
 
 HUB_HEIGHT = 5.0e-3
-"""[m]: a grub screw of M2 with its thread on either side, or the heads of bolts below flush."""
+"""[m], at the least on a shaft, whose diameter the bond is as long as."""
+
+BOLTED_HUB_HEIGHT = 3.0e-3
+"""[m] of a hub that screws clamp: the heads of M3 press it with 150 MPa."""
+
+HEAD_ROOM = 0.5e-3
+"""Between the heads of a hub's screws and the lid that they turn in front of, at least [m]."""
 
 HUB_WALL = 2.0e-3
-"""Least wall around bore and bolts [m]: room for the thread of a grub screw of M2."""
+"""Least wall around bore and bolts [m]."""
 
 PILOT_BORE = 3.0e-3
 """Diameter where the motor's shaft is not in the catalogue, at most [m]: to be opened to fit."""
+
+
+LIGHTENED: Mapping[int, float] = {0: 0.0, 5: 0.35, 6: 0.4, 7: 0.4, 8: 0.35}
+"""Share of the web between hub and bore that so many holes take. Of these, webs of 26 to 50 mm
+have room for them with a spoke between, and few more would fit."""
+
+LIGHTENED_STRESS: Mapping[int, float] = {0: 0.0, 5: 6.5, 6: 6.5, 7: 8.0, 8: 8.0}
+"""Largest stress at so many holes over the hoop stress at the rim's bore, at the most
+(`joints.holed_peaks` of webs and rims of all sizes)."""
+
+LIGHTENING_PLACE = 0.42
+"""g of the module's text: about in the middle between a hub and a bore of four times its radius."""
+
+SPOKE = 3.0e-3
+"""Material between lightening holes, and from them to hub and rim, at least [m]."""
+
+SMALLEST_LIGHTENING = 3.0e-3
+"""Least radius of a lightening hole [m]: smaller ones are not worth their drilling."""
+
+
+_BORES = 400
+"""Bores at which holes are looked at, from wide to narrow; 2 % apart."""
 
 
 def cylinder_mass(inner_radius: Real, outer_radius: Real, height: Real, density: float) -> Real:
@@ -208,6 +250,36 @@ NO_CUTS = RimCuts()
 
 
 @dataclass(frozen=True)
+class WebHoles:
+    """Equal through holes in a web, evenly spaced.
+
+    Attributes:
+        count: of them.
+        circle_radius: of the circle that their middles are on [m].
+        hole_radius: of each [m].
+    """
+
+    count: int
+    circle_radius: float
+    hole_radius: float
+
+    @classmethod
+    def of(cls, count: int, hub_radius: float, bore: float) -> "WebHoles":
+        """Those that take their share of the web between a hub and a rim's bore, radii [m]."""
+        square = LIGHTENED[count] * (bore**2 - hub_radius**2) / count
+        circle = LIGHTENING_PLACE * (bore**2 + hub_radius**2) - square / 2.0
+        return cls(count, sqrt(circle), sqrt(square))
+
+    def spoke(self, hub_radius: float, bore: float) -> float:
+        """Least material between two of them, or to hub or rim [m]."""
+        return min(
+            self.circle_radius - self.hole_radius - hub_radius,
+            bore - self.circle_radius - self.hole_radius,
+            2.0 * (self.circle_radius * sin(pi / self.count) - self.hole_radius),
+        )
+
+
+@dataclass(frozen=True)
 class Hub:
     """A cylinder in the web's middle with a bore and a ring of through holes.
 
@@ -217,6 +289,9 @@ class Hub:
         bolts: how many; 0: the motor's are not in the catalogue.
         bolt_circle_radius, bolt_hole_radius: [m]; 0 without bolts.
         chamfer: of the cylinder's edges and of its bore's, at 45 degrees [m].
+        bolt_head: height of the bolts' heads [m].
+        web_thickness: of the web that it stands in [m].
+        lightening: holes in that web (`LIGHTENED`); 0: none.
     """
 
     radius: float
@@ -226,28 +301,75 @@ class Hub:
     bolt_circle_radius: float = 0.0
     bolt_hole_radius: float = 0.0
     chamfer: float = 0.0
+    bolt_head: float = 0.0
+    web_thickness: float = WEB_THICKNESS
+    lightening: int = 0
 
     @property
-    def mass(self) -> float:
-        """Mass beyond that of a web without holes [kg]."""
-        return _beyond_web(self).mass - self._edges.mass(self.bore_radius, self.radius, WEB_DENSITY)
+    def lightened(self) -> float:
+        """Share of the web that its holes take."""
+        return LIGHTENED[self.lightening]
 
     @property
-    def axial_inertia(self) -> float:
-        """Inertia about the axis beyond that of a web without holes [kg m^2]."""
+    def lightened_stress(self) -> float:
+        """Largest stress of its web over the hoop stress at the rim's bore; 0: no more."""
+        return LIGHTENED_STRESS[self.lightening]
+
+    @property
+    def bore_min(self) -> float:
+        """Least bore of a rim whose web has room for its holes [m]; 0: it has none."""
+        return _lightened_bore(self.lightening, self.radius) if self.lightening else 0.0
+
+    def holes(self, bore: float) -> WebHoles | None:
+        """Lightening holes of the web in a rim of that bore radius [m]; None: none."""
+        return WebHoles.of(self.lightening, self.radius, bore) if self.lightening else None
+
+    def web(self, bore: float, density: float) -> Carrier:
+        """The web in a rim of that bore radius [m], without hub, as a disc up to the axis.
+
+        What it leaves out within the hub, the hub has.
+        """
+        disc = (bore, density, self.web_thickness)
+        mass = web_mass(*disc) * (1.0 - self.lightened)
+        axial = web_axial_inertia(*disc) * spread_left(self.lightened)
+        return Carrier(mass, axial, axial / 2.0 + mass * self.web_thickness**2 / 12.0)
+
+    @property
+    def rim_height_min(self) -> float:
+        """Least height of a rim whose lid leaves room for hub and heads [m]; 0: any."""
+        return max(self.height + 2.0 * (self.bolt_head + HEAD_ROOM - CLEARANCE), 0.0)
+
+    def mass(self, density: float) -> float:
+        """Mass beyond that of its `web` [kg]."""
+        edges = self._edges.mass(self.bore_radius, self.radius, 1.0)
+        return density * (_beyond_web(self).mass - edges + self._unholed.mass)
+
+    def axial_inertia(self, density: float) -> float:
+        """Inertia about the axis beyond that of its `web` [kg m^2]."""
         body = _beyond_web(self)
-        edges = self._edges.axial_inertia(self.bore_radius, self.radius, WEB_DENSITY)
-        return body.xx + body.yy - edges
+        edges = self._edges.axial_inertia(self.bore_radius, self.radius, 1.0)
+        return density * (body.xx + body.yy - edges + self._unholed.axial_inertia)
 
-    @property
-    def transverse_inertia(self) -> float:
-        """Inertia across the axis beyond that of a web without holes [kg m^2].
+    def transverse_inertia(self, density: float) -> float:
+        """Inertia across the axis beyond that of its `web` [kg m^2].
 
         Three and more holes in a ring have the same about every axis across it.
         """
         body, size = _beyond_web(self), (self.bore_radius, self.radius, self.height)
-        return (
-            (body.xx + body.yy) / 2.0 + body.zz - self._edges.transverse_inertia(*size, WEB_DENSITY)
+        edges = self._edges.transverse_inertia(*size, 1.0)
+        own = (body.xx + body.yy) / 2.0 + body.zz - edges
+        return density * (own + self._unholed.transverse_inertia)
+
+    @property
+    def _unholed(self) -> Carrier:
+        """What `web` leaves out within the hub, over the density."""
+        if not self.lightening:
+            return Carrier(0.0, 0.0, 0.0)
+        disc, left = (self.radius, 1.0, self.web_thickness), self.web(self.radius, 1.0)
+        return Carrier(
+            web_mass(*disc) - left.mass,
+            web_axial_inertia(*disc) - left.axial_inertia,
+            web_transverse_inertia(*disc) - left.transverse_inertia,
         )
 
     @property
@@ -258,25 +380,61 @@ class Hub:
 
 @lru_cache(maxsize=4096)
 def _beyond_web(hub: Hub) -> MassMoments[float]:
-    """Moments of a hub with sharp edges beyond the web that it stands in, its axis along z."""
-    half, web = hub.height / 2.0, WEB_THICKNESS / 2.0
+    """Moments per density of a hub with sharp edges beyond its web, its axis along z."""
+    half, web = hub.height / 2.0, hub.web_thickness / 2.0
     holes = [Prism(Disc(hub.radius), -web, web), Prism(Disc(hub.bore_radius), -half, half)]
     if hub.bolts:
         bolt = Disc(hub.bolt_hole_radius, (0.0, -hub.bolt_circle_radius))
         holes.append(Prism(bolt, -half, half, count=hub.bolts))
-    return Part("hub", WEB_DENSITY, (Prism(Disc(hub.radius), -half, half),), tuple(holes)).moments()
+    return Part("hub", 1.0, (Prism(Disc(hub.radius), -half, half),), tuple(holes)).moments()
+
+
+@lru_cache(maxsize=4096)
+def _lightened_bore(count: int, hub_radius: float) -> float:
+    """Bore from which on all of them have their spokes [m], to rounding."""
+
+    def has_room(bore: float) -> bool:
+        holes = WebHoles.of(count, hub_radius, bore)
+        spoke = holes.spoke(hub_radius, bore)
+        return spoke >= SPOKE and holes.hole_radius >= SMALLEST_LIGHTENING
+
+    # Spokes between grow slowly: in the widest of webs they are a fiftieth of its bore at least.
+    low, high = hub_radius, 100.0 * (hub_radius + SPOKE)
+    steps = np.geomspace(high, low, _BORES)
+    short = next(row for row, bore in enumerate(steps.tolist()) if not has_room(bore))
+    low, high = float(steps[short]), float(steps[short - 1]) if short else inf
+    while high - low > 1e-12 * high < inf:
+        middle = (low + high) / 2.0
+        low, high = (low, middle) if has_room(middle) else (middle, high)
+    return high
 
 
 NO_HUB = Hub(radius=0.0, height=0.0, bore_radius=0.0)
 """Hub of massless spokes: it weighs nothing."""
 
 
-def hub_of(motor: Motor, *, direct: bool = True, chamfer: float = 0.0) -> Hub:
+def hub_height(mounting: Mounting) -> float:
+    """Height of a hub: 3 mm on a rotor, as long as the shaft is thick on a shaft [m]."""
+    if mounting.rotor is not None:
+        return BOLTED_HUB_HEIGHT
+    return max(HUB_HEIGHT, mounting.shaft_diameter or 0.0)
+
+
+def hub_of(
+    motor: Motor,
+    *,
+    direct: bool = True,
+    chamfer: float = 0.0,
+    web_thickness: float = WEB_THICKNESS,
+    lightening: int = 0,
+) -> Hub:
     """Hub of a wheel on this motor, with the bore of its shaft and holes for its screws.
 
-    Where the catalogue has no shaft it has a pilot bore; where it has no screws it is as wide as
-    the bolt circles that motors of that diameter have. Behind a gear, not
-    `direct`, it has neither. Its edges have that chamfer [m].
+    On a shaft it is twice as wide as that, as hubs of steel are (Roloff/Matek Maschinenelemente,
+    table 12-1: 1.8 to 2). Where the catalogue has neither shaft nor screws it has a pilot bore and
+    is as wide as the bolt circles that motors of that diameter have. Behind a gear, not `direct`,
+    it has neither. Its edges have that chamfer, its web that thickness [m] and so many lightening
+    holes.
     """
     mounting = (motor.mounting if direct else None) or Mounting()
     rotor, bore = mounting.rotor, PILOT_BORE / 2.0
@@ -286,16 +444,27 @@ def hub_of(motor: Motor, *, direct: bool = True, chamfer: float = 0.0) -> Hub:
         # A pilot bore stays clear of the screws.
         bore = min(bore, rotor.inside - LIGAMENT)
     if rotor is None:
-        wide = 5.5e-3 + 0.15 * (motor.diameter or 0.03)
-        return Hub(max(wide, bore + HUB_WALL), HUB_HEIGHT, bore, chamfer=chamfer)
+        on_shaft = mounting.shaft_diameter is not None
+        wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor.diameter or 0.03)
+        return Hub(
+            max(wide, bore + HUB_WALL),
+            hub_height(mounting),
+            bore,
+            chamfer=chamfer,
+            web_thickness=web_thickness,
+            lightening=lightening,
+        )
     return Hub(
         radius=rotor.reach + HUB_WALL,
-        height=HUB_HEIGHT,
+        height=hub_height(mounting),
         bore_radius=bore,
         bolts=rotor.bolts,
         bolt_circle_radius=rotor.radius,
         bolt_hole_radius=rotor.hole_radius,
         chamfer=chamfer,
+        bolt_head=screw(rotor.thread).head_height,
+        web_thickness=web_thickness,
+        lightening=lightening,
     )
 
 
@@ -307,6 +476,7 @@ def wheel_body(
     hub: Hub | None,
     *,
     cuts: RimCuts = NO_CUTS,
+    web_density: float | None = None,
 ) -> Carrier:
     """A rim with its web and hub; None: with massless spokes. Without what turns in the motor.
 
@@ -314,6 +484,7 @@ def wheel_body(
         inner_radius, outer_radius, height, density: of the rim [m, kg/m^3].
         hub: in the middle of its web.
         cuts: off the rim.
+        web_density: of web and hub [kg/m^3]; None: of one piece with the rim.
     """
     rim = (inner_radius, outer_radius, height, density)
     mass = cylinder_mass(*rim) - cuts.mass(inner_radius, outer_radius, density)
@@ -321,25 +492,30 @@ def wheel_body(
     transverse = cylinder_transverse_inertia(*rim) - cuts.transverse_inertia(*rim)
     if hub is None:
         return Carrier(mass, axial, transverse)
+    own = density if web_density is None else web_density
+    web = hub.web(inner_radius, own)
     return Carrier(
-        mass=mass + web_mass(inner_radius) + hub.mass,
-        axial_inertia=axial + web_axial_inertia(inner_radius) + hub.axial_inertia,
-        transverse_inertia=transverse
-        + web_transverse_inertia(inner_radius)
-        + hub.transverse_inertia,
+        mass=mass + web.mass + hub.mass(own),
+        axial_inertia=axial + web.axial_inertia + hub.axial_inertia(own),
+        transverse_inertia=transverse + web.transverse_inertia + hub.transverse_inertia(own),
     )
 
 
-def web_mass(bore: Real) -> Real:
+def spread_left(lightened: Real) -> Real:
+    """Share of a disc's spin inertia that holes leave which take that share of its mass."""
+    return 1.0 - 2.0 * LIGHTENING_PLACE * lightened
+
+
+def web_mass(bore: Real, density: Real | float, thickness: float) -> Real:
     """Mass of the disc in a rim of bore radius r, without hub and holes [kg]."""
-    return pi * WEB_DENSITY * WEB_THICKNESS * bore**2
+    return pi * density * thickness * bore**2
 
 
-def web_axial_inertia(bore: Real) -> Real:
+def web_axial_inertia(bore: Real, density: Real | float, thickness: float) -> Real:
     """Inertia of that disc about the axis: m r^2 / 2 [kg m^2]."""
-    return web_mass(bore) * bore**2 / 2.0
+    return web_mass(bore, density, thickness) * bore**2 / 2.0
 
 
-def web_transverse_inertia(bore: Real) -> Real:
+def web_transverse_inertia(bore: Real, density: Real | float, thickness: float) -> Real:
     """Inertia of that disc across the axis: m (3 r^2 + t^2) / 12 [kg m^2]."""
-    return web_mass(bore) * (3.0 * bore**2 + WEB_THICKNESS**2) / 12.0
+    return web_mass(bore, density, thickness) * (3.0 * bore**2 + thickness**2) / 12.0

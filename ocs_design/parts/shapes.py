@@ -145,38 +145,55 @@ class ArcSlot(Generic[Real]):
 
 
 @dataclass(frozen=True, eq=False)
-class Tongue(Generic[Real]):
-    """A rectangle on both sides of the y axis, with half a disc at its lower end.
+class Keyhole(Generic[Real]):
+    """A disc on the y axis, and a stem from it towards higher y.
 
     Attributes:
-        half_width: [m].
-        low, high: y of the half disc's middle, and of the other end [m].
+        radius: of the disc [m].
+        side: half of the stem's width, less than the radius [m].
+        low, high: y of the disc's middle, and of the stem's end outside the disc [m].
     """
 
-    half_width: Real
+    radius: Real
+    side: Real
     low: Real
     high: float
 
-    @property
+    @cached_property
     def area(self) -> Real:
-        """Area [m^2]."""
-        return (2.0 * (self.high - self.low) + pi / 2.0 * self.half_width) * self.half_width
+        """Area of a sector, the triangle under the stem, and the stem's rectangle [m^2]."""
+        sector = self.radius**2 * (pi - self._beside)
+        area: Real = sector + self.side * (2.0 * (self.high - self.low) - self._root)
+        return area
 
-    @property
+    @cached_property
     def moments(self) -> MassMoments[Real]:
-        """Moments about the origin, of unit density."""
-        w, low, high = self.half_width, self.low, self.high
-        disc, beyond = pi / 2.0 * w**2, 2.0 / 3.0 * w**3
-        y = w * (high**2 - low**2) + disc * low - beyond
-        xx = 2.0 / 3.0 * (high - low) * w**3 + disc * w**2 / 4.0
-        yy = 2.0 / 3.0 * w * (high**3 - low**3) + disc * (low**2 + w**2 / 4.0) - 2.0 * low * beyond
-        return flat(self.area, xx, yy, y=y)
+        """Moments about the origin, of unit density: first about the disc's middle."""
+        r, s, root, end = self.radius, self.side, self._root, self.high - self.low
+        # What the sector lacks of a disc has its centroid 2 r sin(b) / (3 b) off the middle.
+        y = s * (end**2 - root**2 / 3.0 - 2.0 / 3.0 * r**2)
+        sector, aslant = r**4 / 4.0 * (pi - self._beside), r**2 * s * root / 4.0
+        xx = sector + aslant + s**3 * (2.0 / 3.0 * end - root / 2.0)
+        yy = sector - aslant + s * (2.0 / 3.0 * end**3 - root**3 / 6.0)
+        return flat(self.area, xx, yy, y=y).moved(0.0, self.low, 0.0)
 
     def outline(self) -> Outline:
-        """Three lines and half a circle."""
-        w, low, high = self.half_width, self.low, self.high
-        points = [[w, low], [w, high], [-w, high], [-w, low]]
-        return Outline(np.array(points), np.array([0.0, 0.0, 0.0, 1.0]))
+        """Three lines and most of a circle."""
+        s, root, high = self.side, self.low + self._root, self.high
+        points = [[s, root], [s, high], [-s, high], [-s, root]]
+        around = tan((pi - asin(s / self.radius)) / 2.0)
+        return Outline(np.array(points), np.array([0.0, 0.0, 0.0, around]))
+
+    @cached_property
+    def _root(self) -> Real:
+        """Distance of the stem's root from the disc's middle [m]."""
+        root: Real = (self.radius**2 - self.side**2) ** 0.5
+        return root
+
+    @cached_property
+    def _beside(self) -> Real:
+        """Half of the angle that the stem takes of the disc [rad]."""
+        return arcsine(self.side / self.radius)
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,11 +252,7 @@ class Eared(Generic[Real]):
     @cached_property
     def _beside(self) -> Real:
         """Half of the angle that an ear takes of the band [rad]."""
-        sine: Any = self.side / self.radius
-        # Symbols have their own.
-        own = getattr(sine, "arcsin", None)
-        angle: Real = np.arcsin(sine) if own is None else own()
-        return angle
+        return arcsine(self.side / self.radius)
 
 
 @dataclass(frozen=True, eq=False)
@@ -277,6 +290,13 @@ class Post:
         beside = tan((self.half_angle - asin(self.eared.side / self.eared.radius)) / 4.0)
         back = -tan(self.half_angle / 2.0)
         return Outline(points, np.array([beside, 0.0, 1.0, 0.0, beside, 0.0, back, 0.0]))
+
+
+def arcsine(sine: Real) -> Real:
+    """Angle of that sine, of numbers, arrays or CasADi's symbols, which have their own [rad]."""
+    own: Any = getattr(sine, "arcsin", None)
+    angle: Real = np.arcsin(sine) if own is None else own()
+    return angle
 
 
 def flat(

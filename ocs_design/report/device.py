@@ -104,6 +104,9 @@ def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     if wheel.web is not None:
         web, hub = wheel.web, wheel.web.hub
         sizes = f"{tenths(web.thickness)} mm, hub R {tenths(hub.radius)}  h {tenths(hub.height)} mm"
+        if web.holes is not None:
+            across = tenths(2.0 * web.holes.hole_radius)
+            sizes += f", {web.holes.count} holes of {across} mm"
         yield "web", f"{sizes}, {web.material}"
     rotor = ocs.motor.rotor_inertia
     share = f", of which its rotor {rotor:.2e}" if rotor else ""
@@ -118,11 +121,25 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
         "web": 0.0 if ocs.flywheel.web is None else ocs.flywheel.web.mass,
         "motor": ocs.motor.mass,
         "gear": ocs.motor.gear_mass,
-        "housing": ocs.carrier.mass - ocs.motor.mass - ocs.motor.gear_mass,
+        "controller": ocs.motor.controller_mass,
+        "housing": ocs.carrier.mass
+        - ocs.motor.mass
+        - ocs.motor.gear_mass
+        - ocs.motor.controller_mass,
     }
     named = (f"{name} {grams(mass)}" for name, mass in parts.items() if mass > _NO_MASS)
     yield "mass of a module", " + ".join(named)
+    plate = ocs.plate
+    if plate is not None:
+        sizes = 2.0 * plate.radius, 2.0 * plate.half_length, plate.thickness
+        text = " x ".join(tenths(length) for length in sizes)
+        yield "carrier plate", f"{grams(plate.mass)} with its screws, {text} mm"
     yield "total mass", f"{grams(ocs.mass_total)} ({share_of_robot(design)})"
+    controllers = len(ocs.modules) * ocs.motor.controller_mass
+    if controllers > _NO_MASS:
+        count, each = len(ocs.modules), grams(ocs.motor.controller_mass)
+        rest = grams(ocs.mass_total - controllers)
+        yield "without controllers", f"{rest} (controllers {count} x {each})"
 
 
 def _drive(motor: Drive) -> Iterator[tuple[str, str]]:

@@ -38,17 +38,6 @@ def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
     return np.asarray(np.arccos(np.clip(np.cos(roll) * np.cos(pitch), -1.0, 1.0)))
 
 
-def verdict(passed: Sequence[bool | None]) -> Toned:
-    """Flights with the device in one line, from whether each of them passed."""
-    if not passed:
-        return Toned("No flight was simulated: the design is not proved.", Tone.OPEN)
-    good, unknown = passed.count(True), passed.count(None)
-    line = f"{good} of {len(passed)} scenarios pass with the device"
-    if unknown:
-        line += f", {unknown} could not be judged"
-    return Toned(line, Tone.PASS if good == len(passed) else Tone.FAIL)
-
-
 def flight_table(runs: Sequence[ValidationRecord]) -> Table:
     """Verdict, attitude at touchdown and at the end, and what the wheels did, of each run."""
     names = (run.scenario if run.ocs else "  without" for run in runs)
@@ -147,8 +136,8 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
     leaning = [f"{name} {degrees(end)}" for name, end in ends.items() if end > LANDING_TOLERANCE]
     if leaning:
         yield (
-            f"stands, as less than {degrees(float(UPRIGHT_TILT), 0)} off level, but not level in "
-            f"the end: {', '.join(leaning)}"
+            f"the robot stays on its feet and ends leaning: {', '.join(leaning)} (more than "
+            f"{degrees(float(UPRIGHT_TILT), 0)} would be a fall)"
         )
     motor = design.ocs.motor
     top = min(motor.no_load_speed, motor.speed_max or np.inf)

@@ -4,12 +4,26 @@ from collections.abc import Iterator
 
 from ocs_design.common.units import ceiled, floored
 from ocs_design.device.records import OcsDesign, PriceRecord, SelectionRecord
-from ocs_design.report.quantities import degrees_number, quantity, rpm
+from ocs_design.report.quantities import degrees_number, grams, quantity, rpm
 from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
 from ocs_design.sizing.limits import LIMITS, TIME
-from ocs_design.sizing.margins import Margin
-from ocs_design.sizing.selection.device import HOUSING, HUB, MOUNT, WEB
+from ocs_design.sizing.margins import (
+    BUS_CURRENT,
+    BUS_POWER,
+    FED_BACK,
+    MOTOR_TORQUE,
+    WHEEL_SPEED,
+    Margin,
+)
+from ocs_design.sizing.selection.device import (
+    HOLED_STRESS,
+    HOUSING,
+    HUB,
+    LIGHTENING_HOLES,
+    MOUNT,
+    WEB,
+)
 
 TIGHT = 1.05
 """A factor of capacity over demand below this is reported in the summary."""
@@ -21,6 +35,8 @@ _MEANING = {
     HOUSING: "A larger rim would be lighter, but its housing heavier by more.",
     MOUNT: "The screws of the motor's mount need a housing of this width.",
     HUB: "The rim's bore must clear the hub.",
+    LIGHTENING_HOLES: "The web must have room for its lightening holes.",
+    HOLED_STRESS: "The web must hold at its lightening holes.",
     WEB: "The rim must be taller than the web.",
 }
 """Explanation of limits that stand in no specification."""
@@ -28,9 +44,15 @@ _MEANING = {
 _ROOM = {"outer radius": "r_max", "height": "h_max", "rim mass": "wheel_mass_max"}
 """Margins of the rim's room, and the limits that they are margins to."""
 
+_FIRST = (
+    *(WHEEL_SPEED, MOTOR_TORQUE),
+    *(BUS_CURRENT, BUS_POWER, BUS_CURRENT + FED_BACK, BUS_POWER + FED_BACK),
+)
+"""Margins that the first screen shows, whatever is left of them."""
+
 MARGIN_NOTE = (
-    "The worst over all maneuvers, as flown where they were flown. At a factor of 1 all of the "
-    "capacity is used; a dash means that no limit is known."
+    "The worst over all maneuvers, as planned and as flown from push-off to the end, landing "
+    "included. At a factor of 1 all of the capacity is used; a dash means that no limit is known."
 )
 
 _PRICE_NOTE = (
@@ -86,7 +108,7 @@ def demand_note(design: OcsDesign) -> str:
 def recorded_margins(design: OcsDesign) -> tuple[Margin, ...]:
     """Every margin of a design."""
     return tuple(
-        Margin(each.name, each.demand, each.capacity, each.unit, each.note, each.maneuver)
+        Margin(each.name, each.demand, each.capacity, each.unit, each.note, each.scenario)
         for each in design.margins
     )
 
@@ -101,7 +123,7 @@ def margin_table(margins: tuple[Margin, ...]) -> Table:
                 quantity(margin.demand, margin.unit),
                 "-" if margin.capacity is None else quantity(margin.capacity, margin.unit),
                 _factor(margin.factor),
-                margin.maneuver,
+                margin.scenario,
             )
             for margin in margins
         ),
@@ -126,14 +148,46 @@ def used_up(design: OcsDesign) -> str:
     active = listed(design.sizing.binding)
     tight = [
         f"{margin.name}, {ceiled(100.0 / margin.factor, 0)}%"
-        + (f" ({margin.maneuver})" if margin.maneuver else "")
+        + (f" ({margin.scenario})" if margin.scenario else "")
         for margin in recorded_margins(design)
-        if margin.factor is not None and margin.factor < TIGHT
+        if margin.factor is not None and margin.factor < TIGHT and margin.name not in _FIRST
     ]
     parts = [f"mass set by {active}"] if active else []
     if tight:
         parts.append(f"used: {'; '.join(tight)}")
     return "; ".join(parts) or "none is reached"
+
+
+def first_margins(design: OcsDesign) -> str:
+    """What is used of speed, torque and supply, in one line; empty where no limits are known."""
+    shown = {margin.name: margin for margin in recorded_margins(design) if margin.factor}
+    return ", ".join(
+        f"{name} {ceiled(100.0 / margin.factor, 0)}%"
+        for name in _FIRST
+        if (margin := shown.get(name)) is not None and margin.factor
+    )
+
+
+def alternatives_table(design: OcsDesign) -> Table:
+    """What one change of the question would give each; without rows where none was looked for."""
+    return Table(
+        columns("<change", "mass", "<motor", "<note"),
+        tuple(
+            (
+                each.change,
+                "none does" if each.mass_total is None else grams(each.mass_total),
+                each.motor,
+                each.note,
+            )
+            for each in design.alternatives
+        ),
+    )
+
+
+def open_points(design: OcsDesign) -> Table:
+    """What keeps the device from being built, and the cure of each."""
+    points = design.buildable.open
+    return Table(columns("<what", "<cure"), tuple((each.what, each.cure) for each in points))
 
 
 def active_limits(design: OcsDesign) -> tuple[str, str]:

@@ -79,7 +79,9 @@ def quantity(value: float, unit: str) -> str:
     """An SI value in its bench unit; a plain share in per cent."""
     if not unit:
         return f"{value:.0%}"
-    return _SHOWN[unit](value) if unit in _SHOWN else f"{value:.3g} {unit}"
+    if unit in _SHOWN:
+        return _SHOWN[unit](value)
+    return f"{value:,.0f} {unit}" if 1e3 <= value < 1e6 else f"{value:.3g} {unit}"
 
 
 def _rounded(value: float, digits: int) -> float:

@@ -5,7 +5,7 @@ from collections import Counter
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.records import RankedRecord, SelectionRecord
 from ocs_design.report.quantities import degrees_number, grams, rpm_number
-from ocs_design.report.table import Rows, Table, columns, counted
+from ocs_design.report.table import Rows, Table, columns, counted, listed
 
 SHOWN = 5
 """Drives that the terminal shows; with -v it shows the whole ranking."""
@@ -40,18 +40,29 @@ def task_table(selection: SelectionRecord) -> Table:
     )
 
 
+_SHOWN = 5e-4
+"""Relative difference of spin inertias that their four digits do not show."""
+
+
 def task_note(selection: SelectionRecord) -> str:
     """What the needed times are, and which maneuver decides."""
-    return (
-        f"Needed: the shortest time with {selection.reserve:.0%} of voltage and current. "
-        f"The most spin inertia is for {selection.binding_maneuver}."
+    needed = (
+        f"Needed: the shortest time with {selection.reserve:.0%} of voltage, current and speed "
+        "limit."
     )
+    most = max((task.spin_inertia for task in selection.tasks), default=0.0)
+    tied = [task.source for task in selection.tasks if task.spin_inertia > most * (1.0 - _SHOWN)]
+    if not selection.binding_maneuver or not tied:
+        return needed
+    if len(tied) == len(selection.tasks) > 1:
+        return f"{needed} All of them ask for the same spin inertia."
+    return f"{needed} The most spin inertia is for {listed(tied)}."
 
 
 def drive_table(drives: tuple[RankedRecord, ...]) -> Table:
-    """Lightest drives: mass of the device, its rim and incidence."""
+    """Lightest drives: mass of the whole device; rim and incidence."""
     return Table(
-        columns("<lightest drives", "mass [g]", "<rim", "R [mm]", "h [mm]", "alpha [deg]"),
+        columns("<lightest drives", "device [g]", "<rim", "R [mm]", "h [mm]", "alpha [deg]"),
         tuple(
             (
                 drive_name(each),

@@ -5,14 +5,15 @@ from collections.abc import Iterator
 import numpy as np
 
 from ocs_design.actuation.drive import Drive
-from ocs_design.actuation.motor import DIRECT
+from ocs_design.actuation.motor import BY_CONVENTION, DIRECT
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.device.records import DemandRecord, ManeuverRecord, OcsDesign, OcsRecord
-from ocs_design.export.bill_of_materials import controller_rating
+from ocs_design.export.electrics import controller_rating
 from ocs_design.report.flights import flight_remarks
 from ocs_design.report.quantities import degrees
 from ocs_design.report.table import counted
 from ocs_design.requirement.bound import AXES, authority
+from ocs_design.sizing.margins import MOTOR_TORQUE
 
 SAME_ANGLE = 1e-9
 """Incidences that differ by less are equal [rad]."""
@@ -48,11 +49,7 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     if found:
         names = ", ".join(dict.fromkeys(reach.part for reach in found))
         yield f"links that can hit a module within their joints' limits: {names}"
-    left = [note for note in ocs.fitting if _NOT_DESIGNED in note]
-    yield from left
-    more = len(ocs.fitting) - len(left)
-    if more:
-        yield f"{counted(more, 'note')} on making and assembling the parts: shown with -v"
+    yield from (note for note in ocs.fitting if _NOT_DESIGNED in note)
     if ocs.flywheel.stress_margin is None:
         yield unchecked_stress(ocs)
     yield from flight_remarks(design)
@@ -104,7 +101,7 @@ def _motor_notes(design: OcsDesign) -> Iterator[str]:
     motor = design.ocs.motor
     if motor.bus_voltage is None:
         return
-    torques = (each.demand for each in design.margins if each.name.startswith("torque"))
+    torques = (each.demand for each in design.margins if each.name == MOTOR_TORQUE)
     asked, starts = max(torques, default=0.0), motor.saturation_torque
     if starts is not None and asked > starts:
         yield (
@@ -112,12 +109,22 @@ def _motor_notes(design: OcsDesign) -> Iterator[str]:
             f"{asked:.3g}: it takes more current and voltage than its k_t says, and the margins of "
             "both are too good"
         )
-    if motor.rotor_inertia == 0.0 and motor.gear == DIRECT.name:
+    if BY_CONVENTION in motor.confidence:
+        yield (
+            f"threads of {motor.name} are those that makers use for its size: compare them with "
+            "its drawing before you order parts"
+        )
+    if motor.rotor_inertia_source:
+        yield f"rotor inertia is an {motor.rotor_inertia_source}"
+    elif motor.rotor_inertia == 0.0 and motor.gear == DIRECT.name:
         yield "rotor inertia is unknown and taken as 0: wheels turn slower, never faster"
     rating = controller_rating(motor)
     if rating:
         count = counted(len(design.ocs.modules), "motor controller")
-        yield f"not in the mass: cables, and {count}, each for {rating}"
+        if motor.controller_mass > 0.0:
+            yield f"not in the mass: cables; in it: {count}, each for {rating}"
+        else:
+            yield f"not in the mass: cables, and {count}, each for {rating}"
 
 
 def shortfalls(design: OcsDesign) -> Iterator[str]:

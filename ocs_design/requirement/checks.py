@@ -17,16 +17,25 @@ from ocs_design.requirement.maneuver import (
     Unforeseen,
 )
 from ocs_design.requirement.specification import (
+    ALUMINIUM_WEB,
     AUTO,
+    LIGHTENINGS,
     LIGHTEST,
     NO_MOTOR,
     NO_WEB,
+    STEEL,
     FlywheelSection,
     Specification,
 )
 from ocs_design.robot.robot import Robot
 
-OF_WEBS = ("chamfer", "balancing_holes", "balancing_hole_diameter", "balancing_hole_depth")
+OF_WEBS = (
+    "lightening",
+    "chamfer",
+    "balancing_holes",
+    "balancing_hole_diameter",
+    "balancing_hole_depth",
+)
 """Keys of `[flywheel]` that plain rims on massless spokes have nothing of."""
 
 FEWEST_HOLES, MOST_HOLES = 3, 100
@@ -52,6 +61,14 @@ def contradictions(specification: Specification) -> Iterator[str]:
     holes = flywheel.balancing_holes
     if holes is not None and holes != 0 and not FEWEST_HOLES <= holes <= MOST_HOLES:
         yield f"flywheel.balancing_holes: {holes} is not {FEWEST_HOLES} to {MOST_HOLES}, or 0"
+    if flywheel.lightening is not None and flywheel.lightening not in LIGHTENINGS:
+        some = ", ".join(map(str, LIGHTENINGS))
+        yield f"flywheel.lightening: {flywheel.lightening} is none of {some}"
+    if flywheel.lightening and flywheel.web == ALUMINIUM_WEB:
+        yield (
+            f"flywheel.lightening: a web of {ALUMINIUM_WEB} that a rim is shrunk on has no holes: "
+            "it is pressed together"
+        )
     if flywheel.web == NO_WEB:
         for key in OF_WEBS:
             if getattr(flywheel, key) is not None:
@@ -84,9 +101,12 @@ def without_motor(specification: Specification) -> Iterator[str]:
     """What only a motor gives a meaning to, where none is wanted, one line each."""
     if specification.motor.name != NO_MOTOR:
         return
-    for key in ("bus_voltage", "gear", "motors", "gears"):
+    for key in ("gear", "any", "motors", "with_catalogue", "gears"):
         if getattr(specification.motor, key) is not None:
             yield f"motor.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+    for key, stated in vars(specification.supply).items():
+        if stated is not None:
+            yield f"supply.{key}: says nothing where motor.name is {NO_MOTOR!r}"
     for key in OF_WEBS:
         if getattr(specification.flywheel, key) is not None:
             yield f"flywheel.{key}: says nothing where motor.name is {NO_MOTOR!r}"
@@ -117,7 +137,7 @@ def unfit_for_robot(
     yield from _empty_room(specification.flywheel, envelope)
     yield from _impossible(requirement, robot)
     try:
-        if name not in {None, AUTO}:
+        if name not in {None, STEEL, AUTO}:
             material(name)
     except SpecificationError as error:
         yield f"flywheel.material: {error.message}. {error.hint}"

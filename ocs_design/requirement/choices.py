@@ -5,13 +5,23 @@ from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
 
-from ocs_design.actuation.motor import DIRECT, Gear, Motor
+from ocs_design.actuation.controllers import controller_mass_of
+from ocs_design.actuation.motor import DIRECT, Gear, Motor, build_gaps
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.gears import known_gears, named_stages, stages
-from ocs_design.catalogue.materials import Material, material, materials
-from ocs_design.catalogue.motors import known_motors, motor
+from ocs_design.catalogue.materials import Material, material, strong_materials
+from ocs_design.catalogue.motors import known_motors, load_motors, motor
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.froude import default_bus_voltage
-from ocs_design.requirement.specification import AUTO, NO_MOTOR, Specification
+from ocs_design.requirement.froude import default_supply
+from ocs_design.requirement.specification import (
+    AUTO,
+    NO_CONTROLLERS,
+    NO_MOTOR,
+    STEEL,
+    MotorSection,
+    Specification,
+)
+from ocs_design.requirement.values import names_in
 from ocs_design.robot.robot import Robot
 
 
@@ -21,14 +31,14 @@ class MotorChoice:
 
     Attributes:
         motors, gears, materials: the candidates.
-        bus_voltage: of the supply [V].
+        supply: of all motors.
         wheel_speed_max: specified highest speed of a wheel [rad/s]; None: what the drive can do.
     """
 
     motors: tuple[Motor, ...]
     gears: tuple[Gear, ...]
     materials: tuple[Material, ...]
-    bus_voltage: float
+    supply: Supply
     wheel_speed_max: float | None
 
 
@@ -36,28 +46,43 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
     """What may be chosen from; None where the specification wants no motor.
 
     Raises:
-        SpecificationError: a name that no catalogue has, or a file that cannot be read; see
-            `unknown_names`.
+        SpecificationError: a name that no catalogue has, a file that cannot be read, or motors of
+            which none can be built with; see `unknown_names`.
     """
     specified = specification.motor
     if specified.name == NO_MOTOR:
         return None
-    name, limit = specification.flywheel.material, specified.torque_max or inf
-    # Those whose stress can be checked.
-    strong = tuple(
-        found
-        for found in materials().values()
-        if found.yield_strength is not None and found.poisson_ratio is not None
-    )
+    limit = specified.torque_max or inf
     return MotorChoice(
-        motors=_motors(specification),
+        motors=tuple(_controlled(each, specification) for each in _motors(specification)),
         gears=tuple(
             replace(stage, torque_max=min(stage.torque_max, limit))
             for stage in _gears(specification)
         ),
-        materials=strong if name in {None, AUTO} else (material(name),),
-        bus_voltage=specified.bus_voltage or default_bus_voltage(robot),
+        materials=_materials(specification.flywheel.material or STEEL),
+        supply=specified_supply(specification, robot),
         wheel_speed_max=specification.requirement.wheel_speed_max,
+    )
+
+
+def specified_supply(specification: Specification, robot: Robot) -> Supply:
+    """The supply, with the defaults of `froude` where nothing is specified."""
+    stated, default = specification.supply, default_supply(robot)
+    return Supply(
+        stated.voltage or default.voltage,
+        stated.current_max or default.current_max,
+        stated.power_max or default.power_max,
+    )
+
+
+def _controlled(found: Motor, specification: Specification) -> Motor:
+    """The motor with the mass of its controller, specified or by its current."""
+    stated = specification.supply.controllers
+    if stated == NO_CONTROLLERS:
+        return found
+    return replace(
+        found,
+        controller_mass=stated if isinstance(stated, float) else controller_mass_of(found),
     )
 
 
@@ -81,21 +106,66 @@ def unknown_names(specification: Specification) -> Iterator[str]:
 
 
 def _motors(specification: Specification) -> tuple[Motor, ...]:
+    """Motors to choose from: all that are named, else those that can be built with.
+
+    Raises:
+        SpecificationError: a name is in no list, or none of the motors can be built with.
+    """
     specified = specification.motor
-    known = known_motors(_path(specified.motors))
-    if specified.name in {None, AUTO, NO_MOTOR}:
-        return tuple(known.values())
-    return (motor(specified.name, known),)
+    file = _path(specified.motors)
+    if specified.name not in {None, AUTO, NO_MOTOR}:
+        known = known_motors(file)
+        named = dict.fromkeys(names_in(specified.name or ""))
+        return tuple(motor(name, known) for name in named)
+    only_own = file is not None and not specified.with_catalogue
+    offered = tuple((load_motors(file) if only_own and file else known_motors(file)).values())
+    if specified.any:
+        return offered
+    complete = tuple(found for found in offered if not build_gaps(found))
+    if not complete:
+        raise SpecificationError(
+            "no motor can be built with: " + "; ".join(map(_lacks, offered[:MOST_NAMED])),
+            hint="Fill in the figures (docs/catalogue.md#what-a-builder-needs), name the motor "
+            "with --motor, or see what any motor would do with --motors-any",
+        )
+    return complete
+
+
+def any_motors(specification: Specification) -> tuple[Motor, ...]:
+    """Every motor on offer, those that nobody can build with among them."""
+    return _motors(replace(specification, motor=replace(specification.motor, any=True)))
+
+
+MOST_NAMED = 3
+"""Motors whose gaps a message names."""
+
+
+def _lacks(found: Motor) -> str:
+    return f"{found.name} lacks {', '.join(build_gaps(found))}"
+
+
+def _materials(name: str) -> tuple[Material, ...]:
+    """The material of this name, or those of the group that has it, whose stress can be checked."""
+    if name in {STEEL, AUTO}:
+        return strong_materials(steel=name == STEEL)
+    return (material(name),)
 
 
 def _gears(specification: Specification) -> tuple[Gear, ...]:
     specified = specification.motor
     known = known_gears(_path(specified.gears))
-    if specified.gear in {None, AUTO}:
-        return (DIRECT, *stages(known.values()))
-    if specified.gear == DIRECT.name:
+    name = specified.gear or gear_where_none_is_stated(specified)
+    if name == DIRECT.name:
         return (DIRECT,)
-    return named_stages(specified.gear, known)
+    return (DIRECT, *stages(known.values())) if name == AUTO else named_stages(name, known)
+
+
+def gear_where_none_is_stated(specified: MotorSection) -> str:
+    """Direct drive, for no row says how a gear and a motor are fixed to each other.
+
+    Whoever brings gears wants them to be looked at.
+    """
+    return DIRECT.name if specified.gears is None else AUTO
 
 
 def _path(file: str | None) -> Path | None:

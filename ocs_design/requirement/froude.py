@@ -7,9 +7,10 @@ and a torque that turns both alike with I / T^2.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import pi, radians, sqrt
+from math import inf, pi, radians, sqrt
 from types import MappingProxyType
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Disturbance, Drop, Flip, Shove
 from ocs_design.robot.robot import Robot
 
@@ -55,12 +56,16 @@ LUNAR_GRAVITY = 1.62
 WHEEL_SPEED_MAX = 7200.0 * pi / 30.0
 """[rad/s], where no motor is named: Solo12's own, an Antigravity 4004 KV300, at 24 V."""
 
-BUS_VOLTAGES = (24.0, 48.0)
-"""[V], of six and of twelve cells of lithium polymer: the supplies of legged robots of up to
-`LIGHT_ROBOT` (Solo12, A1, Go2) and of heavier ones (ANYmal, B1)."""
+BUS_VOLTAGES: Mapping[float, float] = MappingProxyType({20.0: 24.0, 60.0: 48.0, inf: 72.0})
+"""[V] by the mass of the heaviest robot that has it [kg].
 
-LIGHT_ROBOT = 20.0
-"""[kg], the heaviest robot that is taken to run from six cells."""
+24 V, six cells of lithium polymer: Solo12, A1, Go2. 48 V: ANYmal; Unitree's B2, 60 kg, has 50.4 V
+(docs.westonrobot.com/robot_user_guide/unitree/b2.html). 72 V: twenty cells, as heavier humanoids
+such as Talos, 95 kg."""
+
+POWER_PER_MASS = 400.0
+"""Power of the supply over the robot's mass [W/kg]: a pack of 4 kW/kg, as lithium polymer is sold
+for, that takes a tenth of the robot's mass."""
 
 RIM_MASS_SHARE = 0.1
 """Largest mass of one rim over the robot's."""
@@ -157,14 +162,21 @@ def standing_height(robot: Robot) -> float:
 
 def default_bus_voltage(robot: Robot) -> float:
     """Supply voltage that robots of this mass usually have [V]."""
-    light, heavy = BUS_VOLTAGES
-    return light if robot.mass <= LIGHT_ROBOT else heavy
+    return next(voltage for most, voltage in BUS_VOLTAGES.items() if robot.mass <= most)
+
+
+def default_supply(robot: Robot) -> Supply:
+    """What a robot of this mass can feed its wheels with: `BUS_VOLTAGES`, `POWER_PER_MASS`."""
+    return Supply(default_bus_voltage(robot), power_max=POWER_PER_MASS * robot.mass)
 
 
 def default_maneuvers(
     robot: Robot, gravity: float = STANDARD_GRAVITY
 ) -> tuple[Disturbance, Drop, Flip]:
     """The paper's three tests, exactly so for Solo12 and scaled for every other robot.
+
+    The device does all three as it stands; the paper turns its modules to 0 deg by hand for the
+    back-flip.
 
     Args:
         robot: to scale to.
@@ -175,7 +187,6 @@ def default_maneuvers(
     back_flip = Flip(
         name="back-flip",
         gravity=LUNAR_GRAVITY,
-        incidence=0.0,
         jump_height=1.0 * scale.length,
         angle=-2.0 * pi,
         duration=2.0 * sqrt(scale.length),

@@ -69,7 +69,7 @@ def _specification(content: Mapping[str, object], faults: Faults) -> Specificati
             faults.unknown(name, name, known)
     sections: dict[str, Any] = {}
     for name, section in SECTIONS.items():
-        table = faults.table(content.get(name, {}), name)
+        table = _renamed(name, faults.table(content.get(name, {}), name), content)
         values = {key: found.value for key, found in keys_of(section).items()}
         sections[name] = section(**_fields(table, values, name, faults))
     tables, maneuvers = content.get("maneuver", []), []
@@ -97,6 +97,18 @@ def _specification(content: Mapping[str, object], faults: Faults) -> Specificati
         elif len(same) > 1:
             faults.append(f"maneuver: two are named {same[0]!r}")
     return Specification(**sections, maneuvers=tuple(maneuvers))
+
+
+def _renamed(
+    name: str, table: Mapping[str, object], content: Mapping[str, object]
+) -> Mapping[str, object]:
+    """A section with its keys under today's names: `motor.bus_voltage` is `supply.voltage` now."""
+    motor = content.get("motor")
+    if not isinstance(motor, Mapping) or "bus_voltage" not in motor:
+        return table
+    if name == "motor":
+        return {key: value for key, value in table.items() if key != "bus_voltage"}
+    return {"voltage": motor["bus_voltage"], **table} if name == "supply" else table
 
 
 def _fields(

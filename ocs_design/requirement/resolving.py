@@ -4,44 +4,49 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ocs_design.actuation.controllers import BASE_MASS, MASS_PER_CURRENT
 from ocs_design.actuation.drive import RESERVE, missing_figures
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.checks import unfit_for_robot
 from ocs_design.requirement.choices import MotorChoice, motor_choice
 from ocs_design.requirement.froude import (
-    BUS_VOLTAGES,
-    LIGHT_ROBOT,
     LIMIT_OF_KEY,
+    POWER_PER_MASS,
     RIM_MASS_SHARE,
     SOLO12,
     WHEEL_SPEED_MAX,
     Envelope,
     Scale,
-    default_bus_voltage,
     default_envelope,
     default_maneuvers,
+    default_supply,
     standing_height,
 )
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Requirement
 from ocs_design.requirement.specification import (
+    ALUMINIUM_WEB,
     AUTO,
     BALANCING_DEPTH,
     BALANCING_DIAMETER,
     CHAMFER,
     CONTROL_PERIOD,
     DISC,
-    LIGHTEST,
+    EQUAL_RATE,
+    LIGHTENING,
     NO_WEB,
     PROJECTIONS,
+    STEEL,
     FlywheelSection,
     MotorSection,
     OcsSection,
     RequirementSection,
     RobotSection,
     Specification,
+    SupplySection,
     ValidationSection,
 )
 from ocs_design.requirement.uncertainty import default_uncertainty
@@ -62,21 +67,23 @@ def default_specification(
         kp, kd: gains of the wheel law [1/s^2, 1/s].
         gravity: of the maneuvers on Earth [m/s^2].
     """
-    envelope = default_envelope(robot)
+    envelope, supply = default_envelope(robot), default_supply(robot)
     return Specification(
         robot=RobotSection(posture=robot.posture_name),
         requirement=RequirementSection(gravity=STANDARD_GRAVITY, maneuvers="paper"),
-        ocs=OcsSection(alpha_criterion=LIGHTEST, co_design=False),
+        ocs=OcsSection(alpha_criterion=EQUAL_RATE, co_design=False),
         flywheel=FlywheelSection(
-            material=AUTO,
+            material=STEEL,
             web=DISC,
+            lightening=LIGHTENING,
             chamfer=CHAMFER,
             balancing_holes=0,
             balancing_hole_diameter=BALANCING_DIAMETER,
             balancing_hole_depth=BALANCING_DEPTH,
             **{key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()},
         ),
-        motor=MotorSection(name=AUTO, gear=AUTO, bus_voltage=default_bus_voltage(robot)),
+        motor=MotorSection(name=AUTO, gear=DIRECT.name, any=False, with_catalogue=False),
+        supply=SupplySection(voltage=supply.voltage, power_max=supply.power_max, controllers=AUTO),
         validation=ValidationSection(
             enabled=True,
             projection=PROJECTIONS[0],
@@ -102,12 +109,20 @@ def read_specified_robot(
     *,
     package_paths: Mapping[str, Path] | None = None,
     strict: bool = False,
+    sure: bool = True,
 ) -> Robot:
     """Read it.
 
+    Args:
+        specification: that states a file, or mass and inertia.
+        package_paths: folder of each package that `package://` addresses name.
+        strict: whether warnings are errors.
+        sure: whether trunk and legs must be clear, or stated.
+
     Raises:
         UsageError: neither or both are stated.
-        RobotError: it cannot be read; with `strict`, also if there is any warning.
+        RobotError: it cannot be read; trunk and legs are not clear; with `strict`, also if there is
+            any warning.
     """
     stated = specification.robot
     if stated.file is not None and (stated.mass is not None or stated.inertia is not None):
@@ -116,10 +131,14 @@ def read_specified_robot(
         robot = read_robot(
             stated.file,
             trunk=stated.trunk,
+            legs=stated.legs,
             posture=stated.posture,
             joints=stated.joints or {},
             package_paths=package_paths,
         )
+        if sure and robot.recognition is not None and not robot.recognition.sure:
+            question = robot.recognition.question()
+            raise RobotError(f"{stated.file}: {question.message}", hint=question.hint)
     elif stated.mass is not None and stated.inertia is not None:
         robot = robot_by_hand(stated.mass, stated.inertia, name=stated.name or "robot")
     elif stated.mass is not None or stated.inertia is not None:
@@ -165,6 +184,8 @@ def _assumptions(
         ratio = f"lengths x {scale.length:.3g}"
         yield f"Maneuvers: the paper's three, scaled from {SOLO12.name} ({ratio})."
         yield from (f"{item.name}: {item.summary}." for item in requirement.maneuvers)
+    if specification.ocs.alpha is None and specification.ocs.alpha_criterion is None:
+        yield "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate)."
 
     lengths = [
         f"{key} {format_quantity(getattr(envelope, LIMIT_OF_KEY[key]), 'mm', 3)}"
@@ -178,20 +199,24 @@ def _assumptions(
         yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
 
     if choice is not None:
-        if motor.bus_voltage is None:
-            which = "up to" if choice.bus_voltage == BUS_VOLTAGES[0] else "above"
-            yield f"Bus: {choice.bus_voltage:g} V, as robots {which} {LIGHT_ROBOT:g} kg have."
+        yield from _assumed_supply(specification.supply, choice.supply)
         if motor.name in {None, AUTO}:
             # Those whose figures suffice; a gear asks for more of them, never for less.
             known = sum(not missing_figures(found, DIRECT) for found in choice.motors)
-            yield f"Motor: the lightest device of {known} motors in the catalogue."
+            which = "with enough figures" if motor.any else "that can be built with"
+            yield f"Motor: the lightest device of {known} motors {which}."
         if motor.gear in {None, AUTO}:
-            yield f"Gear: none, or one of {len(choice.gears) - 1} stages in the catalogue."
+            stages = len(choice.gears) - 1
+            yield (
+                f"Gear: none, or one of {stages} stages in the catalogue."
+                if stages
+                else ("Gear: none, for how a gear and a motor are held together is not designed.")
+            )
 
     yield from _assumed_wheel(flywheel, envelope, materials, any_motor=choice is not None)
     if choice is not None:
         yield (
-            f"Reserve: a design uses {RESERVE:.0%} of voltage and current; "
+            f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
             "the rest is the feedback's."
         )
         return
@@ -200,6 +225,23 @@ def _assumptions(
         yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
     if motor.torque_max is None:
         yield "Motor torque: not limited."
+
+
+def _assumed_supply(stated: SupplySection, supply: Supply) -> Iterator[str]:
+    """What was not specified about the supply."""
+    assumed = []
+    if stated.voltage is None:
+        assumed.append(f"{supply.voltage:g} V")
+    if stated.power_max is None:
+        power = format_quantity(supply.power_max, "kW" if supply.power_max >= 1e3 else "W", 3)
+        assumed.append(f"at most {power} ({POWER_PER_MASS:g} W per kg of robot)")
+    if assumed:
+        yield f"Supply: {', '.join(assumed)}."
+    if stated.controllers in {None, AUTO}:
+        base, per_current = (
+            format_quantity(each, "g", 3) for each in (BASE_MASS, MASS_PER_CURRENT)
+        )
+        yield f"Controllers: {base} each and {per_current} for each ampere of peak phase current."
 
 
 def _assumed_wheel(
@@ -212,8 +254,10 @@ def _assumed_wheel(
     """One sentence for everything about the wheels that was not specified."""
     chosen = materials[0]
     if flywheel.web is None:
-        yield "Web: a thin disc of aluminium with a hub joins each rim to its motor."
+        yield "Wheel: one piece; a thin disc with a hub joins the rim to its motor."
     if any_motor and flywheel.web != NO_WEB:
+        if flywheel.lightening is None and flywheel.web != ALUMINIUM_WEB:
+            yield f"Web: {LIGHTENING} lightening holes where it has room for them."
         if flywheel.chamfer is None:
             yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')}."
         if flywheel.balancing_holes:
@@ -221,9 +265,10 @@ def _assumed_wheel(
             deep = flywheel.balancing_hole_depth or BALANCING_DEPTH
             size = f"{format_quantity(across, 'mm')} wide, {format_quantity(deep, 'mm')} deep"
             yield f"Balancing holes: {flywheel.balancing_holes} in each face, {size}."
-    if flywheel.material in {None, AUTO}:
+    if flywheel.material in {None, STEEL, AUTO}:
+        kinds = "materials whose strength is known" if flywheel.material == AUTO else "steels"
         yield (
-            f"Material: one of {len(materials)} whose strength is known."
+            f"Material: one of {len(materials)} {kinds}."
             if any_motor
             else f"Material: {chosen.name}, {chosen.density:g} kg/m3."
         )
@@ -286,7 +331,8 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)
     choice = motor_choice(specification, robot)
     # Without a motor only the rim has a mass, and one material is as good as chosen.
-    chosen = material(DEFAULT_MATERIAL if flywheel.material in {None, AUTO} else flywheel.material)
+    name = flywheel.material
+    chosen = material(DEFAULT_MATERIAL if name in {None, STEEL, AUTO} else name)
     materials = (chosen,) if choice is None else choice.materials
     return Resolved(
         requirement=requirement,

@@ -23,12 +23,15 @@ from ocs_design.requirement.values import (
     Faults,
     JointValues,
     Key,
+    LinkNames,
+    Names,
     Number,
     Quantities,
     Quantity,
     Sign,
     Switch,
     Text,
+    WordOr,
 )
 
 Section = TypeVar("Section")
@@ -39,19 +42,34 @@ LIGHTEST = "lightest"
 CRITERIA = (LIGHTEST, "equal-rate", "weighted", "simultaneous", "pitch-only", "roll-only")
 """How the incidence may be chosen (docs/theory.md, Incidence angle)."""
 
+EQUAL_RATE = CRITERIA[1]
+"""Criterion of the incidence where none is stated: alpha* = atan(Ixx / Iyy), as in the paper."""
+
+STEEL = "steel"
+"""In place of a material's name: the steel of the catalogue with which the device is lightest."""
+
 AUTO = "auto"
 """In place of a name: the one with which the device is lightest."""
+
+NO_CONTROLLERS = "none"
+"""In place of a mass: motor controllers are not counted."""
 
 NO_MOTOR = "none"
 """In place of a motor's name: size the wheels by the bound alone, as the paper does."""
 
 DISC = "disc"
-"""A rim's web: a thin disc of aluminium with a hub."""
+"""A rim's web: a thin disc with a hub, all of one piece."""
+
+ALUMINIUM_WEB = "aluminium"
+"""A thin disc of aluminium with a hub, which the rim is shrunk on."""
 
 NO_WEB = "none"
 """In place of a web: massless spokes, as in the paper."""
 
-WEBS = (DISC, NO_WEB)
+WEBS = (DISC, ALUMINIUM_WEB, NO_WEB)
+
+LIGHTENING, LIGHTENINGS = 6, (0, 5, 6, 7, 8)
+"""Holes in a web: how many, and how many there may be."""
 
 CHAMFER, LARGEST_CHAMFER = 0.2e-3, 0.5e-3
 """Of a wheel's edges, where nothing is stated and at most [m]: broken edges as ISO 13715 has them,
@@ -77,6 +95,9 @@ class RobotSection:
     file: Annotated[str | None, Key(Text(), "robot file: URDF, xacro or MJCF")] = None
     name: Annotated[str | None, Key(Text(), "name of the robot")] = None
     trunk: Annotated[str | None, Key(Text(), "link that carries the device")] = None
+    legs: Annotated[
+        tuple[str, ...] | None, Key(LinkNames(), "a link of each foot; none: it has no legs")
+    ] = None
     posture: Annotated[str | None, Key(Text(), "zero, stand, or a name from the file")] = None
     joints: Annotated[
         Mapping[str, float] | None,
@@ -109,7 +130,8 @@ class RequirementSection:
         float | None, Key(Quantity(Dimension.ACCELERATION), "where maneuvers state none")
     ] = None
     maneuvers: Annotated[
-        str | None, Key(Choice(("paper", "none")), "the paper's three, or none at all")
+        str | None,
+        Key(Choice(("paper", "none")), "the paper's three beside what else is asked, or none"),
     ] = None
 
 
@@ -146,13 +168,22 @@ class FlywheelSection:
         float | None, Key(Quantity(Dimension.MASS), "largest mass of a rim")
     ] = None
     material: Annotated[
-        str | None, Key(Text(), "material of a rim, from the catalogue, or auto")
+        str | None, Key(Text(), "material of a rim, from the catalogue; steel or auto: of many")
     ] = None
     web: Annotated[
-        str | None, Key(Choice(WEBS), "how a rim is joined to its motor; none: massless spokes")
+        str | None,
+        Key(
+            Choice(WEBS),
+            "what joins a rim to its motor: a disc of one piece with it, one of aluminium that "
+            "it is shrunk on, or none: massless spokes",
+        ),
     ] = None
     stress_safety: Annotated[
         float | None, Key(Number(), "yield strength over hoop stress at the highest speed")
+    ] = None
+    lightening: Annotated[
+        int | None,
+        Key(Count(), "holes in a web that has room for them; 0: none"),
     ] = None
     chamfer: Annotated[
         float | None,
@@ -172,17 +203,58 @@ class FlywheelSection:
 
 @dataclass(frozen=True, kw_only=True)
 class MotorSection:
-    """`[motor]`: what drives a wheel [V, N m]."""
+    """`[motor]`: what drives a wheel [N m]."""
 
     name: Annotated[
-        str | None, Key(Text(), "motor from the catalogue, auto, or none", option="motor")
+        str | None,
+        Key(Names(), "motors to choose from, of the catalogue; auto, or none", option="motor"),
     ] = None
-    bus_voltage: Annotated[float | None, Key(SUPPLY, "of the supply of both motors")] = None
     gear: Annotated[str | None, Key(Text(), "gear from the catalogue, direct, or auto")] = None
-    motors: Annotated[str | None, Key(Text(), "file with motors of your own, CSV or TOML")] = None
+    any: Annotated[
+        bool | None,
+        Key(Switch(), "whether motors may lack what a builder needs", option="motors-any"),
+    ] = None
+    motors: Annotated[
+        str | None, Key(Text(), "file with motors to choose from instead, CSV or TOML")
+    ] = None
+    with_catalogue: Annotated[
+        bool | None, Key(Switch(), "whether to choose from the catalogue too, beside that file")
+    ] = None
     gears: Annotated[str | None, Key(Text(), "file with gears of your own, CSV or TOML")] = None
     torque_max: Annotated[
         float | None, Key(Quantity(Dimension.TORQUE), "largest torque on a wheel")
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SupplySection:
+    """`[supply]`: what feeds all motors, drawn or fed back, and their controllers [V, A, W, kg]."""
+
+    voltage: Annotated[
+        float | None, Key(SUPPLY, "of the supply of all motors", option="bus-voltage")
+    ] = None
+    current_max: Annotated[
+        float | None,
+        Key(
+            Quantity(Dimension.CURRENT),
+            "largest current of all motors, drawn or fed back",
+            option="bus-current",
+        ),
+    ] = None
+    power_max: Annotated[
+        float | None,
+        Key(
+            Quantity(Dimension.POWER),
+            "largest power of all motors, drawn or fed back",
+            option="bus-power",
+        ),
+    ] = None
+    controllers: Annotated[
+        float | str | None,
+        Key(
+            WordOr((AUTO, NO_CONTROLLERS), Quantity(Dimension.MASS)),
+            "mass of one motor controller; none: not counted",
+        ),
     ] = None
 
 
@@ -225,14 +297,20 @@ class Specification:
     ocs: OcsSection = field(default_factory=OcsSection)
     flywheel: FlywheelSection = field(default_factory=FlywheelSection)
     motor: MotorSection = field(default_factory=MotorSection)
+    supply: SupplySection = field(default_factory=SupplySection)
     validation: ValidationSection = field(default_factory=ValidationSection)
     reality: UncertaintySection = field(default_factory=UncertaintySection)
     maneuvers: tuple[Maneuver, ...] = ()
 
     @property
     def takes_default_maneuvers(self) -> bool:
-        """Whether the paper's three hold, for none is stated and they are not declined."""
-        return not self.maneuvers and self.requirement.maneuvers != "none"
+        """Whether the paper's three hold: nothing is asked for, or they are, by name."""
+        asked = self.requirement
+        if self.maneuvers or asked.maneuvers == "none":
+            return False
+        # What is stated is the requirement: nothing is added to it unasked.
+        nothing = asked.rate_change is None and asked.spin_inertia is None
+        return nothing or asked.maneuvers is not None
 
 
 SECTIONS: Mapping[str, type] = {

@@ -318,9 +318,9 @@ _SWEEPS = (
         Dimension.VOLTAGE,
         "V",
         (0.5, 2.5),
-        "motor",
-        "bus_voltage",
-        lambda task: task.specification.motor.bus_voltage or default_bus_voltage(task.robot),
+        "supply",
+        "voltage",
+        lambda task: task.specification.supply.voltage or default_bus_voltage(task.robot),
     ),
 )
 

@@ -207,6 +207,52 @@ class Text(Value[str]):
 
 
 @dataclass(frozen=True)
+class Names(Value[str]):
+    """One name, or several: a list, or one text with commas between them. Twice is once."""
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return "name, or several with commas between them"
+
+    def read(self, raw: object, where: str) -> str:
+        """Value that `raw` stands for (`Value.read`), as one text."""
+        texts = [Text().read(each, where) for each in (raw if isinstance(raw, list) else [raw])]
+        named = dict.fromkeys(name for text in texts for name in names_in(text))
+        return NAME_SEPARATOR.join(named)
+
+
+NAME_SEPARATOR = ", "
+"""Between the names of a `Names`."""
+
+
+def names_in(text: str) -> tuple[str, ...]:
+    """Names of a text that `Names` has read."""
+    return tuple(name.strip() for name in text.split(",") if name.strip())
+
+
+class LinkNames(Value[tuple[str, ...]]):
+    """Some names: a TOML array, or text with commas; the word `none` stands for no name."""
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return "names, or none"
+
+    def read(self, raw: object, where: str) -> tuple[str, ...]:
+        """Value that `raw` stands for (`Value.read`)."""
+        if raw == "none":
+            return ()
+        entries = raw.split(",") if isinstance(raw, str) else raw
+        if not isinstance(entries, (list, tuple)):
+            raise SpecificationError(f"{where}: {shortened(raw)} is no list of names")
+        names = tuple(Text().read(entry, where).strip() for entry in entries)
+        if len(set(names)) < len(names):
+            raise SpecificationError(f"{where}: {shortened(raw)} has a name twice")
+        return names
+
+
+@dataclass(frozen=True)
 class Choice(Value[str]):
     """One of a few words."""
 
@@ -225,6 +271,27 @@ class Choice(Value[str]):
             f"{where}: {shortened(raw)} is none of {', '.join(self.words)}",
             hint=did_you_mean(raw, self.words),
         )
+
+
+@dataclass(frozen=True)
+class WordOr(Value[float | str]):
+    """One of a few words, or a quantity.
+
+    Attributes:
+        words: that stand for something else. quantity: what else may be written.
+    """
+
+    words: tuple[str, ...]
+    quantity: Quantity
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return f"{', '.join(self.words)}, or {self.quantity.takes}"
+
+    def read(self, raw: object, where: str) -> float | str:
+        """Value that `raw` stands for (`Value.read`)."""
+        return raw if isinstance(raw, str) and raw in self.words else self.quantity.read(raw, where)
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from ocs_design.common.units import (
 from ocs_design.requirement.maneuver import Maneuver, kind_of
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, keys_of
 from ocs_design.requirement.uncertainty import Distribution, Spread
-from ocs_design.requirement.values import ONE_TURN, Key, Quantities, Quantity, Value
+from ocs_design.requirement.values import ONE_TURN, Key, Quantities, Quantity, Value, WordOr
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
@@ -102,6 +102,8 @@ def _fields(specified: object, values: Mapping[str, Value[Any]]) -> Iterator[str
 def written(value: object, how: Value[Any], figures: Figures = Figures.SI) -> str:
     """Value as TOML, a quantity with its unit: some are not believed without one."""
     match how, value:
+        case WordOr(quantity=quantity), float() | int():
+            return written(value, quantity, figures)
         case Quantity(dimension=dimension), float() | int():
             return _text(_quantity(value, dimension, figures))
         case Spread(dimension=dimension), Distribution():
@@ -141,6 +143,8 @@ def _plain(value: object) -> str:
             return str(value).lower()
         case str():
             return _text(value)
+        case tuple():
+            return f"[{', '.join(map(_plain, value))}]"
         case float():
             # NumPy's own floats are floats too, and call themselves by their type.
             return repr(float(value))
@@ -189,6 +193,11 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "robot.trunk": KeyNote(
             "State it where the wrong link was found to carry the legs.", "found", '"trunk"'
         ),
+        "robot.legs": KeyNote(
+            "State them where the wrong limbs were found to be legs.",
+            "found",
+            '["FL_FOOT", "FR_FOOT"]',
+        ),
         "robot.posture": KeyNote(
             "The inertia, and with it all else, is that of this posture.",
             "stand where legs are found",
@@ -221,14 +230,13 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         ),
         "requirement.gravity": KeyNote("1.62 m/s2 is the Moon's."),
         "requirement.maneuvers": KeyNote(
-            "none where the bound alone is asked for; leave it out where you state your own."
+            "paper: beside a rate_change or a spin_inertia; leave it out where you state your own."
         ),
         "ocs.alpha": KeyNote(
             "Where mounts for one angle exist already.", "by the criterion below", '"40 deg"'
         ),
         "ocs.alpha_criterion": KeyNote(
-            "equal-rate is the paper's: the same change of rate about either axis.",
-            "lightest; without a motor equal-rate",
+            "equal-rate is the paper's: the same change of rate about either axis; lightest: any.",
         ),
         "ocs.position": KeyNote(
             "In the trunk's frame; the right wheel is mirrored in y.",
@@ -252,9 +260,12 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "flywheel.wall_min": KeyNote("The same across the rim."),
         "flywheel.wheel_mass_max": KeyNote("What the trunk may carry on each side."),
         "flywheel.material": KeyNote(
-            "One that you can get: see `ocs-design catalogue materials`.",
+            "steel: any; auto: any material; or one of `ocs-design catalogue materials`.",
         ),
         "flywheel.web": KeyNote("none is the paper's: spokes that weigh nothing."),
+        "flywheel.lightening": KeyNote(
+            "They take two fifths of the web, 3 mm of spoke is left; fewer parts to drill: 0."
+        ),
         "flywheel.stress_safety": KeyNote("More where a burst rim could hurt someone."),
         "flywheel.chamfer": KeyNote("What your workshop breaks edges by; it is counted."),
         "flywheel.balancing_holes": KeyNote(
@@ -265,20 +276,31 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "A thread of M2 wants 2 mm; both faces have them, so that the rim grows too."
         ),
         "motor.name": KeyNote(
-            "One that you have: see `ocs-design catalogue motors`; none: the bound alone."
+            "Those that you have: see `ocs-design catalogue motors`; none: the bound alone."
         ),
-        "motor.bus_voltage": KeyNote("Your robot's battery under load, not its nameplate."),
         "motor.gear": KeyNote(
-            "direct where backlash or noise forbid one: see `ocs-design catalogue gears`."
+            "auto: any of `ocs-design catalogue gears`; how they are held is not designed."
+        ),
+        "motor.any": KeyNote(
+            "true: what motors would do whose threads, say, no source gives; not to be built."
         ),
         "motor.motors": KeyNote(
-            "To choose from as well; from the folder of this file.", "none", '"my_motors.csv"'
+            "Instead of the catalogue; from the folder of this file.", "none", '"my_motors.csv"'
         ),
+        "motor.with_catalogue": KeyNote("true: your file's motors and the catalogue's."),
         "motor.gears": KeyNote(
             "To choose from as well; from the folder of this file.", "none", '"my_gears.csv"'
         ),
         "motor.torque_max": KeyNote(
             "What your motor controller gives, at the wheel.", "the motor's own", '"1 N m"'
+        ),
+        "supply.voltage": KeyNote("Your robot's battery under load, not its nameplate."),
+        "supply.current_max": KeyNote(
+            "What fuse, cables and battery stand, both ways.", "not limited but by power", '"40 A"'
+        ),
+        "supply.power_max": KeyNote("Less where the legs draw at the same time."),
+        "supply.controllers": KeyNote(
+            "auto: by their current; a mass where you have some; none: not counted."
         ),
         "validation.enabled": KeyNote("false: size and export only, in half the time."),
         "validation.projection": KeyNote("transpose is the paper's, which scales the gains."),

@@ -19,6 +19,15 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 
 _SWEEPS = 40
 
+_SHORT = 0.5
+"""Share of a limb's length below which a stretched limb may not be stretched yet."""
+
+_TURNS = (0.5, -0.5)
+"""Where the ascent starts again, from zero [rad]."""
+
+_FARTHER = 0.01
+"""Share of a limb's length by which another start must be better, for rounding not to decide."""
+
 
 @dataclass(frozen=True, eq=False)
 class ChainPose:
@@ -142,10 +151,35 @@ class Chain:
 
         Cyclic coordinate ascent within the limits: along a single hinge the goal is a sinusoid, of
         which the best value is known in closed form (Wang and Chen, IEEE T-RA 7(4), 1991).
-        Prismatic joints stay where they are.
+        Prismatic joints stay where they are. A limb that is folded onto itself at zero is at a
+        saddle; where the first ascent leaves it short, it starts again with every joint turned.
         """
-        values = self.neutral()
         chosen = range(len(self.driven)) if movable is None else movable
+        start = self.neutral()
+        best = self._ascended(local, direction, chosen, start)
+        lengths = [np.linalg.norm(body.placement.position) for body in self.bodies[1:]]
+        whole = float(sum(lengths) + np.linalg.norm(local))
+        before = self._reached(best, local, direction)
+        if before < _SHORT * whole:
+            for turn in _TURNS:
+                turned = start.copy()
+                turned[list(chosen)] += turn
+                turned = np.clip(turned, self.lower, self.upper)
+                again = self._ascended(local, direction, chosen, turned)
+                if self._reached(again, local, direction) > before + _FARTHER * whole:
+                    best, before = again, self._reached(again, local, direction)
+        return best
+
+    def _reached(self, values: FloatArray, local: FloatArray, direction: FloatArray) -> float:
+        """How far a point of the last body is from the first joint along `direction` [m]."""
+        pose = self.pose(values)
+        return float(direction @ (pose.point(local) - pose.origins[0]))
+
+    def _ascended(
+        self, local: FloatArray, direction: FloatArray, chosen: Sequence[int], start: FloatArray
+    ) -> FloatArray:
+        """The values that the ascent ends with."""
+        values = start.copy()
         for _ in range(_SWEEPS):
             before = values.copy()
             pose = self.pose(values)
@@ -157,7 +191,7 @@ class Chain:
                     continue
                 lever, axis = tip - pose.origins[row], pose.axes[row]
                 cosine = direction @ (lever - axis * (axis @ lever))
-                sine = direction @ np.cross(axis, lever)
+                sine = direction @ _cross(axis, lever)
                 if np.hypot(cosine, sine) < 1e-9 * max(1e-9, float(np.linalg.norm(lever))):
                     continue
                 value = nearest_turn(
@@ -170,6 +204,12 @@ class Chain:
             if np.abs(values - before).max(initial=0.0) < 1e-6:
                 break
         return values
+
+
+def _cross(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Cross product of two vectors; NumPy's takes ten times as long for a single pair."""
+    (a, b, c), (x, y, z) = one, other
+    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
 def nearest_turn(angle: float, lower: float, upper: float) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import neutral_posture
 from ocs_design.robot.leg_geometry import up_axis
-from ocs_design.robot.legs import is_wheel, leg_chain, trunk_body
+from ocs_design.robot.legs import is_wheel, leg_chain
 from ocs_design.robot.links import Warnings
 from ocs_design.robot.mass import MassProperties, physical_defect
 from ocs_design.robot.meshes import half_extents, quick_mesh_bounds
@@ -326,10 +326,9 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
     if not legs:
         return
     placements = tree.placements_from(trunk, neutral_posture(tree))
-    base = trunk_body(tree, legs)
     sides = []
     for leg in legs:
-        chain = leg_chain(tree, leg, base, placements)
+        chain = leg_chain(tree, leg, placements)
         place, origins, masses = chain.start, [], []
         for body in chain.bodies:
             place = place @ body.placement

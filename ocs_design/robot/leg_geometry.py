@@ -8,7 +8,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.chain import Chain, neutral_posture
-from ocs_design.robot.legs import LegPlane, leg_chain, leg_plane, trunk_body
+from ocs_design.robot.legs import LegPlane, leg_chain, leg_plane
 from ocs_design.robot.robot import Leg, Mount
 from ocs_design.robot.tree import Placement, Tree
 
@@ -41,16 +41,15 @@ def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeom
 
 
 def up_axis(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
-    """The axis of B, either way, along which the legs hang when all joints are at zero, shape (3,).
+    """The axis of B, either way, that points up while the robot stands, shape (3,).
 
-    It is z, unless B follows another convention.
+    It is z, unless B follows another convention. What hangs between B and the legs' bases is at
+    rest.
     """
-    hang = np.zeros(3)
-    for chain, leg in zip(_chains(tree, trunk, legs), legs, strict=True):
-        rest = chain.pose(chain.neutral())
-        hang += rest.origins[0] - rest.point(leg.foot)
-    axis = int(np.argmax(np.abs(hang)))
-    return np.asarray(np.eye(3)[axis] * np.sign(hang[axis]))
+    placements = tree.placements_from(trunk, neutral_posture(tree))
+    up = np.sum([placements[leg.base].rotation @ leg.up for leg in legs], axis=0)
+    axis = int(np.argmax(np.abs(up)))
+    return np.asarray(np.eye(3)[axis] * np.sign(up[axis]))
 
 
 def standing_height(
@@ -94,8 +93,7 @@ def axis_name(direction: FloatArray) -> str:
 
 def _chains(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[Chain]:
     placements = tree.placements_from(trunk, neutral_posture(tree))
-    base = trunk_body(tree, legs)
-    return [leg_chain(tree, leg, base, placements) for leg in legs]
+    return [leg_chain(tree, leg, placements) for leg in legs]
 
 
 BASE_FRAME = "ocs_base"

@@ -262,17 +262,48 @@ def find_legs(tree: Tree) -> tuple[Leg, ...]:
 
 def trunk_body(tree: Tree, legs: Sequence[Leg]) -> int:
     """Index of the body that the legs branch from: the last that all their chains share."""
-    shared = set.intersection(*(set(_ancestors(tree, leg.body)) for leg in legs))
+    shared = set.intersection(*(set(ancestors(tree, leg.body)) for leg in legs))
     return max(shared)
 
 
-def leg_chain(tree: Tree, leg: Leg, trunk: int, placements: Sequence[Placement]) -> Chain:
-    """The leg's chain from body `trunk` on, seen from the frame that `placements` are given in."""
-    first = next(i for i in _ancestors(tree, leg.body) if tree.bodies[i].parent == trunk)
-    return chain_of(tree, first, leg.body, placements)
+def leg_chain(tree: Tree, leg: Leg, placements: Sequence[Placement]) -> Chain:
+    """The leg's chain from its base on, seen from the frame that `placements` are given in."""
+    return chain_between(tree, leg.base, leg.body, placements)
 
 
-def _ancestors(tree: Tree, body: int) -> Iterator[int]:
+def chain_between(tree: Tree, base: int, last: int, placements: Sequence[Placement]) -> Chain:
+    """The chain that hangs on body `base` and ends with body `last`."""
+    first = next(i for i in ancestors(tree, last) if tree.bodies[i].parent == base)
+    return chain_of(tree, first, last, placements)
+
+
+def leg_of(
+    tree: Tree, base: int, last: int, up: FloatArray, placements: Sequence[Placement]
+) -> Leg:
+    """The leg that hangs on body `base` and ends with body `last`.
+
+    Args:
+        tree: of the robot.
+        base: index of the body that the leg branches from.
+        last: index of the leg's last body.
+        up: unit vector against gravity in the root's frame, shape (3,).
+        placements: of all bodies in the root's frame.
+    """
+    chain = chain_between(tree, base, last, placements)
+    foot = find_foot(chain, up)
+    return Leg(
+        name=foot.link,
+        body=last,
+        joints=chain.names,
+        foot=frozen(foot.point),
+        foot_radius=foot.radius,
+        length=leg_plane(chain, foot.point, up).length,
+        base=base,
+        up=frozen(placements[base].rotation.T @ up),
+    )
+
+
+def ancestors(tree: Tree, body: int) -> Iterator[int]:
     """The body itself, its parent and so on to the root."""
     while body >= 0:
         yield body
@@ -283,29 +314,52 @@ def _legs_along(
     tree: Tree, placements: Sequence[Placement], masses: Sequence[MassProperties], up: FloatArray
 ) -> tuple[Leg, ...]:
     best: list[_Limb] = []
+    base = 0
     robot = combine(masses)
     for trunk, ends in _alike(tree):
         limbs = [_limb(chain_of(tree, *each, placements), each[1], up) for each in ends]
         hanging = [limb for limb in limbs if limb is not None]
-        carriers = [masses[i] for i in _ancestors(tree, trunk) if masses[i].mass > 0.0]
+        carriers = [masses[i] for i in ancestors(tree, trunk) if masses[i].mass > 0.0]
         legs = _standing(hanging, robot, carriers, up)
         if _leave_twins(tree, ends, {leg.last for leg in legs}):
             continue
         if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
-            best = legs
-    found = []
-    for limb in best:
-        foot = find_foot(limb.chain, up)
-        length = leg_plane(limb.chain, foot.point, up).length
-        point, names = frozen(foot.point), limb.chain.names
-        found.append(Leg(foot.link, limb.last, names, point, foot.radius, length))
+            best, base = legs, trunk
+    found = [leg_of(tree, base, limb.last, up, placements) for limb in best]
+    if found:
+        along = _lying(tree, found, up, placements)
+        found = [leg_of(tree, base, limb.last, along, placements) for limb in best]
     # Slides alone, as of a gantry, do not make a leg: nothing bends between hip and foot.
     return tuple(found) if all(leg.length > 0.0 for leg in found) else ()
 
 
+_LONGER = 1.2
+"""How much longer legs must be along another axis for that to be up."""
+
+
+def _lying(
+    tree: Tree, legs: Sequence[Leg], up: FloatArray, placements: Sequence[Placement]
+) -> FloatArray:
+    """Up of a robot that lies at zero: the axis that its legs lie along and are longest along.
+
+    It is `up` itself for a robot that stands at zero, or crouches.
+    """
+    lie = np.zeros(3)
+    for leg in legs:
+        rest = leg_chain(tree, leg, placements)
+        pose = rest.pose(rest.neutral())
+        lie += pose.origins[0] - pose.point(leg.foot)
+    axis = int(np.argmax(np.abs(lie)))
+    along = np.asarray(np.eye(3)[axis] * np.sign(lie[axis]))
+    if along @ up > 0.5:
+        return up
+    longer = [leg_of(tree, leg.base, leg.body, along, placements).length for leg in legs]
+    return along if min(longer) > _LONGER * max(leg.length for leg in legs) else up
+
+
 def _alike(tree: Tree) -> Iterator[tuple[int, list[tuple[int, int]]]]:
     """Trunks, each with limbs of the same number of joints, as first and last body."""
-    ends, driven = _far_ends(tree), _driven_joints(tree)
+    ends, driven = far_ends(tree), _driven_joints(tree)
     sets: dict[tuple[int, int], list[tuple[int, int]]] = {}
     for first, body in enumerate(tree.bodies[1:], start=1):
         last = ends[first]
@@ -332,7 +386,7 @@ def _leave_twins(tree: Tree, limbs: Sequence[tuple[int, int]], chosen: Collectio
     )
 
 
-def _far_ends(tree: Tree) -> list[int]:
+def far_ends(tree: Tree) -> list[int]:
     """Index of the descendant at the end of the longest path below each body, or of itself."""
     ends = list(range(len(tree.bodies)))
     lengths = [0.0] * len(tree.bodies)

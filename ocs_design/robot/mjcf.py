@@ -258,7 +258,11 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
             links.setdefault(connection.child, Link(connection.child, None))
     for index in np.flatnonzero(np.isin(model.eq_type, _LOOPS)):
         name = model.eq(index).name or str(index)
-        warnings.add("loops closed by connect or weld, not enforced", name)
+        warnings.add(
+            "closed chains are cut open where connect or weld closes them; the legs move as if "
+            "open, and the loop is not enforced",
+            name,
+        )
     tree = make_tree(spec.modelname, model.body(base).name, links, children, warnings)
     # Each keyframe has values of the tree's joints among others.
     addresses = {name: int(model.jnt_qposadr[model.joint(name).id]) for name in tree.joints}
@@ -268,7 +272,12 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
         }
         for index in range(model.nkey)
     }
-    return replace(tree, named_postures=keyframes, warnings=warnings.sentences())
+    return replace(
+        tree,
+        named_postures=keyframes,
+        warnings=warnings.sentences(),
+        floats=bool(model.body_jntnum[base]),
+    )
 
 
 _NUMBERS = {

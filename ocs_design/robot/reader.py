@@ -3,17 +3,17 @@
 Named postures come from the SRDF beside a URDF: https://wiki.ros.org/srdf/review, `<group_state>`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.common.errors import MissingToolError, RobotError
 from ocs_design.robot.checks import plausibility_warnings
 from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
-from ocs_design.robot.legs import find_legs, find_trunk
 from ocs_design.robot.links import Warnings, check_whole
 from ocs_design.robot.packages import MeshFinder
 from ocs_design.robot.posture import resolve_posture, unknown_name
+from ocs_design.robot.recognition import recognise
 from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.source import Source, read_source
 from ocs_design.robot.tree import Tree
@@ -145,6 +145,7 @@ def read_robot(
     source: str | Path,
     *,
     trunk: str | None = None,
+    legs: Sequence[str] | None = None,
     posture: str | None = None,
     joints: Mapping[str, float] | None = None,
     package_paths: Mapping[str, Path] | None = None,
@@ -153,28 +154,32 @@ def read_robot(
 
     Args:
         source: URDF, xacro or MJCF file, gzipped or not; `-` for standard input.
-        trunk: link that carries the device; None: found (see `find_trunk`).
+        trunk: link that carries the device; None: found (see `recognise`).
+        legs: a link of each foot; empty: the robot has no legs; None: found.
         posture: `zero`, `stand` or a posture named in the file; None: see `resolve_posture`.
         joints: values of single joints [rad or m] that replace the posture's.
         package_paths: folder of each package that `package://` addresses name.
     """
     loaded = load(source, package_paths=package_paths)
     tree = loaded.tree
-    legs = find_legs(tree)
+    for name in (trunk, *(legs or ())):
+        if name is not None and name not in tree.body_of_link:
+            raise unknown_name("link", name, tree.body_of_link)
+    recognition = recognise(tree, trunk=trunk, legs=legs)
+    found = recognition.reading.legs
     if trunk is None:
-        found = find_trunk(tree, legs)
-        tree, mount, of_frame = with_base_frame(tree, found, legs)
-        base = found if mount is None else BASE_FRAME
-    elif trunk in tree.body_of_link:
-        base, mount = trunk, None
-        of_frame = tuple(convention_warnings(tree, base, legs))
+        name = recognition.reading.trunk
+        tree, mount, of_frame = with_base_frame(tree, name, found)
+        base = name if mount is None else BASE_FRAME
     else:
-        raise unknown_name("link", trunk, tree.body_of_link)
-    chosen = resolve_posture(tree, base, legs, posture, joints or {})
+        base, mount = trunk, None
+        of_frame = tuple(convention_warnings(tree, base, found))
+    chosen = resolve_posture(tree, base, found, posture, joints or {})
     weighed = tree.locked_mass_properties(chosen.values, base)
     check_whole(weighed, tree)
-    unlikely = plausibility_warnings(tree, base, legs, chosen.values, weighed)
-    warnings = (*tree.warnings, *of_frame, *chosen.warnings, *unlikely)
+    unlikely = plausibility_warnings(tree, base, found, chosen.values, weighed)
+    liberties = recognition.reading.liberties
+    warnings = (*tree.warnings, *liberties, *of_frame, *chosen.warnings, *unlikely)
     return Robot(
         name=tree.name,
         source=loaded.source,
@@ -187,8 +192,9 @@ def read_robot(
         posture=chosen.values,
         posture_name=chosen.name,
         mass_properties=weighed,
-        legs=legs,
+        legs=found,
         standing_height=chosen.standing_height,
         warnings=tuple(dict.fromkeys(warnings)),
         mount=mount,
+        recognition=recognition,
     )

@@ -3,12 +3,17 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.tree import Placement, Tree
+
+if TYPE_CHECKING:
+    # It holds legs of this module.
+    from ocs_design.robot.recognition import Recognition
 
 
 class Format(StrEnum):
@@ -30,6 +35,8 @@ class Leg:
         foot: the point that touches the ground, in the foot body's frame [m], shape (3,).
         foot_radius: of a sphere around `foot` that reaches the sole; 0 for a bare point [m].
         length: of the stretched leg within its limits, hip pitch axis to foot [m].
+        base: index of the body that the leg branches from: the trunk, or the end of a spine.
+        up: unit vector against gravity in the frame of `base`, the robot standing, shape (3,).
     """
 
     name: str
@@ -38,6 +45,8 @@ class Leg:
     foot: FloatArray
     foot_radius: float
     length: float
+    base: int
+    up: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +84,7 @@ class Robot:
             legs.
         warnings: one sentence each, naming the link or joint.
         mount: how B is fixed to the file's own link; None if `trunk` is a link of the file.
+        recognition: how sure trunk and legs are, and what else they may be; None by hand.
     """
 
     name: str
@@ -92,6 +102,7 @@ class Robot:
     standing_height: float | None
     warnings: tuple[str, ...]
     mount: Mount | None = None
+    recognition: "Recognition | None" = None
 
     @property
     def mass(self) -> float:

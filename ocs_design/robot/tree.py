@@ -200,12 +200,14 @@ class Tree:
         bodies: parents before children; `bodies[0]` is the floating base.
         named_postures: joint values [rad or m] by posture name, from MJCF keyframes or an SRDF.
         warnings: what was odd in the file and how it was read, one sentence each.
+        floats: whether the root moves freely against the world; None where the file does not say.
     """
 
     name: str
     bodies: tuple[Body, ...]
     named_postures: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    floats: bool | None = None
 
     @cached_property
     def joints(self) -> Mapping[str, Joint]:

@@ -44,6 +44,9 @@ class Series:
         torque_lowest, torque_highest: that the motors can give at these speeds [N m], (k, 2); None
             where that is not limited.
         contact: whether anything touches the floor, (k,).
+        bus_power: of all motors together, drawn (+) or fed back (-), where it is largest in size
+            from this instant to the next [W], (k,); None: the winding or the supply is not known.
+        bus_current: likewise, at the voltage of the supply [A], (k,).
     """
 
     time: FloatArray
@@ -57,6 +60,8 @@ class Series:
     torque_lowest: FloatArray | None
     torque_highest: FloatArray | None
     contact: FloatArray
+    bus_power: FloatArray | None = None
+    bus_current: FloatArray | None = None
 
     def columns(self) -> Mapping[str, FloatArray]:
         """Each scalar by name and unit, as in a CSV file."""
@@ -72,6 +77,8 @@ class Series:
             **_of_wheels("wheel_torque_{}_nm", self.wheel_torque),
             **_of_wheels("wheel_torque_lowest_{}_nm", self.torque_lowest),
             **_of_wheels("wheel_torque_highest_{}_nm", self.torque_highest),
+            **_known("bus_power_w", self.bus_power),
+            **_known("bus_current_a", self.bus_current),
             "contact": self.contact,
         }
 
@@ -81,6 +88,11 @@ def _of_wheels(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]
     if values is None:
         return {}
     return {name.format(side): values[:, i] for i, side in enumerate(SIDES)}
+
+
+def _known(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
+    """One column; none where there is nothing to tell."""
+    return {} if values is None else {name: values}
 
 
 @dataclass(frozen=True)
@@ -136,7 +148,17 @@ def series_of(recording: Recording, index: int, world: World) -> Series:
     attitude, speed = recording.attitude[ran, index], recording.wheel_speed[ran, index]
     roll, pitch = quaternions.tilt(attitude)
     limits = world.limits
+    torque = recording.wheel_torque[ran, index]
     lowest, highest = (None, None) if limits is None else limits.torque_range(speed)
+    power, current = None, None
+    if limits is not None and limits.voltage is not None:
+        # A held torque takes most at one end of its step.
+        # A run that broke down ends with speeds beyond all measure.
+        with np.errstate(invalid="ignore", over="ignore"):
+            first = limits.bus_power(speed, torque)
+            last = limits.bus_power(np.vstack([speed[1:], speed[-1:]]), torque)
+        power = np.where(np.abs(last) > np.abs(first), last, first)
+        current = power / limits.voltage
     return Series(
         time=recording.time[ran],
         com=recording.com[ran, index],
@@ -145,10 +167,12 @@ def series_of(recording: Recording, index: int, world: World) -> Series:
         yaw=np.unwrap(quaternions.heading(attitude)),
         rate=recording.rate[ran, index],
         wheel_speed=speed,
-        wheel_torque=recording.wheel_torque[ran, index],
+        wheel_torque=torque,
         torque_lowest=lowest,
         torque_highest=highest,
         contact=recording.contact[ran, index].astype(np.float64),
+        bus_power=power,
+        bus_current=current,
     )
 
 

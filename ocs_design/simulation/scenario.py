@@ -64,6 +64,7 @@ class Run:
         series: of time. note: see `World`.
         poses: to show the flight again; None if none were recorded.
         can_stand: whether the legs bear a level landing from this flight, see `judge`.
+        level, stands: see `Verdict`.
     """
 
     scenario: str
@@ -75,6 +76,8 @@ class Run:
     note: str
     can_stand: bool | None
     poses: Poses | None = None
+    level: bool | None = None
+    stands: bool | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +158,8 @@ def run_scenarios(
                     note=flight.world.note,
                     poses=flight.poses,
                     can_stand=legs,
+                    level=verdict.level,
+                    stands=verdict.stands,
                 )
             )
     return tuple(runs)

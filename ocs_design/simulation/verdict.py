@@ -1,6 +1,6 @@
 """When a run counts as passed, in one place."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -33,11 +33,21 @@ class Fault(StrEnum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """Whether a run passed, None where it cannot be judged, and why in one sentence."""
+    """What is to be said of a run.
+
+    Attributes:
+        passed: see `judge`; None where it cannot be judged. reason: why, in one sentence.
+        fault: what kept it from passing.
+        level: whether it touches down level; None: not judged, or there is no touchdown.
+        stands: whether it is upright at the end, whatever its legs bear; None: not judged, or it
+            has no legs.
+    """
 
     passed: bool | None
     reason: str
     fault: Fault | None = None
+    level: bool | None = None
+    stands: bool | None = None
 
 
 def judge(
@@ -56,8 +66,19 @@ def judge(
     unsound = objection or _unsound(metrics)
     if metrics is None or unsound:
         return Verdict(None, unsound, Fault.UNSOUND)
-    if isinstance(maneuver, Shove):
-        return _shoved(metrics, can_stand)
+    shoved = isinstance(maneuver, Shove)
+    verdict = _shoved(metrics, can_stand) if shoved else _flown(metrics, maneuver, can_stand)
+    if verdict.passed is None:
+        return verdict
+    return replace(
+        verdict,
+        level=None if shoved else not _landing_failure(metrics),
+        stands=None if can_stand is None else metrics.upright_at_end,
+    )
+
+
+def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Verdict:
+    """Verdict on a robot that comes down from the air; see `judge`."""
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
         return failure

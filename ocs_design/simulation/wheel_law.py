@@ -15,8 +15,10 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.actuation.drive import RESERVE, Drive
+from ocs_design.actuation.drive import RESERVE, Drive, power_less_friction
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.device.device import SIDES
 from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 from ocs_design.robot.robot import Robot
@@ -51,6 +53,81 @@ def clipped(
     return np.minimum(np.maximum(driven, -torque_limit), torque_limit)
 
 
+def bus_power(
+    torque: FloatArray,
+    speed: FloatArray,
+    *,
+    copper: FloatArray | float,
+    efficiency: FloatArray | float,
+) -> FloatArray:
+    """Power of all motors of a world at the bus [W], shape (n,): R i^2, and what the shafts take.
+
+    A gear's loss is drawn where its motor drives and lost where it brakes.
+
+    Args:
+        torque, speed: of the wheels [N m, rad/s], shape (n, wheels).
+        copper, efficiency: see `MotorLimits`.
+    """
+    shaft = torque * speed
+    taken = np.maximum(shaft / efficiency, shaft * efficiency)
+    power: FloatArray = (copper * torque**2 + taken).sum(axis=-1)
+    return power
+
+
+def within_supply(
+    torque: FloatArray,
+    speed: FloatArray,
+    *,
+    gain: FloatArray,
+    copper: FloatArray,
+    efficiency: FloatArray,
+    power_max: FloatArray,
+) -> FloatArray:
+    """Torques of a world, all scaled down alike until the supply can give or take their power.
+
+    Held torques speed wheels up and let them take more and more: a control step draws most at its
+    end and feeds back most at its start. With all torques times f, the power at the end is convex
+    in f and zero at f = 0; each of its parts is `a f^2 + b f`, which is P at 2 P / (b + root).
+
+    Args:
+        torque: that the motors could give [N m], (n, wheels).
+        speed: of the wheels now [rad/s], (n, wheels).
+        gain: change of speed in a control step per torque [rad/s/(N m)], shape (n, 1).
+        copper, efficiency, power_max: see `MotorLimits`, shape (n, 1).
+    """
+    limit, shaft = np.minimum(power_max[:, 0], _ENDLESS), torque * speed
+    heat = (copper * torque**2).sum(axis=1)
+    factor = np.ones_like(limit)
+    for _ in range(torque.shape[1] + 1):
+        # A motor that brakes at the start may drive at the end: each change takes another look.
+        ends = factor[:, None] * gain * torque**2 + shaft
+        share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
+        square = heat + (share * gain * torque**2).sum(axis=1)
+        factor = np.minimum(factor, _reaching(limit, square, (share * shaft).sum(axis=1)))
+    share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
+    given = (share * shaft).sum(axis=1)
+    # Beyond the larger root, more torque burns what it brakes in the windings.
+    root = np.sqrt(np.maximum(given**2 - 4.0 * heat * limit, 0.0))
+    feeds = factor * (heat * factor + given) < -limit
+    least = 2.0 * limit / np.where(feeds, root - given, 1.0)
+    return torque * np.where(feeds, np.minimum(factor, least), factor)[:, None]
+
+
+def _reaching(limit: FloatArray, square: FloatArray, linear: FloatArray) -> FloatArray:
+    """Factor f up to which `square f^2 + linear f` is within a limit; inf: all."""
+    depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
+    return np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
+
+
+_ENDLESS = 1e100
+"""Stands for a power without limit: its products with others are finite [W]."""
+
+
+SUPPLY_USED = 0.99
+"""Share of the supply's power that the law uses: what else turns the wheels within a control step,
+as the trunk hits the ground, changes their power by less than the rest."""
+
+
 @dataclass(frozen=True)
 class MotorLimits:
     """Limits of a motor at its wheel (docs/theory.md, What a motor can do).
@@ -61,23 +138,44 @@ class MotorLimits:
             stall torque is given: full torque up to w_0.
         torque_limit: at the current limit [N m]; inf: not limited.
         speed_max: mechanical [rad/s]; inf: not limited.
+        copper: heat in the winding over the squared torque, R / (N eta k_t)^2 [W/(N m)^2].
+        efficiency: of the gear.
+        power_max: of the supply, for all motors together, without what their friction takes at the
+            most [W]; inf: not limited.
+        voltage: of the supply [V]; None: the winding or the supply is not known.
     """
 
     no_load_speed: float
     line_slope: float
     torque_limit: float
     speed_max: float = np.inf
+    copper: float = 0.0
+    efficiency: float = 1.0
+    power_max: float = np.inf
+    voltage: float | None = None
 
     @classmethod
-    def of(cls, motor: Drive) -> "MotorLimits":
-        """The limits of a catalogue or assumed motor."""
+    def of(cls, motor: Drive, supply: Supply | None = None) -> "MotorLimits":
+        """The limits of a catalogue or assumed motor; None: nothing is known of its supply."""
         limit = np.inf if motor.torque_limit is None else motor.torque_limit
         top = np.inf if motor.speed_max is None else motor.speed_max
-        if motor.stall_torque is None:
-            return cls(motor.no_load_speed, 0.0, limit, top)
-        if np.isinf(motor.no_load_speed):
-            return cls(np.inf, 0.0, min(limit, motor.stall_torque), top)
-        return cls(motor.no_load_speed, motor.no_load_speed / motor.stall_torque, limit, top)
+        line = cls(motor.no_load_speed, 0.0, limit, top)
+        if motor.stall_torque is not None and np.isinf(motor.no_load_speed):
+            line = cls(np.inf, 0.0, min(limit, motor.stall_torque), top)
+        elif motor.stall_torque is not None:
+            line = replace(line, line_slope=motor.no_load_speed / motor.stall_torque)
+        if supply is None or motor.resistance is None or motor.torque_constant is None:
+            return line
+        per_current = motor.gear_ratio * motor.gear_efficiency * motor.torque_constant
+        return replace(
+            line,
+            copper=motor.resistance / per_current**2,
+            efficiency=motor.gear_efficiency,
+            power_max=power_less_friction(
+                supply, len(SIDES), motor, line.torque_limit / per_current
+            ),
+            voltage=supply.voltage,
+        )
 
     @property
     def is_finite(self) -> bool:
@@ -85,11 +183,13 @@ class MotorLimits:
         return bool(np.isfinite(self.torque_limit) or self.line_slope > 0.0)
 
     def reserved(self) -> "MotorLimits":
-        """What a reference may take; the rest of voltage and current is left to the feedback."""
+        """What a reference may take; the rest of voltage, current and speed is for the feedback."""
         return replace(
             self,
             no_load_speed=RESERVE * self.no_load_speed,
             torque_limit=RESERVE * self.torque_limit,
+            speed_max=RESERVE * self.speed_max,
+            power_max=RESERVE * self.power_max,
         )
 
     def torque_range(self, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -108,14 +208,21 @@ class MotorLimits:
         return np.clip(lowest, -limit, limit), np.clip(highest, -limit, limit)
 
     def utilisation(self, speed: FloatArray, torque: FloatArray) -> float:
-        """The largest share of bus voltage, current limit or top speed that a motion takes.
+        """The largest share of bus voltage, current, power or top speed that a motion takes.
 
-        At most 1 for what the motor can do: `|W + slope * tau| <= w_0`, `|tau| <= tau_L` and
-        `|W| <= speed_max`.
+        At most 1 for what motor and supply can do: `|W + slope * tau| <= w_0`, `|tau| <= tau_L`,
+        `|W| <= speed_max` and a power of all wheels together of at most `power_max` either way.
         """
         voltage = np.abs(speed + self.line_slope * torque).max() / self.no_load_speed
         current = np.abs(torque).max() / self.torque_limit
-        return float(max(voltage, current, np.abs(speed).max() / self.speed_max))
+        power = 0.0
+        if np.isfinite(self.power_max):
+            power = np.abs(self.bus_power(speed, torque)).max() / self.power_max
+        return float(max(voltage, current, np.abs(speed).max() / self.speed_max, power))
+
+    def bus_power(self, speed: FloatArray, torque: FloatArray) -> FloatArray:
+        """Power of all motors at the bus [W], see `bus_power`."""
+        return bus_power(torque, speed, copper=self.copper, efficiency=self.efficiency)
 
 
 class Allocation(StrEnum):
@@ -145,6 +252,7 @@ class WheelLaw(Table):
         stiffness, damping: `Gains`, shape (n,).
         standing_stiffness: in place of `stiffness` on the ground, shape (n,).
         no_load_speed, line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
+        copper, efficiency: likewise. power_max: that the law uses [W], shape (n,).
         wheel_response: see `Gyrostat`, shape (n,).
     """
 
@@ -156,6 +264,9 @@ class WheelLaw(Table):
     line_slope: FloatArray
     torque_limit: FloatArray
     speed_max: FloatArray
+    copper: FloatArray
+    efficiency: FloatArray
+    power_max: FloatArray
     wheel_response: FloatArray
     standing_stiffness: FloatArray
 
@@ -189,6 +300,9 @@ class WheelLaw(Table):
             np.array([limits.line_slope]),
             np.array([limits.torque_limit]),
             np.array([limits.speed_max]),
+            np.array([limits.copper]),
+            np.array([limits.efficiency]),
+            np.array([SUPPLY_USED * limits.power_max]),
             np.array([body.wheel_response]),
             np.array([gains.stiffness if balances else 0.0]),
         )
@@ -198,7 +312,7 @@ class WheelLaw(Table):
         """No torque, in one world."""
         one, none = np.ones(1), np.zeros(1)
         maps = np.zeros((1, 3, 5)), np.zeros((1, 2, 5))
-        return cls(*maps, none, none, one, one, none, one, one, none)
+        return cls(*maps, none, none, one, one, none, one, none, one, np.inf * one, one, none)
 
     @property
     def is_off(self) -> bool:
@@ -230,14 +344,25 @@ class WheelLaw(Table):
         torque = np.einsum(
             "nij,nj->ni", self.torque_map, np.concatenate([wanted, gyroscopic], axis=1)
         )
-        return clipped(
+        gain = (self.wheel_response * period)[:, None]
+        possible = clipped(
             torque + target.torque,
             wheel_speed,
-            gain=(self.wheel_response * period)[:, None],
+            gain=gain,
             line_slope=self.line_slope[:, None],
             no_load_speed=self.no_load_speed[:, None],
             torque_limit=self.torque_limit[:, None],
             speed_max=self.speed_max[:, None],
+        )
+        if np.isinf(self.power_max).all():
+            return possible
+        return within_supply(
+            possible,
+            wheel_speed,
+            gain=gain,
+            copper=self.copper[:, None],
+            efficiency=self.efficiency[:, None],
+            power_max=self.power_max[:, None],
         )
 
     def gyroscopic(self, rate: FloatArray, wheel_speed: FloatArray) -> FloatArray:

@@ -230,7 +230,7 @@ class WorldBuilder:
         self._gains = wheel_gains(robot) if gains is None else gains
         self._drop_profile = Quintic() if drop_profile is None else drop_profile
         self._desaturate = desaturate
-        self._limits = MotorLimits.of(device.motor)
+        self._limits = MotorLimits.of(device.motor, device.supply)
         self._scene = robot_scene(robot)
 
     def flight(

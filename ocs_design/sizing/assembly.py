@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 from ocs_design.actuation.drive import Drive, DriveLine
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import SIDES, Device, Flywheel, Module, Web
@@ -11,14 +12,10 @@ from ocs_design.device.layout import module_axes
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import (
     NO_CUTS,
-    WEB_DENSITY,
-    WEB_MATERIAL,
-    WEB_THICKNESS,
     Hub,
     RimCuts,
     hoop_stress,
     stored_energy,
-    web_mass,
     wheel_body,
 )
 from ocs_design.requirement.resolving import Resolved
@@ -49,8 +46,8 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
     )
 
 
-def assemble_selected(candidate: Candidate, bus_voltage: float) -> Device:
-    """Two modules as they were selected, fed at `bus_voltage` [V]."""
+def assemble_selected(candidate: Candidate, supply: Supply) -> Device:
+    """Two modules as they were selected, fed by `supply`."""
     wheel = DrivenWheel(
         candidate.inner_radius,
         candidate.outer_radius,
@@ -58,13 +55,15 @@ def assemble_selected(candidate: Candidate, bus_voltage: float) -> Device:
         candidate.material,
         candidate.motor,
         candidate.gear,
-        bus_voltage,
+        supply.voltage,
         hub=candidate.hub,
         cuts=candidate.cuts,
+        web_material=candidate.web_material,
     )
-    return assemble_driven(
+    device = assemble_driven(
         wheel, candidate.carrier, candidate.incidence, candidate.centers, candidate.line
     )
+    return replace(device, supply=supply.told)
 
 
 def assemble_driven(
@@ -93,7 +92,15 @@ def assemble_driven(
     return Device(
         incidence,
         _modules(incidence, centers),
-        _flywheel(cylinder, wheel.material, speed, motor.rotor_inertia, wheel.hub, cuts=wheel.cuts),
+        _flywheel(
+            cylinder,
+            wheel.material,
+            speed,
+            motor.rotor_inertia,
+            wheel.hub,
+            cuts=wheel.cuts,
+            web_material=wheel.web_material,
+        ),
         motor,
         carrier,
     )
@@ -115,6 +122,7 @@ def _flywheel(
     hub: Hub | None = None,
     *,
     cuts: RimCuts = NO_CUTS,
+    web_material: Material | None = None,
 ) -> Flywheel:
     """Wheel of a rim's inner and outer radius and height [m], and a rotor's share [kg m^2]."""
     inner, outer, height = cylinder
@@ -130,8 +138,16 @@ def _flywheel(
             )
         )
     if hub is not None:
-        web = Web(WEB_MATERIAL, WEB_DENSITY, WEB_THICKNESS, web_mass(inner) + hub.mass, hub)
-    body = wheel_body(*cylinder, material.density, hub, cuts=cuts)
+        of = material if web_material is None else web_material
+        mass = hub.web(inner, of.density).mass + hub.mass(of.density)
+        web = Web(of.name, of.density, hub.web_thickness, mass, hub, hub.holes(inner))
+    body = wheel_body(
+        *cylinder,
+        material.density,
+        hub,
+        cuts=cuts,
+        web_density=None if web is None else web.density,
+    )
     spin_inertia = body.axial_inertia + rotor_share
     return Flywheel(
         inner_radius=inner,

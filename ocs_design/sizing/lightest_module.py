@@ -2,7 +2,8 @@
 
 The lightest rim of a spin inertia I is as large as it may be (`rim_closed_form`), but its housing
 and foot grow with it. The web is a disc that fills the bore, of a thickness that counts like t of
-the rim's material. With a = R^2, b = r^2 and k = 2 I / (pi rho),
+the rim's material; with lightening holes like t as spin inertia and y t, a little less, as mass.
+Without them, with a = R^2, b = r^2 and k = 2 I / (pi rho),
 
     k = h (a^2 - b^2) + t b^2,    m = pi rho (h (a - b) + t b) + m_shell(R, h),
 
@@ -29,7 +30,8 @@ a plain one of k + L, and its best bore where, with e from the derivatives of L 
     (a - b)^2 (1 - e) = 2 q b,
     e (k + L - t a^2) / (a + b)^2 = L' (1 + q / (a - b)) / (a + b) - M'.
 
-They are a few per cent at most and are found along with C.
+They are a few per cent at most and are found along with C. Lightening holes add (y - 1) t to the
+right-hand side of the last line.
 """
 
 from dataclasses import dataclass
@@ -141,7 +143,7 @@ def _shape(
         outer_radius,
         height,
         per_height * (of_rim / (square + bore) - limits.cuts.area(inner_radius, outer_radius)),
-        per_height * limits.web * bore,
+        per_height * limits.heavy_web * bore,
         shell.mass(outer_radius, height),
     )
 
@@ -169,22 +171,27 @@ def _best_bore(
     height = np.asarray(limits.height_min) + np.zeros_like(outer_radius)
     lower, upper = _bounds(inertia, outer_radius, limits, None)
     bent: float | FloatArray = 0.0
-    for _ in range(_CUT_ROUNDS if limits.cuts.any else _BORE_ROUNDS):
+    holed = bool(np.any(np.asarray(limits.web_weight) < 1.0))
+    for _ in range(_CUT_ROUNDS if limits.cuts.any or holed else _BORE_ROUNDS):
         per_height = shell.mass_per_height(outer_radius, height)
         ratio = per_height / (np.pi * limits.density)
         pull = ratio / (1.0 - bent)
         free = square + pull - np.sqrt(pull * (2.0 * square + pull))
         bore = np.clip(free, lower, upper)
         of_rim, height = _rim_height(inertia, outer_radius, bore, limits)
+        both = square + bore
+        over = both**2 / (of_rim + limits.web * (bore**2 - square**2))
+        bent = 0.0
         if limits.cuts.any:
             # e of the module's text, of derivatives by r^2: those by r over 2 r.
-            inner, both = np.sqrt(bore), square + bore
+            inner = np.sqrt(bore)
             spread = limits.cuts.spread_slope(inner, outer_radius)
             spread = spread * (1.0 + ratio / (square - bore)) / both
             more = (spread - limits.cuts.area_slope()) / (2.0 * inner)
-            beyond = of_rim + limits.web * (bore**2 - square**2)
-            bent = np.clip(more * both**2 / beyond, -_MOST_BENT, _MOST_BENT)
+            bent = np.clip(more * over, -_MOST_BENT, _MOST_BENT)
             lower, upper = _bounds(inertia, outer_radius, limits, bore)
+        if holed:
+            bent = bent + np.minimum((limits.heavy_web - limits.web) * over, 0.0)
     return bore
 
 

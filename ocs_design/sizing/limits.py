@@ -72,11 +72,13 @@ RIM_LIMITS = (
 
 WHEEL_SPEED = Limit("wheel_speed_max", "wheel_speed_max", "wheel_speed_max", True, "rpm", 30.0 / pi)
 BUS_VOLTAGE = Limit("bus_voltage", "bus_voltage", "bus_voltage", True, "V", 1.0)
+BUS_POWER = Limit("bus_power", "supply.power_max", "power", True, "W", 1.0)
 TIME = Limit("time", "time for every maneuver", "", True, "times what is given", 1.0)
 
 DEVICE_MASS = Limit("mass_max", "mass_max", "mass_max", True, "g", 1e3)
 
 LIMITS: Mapping[str, Limit] = {
-    limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, TIME, DEVICE_MASS)
+    limit.name: limit
+    for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, BUS_POWER, TIME, DEVICE_MASS)
 }
 """All limits by name."""

@@ -1,20 +1,20 @@
-"""Margins of a motion: demand against capacity, and the worst of several maneuvers."""
+"""Margins of a motion: demand against capacity, and the worst of several motions."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.joints import OVERSPEED
 from ocs_design.sizing.motion import (
+    Consumption,
     DrivenWheel,
     Motion,
-    Supply,
-    supply,
+    consumption,
     torque_constant,
 )
-from ocs_design.sizing.selection.candidates import OVERSPEED
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Margin:
         capacity: what the part stands; None: no limit, or none known, and `note` says which.
         unit: of both, SI.
         note: what the figures rest on, one sentence; empty if there is nothing to say.
-        maneuver: that asks it; empty if none does.
+        scenario: name of the maneuver that asks it; empty if none does.
         of_motion: whether a maneuver has any part in it.
     """
 
@@ -36,7 +36,7 @@ class Margin:
     capacity: float | None
     unit: str
     note: str = ""
-    maneuver: str = ""
+    scenario: str = ""
     of_motion: bool = True
 
     @property
@@ -51,20 +51,21 @@ class Margin:
         return (0.0 if factor is None else 1.0 / factor, self.demand)
 
 
-def worst(by_maneuver: Mapping[str, Iterable[Margin]]) -> tuple[Margin, ...]:
-    """The smallest margin of each kind, with the maneuver that sets it, in the order they come.
+def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, ...]:
+    """The smallest margin of each kind, with the scenario that sets it, in the order they come.
 
     Where there is no capacity it is the largest demand.
 
     Args:
-        by_maneuver: the margins of each maneuver by its name.
+        by_scenario: names of maneuvers and the margins of a motion of each; a name may come twice,
+            for what was planned and for what was flown.
     """
     found: dict[str, Margin] = {}
-    for name, margins in by_maneuver.items():
+    for name, margins in by_scenario:
         for margin in margins:
             kept = found.get(margin.name)
             if kept is None or margin._strain > kept._strain:
-                found[margin.name] = replace(margin, maneuver=name if margin.of_motion else "")
+                found[margin.name] = replace(margin, scenario=name if margin.of_motion else "")
     return tuple(found.values())
 
 
@@ -94,9 +95,12 @@ def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> Floa
     return np.column_stack(moments)
 
 
-HOOP_STRESS = "hoop stress, to yield"
+WHEEL_SPEED, MOTOR_SPEED, MOTOR_TORQUE = "wheel speed", "motor speed", "motor torque"
+BUS_CURRENT, BUS_POWER, HOOP_STRESS = "bus current", "bus power", "hoop stress"
+FED_BACK = ", fed back"
+"""Behind the name of what goes into the bus."""
 
-NO_SUPPLY = "both motors together, ideal inverter; no limit of the supply is known"
+BOTH_MOTORS = "both motors together, ideal inverter, friction included"
 
 
 def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margin, ...]:
@@ -110,36 +114,66 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
     Raises:
         OcsError: the motor lacks a figure that every drive needs.
     """
-    taken = supply(motion, wheel)
+    taken = consumption(motion, wheel)
     # No motor of the catalogue states what its bearings stand, or how far apart they are.
     moment = float(bearing_moment(motion, axes, wheel).max())
     return (
         *_drive_margins(motion, wheel),
+        *_bus_margins(taken, wheel),
+        *_heat_margins(taken, wheel),
         *_rim_margins(motion, wheel),
-        *_supply_margins(taken, wheel),
-        Margin("bearing moment", moment, None, "N m", "gyroscopic; shocks of landing left out"),
+        Margin("bearing moment", moment, None, "N m", "gyroscopic, and of the trunk's turning"),
     )
 
 
 def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     """Current limit, voltage line and speeds (docs/theory.md, What a motor can do)."""
     line, gear = wheel.line, wheel.gear
-    torque, speed = _peak(motion.wheel_torque), _peak(motion.wheel_speed)
-    no_load = float(line.no_load_speed)
-    yield Margin("torque, to the current limit", torque, _finite(line.torque_limit), "N m")
-    share = _peak(motion.wheel_speed / no_load + motion.wheel_torque / line.stall_torque)
+    speed = _peak(motion.wheel_speed)
+    yield Margin(WHEEL_SPEED, speed, _finite(line.speed_max), "rad/s")
+    capacity = min(speed_limit(wheel.motor) or np.inf, gear.motor_speed_max)
+    note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
+    yield Margin(MOTOR_SPEED, gear.ratio * speed, _finite(capacity), "rad/s", note)
+    # The motor turns against its own friction whenever it is used.
+    rubbed = wheel.friction
+    asked = _peak(motion.wheel_torque)
+    yield Margin(
+        MOTOR_TORQUE,
+        asked + rubbed if asked else 0.0,
+        _finite(line.torque_limit + rubbed),
+        "N m",
+        f"at the wheel, {rubbed:.3g} N m of friction included" if rubbed else "at the wheel",
+    )
+    friction = np.sign(motion.wheel_speed) * rubbed
+    driven = (motion.wheel_torque + friction) / line.stall_torque
     yield Margin(
         "voltage line",
-        share,
+        _peak(motion.wheel_speed / line.no_load_speed + driven),
         1.0,
         "",
         f"of {wheel.bus_voltage:g} V: speed over no-load speed plus torque over stall torque",
     )
-    yield Margin("wheel speed, to no load", speed, no_load, "rad/s")
-    yield Margin("wheel speed, mechanical", speed, _finite(line.speed_max), "rad/s")
-    capacity = min(speed_limit(wheel.motor) or np.inf, gear.motor_speed_max)
-    note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
-    yield Margin("motor speed", gear.ratio * speed, _finite(capacity), "rad/s", note)
+
+
+def _bus_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
+    """Current and power of the bus against its supply, drawn and fed back, and the energies."""
+    supply = wheel.supply
+    limits = (None, None) if supply is None else (supply.power / supply.voltage, supply.power)
+    current_max, power_max = (None if each is None else _finite(each) for each in limits)
+    for name, power in (("", taken.power_drawn), (FED_BACK, taken.power_fed_back)):
+        note = "" if name else BOTH_MOTORS
+        yield Margin(BUS_CURRENT + name, power / wheel.bus_voltage, current_max, "A", note)
+        yield Margin(BUS_POWER + name, power, power_max, "W")
+    yield Margin(
+        "energy from the bus",
+        taken.drawn,
+        None,
+        "J",
+        f"heat in the windings {taken.heat_both:.3g} J",
+    )
+    yield Margin(
+        "energy fed back", taken.fed_back, None, "J", "braking, if the inverter lets it through"
+    )
 
 
 def _rim_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
@@ -153,31 +187,14 @@ def _rim_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     yield Margin("stored energy", float(energy.max()), None, "J", "both wheels with their rotors")
 
 
-def _supply_margins(taken: Supply, wheel: DrivenWheel) -> Iterator[Margin]:
-    """Currents and energies of the bus, and the heat of the busier motor.
+def _heat_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
+    """Heat of the busier motor.
 
     Continuous ratings are for hours and a maneuver lasts a second: a current that exceeds one is no
     fault, but asks for a pause until the mean of i^2 is back at the rating's.
     """
-    yield Margin("bus current", taken.peak_drawn, None, "A", NO_SUPPLY)
-    yield Margin("bus current, fed back", taken.peak_fed_back, None, "A")
-    yield Margin(
-        "energy from the bus",
-        taken.drawn,
-        None,
-        "J",
-        f"heat in the windings {taken.heat_both:.3g} J",
-    )
-    yield Margin(
-        "energy fed back", taken.fed_back, None, "J", "braking, if the inverter lets it through"
-    )
-    yield Margin(
-        "heat in a winding",
-        taken.heat,
-        None,
-        "J",
-        "cold resistance; its heat capacity is not known",
-    )
+    note = "cold resistance; its heat capacity is not known"
+    yield Margin("winding heat", taken.heat, None, "J", note)
     mean = float(np.sqrt(taken.current_squared_time / taken.duration))
     rating = wheel.motor.continuous_torque
     if rating is None:

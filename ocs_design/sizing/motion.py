@@ -1,7 +1,9 @@
 """Motions of trunk and wheels over time, and what they take from winding and supply.
 
 The motor is one equivalent DC motor behind an ideal inverter, V = R i + k_t w; the voltage of the
-bus is constant, and it takes back whatever the motors give (docs/theory.md, Margins).
+bus is constant, and it takes back whatever the motors give (docs/theory.md, Margins). Friction is
+the motor's no-load current, on the safe side: it adds to whatever is drawn, and takes nothing off
+what is fed back.
 """
 
 from dataclasses import dataclass, replace
@@ -18,12 +20,13 @@ from ocs_design.actuation.drive import (
     rotor_share,
 )
 from ocs_design.actuation.motor import Gear, Motor
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import OcsError
+from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, wheel_body
-from ocs_design.sizing.selection.candidates import OVERSPEED
 from ocs_design.sizing.trajectory.flight import Trajectory
 
 
@@ -47,7 +50,15 @@ class Motion:
 
     @classmethod
     def along(cls, trajectory: Trajectory) -> "Motion":
-        """Motion along a reference, which is linear between its samples too."""
+        """Motion along a reference, which is linear between its samples and may jump at them."""
+        if trajectory.step_torque is not None:
+            return cls(
+                _both_ends(trajectory.time),
+                _both_ends(trajectory.wheel_speed),
+                trajectory.step_torque.reshape(-1, trajectory.step_torque.shape[-1]),
+                _both_ends(trajectory.rate),
+                _both_ends(trajectory.acceleration),
+            )
         return cls(
             trajectory.time,
             trajectory.wheel_speed,
@@ -66,8 +77,8 @@ class Motion:
     ) -> "Motion":
         """Motion of a recorded flight, whose torque is held from each sample to the next.
 
-        The trunk's acceleration is the mean one between two samples. A landing's is not that of a
-        maneuver: leave out what comes after touchdown.
+        The trunk's acceleration is the mean one between two samples; a landing's is larger for
+        shorter.
 
         Args:
             time: [s], increasing, shape (n,), n >= 2.
@@ -132,6 +143,8 @@ class DrivenWheel:
         wheel_speed_max: stated highest speed of the wheel [rad/s]; inf: none.
         hub: in the middle of the wheel's web; None: massless spokes.
         cuts: off the rim.
+        web_material: of web and hub; None: of one piece with the rim.
+        supply: of all motors; None: no limit of it is known.
     """
 
     inner_radius: float
@@ -144,6 +157,8 @@ class DrivenWheel:
     wheel_speed_max: float = inf
     hub: Hub | None = None
     cuts: RimCuts = NO_CUTS
+    web_material: Material | None = None
+    supply: Supply | None = None
 
     @cached_property
     def line(self) -> DriveLine:
@@ -156,10 +171,23 @@ class DrivenWheel:
         return replace(line, speed_max=min(float(line.speed_max), self.wheel_speed_max))
 
     @property
+    def friction_current(self) -> float:
+        """I_0, that the motor itself draws turning freely [A]; 0 where it is not stated."""
+        return self.motor.no_load_current or 0.0
+
+    @property
+    def friction(self) -> float:
+        """N eta k_t I_0, what the motor's own friction takes of the torque at the wheel [N m]."""
+        return (
+            self.gear.ratio * self.gear.efficiency * torque_constant(self) * self.friction_current
+        )
+
+    @property
     def body(self) -> Carrier:
         """Rim, web and hub; what is known of the rotor's transverse inertia is nothing."""
         size = (self.inner_radius, self.outer_radius, self.height)
-        return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts)
+        web = None if self.web_material is None else self.web_material.density
+        return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts, web_density=web)
 
     @property
     def spin_inertia(self) -> float:
@@ -201,7 +229,7 @@ class DrivenWheel:
 
 
 @dataclass(frozen=True)
-class Supply:
+class Consumption:
     """Over one motion; of one motor where nothing else is said.
 
     Attributes:
@@ -211,7 +239,7 @@ class Supply:
         heat: in the busier winding [J]. heat_both: in both windings [J].
         gear_loss: of both gears [J].
         drawn, fed_back: energy from the bus and to it, both motors together [J].
-        peak_drawn, peak_fed_back: current from the bus and to it, both motors together [A].
+        power_drawn, power_fed_back: largest from the bus and to it, both motors together [W].
     """
 
     duration: float
@@ -222,44 +250,50 @@ class Supply:
     gear_loss: float
     drawn: float
     fed_back: float
-    peak_drawn: float
-    peak_fed_back: float
+    power_drawn: float
+    power_fed_back: float
 
 
-def supply(motion: Motion, wheel: DrivenWheel) -> Supply:
-    """Currents, heat and energies of a motion with two equal wheels.
+def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
+    """Currents, heat, powers and energies of a motion with two equal wheels.
 
     Raises:
         OcsError: the motor lacks its torque constant or its resistance.
     """
     fine = motion.between()
-    current = winding_current(fine.wheel_torque, wheel)
+    current = winding_current(fine, wheel)
     squared_time = [integral(values**2, fine.time) for values in current.T]
-    power = bus_power(fine, wheel)
-    peaks = bus_power(motion, wheel)
+    drawn, fed_back = bus_power(fine, wheel), -bus_power(fine, wheel, friction=False)
+    # In the middle of a jump there is nothing.
+    lasts = np.ones(len(fine.time), dtype=bool)
+    lasts[1::2] = np.diff(motion.time) > 0.0
     loss = shaft_power(fine, wheel) - fine.wheel_torque * fine.wheel_speed
-    return Supply(
+    return Consumption(
         duration=motion.duration,
         peak_current=float(np.abs(current).max()),
         current_squared_time=max(squared_time),
         heat=resistance(wheel) * max(squared_time),
         heat_both=resistance(wheel) * sum(squared_time),
         gear_loss=integral(loss.sum(axis=1), fine.time),
-        drawn=integral(np.maximum(power, 0.0), fine.time),
-        fed_back=integral(np.maximum(-power, 0.0), fine.time),
-        peak_drawn=float(max(peaks.max(), 0.0)) / wheel.bus_voltage,
-        peak_fed_back=float(max(-peaks.min(), 0.0)) / wheel.bus_voltage,
+        drawn=integral(np.maximum(drawn, 0.0), fine.time),
+        fed_back=integral(np.maximum(fed_back, 0.0), fine.time),
+        power_drawn=float(max(drawn[lasts].max(), 0.0)),
+        power_fed_back=float(max(fed_back[lasts].max(), 0.0)),
     )
 
 
-def winding_current(wheel_torque: FloatArray, wheel: DrivenWheel) -> FloatArray:
-    """i = tau / (N eta k_t) [A], as the drive's line has it.
+def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
+    """i = tau / (N eta k_t) [A], as the drive's line has it, and I_0 on top; shape (n, 2).
 
-    The gear's loss is taken to work against the motor also where it brakes, when in truth it helps:
-    currents and heat are on the safe side.
+    The losses of gear and bearings are taken to work against the motor also where it brakes, when
+    in truth they help: currents and heat are on the safe side.
     """
-    gear = wheel.gear
-    return wheel_torque / (gear.ratio * gear.efficiency * torque_constant(wheel))
+    gear, torque = wheel.gear, motion.wheel_torque
+    current = torque / (gear.ratio * gear.efficiency * torque_constant(wheel))
+    if friction and wheel.friction_current:
+        direction = np.where(torque == 0.0, np.sign(motion.wheel_speed), np.sign(torque))
+        current = current + wheel.friction_current * direction
+    return current
 
 
 def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
@@ -273,13 +307,17 @@ def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
     return np.where(power > 0.0, power / efficiency, power * efficiency)
 
 
-def bus_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
-    """Power of all motors together [W], shape (n,): R i^2 and what the shafts take.
+def bus_power(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
+    """Power of all motors together [W], shape (n,): R i^2, what the shafts take, and friction.
 
-    For direct drive that is V i with V = R i + k_t w.
+    For direct drive that is V i with V = R i + k_t w. Friction is k_t I_0 at the motor's speed.
     """
-    copper = resistance(wheel) * winding_current(motion.wheel_torque, wheel) ** 2
-    power: FloatArray = np.sum(copper + shaft_power(motion, wheel), axis=1)
+    copper = resistance(wheel) * winding_current(motion, wheel, friction=friction) ** 2
+    each = copper + shaft_power(motion, wheel)
+    if friction:
+        turning = wheel.gear.ratio * np.abs(motion.wheel_speed)
+        each = each + torque_constant(wheel) * wheel.friction_current * turning
+    power: FloatArray = np.sum(each, axis=1)
     return power
 
 

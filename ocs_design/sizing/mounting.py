@@ -1,8 +1,9 @@
 """How a device sits on its robot: what it is near, what could hit it, what it changes."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, product
+from math import isfinite
 
 import numpy as np
 
@@ -11,8 +12,8 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.naming import flywheel_name
-from ocs_design.device.records import Clearance
-from ocs_design.device.solids import ModuleSolids, module_solids, motor_mount
+from ocs_design.device.records import Clearance, OpenPoint
+from ocs_design.device.solids import ModuleSolids, module_solids, plate_heads, plate_solids
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.clearance import (
@@ -25,8 +26,10 @@ from ocs_design.robot.clearance import (
 from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.robot.tree import Drum
-from ocs_design.sizing.placement import Size, module_size, place_free, wheel_size
+from ocs_design.sizing.footing import PROUD, SPREAD, FootContact, contacts_of
+from ocs_design.sizing.placement import device_size, place_free
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +43,7 @@ class Mounting:
         reachable: limbs that could hit a module somewhere within their joints' limits.
         com_shift: of the centre of mass by the device, in B [m], shape (3,).
         inertia_change: of I_xx, I_yy and I_zz about the centre of mass, over the robot's own.
+        feet: what each foot stands on, the plate among them; empty where wheels have no feet.
     """
 
     nearest: Clearance | None
@@ -47,6 +51,64 @@ class Mounting:
     reachable: tuple[Reach, ...]
     com_shift: FloatArray
     inertia_change: FloatArray
+    feet: tuple[FootContact, ...] = ()
+
+    @property
+    def known(self) -> bool:
+        """Whether it is known what the feet stand on."""
+        return all(contact.held is not None for contact in self.feet)
+
+
+def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
+    """What of a mounting keeps the device from being built: what hangs, and what collides.
+
+    Feet on a trunk whose shapes are not known are no open point: `Mounting.known` tells of them.
+    """
+    return (*_hanging(mounting.feet), *_hitting(mounting))
+
+
+def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
+    """Feet that are not held, and what would hold them; alike ones are told once."""
+    loose = [contact for contact in feet if contact.held is False]
+    proud = max((contact.proud for contact in loose), default=0.0)
+    if proud > PROUD:
+        reaches_up = format_quantity(proud, "mm", digits=2)
+        what = f"the {feet[0].on} under the feet reaches {reaches_up} above their underside"
+        yield OpenPoint(what=what, cure="stand the modules higher with --position X,Y,Z")
+    elif loose:
+        gap = max(contact.gap or 0.0 for contact in loose)
+        share = min(contact.share or 0.0 for contact in loose)
+        names = " and ".join(dict.fromkeys(contact.name for contact in loose))
+        off = format_quantity(gap, "mm", digits=2) + " off it" if isfinite(gap) else "over nothing"
+        what = (
+            f"{names}: {share:.0%} of what stands is on the {loose[0].on}, and screws are {off}"
+            if share > 0.0
+            else "the feet hang in the air: the trunk is not under them, or not near"
+        )
+        flat_spot = format_quantity(2.0 * SPREAD, "mm")
+        cure = (
+            "give a place on the trunk with --position X,Y,Z or another trunk with --trunk, or "
+            f"make a flat spot of {flat_spot} by {flat_spot} on top of it for a plate's four screws"
+        )
+        yield OpenPoint(what=what, cure=cure)
+
+
+def _hitting(mounting: Mounting) -> Iterator[OpenPoint]:
+    """Collision in the nominal posture or in a landing."""
+    hit = _hit(mounting)
+    if hit:
+        yield OpenPoint(what=hit, cure="give another place with --position X,Y,Z")
+
+
+def _hit(mounting: Mounting) -> str:
+    """What is hit, as a clause; empty if nothing is."""
+    nearest, landing = mounting.nearest, mounting.landing
+    if nearest is not None and nearest.distance < 0.0:
+        overlap = format_quantity(-nearest.distance, "mm")
+        return f"a module overlaps '{nearest.part}' by {overlap} in the nominal posture"
+    if landing is not None and landing.distance < 0.0:
+        return f"'{landing.part}' can hit a module while the legs give way in a landing"
+    return ""
 
 
 def mounting_of(
@@ -67,12 +129,15 @@ def mounting_of(
         for each in turned.values()
     ]
     solids = [solid for pair in pairs for module in pair for solid in module.all]
+    solids += plate_solids(device)
+    surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     return Mounting(
-        nearest=_nearest_part(collision, device, pairs),
+        nearest=_nearest_part(collision, device, pairs, surface),
         landing=_clearance(_nearest_in_landings(collision, solid) for solid in solids),
         reachable=reaches(collision, solids),
         com_shift=whole.com - robot.com,
         inertia_change=np.diag(whole.inertia) / np.diag(robot.inertia) - 1.0,
+        feet=contacts_of(robot, device),
     )
 
 
@@ -97,13 +162,8 @@ def placement_warnings(
     Raises:
         SpecificationError: `strict`, and there is any.
     """
-    nearest, landing = mounting.nearest, mounting.landing
-    if nearest is not None and nearest.distance < 0.0:
-        overlap = format_quantity(-nearest.distance, "mm")
-        hit = f"a module overlaps '{nearest.part}' by {overlap} in the nominal posture"
-    elif landing is not None and landing.distance < 0.0:
-        hit = f"'{landing.part}' can hit a module while the legs give way in a landing"
-    else:
+    hit = _hit(mounting)
+    if not hit:
         return ()
     hint = _free_place_hint(robot, device, envelope, stated=stated)
     if strict:
@@ -123,41 +183,65 @@ def _free_place_hint(robot: Robot, device: Device, envelope: Envelope, *, stated
     return f"free would be --position {place}, {best.face} the trunk"
 
 
-def device_size(device: Device) -> Size[float]:
-    """The room that each module takes."""
-    wheel, mount = device.flywheel, motor_mount(device)
-    if device.carrier.mass == 0.0:
-        return wheel_size(wheel.outer_radius, wheel.height)
-    behind = mount.behind(device.motor)
-    return module_size(wheel.outer_radius, wheel.height, *behind, mount.holes.reach)
-
-
 def _nearest_part(
-    collision: CollisionModel, device: Device, pairs: Sequence[tuple[ModuleSolids, ModuleSolids]]
+    collision: CollisionModel,
+    device: Device,
+    pairs: Sequence[tuple[ModuleSolids, ModuleSolids]],
+    surface: Surface | None,
 ) -> Clearance | None:
-    """Nearest of all links and of the other module, which is named after its wheel.
+    """Nearest of all links, of the plate and of the other module, which is named after its wheel.
 
-    A foot stands on the trunk, and is not near it.
+    Feet and plate stand on the trunk, and are not near it. Where the trunk's surface is known, it
+    counts in place of the trunk's convex hull.
     """
     limbs = [part for part in collision.parts if part.limb]
     modules = [module for pair in pairs for module in pair]
-    around = ((module.body, collision.parts) for module in modules)
-    below = ((module.foot, limbs) for module in modules)
-    nearest = _clearance(
+    below = chain(plate_solids(device), *(module.foot for module in modules))
+    bodies = [solid for module in modules for solid in module.body]
+    found = _clearance(
         collision.nearest(solid, collision.nominal, parts)
-        for solids, parts in chain(around, below)
+        for solids, parts in (
+            (bodies, collision.parts if surface is None else limbs),
+            (below, limbs),
+        )
         for solid in solids
     )
-    if nearest is None:
+    known = [] if found is None else [found]
+    if surface is not None:
+        trunk = collision.robot.trunk
+        known += [Clearance(trunk, _above(surface, solid)) for solid in bodies]
+        known = [each for each in known if np.isfinite(each.distance)]
+    if not known:
         return None
     apart = min(
         collision.between(*solids)
         for left, right in pairs
         for solids in product(left.all, right.all)
     )
-    if apart < nearest.distance:
-        return Clearance(flywheel_name(device.modules[1]), apart)
-    return nearest
+    known.append(Clearance(flywheel_name(device.modules[1]), apart))
+    discs = plate_solids(device)[:1] + plate_heads(device)
+    known += [
+        Clearance("plate", collision.between(body, solid)) for body in bodies for solid in discs
+    ]
+    return min(known, key=lambda each: each.distance)
+
+
+def _above(surface: Surface, solid: Drum) -> float:
+    """Least height of a cylinder over the trunk's surface, upright [m]; inf: nothing is below."""
+    side = np.cross(solid.axis, [0.0, 0.0, 1.0] if abs(solid.axis[2]) < 0.9 else [1.0, 0.0, 0.0])
+    side /= np.linalg.norm(side)
+    up = np.cross(side, solid.axis)
+    angles = np.arange(0.0, 2.0 * np.pi, np.pi / 90.0)
+    across = np.outer(np.cos(angles), side) + np.outer(np.sin(angles), up)
+    along = np.linspace(-0.5, 0.5, 1 + max(2, round(solid.height / 1e-3)))
+    radii = solid.radius * np.linspace(0.0, 1.0, 1 + max(2, round(solid.radius / 2e-3)))
+    mantle = solid.radius * across[:, None] + solid.height * along[:, None] * solid.axis
+    ends = (
+        radii[:, None, None] * across
+        + 0.5 * solid.height * np.sign([[[-1.0]], [[1.0]]])[:, None] * solid.axis
+    )
+    points = solid.center + np.concatenate([mantle.reshape(-1, 3), ends.reshape(-1, 3)])
+    return float((points[:, 2] - surface.height(points[:, 0], points[:, 1])).min())
 
 
 def _nearest_in_landings(collision: CollisionModel, solid: Drum) -> Nearest | None:

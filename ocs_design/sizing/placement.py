@@ -9,9 +9,11 @@ import numpy as np
 
 from ocs_design.actuation.motor import GearRoom
 from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.device.device import Device
+from ocs_design.device.solids import motor_mount
 from ocs_design.parts.foot import base_radius, larger, plate_back, wheel_height
 from ocs_design.parts.housing import half_height, housing_outer_radius
-from ocs_design.parts.motor_mount import HeldMotor, mount_of
+from ocs_design.parts.motor_mount import Behind, HeldMotor, mount_of
 from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
 from ocs_design.robot.collision import CollisionModel, Nearest, Part, collision_model
@@ -46,9 +48,8 @@ def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
 def module_size(
     outer_radius: Real,
     height: Real,
-    behind_depth: Real,
-    behind_radius: Real,
-    mount_reach: Real,
+    behind: Behind[Real] | Behind[float],
+    mount_reach: Real | float,
 ) -> Size[Real]:
     """Size of a housing on its foot, around a wheel of this radius and height, with its motor.
 
@@ -57,7 +58,8 @@ def module_size(
     """
     half = half_height(height)
     housing = (housing_outer_radius(outer_radius) ** 2 + half**2) ** 0.5
-    motor = ((plate_back(half) + behind_depth) ** 2 + behind_radius**2) ** 0.5
+    depth = larger(plate_back(half) + behind.depth, behind.from_wheel)
+    motor = (depth**2 + behind.radius**2) ** 0.5
     base = base_radius(outer_radius, height, mount_reach)
     return Size(larger(larger(housing, motor), base), wheel_height(outer_radius))
 
@@ -66,9 +68,8 @@ def motor_size(
     motor: HeldMotor, room: GearRoom | None, outer_radius: Real, height: Real
 ) -> Size[Real]:
     """Size of a motor behind a gear of this room, as far as it is known."""
-    zero, mount = 0.0 * outer_radius, mount_of(motor, room)
-    depth, radius = mount.behind(motor)
-    return module_size(outer_radius, height, zero + depth, zero + radius, zero + mount.holes.reach)
+    mount = mount_of(motor, room)
+    return module_size(outer_radius, height, mount.behind(motor), mount.holes.reach)
 
 
 @dataclass(frozen=True)
@@ -99,6 +100,15 @@ class Place:
         (x, y, z), (along_x, along_y, along_z) = self.origin, self.outward
         reach, standing = size.reach, size.standing if self.upright else 0.0 * size.standing
         return x + along_x * reach, y + along_y * reach, z + along_z * reach + standing
+
+
+def device_size(device: Device) -> Size[float]:
+    """The room that each module takes."""
+    wheel, mount = device.flywheel, motor_mount(device)
+    if device.carrier.mass == 0.0:
+        return wheel_size(wheel.outer_radius, wheel.height)
+    behind = mount.behind(device.motor)
+    return module_size(wheel.outer_radius, wheel.height, behind, mount.holes.reach)
 
 
 def sphere_radius(outer_radius: Real, height: Real) -> Real:
@@ -299,7 +309,7 @@ def place_free(robot: Robot, envelope: Envelope) -> FreePlace:
     give way (`landing_ranges`), whatever the module's size and incidence. Nearest is where a module
     adds least to the robot's inertia about roll and pitch, each over the robot's own.
     """
-    search = _Search(collision_model(robot), Sizes.of(envelope))
+    search = Search(collision_model(robot), Sizes.of(envelope))
     on_top = place_on_top(robot)
     blocker = search.blocker(on_top)
     if blocker is None:
@@ -312,8 +322,11 @@ def place_free(robot: Robot, envelope: Envelope) -> FreePlace:
 
 
 @dataclass(frozen=True, eq=False)
-class _Search:
-    """Attributes: see `CollisionModel` and `Sizes`."""
+class Search:
+    """Looks for places that no limb comes near.
+
+    Attributes: see `CollisionModel` and `Sizes`.
+    """
 
     collision: CollisionModel
     sizes: Sizes
@@ -390,4 +403,4 @@ class _Search:
 
 
 def _housing(outer_radius: float, height: float) -> Size[float]:
-    return module_size(outer_radius, height, 0.0, 0.0, 0.0)
+    return module_size(outer_radius, height, Behind(0.0, 0.0), 0.0)

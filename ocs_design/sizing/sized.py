@@ -45,7 +45,8 @@ class Sized:
         incidence_by_criterion_robot: the same for the robot alone.
         demands: what each part of the requirement asks of a wheel.
         total: robot and device, braked, in B.
-        status, method: of the optimum. objective: what was minimised [kg].
+        status, method: of the optimum. objective: what was minimised [kg]: the
+            mass of the whole device, or of one rim.
         binding: limits that hold the mass up.
         shadow_prices: change of the mass of one module per change of each binding limit [kg per SI
             unit of the limit].
@@ -142,11 +143,11 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
 
     Central differences of the closed form; one-sided where only one side has a module.
     """
-    hub_share = 0.0 if chosen.hub is None else chosen.hub.axial_inertia
-    rim_inertia = chosen.spin_inertia - chosen.rotor_share - hub_share
+    rim_inertia = chosen.spin_inertia - chosen.rotor_share - chosen.hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
     limits = chosen.limits(problem.envelope)
-    shell = Printed(mount_of(chosen.motor, chosen.gear.room).holes.reach)
+    mount = mount_of(chosen.motor, chosen.gear.room)
+    shell = Printed(mount.holes.reach, mount.posts)
     prices = {}
     for name in chosen.binding:
         field = _LIMIT_OF_NAME.get(name)

@@ -46,6 +46,7 @@ USES: Mapping[str, Use] = MappingProxyType(
     {
         "numpy": Use("arrays"),
         "scipy": Use("roots and small optimisations"),
+        "threadpoolctl": Use("the same design on any number of threads"),
         "cvxpy": Use("the rim as a convex program"),
         "clarabel": Use("solves for the rim"),
         "casadi": Use("maneuvers as optimal control"),

@@ -4,9 +4,10 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name
-from ocs_design.device.answers import Exported
-from ocs_design.device.records import OcsDesign, design_to_json, read_design
+from ocs_design.device.answers import Exported, PostureLine
+from ocs_design.device.records import SCHEMA_VERSION, OcsDesign, design_to_json, read_design
 from ocs_design.export.folder import (
     DESIGN_FILE,
     file_hashes,
@@ -22,14 +23,13 @@ from ocs_design.export.formats import (
     Subject,
     export_formats,
 )
+from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.restoring import (
     Whereabouts,
     device_of,
     read_recorded_robot,
     seat_of,
 )
-
-SCHEMA_VERSION = 1
 
 _WHERE = (
     "say where it is with --robot FILE, or leave out the robot's files: "
@@ -47,6 +47,7 @@ class Order:
         subject: device and robot.
         formats: to write.
         warnings: about the robot, which were not there when the device was sized.
+        where: to look for the robot.
     """
 
     path: Path
@@ -54,6 +55,7 @@ class Order:
     subject: Subject
     formats: tuple[Format, ...]
     warnings: tuple[str, ...]
+    where: Whereabouts
 
     @property
     def default_folder(self) -> Path:
@@ -88,12 +90,14 @@ def read_order(
     """
     path = path / DESIGN_FILE if path.is_dir() else path
     design = read_design(path)
-    device, name = device_of(design.ocs), safe_name(design.robot.name)
-    if not any(each.needs_robot for each in formats):
-        return Order(path, design, Subject(name, device, seat_of(design.robot), None), formats, ())
+    device, name = device_of(design.ocs, design.supply), safe_name(design.robot.name)
     where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
+    if not any(each.needs_robot for each in formats):
+        subject = Subject(name, device, seat_of(design.robot), None)
+        return Order(path, design, subject.recorded(design), formats, (), where)
     robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
-    return Order(path, design, Subject.of(robot, device, name), formats, warnings)
+    subject = Subject.of(robot, device, name).recorded(design)
+    return Order(path, design, subject, formats, warnings, where)
 
 
 def export_order(
@@ -163,13 +167,24 @@ def finishing(names: Collection[str], command: str) -> Finish | None:
         from ocs_design.report.html.page import write_report  # noqa: PLC0415
         from ocs_design.report.story import story_in  # noqa: PLC0415
 
-        story = story_in([folder, order.path.parent], order.design, command=command)
-        remarks: tuple[str, ...] = ()
+        postures, remarks = _postures(order)
+        story = story_in(
+            [folder, order.path.parent], order.design, postures=postures, command=command
+        )
         if FIGURES in wanted:
-            remarks = write_charts(tuple(all_charts(story)), folder / FOLDER)
+            remarks += write_charts(tuple(all_charts(story)), folder / FOLDER)
         if REPORT in wanted:
             whole = replace(order.design, files=recorded_hashes(folder))
             write_report(replace(story, design=whole), folder)
         return remarks
 
     return finish if wanted else None
+
+
+def _postures(order: Order) -> tuple[tuple[PostureLine, ...], tuple[str, ...]]:
+    """Incidence in other postures, which takes the robot; else why it is missing."""
+    try:
+        robot, _ = read_recorded_robot(order.design.robot, order.where, strict=False)
+    except OcsError as error:
+        return (), (f"without the chart of incidence over postures: {error.message}",)
+    return posture_lines(robot), ()

@@ -160,7 +160,7 @@ def read_task(
         )
     where = Whereabouts(path, robot_file, package_paths or {}, "say where it is with --robot FILE")
     robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
-    device = device_of(design.ocs)
+    device = device_of(design.ocs, design.supply)
     control = overridden(
         design.control or control_of(ValidationSection(), robot), stated.validation
     )

@@ -6,13 +6,24 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.common.arrays import vector
-from ocs_design.device.answers import Inspection, PostureLine
+from ocs_design.common.errors import OutputError, UsageError
+from ocs_design.device.answers import (
+    Inspection,
+    LegLine,
+    PostureLine,
+    ReadingLine,
+    RecognitionRecord,
+)
 from ocs_design.device.layout import Criterion, heading_drift, incidence_by_criterion
 from ocs_design.device.records import SCHEMA_VERSION, RobotRecord
+from ocs_design.report.stick_figure import stick_figure
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
+from ocs_design.robot.leg_geometry import axis_name, up_axis
+from ocs_design.robot.legs import ANKLED_JOINTS, is_wheel
 from ocs_design.robot.posture import posture_sensitivity
-from ocs_design.robot.robot import Robot
+from ocs_design.robot.recognition import Recognition
+from ocs_design.robot.robot import Leg, Robot
 
 
 def inspect_robot(
@@ -20,13 +31,28 @@ def inspect_robot(
     *,
     package_paths: Mapping[str, Path] | None = None,
     strict: bool = False,
+    picture: Path | None = None,
 ) -> Inspection:
     """Read the robot of a specification and measure it over plausible postures.
 
+    Trunk and legs need not be clear: the answer says what they may be.
+
+    Args:
+        specification: that names the robot.
+        package_paths: folder of each package that `package://` addresses name.
+        strict: whether warnings are errors.
+        picture: file to draw what was recognised in, `.svg`; None: none.
+
     Raises:
-        OcsError: see `read_specified_robot`.
+        OcsError: see `read_specified_robot`; the picture cannot be drawn or written.
     """
-    robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
+    if picture is not None and picture.suffix.lower() != ".svg":
+        raise UsageError(f"--picture {picture}: only .svg is drawn", hint="name a file *.svg")
+    robot = read_specified_robot(
+        specification, package_paths=package_paths, strict=strict, sure=False
+    )
+    if picture is not None:
+        _draw(robot, picture)
     roll, pitch = heading_drift(robot.inertia)
     return Inspection(
         schema_version=SCHEMA_VERSION,
@@ -38,7 +64,65 @@ def inspect_robot(
         },
         heading_drift=(float(roll), float(pitch)),
         incidence_by_posture=posture_lines(robot),
+        recognition=None if robot.recognition is None else _recorded(robot, robot.recognition),
     )
+
+
+def _recorded(robot: Robot, recognition: Recognition) -> RecognitionRecord:
+    reading = recognition.reading
+    turn = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
+    up = up_axis(robot.tree, robot.trunk, robot.legs) if robot.legs else np.eye(3)[2]
+    return RecognitionRecord(
+        trunk=robot.trunk if robot.mount is None else robot.mount.link,
+        legs=tuple(_leg_line(robot, leg) for leg in robot.legs),
+        forward=axis_name(turn[:, 0]),
+        left=axis_name(turn[:, 1]),
+        up=axis_name(turn @ up),
+        stated=tuple(sorted(recognition.stated)),
+        confidence=reading.confidence,
+        speaks_for=tuple(sign.what for sign in reading.signs if sign.holds),
+        speaks_against=(
+            *(sign.against for sign in reading.signs if sign.holds is False),
+            *(doubt.what for doubt in reading.doubts),
+        ),
+        likely=tuple(
+            ReadingLine(
+                trunk=each.trunk,
+                legs=tuple(leg.name for leg in each.legs),
+                confidence=each.confidence,
+            )
+            for each in recognition.likely
+        ),
+    )
+
+
+def _leg_line(robot: Robot, leg: Leg) -> LegLine:
+    if is_wheel(robot.tree.bodies[leg.body]):
+        end = "wheel"
+    elif leg.foot_radius > 0.0:
+        end = "ball"
+    else:
+        end = "sole" if len(leg.joints) >= ANKLED_JOINTS else "point"
+    return LegLine(foot=leg.name, ends_in=end, length=leg.length, joints=leg.joints)
+
+
+def _draw(robot: Robot, picture: Path) -> None:
+    """The robot as recognised or, where that is not clear, in its likeliest reading."""
+    if robot.recognition is None:
+        raise UsageError("a robot by hand has nothing to draw", hint="leave out --picture")
+    asked = robot.recognition.likely
+    shown = asked[0] if asked else robot.recognition.reading
+    words = [
+        f"{robot.name}: trunk {shown.trunk}, {len(shown.legs)} legs, "
+        f"confidence {shown.confidence:.0%}, posture {robot.posture_name}",
+        *(f"or {each.options} ({each.confidence:.0%})" for each in asked[1:]),
+    ]
+    try:
+        picture.write_text(stick_figure(robot, shown.legs, words), encoding="utf-8")
+    except OSError as error:
+        raise OutputError(
+            f"cannot write {picture}: {error.strerror or error}", hint="name a folder that exists"
+        ) from error
 
 
 def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:

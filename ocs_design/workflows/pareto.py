@@ -5,6 +5,7 @@ the front, so that `ocs-design size --spec points/NN.toml` makes that very devic
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,8 +19,7 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Sweep, Task
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 from ocs_design.robot.meshes import size
-from ocs_design.sizing.selection.problem import selection_problem, specified_criterion
-from ocs_design.sizing.selection.select import select_by
+from ocs_design.sizing.design import design_device
 
 FEWEST, MOST = 2, 200
 """Points of a front."""
@@ -78,13 +78,16 @@ def lightest_device(task: Task) -> FrontDevice:
     Raises:
         Infeasible: there is none; does not say what would help. UsageError: no motor is wanted.
     """
-    problem = selection_problem(task.specification, task.robot, task.resolved)
-    if problem is None:
+    if task.resolved.choice is None:
         raise UsageError(
             "a front needs motors to choose from",
             hint="leave out --motor none, or motor.name in the specification",
         )
-    best = select_by(problem, specified_criterion(task.specification), advise=False).best
+    stated = task.specification
+    alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
+    choice = design_device(alone, task.robot, task.resolved, advise=False).choice
+    assert choice is not None, "there are motors to choose from"
+    best = choice.chosen
     return recorded(
         FrontDevice,
         best,

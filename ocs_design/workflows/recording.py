@@ -13,9 +13,11 @@ from ocs_design.common.arrays import matrix, vector
 from ocs_design.common.units import format_quantity
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.device import Device
+from ocs_design.device.joints import joints_of
 from ocs_design.device.layout import heading_drift
 from ocs_design.device.records import (
     SCHEMA_VERSION,
+    Alternative,
     AxisInertia,
     CoDesignRecord,
     ControlRecord,
@@ -40,17 +42,25 @@ from ocs_design.device.records import (
 )
 from ocs_design.export.assembly_notes import device_notes, trunk_notes
 from ocs_design.export.time_series import export_time_series, series_file
-from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 from ocs_design.requirement.maneuver import Maneuver, kind_of
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.design import Choice, Designed
-from ocs_design.sizing.margins import HOOP_STRESS, Margin, margins, worst
+from ocs_design.sizing.margins import (
+    HOOP_STRESS,
+    MOTOR_TORQUE,
+    WHEEL_SPEED,
+    Margin,
+    margins,
+    worst,
+)
 from ocs_design.sizing.motion import DrivenWheel, Motion
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.sizing.selection.prices import mass_prices
 from ocs_design.sizing.sized import Sized
+from ocs_design.workflows.buildable import buildable
 from ocs_design.workflows.flying import trajectories
 
 if TYPE_CHECKING:
@@ -63,14 +73,16 @@ def record_margins(
     runs: Sequence[Run],
     plans: Mapping[str, "Reference"],
 ) -> tuple[MarginRecord, ...]:
-    """The worst over all maneuvers, as flown, or as planned where nothing was flown."""
+    """The worst over all maneuvers, as planned and as flown from push-off to the end of the run."""
     if designed.choice is None:
         found = tuple(_without_motor(resolved, designed, runs))
     else:
-        motions = _flown(runs) or {
-            name: Motion.along(path) for name, path in trajectories(plans).items()
-        }
-        found = _of_drive(designed.choice, designed.device, resolved, motions)
+        motions = (*_planned(plans), *_flown(runs))
+        held = (
+            Margin(joint.name, joint.demand, joint.capacity, joint.unit, joint.note)
+            for joint in joints_of(designed.device)
+        )
+        found = (*_of_drive(designed.choice, designed.device, resolved, motions), *held)
     wheel, envelope = designed.device.flywheel, resolved.envelope
     room = (
         Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"),
@@ -80,28 +92,42 @@ def record_margins(
     return tuple(recorded(MarginRecord, each, margin=each.factor) for each in (*found, *room))
 
 
-def _flown(runs: Sequence[Run]) -> dict[str, Motion]:
-    """Flight from lift-off to touchdown; push-off and landing are no part of a maneuver."""
-    motions = {}
+def _planned(plans: Mapping[str, "Reference"]) -> Iterator[tuple[str, Motion]]:
+    for name, path in trajectories(plans).items():
+        yield name, Motion.along(path)
+
+
+def _flown(runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
+    """Each run from its start to its end, and from lift-off to touchdown once more.
+
+    What the wheels do as the robot lands and while they are damped is asked of the drive too. Means
+    over time are of the maneuver alone: on the ground a motor has time to cool.
+    """
     for run in runs:
         if not run.ocs or run.metrics is None:
             continue
         series, left, landed = run.series, run.metrics.lift_off_time, run.metrics.touchdown_time
         begun = np.inf if left is None else left
         ended = np.inf if landed is None else landed
-        flight = (series.time >= begun) & (series.time <= ended)
-        if series.time[flight].size > 1:
-            motions[run.scenario] = Motion.flown(
-                series.time[flight],
-                series.wheel_speed[flight],
-                series.wheel_torque[flight],
-                series.rate[flight],
-            )
-    return motions
+        in_the_air = (series.time >= begun) & (series.time <= ended)
+        for part in (np.full(series.time.shape, True), in_the_air):
+            if np.count_nonzero(part) > 1:
+                yield (
+                    run.scenario,
+                    Motion.flown(
+                        series.time[part],
+                        series.wheel_speed[part],
+                        series.wheel_torque[part],
+                        series.rate[part],
+                    ),
+                )
 
 
 def _of_drive(
-    choice: Choice, device: Device, resolved: Resolved, motions: Mapping[str, Motion]
+    choice: Choice,
+    device: Device,
+    resolved: Resolved,
+    motions: Sequence[tuple[str, Motion]],
 ) -> tuple[Margin, ...]:
     chosen, stated = choice.chosen, choice.problem.wheel_speed_max
     wheel = DrivenWheel(
@@ -115,30 +141,34 @@ def _of_drive(
         float("inf") if stated is None else stated,
         chosen.hub,
         chosen.cuts,
+        chosen.web_material,
+        device.supply,
     )
     maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
     return worst(
-        {
-            name: margins(motion, device.as_flown(maneuvers[name]).axes, wheel)
-            for name, motion in motions.items()
-        }
+        (name, margins(motion, device.as_flown(maneuvers[name]).axes, wheel))
+        for name, motion in motions
     )
 
 
 def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) -> Iterator[Margin]:
     """What can be said without a motor's figures."""
     device, wheel = designed.device, designed.device.flywheel
-    driven = [run.metrics for run in runs if run.ocs and run.metrics is not None]
+    driven = [run for run in runs if run.ocs and run.metrics is not None]
     limit = device.motor.torque_limit
-    if driven:
-        speed = max(metrics.peak_wheel_speed for metrics in driven)
-        torque = max(metrics.peak_wheel_torque for metrics in driven)
-        capacity = resolved.requirement.wheel_speed_max
-        yield Margin("wheel speed in flight", speed, capacity, "rad/s")
-        yield Margin("wheel torque in flight", torque, limit, "N m")
     least = max((demand.torque for demand in designed.sized.demands), default=0.0)
-    if least > 0.0:
-        yield Margin("wheel torque, least", least, limit, "N m")
+    if driven:
+        speeds, torques = (
+            [float(np.abs(getattr(run.series, name)).max()) for run in driven]
+            for name in ("wheel_speed", "wheel_torque")
+        )
+        speed, torque = int(np.argmax(speeds)), int(np.argmax(torques))
+        capacity, at = resolved.requirement.wheel_speed_max, "at the wheel"
+        names = [run.scenario for run in driven]
+        yield Margin(WHEEL_SPEED, speeds[speed], capacity, "rad/s", "", names[speed])
+        yield Margin(MOTOR_TORQUE, torques[torque], limit, "N m", at, names[torque])
+    elif least > 0.0:
+        yield Margin(MOTOR_TORQUE, least, limit, "N m", "the least that does the maneuvers in time")
     if wheel.hoop_stress is not None:
         strength = resolved.material.yield_strength
         yield Margin(HOOP_STRESS, wheel.hoop_stress, strength, "Pa")
@@ -168,7 +198,7 @@ def record_selection(choice: Choice) -> SelectionRecord:
                 gear_ratio=entry.gear.ratio,
                 material=entry.material.name,
                 wheels_mass=2.0 * entry.wheel_mass,
-                motors_mass=2.0 * (entry.motor.mass or 0.0),
+                motors_mass=2.0 * ((entry.motor.mass or 0.0) + entry.motor.controller_mass),
                 gears_mass=2.0 * entry.gear.mass,
                 housings_mass=2.0 * entry.printed_mass,
             )
@@ -213,7 +243,8 @@ def write_runs(runs: Sequence[Run], folder: Path) -> None:
 
 
 HOUSING_ASSUMED = (
-    f"Housing: PETG, wall {format_quantity(WALL, 'mm')}, {format_quantity(CLEARANCE, 'mm')} clear: "
+    f"Housing: PETG, wall {format_quantity(WALL, 'mm')}, floor and lid "
+    f"{format_quantity(PANEL, 'mm')}, {format_quantity(CLEARANCE, 'mm')} clear: "
     f"r_max + {format_quantity(WALL + CLEARANCE, 'mm')}."
 )
 
@@ -229,11 +260,13 @@ def record_design(
     uncertainty: Mapping[str, str] | None = None,
     mounting: Mounting | None,
     warnings: tuple[str, ...] = (),
+    alternatives: tuple[Alternative, ...] = (),
     seed: int,
     files: Mapping[str, str],
     package_paths: Mapping[str, Path] | None = None,
 ) -> OcsDesign:
     """The whole artefact."""
+    margins, choice = record_margins(resolved, designed, runs, plans), designed.choice
     return OcsDesign(
         schema_version=SCHEMA_VERSION,
         tool=Tool(name="ocs-design", version=__version__),
@@ -245,7 +278,15 @@ def record_design(
             SizingRecord, designed.sized, shadow_prices=dict(designed.sized.shadow_prices)
         ),
         selection=None if designed.choice is None else record_selection(designed.choice),
-        margins=record_margins(resolved, designed, runs, plans),
+        margins=margins,
+        supply=designed.device.supply,
+        alternatives=alternatives,
+        buildable=buildable(
+            None if choice is None else choice.chosen.motor,
+            mounting,
+            margins,
+            joints_of(designed.device),
+        ),
         validation=tuple(map(record_run, runs)),
         control=control,
         reality=uncertainty or {},
@@ -316,8 +357,9 @@ def _ocs(
         flywheel=device.flywheel,
         motor=device.motor,
         carrier=device.carrier,
+        plate=device.plate,
         warnings=(*device_warnings(device, robot.mass_properties), *warnings),
-        fitting=(*device_notes(device), *trunk_notes(robot, device)),
+        fitting=(*device_notes(device), *trunk_notes(device)),
         mounting=None
         if mounting is None
         else MountingRecord(

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device, Module
@@ -38,8 +39,8 @@ class RecordedSeat:
     mount: Mount | None
 
 
-def device_of(record: OcsRecord) -> Device:
-    """The device that was designed, to the last digit.
+def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
+    """The device that was designed, to the last digit; `supply` is what feeds it.
 
     Raises:
         OcsError: no such device can be: the file was edited.
@@ -47,7 +48,15 @@ def device_of(record: OcsRecord) -> Device:
     left, right = (
         Module(each.name, np.array(each.axis), np.array(each.position)) for each in record.modules
     )
-    device = Device(record.incidence, (left, right), record.flywheel, record.motor, record.carrier)
+    device = Device(
+        record.incidence,
+        (left, right),
+        record.flywheel,
+        record.motor,
+        record.carrier,
+        supply,
+        plate=record.plate,
+    )
     check_device(device)
     return device
 
@@ -99,7 +108,13 @@ def robot_of(record: RobotRecord, path: Path | str, package_paths: Mapping[str, 
         return robot_by_hand(record.mass, (xx, yy, zz, xy, xz, yz), record.com, record.name)
     # A frame that was found, and is no link of the file, is found again.
     trunk = None if record.mount is not None or record.trunk == BASE_FRAME else record.trunk
-    robot = read_robot(path, trunk=trunk, posture="zero", package_paths=package_paths)
+    try:
+        robot = read_robot(
+            path, trunk=trunk, legs=record.legs, posture="zero", package_paths=package_paths
+        )
+    except RobotError:
+        # Another file than the one that was sized: what it lacks is told below.
+        robot = read_robot(path, trunk=trunk, posture="zero", package_paths=package_paths)
     known = {*robot.tree.joints, *robot.tree.body_of_link}
     missing = [name for name in (*record.posture, record.trunk) if name not in known]
     if missing:

@@ -34,6 +34,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.simulation.trotting import require_trot
+from ocs_design.sizing.alternatives import alternatives
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import Designed, design_device
 from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
@@ -65,9 +66,9 @@ class Outcome:
 
     @property
     def exit_code(self) -> int:
-        """0, or 1 if a scenario does not pass with the device."""
+        """0, or 1 if it cannot be built or a scenario does not pass with the device."""
         failed = any(run.ocs and run.passed is not True for run in self.runs)
-        return 1 if failed else 0
+        return 1 if failed or self.design.buildable.yes is False else 0
 
 
 def design_ocs(
@@ -110,6 +111,9 @@ def design_ocs(
             remarks = _write_formats(robot, device, staging)
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         runs, unfilmed = _prove(sized, specification.validation, plans, staging, steps)
+        with steps.step("look for what would be lighter otherwise"):
+            lighter = alternatives(specification, sized.designed, sized.robot)
+            forget_collision_model()
         design = record_design(
             robot,
             sized.resolved,
@@ -120,11 +124,13 @@ def design_ocs(
             uncertainty=uncertainty_texts(specification.reality),
             mounting=sized.mounting,
             warnings=(*sized.remarks, *unfilmed),
+            alternatives=lighter,
             seed=specification.validation.seed or 0,
             files={},
             package_paths=package_paths,
         )
         with steps.step("write the report"):
+            _write_instructions(robot, device, design, staging)
             design = _write_report(design, robot, runs, staging, command)
         (staging / DESIGN_FILE).write_bytes(design_to_json(design))
     return Outcome(design, folder, robot, device, runs)
@@ -246,7 +252,19 @@ def load_solvers(specification: Specification) -> None:
 def _write_formats(robot: Robot, device: Device, folder: Path) -> tuple[str, ...]:
     """What is to be told of the files; the model that they are written from is let go of."""
     subject = Subject.of(robot, device, safe_name(robot.name))
-    return export_formats(subject, USUAL_FORMATS, folder)
+    return export_formats(
+        subject, [each for each in USUAL_FORMATS if not each.needs_margins], folder
+    )
+
+
+def _write_instructions(robot: Robot, device: Device, design: OcsDesign, folder: Path) -> None:
+    """What tells of the flights too: the bill of materials and the assembly."""
+    subject = Subject.of(robot, device, safe_name(robot.name))
+    export_formats(
+        subject.recorded(design),
+        [each for each in USUAL_FORMATS if each.needs_margins],
+        folder,
+    )
 
 
 def _what_was_sized(designed: Designed) -> str:

@@ -11,7 +11,7 @@ import msgspec
 
 from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
-from ocs_design.device.records import OcsDesign, design_to_json
+from ocs_design.device.records import SCHEMA_VERSION, OcsDesign, design_to_json
 from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes
@@ -28,7 +28,8 @@ from ocs_design.simulation.scenario import Run, refusal, run_scenarios
 from ocs_design.workflows.flying import Task, flight_options, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 
-SCHEMA_VERSION = 1
+SAMPLES_VERSION = 1
+"""Of the samples in a folder, which a later run goes on with."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -178,7 +179,7 @@ def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> 
     if folder is not None:
         # What the numbers of a campaign follow from.
         identity = Identity(
-            schema_version=SCHEMA_VERSION,
+            schema_version=SAMPLES_VERSION,
             tool=__version__,
             simulator=version("mujoco"),
             design=design_hash(task),

@@ -79,12 +79,12 @@ def test_a_motor_without_stated_highest_speed_keeps_to_its_rated_voltage():
     assert at_48.speed_max == EC45.no_load_speed < at_48.no_load_speed
 
 
-def test_the_reserve_leaves_the_mechanical_limit():
+def test_the_reserve_is_of_every_limit():
     line = DriveLine(np.array([1.0, 2.0]), 650.0, 0.5, 700.0)
     reserved = line.reserved(0.9)
     np.testing.assert_allclose(reserved.stall_torque, [0.9, 1.8])
     assert (reserved.no_load_speed, reserved.torque_limit) == (585.0, 0.45)
-    assert reserved.speed_max == 700.0
+    assert reserved.speed_max == 630.0
     assert line.reserved().no_load_speed == 0.95 * 650.0
 
 

@@ -228,3 +228,10 @@ def test_arrays_broadcast():
     single = slew_time(20.0, 9e-5, DriveLine(2.0, 650.0, 1.0, INF), 10.0)
     assert time[1, 1] == pytest.approx(float(single), rel=1e-14)
     assert slew_angle(time, 9e-5, line, [[0.0], [10.0]]).shape == (2, 3)
+
+
+def test_a_supply_whose_power_friction_takes_whole_moves_nothing():
+    line = DriveLine(1.4566, 650.4, 1.0, INF, power_max=0.0)
+    assert np.isinf(slew_time([1.0, 0.0], 9e-5, line, [0.0, 100.0])).all()
+    assert slew_time(0.0, 9e-5, line) == 0.0
+    assert np.isnan(slew_profile(1.0, 9e-5, line).end)

@@ -1,5 +1,7 @@
 """Smallest spin inertia: worked examples, the law that time falls, brute force, reasons."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -96,6 +98,16 @@ def test_a_motor_too_weak_for_any_wheel():
     assert just == [SlewReason.TORQUE, SlewReason.SPEED]
 
 
+def test_a_drive_without_power_turns_no_wheel():
+    """Friction may take all that a small supply gives."""
+    line, task = replace(ANTIGRAVITY, power_max=0.0), pitch_turn(30.0, 0.385, np.radians(40.0), 0.0)
+    assert np.isinf(smallest_spin_inertia(task, line))
+    assert np.isinf(pair_slew_time(task, 9e-5, line))
+    assert slew_reason(task, line) == SlewReason.TORQUE
+    nothing = pitch_turn(0.0, 0.385, np.radians(40.0), 0.0)
+    assert smallest_spin_inertia(nothing, line) == 0.0
+
+
 def test_want_of_torque_is_told_with_momentum_too():
     """A trunk so heavy that no wheel relieves it, a line so steep that no speed limits it."""
     rng = np.random.default_rng(11)
@@ -145,7 +157,9 @@ def row(values, k):
 
 
 def _one(value, k):
-    return TiltInertia(*(part[k] for part in value)) if isinstance(value, tuple) else value[k]
+    if isinstance(value, tuple):
+        return TiltInertia(*(part[k] for part in value))
+    return value if np.ndim(value) == 0 else value[k]
 
 
 def test_the_wheel_found_is_just_in_time():

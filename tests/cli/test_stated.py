@@ -52,7 +52,7 @@ def test_an_option_goes_over_the_file_and_leaves_the_rest(tmp_path):
     file = tmp_path / "spec.toml"
     file.write_text('[motor]\nname = "MN4010 KV580"\nbus_voltage = "48 V"\n')
     specification = stated(spec=str(file), motor="none")
-    assert (specification.motor.name, specification.motor.bus_voltage) == ("none", 48.0)
+    assert (specification.motor.name, specification.supply.voltage) == ("none", 48.0)
 
 
 def package_paths(*texts):

@@ -2,18 +2,30 @@
 
 import json
 import os
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from wheels import EC45, EC45_BODY, geared
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.device.device import NO_CARRIER
-from ocs_design.device.records import LARGEST, design_to_json, read_design
+from ocs_design.device.records import (
+    LARGEST,
+    Alternative,
+    Buildable,
+    OpenPoint,
+    design_to_json,
+    read_design,
+)
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 """By `size examples/solo12.urdf --no-validate` of version 0.1.0, which knew no motors."""
+
+FLOWN = OLD.with_name("design_1.json")
+"""By `size examples/solo12.urdf`, with motors and flights, of the last version of schema 1."""
 
 
 def test_a_file_of_the_first_version_still_reads():
@@ -30,8 +42,63 @@ def test_a_file_of_the_first_version_still_reads():
 
 def test_everything_that_it_held_is_still_there():
     """What is written again has the old fields with their values, and new ones beside them."""
-    old, new = json.loads(OLD.read_bytes()), json.loads(design_to_json(read_design(OLD)))
-    assert_within(old, new, "design")
+    for path in (OLD, FLOWN):
+        old, new = json.loads(path.read_bytes()), json.loads(design_to_json(read_design(path)))
+        assert (old.pop("schema_version"), new["schema_version"]) == (1, 2)
+        for margin in old["margins"]:
+            margin["scenario"] = margin.pop("maneuver", "")
+        assert_within(old, new, "design")
+
+
+def test_what_version_1_did_not_say_takes_its_default():
+    design = read_design(FLOWN)
+    assert (design.supply, design.alternatives, design.buildable.yes) == (None, (), None)
+    assert (design.ocs.layout, design.requirement.reliability) == ("pair", None)
+    by_name = {margin.name: margin for margin in design.margins}
+    assert by_name["bus current"].scenario == "back-flip"
+    assert by_name["height"].scenario == ""
+
+
+def test_what_passed_in_version_1_was_level_and_stood():
+    design = read_design(FLOWN)
+    assert [run.passed for run in design.validation] == [True, False] * 3
+    assert [run.level for run in design.validation] == [True, None] * 3
+    assert [run.stands for run in design.validation] == [True, None] * 3
+    document = json.loads(FLOWN.read_bytes())
+    for run in document["validation"]:
+        # As of a biped that no device keeps up.
+        run["can_stand"] = False
+    fallen = read_back(document)
+    assert [run.stands for run in fallen.validation] == [None] * 6
+
+
+def test_a_document_of_this_version_comes_back_as_it_was(tmp_path):
+    design = replace(
+        read_design(FLOWN),
+        supply=Supply(24.0, 40.0, 960.0),
+        alternatives=(Alternative(change="any motor", mass_total=0.4, motor="X", note="n"),),
+        buildable=Buildable(yes=False, open=(OpenPoint(what="w", cure="c"),)),
+    )
+    (tmp_path / "design.json").write_bytes(design_to_json(design))
+    assert read_design(tmp_path / "design.json") == design
+
+
+@pytest.mark.parametrize("version", [0, 3, 99])
+def test_other_versions_are_refused_with_the_cure(tmp_path, version):
+    path = tmp_path / "design.json"
+    path.write_text(
+        FLOWN.read_text().replace('"schema_version": 1', f'"schema_version": {version}')
+    )
+    with pytest.raises(OcsError, match=f"schema_version {version}, .* reads 1 to 2"):
+        read_design(path)
+
+
+def read_back(document):
+    """A document through a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "design.json"
+        path.write_text(json.dumps(document))
+        return read_design(path)
 
 
 def test_a_real_motor_and_its_carrier_come_back(tmp_path):

@@ -18,7 +18,7 @@ def completed(words):
     ("words", "offered"),
     [
         ("ocs-design in", ["inspect", "init"]),
-        ("ocs-design size --mo", ["--motor", "--motors"]),
+        ("ocs-design size --mo", ["--motor", "--motors-any", "--motors"]),
         ("ocs-design doctor --j", ["--json"]),
     ],
 )

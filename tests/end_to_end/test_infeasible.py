@@ -18,6 +18,11 @@ TOO_TIGHT = {
     "rate": ("--rate-change", "30", "--r-max", "30mm"),
 }
 WHEELS_ALONE = ("--motor", "none", "--no-validate")
+TOO_WEAK = "Antigravity 4004 KV300"
+NEEDED_MOTOR = re.compile(
+    r"A motor of about [\d.]+ N m peak torque and [\d,]+ rpm without load at \d+ V, "
+    r"of at most [\d.]+ kg, would do\."
+)
 RELAXATION = re.compile(
     r"\b(?P<key>[a-z_]+) (?P<figure>[\d.e+]+)(?: (?P<unit>mm|g|rpm))?(?=[;.] ?)"
 )
@@ -91,7 +96,22 @@ def test_a_robot_that_no_motor_can_turn(folder):
     result = run("size", "--mass", "200", "--inertia", "40,60,60", "--json")
     error = result.document["error"]
     assert (result.code, error["kind"], error["binding"]) == (4, "infeasible", ["torque"])
-    assert re.search(r"None of \d+ motors can do it at 48 V; .* comes closest", error["message"])
+    assert re.search(r"None of \d+ motors can do it at \d+ V; .* comes closest", error["message"])
+    assert NEEDED_MOTOR.search(error["hint"]), error["hint"]
+    # Sixteen times too slow: no limit is loosened that far.
+    assert error["relaxations"] == {}
+    assert "not even changed 10-fold" in error["hint"]
+    assert everything_in(folder) == []
+
+
+def test_two_motors_that_are_both_too_weak(folder):
+    """Four times Solo12, with motors of its size: more time would do, and so would a third one."""
+    weak = ("--mass", "10", "--inertia", "0.3,0.45,0.5", "--motor", f"{TOO_WEAK}, MN4014 KV400")
+    result = run("size", *weak, "--json")
+    error = result.document["error"]
+    assert (result.code, error["kind"], error["binding"]) == (4, "infeasible", ["torque"])
+    assert "None of 2 motors can do it at 24 V; MN4014 KV400 comes closest" in error["message"]
+    assert NEEDED_MOTOR.search(error["hint"]), error["hint"]
     assert set(error["relaxations"]) == {"time"}
     for key in ("disturbance takeoff_velocity", "drop height", "back-flip jump_height", "duration"):
         assert key in error["hint"]
@@ -159,7 +179,7 @@ def test_a_refusal_points_to_what_is_odd_in_the_robots_file(folder):
     """Here limits of a joint that leave it no room."""
     text = re.sub('upper="[^"]*"', 'upper="-99"', Path(SOLO12).read_text(), count=1)
     (folder / "odd.urdf").write_text(text)
-    weak = ("--motor", "Antigravity 4004 KV300", *ONE_KIND, "--json")
+    weak = ("--motor", TOO_WEAK, *ONE_KIND, "--json")
     hint = run("size", "odd.urdf", *weak).document["error"]["hint"]
     assert hint.startswith("`ocs-design inspect` warns of what is odd")
     assert "odd" not in run("size", SOLO12, *weak).document["error"]["hint"]

@@ -73,13 +73,13 @@ def test_size_reads_it(folder):
     run("init", *BY_HAND, "--motor", "none")
     done = run("size", "--spec", "robot.toml", "--no-validate")
     assert done.code == 0
-    assert "robot-ocs" in done.stderr
+    assert "robot-ocs" in done.stdout
 
 
 def test_without_a_robot_it_says_where_the_robot_goes(folder):
     done = run("init", "--json")
     assert done.document == {
-        "schema_version": 1,
+        "schema_version": 2,
         "file": "ocs.toml",
         "robot": None,
         "next": "ocs-design size ROBOT --spec ocs.toml",
@@ -119,7 +119,7 @@ def test_on_a_terminal_it_asks(folder):
     found = read_specification(folder / "asked.toml")
     assert [maneuver.name for maneuver in found.maneuvers] == ["drop", "back-flip"]
     assert (found.flywheel.r_max, found.flywheel.h_max) == (0.045, None)
-    assert found.motor.bus_voltage == 22.2
+    assert found.supply.voltage == 22.2
 
 
 def test_on_a_terminal_it_asks_nothing_if_told_so(folder):

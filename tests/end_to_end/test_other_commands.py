@@ -38,7 +38,7 @@ def test_the_curve_of_a_bound_passes_through_it():
 
 def test_bound_in_words_names_both_forms():
     result = run(*PAPER)
-    assert (result.code, result.stdout) == (0, "")
+    assert (result.code, result.stderr) == (0, "")
     assert "1.37701e-04" in result.said
     assert "1.36968e-04" in result.said
 

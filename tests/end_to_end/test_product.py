@@ -17,24 +17,27 @@ from ocs_design.device.records import design_to_json, read_design
 
 # INTERFACE: the fields that scripts and other programs rely on.
 SCHEMA = {
-    "": "schema_version tool seed robot requirement ocs sizing margins validation files",
+    "": "schema_version tool seed robot requirement ocs sizing margins validation files "
+    "supply alternatives buildable",
+    "buildable": "yes open",
+    "margins.0": "name demand capacity unit margin scenario",
     "tool": "name version",
     "robot": "name source sha256 trunk posture mass com inertia warnings",
-    "requirement": "maneuvers rate_change wheel_speed_max required_inertia",
+    "requirement": "maneuvers rate_change wheel_speed_max required_inertia reliability",
     "requirement.required_inertia": "pitch roll",
     "ocs": "incidence incidence_criterion incidence_by_criterion spin_inertia mass_total modules "
-    "flywheel motor",
+    "flywheel motor layout",
     "ocs.modules.0": "name axis position",
     "ocs.modules.1": "name axis position",
     "ocs.flywheel": "inner_radius outer_radius height material density mass spin_inertia "
     "transverse_inertia hoop_stress stress_margin stored_energy",
     "ocs.motor": "name mass stall_torque no_load_speed torque_limit rotor_inertia source",
     "sizing": "status method objective binding shadow_prices gap",
-    "margins.0": "name demand capacity unit margin",
-    "validation.0": "scenario ocs passed reason metrics",
+    "validation.0": "scenario ocs passed level stands reason metrics",
     "validation.0.metrics": "touchdown_pitch touchdown_roll upright_at_end peak_wheel_speed "
     "peak_wheel_torque momentum_error",
 }
+PAUSE = re.compile(r"a pause of [\d.]+ s after each maneuver cools it")
 
 
 def at(document, path):
@@ -44,7 +47,7 @@ def at(document, path):
 
 
 def test_it_succeeds_and_leaves_nothing_but_its_folder(product):
-    assert (product.said.code, product.said.stdout) == (0, "")
+    assert product.said.code == 0
     assert list(product.folder.parent.iterdir()) == [product.folder]
     written = {name for name in everything_in(product.folder) if (product.folder / name).is_file()}
     assert written == {*product.case.files, "design.json", "report.html"}
@@ -145,7 +148,8 @@ def check_weight(meshes, device):
 
 
 def densities(wheel):
-    return [wheel.density] if wheel.web is None else [wheel.density, wheel.web["density"]]
+    two = wheel.web is not None and wheel.web["material"] != wheel.material
+    return [wheel.density, wheel.web["density"]] if two else [wheel.density]
 
 
 def test_the_pieces_are_watertight_bodies_and_weigh_what_they_should(product, device):
@@ -170,7 +174,7 @@ def test_the_robots_mesh_is_the_whole_wheel(product, device):
 def test_time_series_can_be_read_with_their_units(product, document, name):
     with (product.folder / name).open(newline="") as file:
         rows = list(csv.DictReader(file))
-    units = ("_s", "_m", "_rad", "_rad_s", "_nm")
+    units = ("_s", "_m", "_rad", "_rad_s", "_nm", "_w", "_a")
     assert all(heading.endswith(units) for heading in rows[0] if heading != "contact")
     table = {heading: np.array([float(row[heading]) for row in rows]) for heading in rows[0]}
     assert all(np.isfinite(column).all() for column in table.values())
@@ -217,4 +221,6 @@ def test_margins_are_capacity_over_demand(document, product):
             assert margin["margin"] is None
         else:
             assert margin["margin"] == pytest.approx(margin["capacity"] / margin["demand"])
-            assert margin["margin"] >= 1.0 - product.case.slack
+            kept = margin["margin"] >= 1.0 - product.case.slack
+            # A rating for hours may be exceeded for a second, and then asks for a pause.
+            assert kept or (margin["name"] == "rms current" and PAUSE.match(margin["note"]))

@@ -43,7 +43,7 @@ def test_a_full_standard_output_is_told(folder):
 
 @has_full_device
 def test_a_full_standard_error_is_an_error(folder):
-    assert shell(f'"$@" 2> {FULL}', "inspect", *BY_HAND).returncode == 3
+    assert shell(f'"$@" 2> {FULL}', *UNSIZED).returncode == 3
     assert everything_in(folder) == []
 
 
@@ -64,8 +64,8 @@ def test_without_home_and_locale(folder, locale):
     done = subprocess.run(
         [*PROGRAM, "inspect", SOLO12], env=bare | kept, capture_output=True, check=False
     )
-    assert (done.returncode, done.stdout) == (0, b"")
-    assert b"2.5" in done.stderr
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert b"2.5" in done.stdout
 
 
 def test_signals_that_are_ignored_stay_so(monkeypatch):

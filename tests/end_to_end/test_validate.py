@@ -62,7 +62,7 @@ def test_samples_are_told_in_words(by_hand, folder):
     said = run("validate", by_hand, "--samples", "2").said
     for words in (
         "touches down at pitch",
-        "1 of 1 scenarios pass",
+        "level 1 of 1",
         "2 robots as they might be built",
         "95% interval",
         "the worst samples are",

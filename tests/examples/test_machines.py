@@ -199,7 +199,7 @@ def test_a_machine_comes_out_as_it_was_built(comparison):
     assert free.gear.name == "direct"
     assert degrees(free.incidence) == pytest.approx(45.0, abs=1.5)
     built = {one.specification: one for one in comparison.MACHINES}
-    for name, share in (("rex_hopper", 0.69), ("wheelbot", 0.95)):
+    for name, share in (("rex_hopper", 0.69), ("wheelbot", 1.01)):
         same = comparison.lightest(specification(name), built[name].incidence)
         assert same.spin_inertia / built[name].spin_inertia == pytest.approx(share, abs=0.01)
 

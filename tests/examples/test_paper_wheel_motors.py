@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from ocs_design.catalogue.motors import motor
-from ocs_design.requirement.froude import default_maneuvers
 
 SCRIPT = Path(__file__).parents[2] / "examples" / "paper_wheel_motors.py"
 
@@ -21,7 +20,7 @@ def example():
 
 def test_a_gimbal_motor_is_too_slow_and_a_strong_and_fast_one_does_all_three(example):
     robot = example.read_robot(example.ROBOT)
-    maneuvers = default_maneuvers(robot)
+    maneuvers = example.MANEUVERS
     motors = [motor(name) for name in ("GL40 KV70", "EC 45 flat 70 W 411812", "MN4010 KV580")]
     devices = [example.on_paper_wheel(robot, each, 24.0) for each in motors]
     verdicts = example.fly(robot, devices, maneuvers)

@@ -4,14 +4,16 @@ import csv
 from dataclasses import replace
 
 import pytest
+from built import DEVICES
 from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_device
 
 from ocs_design.actuation.motor import GearRoom
 from ocs_design.device.device import Web
+from ocs_design.device.records import MarginRecord
 from ocs_design.export.bill_of_materials import COLUMNS, bill_rows, export_bill_of_materials, plain
 from ocs_design.parts.module import Printed
 from ocs_design.parts.moments import Carrier
-from ocs_design.parts.rim import Hub
+from ocs_design.parts.rim import Hub, WebHoles
 
 GEAR_MASS = 0.02
 
@@ -68,6 +70,14 @@ def test_a_wheel_of_one_material_is_one_part():
     (row,) = bill_rows(replace(paper_device(), flywheel=wheel))
     assert (row.mass, row.stock) == (wheel.mass, "round bar 62 x 12")
     assert "4 holes 3.20 on a circle of 16.00" in row.source
+    assert "lightening" not in row.source
+
+
+def test_lightening_holes_are_drilled():
+    web = replace(WEB, holes=WebHoles(6, 0.0233, 0.0095))
+    wheel = replace(PAPER_WHEEL, material=WEB.material, web=web)
+    (row,) = bill_rows(replace(paper_device(), flywheel=wheel))
+    assert "web 1.50 with 6 lightening holes 19.00 on a circle of 46.60" in row.source
 
 
 def test_only_what_the_device_holds_is_listed():
@@ -118,6 +128,43 @@ def test_motor_controllers_are_listed_without_a_mass(tmp_path):
     *parts, total = rows_of(export_bill_of_materials(device, tmp_path / "bill.csv"))
     (row,) = (part for part in parts if part["part"] == "motor controller")
     assert (row["quantity"], row["mass [g]"]) == ("2", "")
-    assert "for 13 A at 24 V" in row["source"]
+    # As sines 12.5 A / (sqrt(3) / 2) of amplitude, and 12.5 A / sqrt(3/2) rms; 1.2 x 24 V.
+    assert "at least 13 A through two lines" in row["source"]
+    assert "15 A of amplitude or 11 A rms of a phase; rated for 29 V" in row["source"]
     weighed = sum(float(part["mass [g]"] or 0.0) for part in parts)
     assert float(total["mass [g]"]) == pytest.approx(weighed, abs=3e-3)
+
+
+def margin(name, demand, unit="A"):
+    return MarginRecord(name=name, demand=demand, capacity=None, unit=unit, margin=None)
+
+
+def test_the_battery_gives_and_takes_what_the_flights_asked(tmp_path):
+    """28.2 A at 24 V are 676.8 W; a stated power stands before the product."""
+    margins = (
+        margin("bus current", 28.2),
+        margin("bus current, fed back", 22.0),
+        margin("energy from the bus", 137.0, "J"),
+    )
+    device = driven_device(drive=replace(EC45, bus_voltage=24.0))
+    path = export_bill_of_materials(device, tmp_path / "bill.csv", margins)
+    (battery,) = (row for row in rows_of(path) if row["part"] == "battery")
+    assert battery["source"].startswith(
+        "gives at least 29 A (677 W) and takes back at least 22 A (528 W) at 24 V; a maneuver "
+        "takes at most 137 J out"
+    )
+    assert "brake resistor with switch" in {row["part"] for row in rows_of(path)}
+    power = (*margins, margin("bus power", 600.0, "W"))
+    assert "29 A (600 W)" in bill_rows(device, power)[-2].source
+
+
+def test_without_flights_there_is_no_battery_line():
+    assert "battery" not in {row.part for row in bill_rows(driven_device())}
+
+
+def test_a_wheel_that_is_bonded_on_a_shaft_has_its_compound_in_the_bill():
+    """And one that is screwed to a rotor its threadlocker."""
+    for name, used in (("by its face", "retaining compound"), ("caged", "threadlocker")):
+        rows = {row.part: row for row in bill_rows(DEVICES[name])}
+        assert rows[used].mass == 0.0
+    assert "retaining compound" not in {row.part for row in bill_rows(DEVICES["caged"])}

@@ -18,7 +18,7 @@ from ocs_design.parts.rim import Hub, RimCuts
 M3 = BoltCircle(0.02, 4, "M3")
 FLAT = Mounting(0.004, stator=M3, stator_face=Face.OUTPUT)
 WEB = Web("aluminium-6061-t6", 2710.0, 0.0015, 0.01, Hub(0.008, 0.005, 0.002))
-BACK_OF_PLATE = 0.005 + 0.002 + 0.0016 + 0.005
+BACK_OF_PLATE = 0.005 + 0.002 + 0.0012 + 0.005
 """Half of the rim's 10 mm, clearance, floor, plate: to the wheel's middle [m]."""
 
 
@@ -56,7 +56,7 @@ def test_a_shaft_that_is_too_short_or_not_known():
     short = said(device_on(replace(FLAT, shaft_length=BACK_OF_PLATE - 0.0021)))
     assert short == "the shaft ends 2.1 mm short of the hub's middle"
     unknown = said(device_on(FLAT))
-    assert "stand out by 13.6 mm to reach the hub's middle, by 16.1 mm to go through" in unknown
+    assert "stand out by 13.2 mm to reach the hub's middle, by 15.7 mm to go through" in unknown
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,13 @@ def test_screws_that_are_left_out_are_told(mounting, words):
 def test_a_wheel_on_the_rotor_needs_a_spacer():
     """From the back of the plate to the hub's face, 2.5 mm off the wheel's middle."""
     mounting = replace(FLAT, rotor=BoltCircle(0.012, 3, "M2"))
-    assert "the hub stands 11.1 mm off the rotor that it is screwed to" in said(device_on(mounting))
+    assert "the hub stands 10.7 mm off the rotor that it is screwed to" in said(device_on(mounting))
+
+
+def test_threads_of_a_stator_are_told_of_by_themselves():
+    told = said(device_on(Mounting(0.004, BoltCircle(0.012, 3, "M2"))))
+    assert "the threads of its stator are not in the catalogue" in told
+    assert "the motor's threads" not in told
 
 
 def test_behind_a_gear_nothing_is_known():

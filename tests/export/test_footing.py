@@ -1,20 +1,21 @@
-"""What is said of a trunk that is narrower than the feet are far apart, or not beneath them."""
+"""What is said of the holes that the trunk needs, and where the plate under the feet is written."""
 
 from dataclasses import replace
-from math import sqrt
 
+import mujoco
 import numpy as np
 import pytest
 from robots import SOLO12
 from wheels import driven_device
 
 from ocs_design.export.assembly_notes import trunk_notes
-from ocs_design.export.device_parts import printed_foot
-from ocs_design.robot.meshes import trunk_extent, trunk_top
+from ocs_design.export.bill_of_materials import bill_rows
+from ocs_design.export.formats import Subject
+from ocs_design.export.robot_model import robot_model
+from ocs_design.export.snippets import export_snippets
+from ocs_design.export.stl import write as write_stl
 from ocs_design.robot.reader import read_robot
-
-DEVICE = driven_device()
-FOOT = printed_foot(DEVICE)
+from ocs_design.sizing.footing import stand_on_trunk
 
 
 @pytest.fixture(scope="module")
@@ -22,46 +23,70 @@ def robot():
     return read_robot(SOLO12)
 
 
-def moved(robot, out, up=0.0):
-    """With its left wheel so far out, its foot so far above the trunk's top [m]."""
-    top = trunk_top(robot.tree, robot.trunk)
-    left, right = DEVICE.modules
-    place = np.array([0.0, out, top + FOOT.wheel_height + up])
-    mirrored = place * [1.0, -1.0, 1.0]
-    return replace(
-        DEVICE, modules=(replace(left, position=place), replace(right, position=mirrored))
-    )
+@pytest.fixture(scope="module")
+def plated(robot):
+    return stand_on_trunk(driven_device(), robot, stated=False)
 
 
-def half_width(robot):
-    return trunk_extent(robot.tree, robot.trunk, np.array([0.0, 1.0, 0.0]))
+def test_the_holes_of_the_plate_are_told(plated):
+    (said,) = trunk_notes(plated)
+    x, y = plated.plate.trunk[0]
+    x += plated.plate.position[0]
+    assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in said
+    assert "M3" in said
 
 
-def test_feet_on_the_trunk_need_no_word(robot):
-    assert trunk_notes(robot, moved(robot, half_width(robot) - FOOT.base_radius - 1e-6)) == ()
+def test_feet_on_the_trunk_need_threads_in_it(plated):
+    (said,) = trunk_notes(replace(plated, plate=None))
+    assert "threads M3" in said
 
 
-def test_a_base_beyond_the_trunk_is_measured(robot):
-    (said,) = trunk_notes(robot, moved(robot, half_width(robot) - FOOT.base_radius + 0.002))
-    assert said == "the feet stand 2 mm over the trunk's sides; their screws are on it"
+def test_wheels_without_feet_need_no_holes(plated):
+    assert trunk_notes(replace(plated, carrier=replace(plated.carrier, mass=0.0))) == ()
 
 
-def test_a_screw_beyond_the_trunk_needs_a_plate(robot):
-    """The screws stand at 45 degrees, their clearance holes have 3.4 mm."""
-    out = half_width(robot) - FOOT.slot_radius / sqrt(2.0) - 0.0017 + 0.003
-    (said,) = trunk_notes(robot, moved(robot, out))
-    width = 2e3 * (out + FOOT.base_radius)
-    assert "the outer screw of each is 3 mm off it" in said
-    assert f"a plate of {width:.4g}"[:14] in said
+def test_the_bill_weighs_what_the_plate_does(plated):
+    rows = {id(row): row for row in bill_rows(plated)}.values()
+    without = sum(row.quantity * row.mass for row in bill_rows(replace(plated, plate=None)))
+    whole = sum(row.quantity * row.mass for row in rows)
+    assert whole - without == pytest.approx(plated.plate.mass)
 
 
-@pytest.mark.parametrize(("up", "words"), [(0.02, "20 mm above"), (-0.015, "15 mm below")])
-def test_feet_that_are_not_on_top_need_a_bracket(robot, up, words):
-    (said,) = trunk_notes(robot, moved(robot, 0.03, up))
-    assert words in said
-    assert "bracket" in said
+def test_mujoco_weighs_it_where_it_is(robot, plated):
+    model = robot_model(robot, plated).compiled
+    bare = robot_model(robot, replace(plated, plate=None)).compiled
+    assert sum(model.body_mass) - sum(bare.body_mass) == pytest.approx(plated.plate.mass)
+    body, own = model.body("ocs_plate"), plated.plate.own_mass_properties()
+    np.testing.assert_allclose(body.pos, plated.plate.position, atol=1e-9)
+    np.testing.assert_allclose(body.ipos, own.com, atol=1e-9)
+    moments = np.linalg.eigvalsh(own.inertia)
+    np.testing.assert_allclose(sorted(body.inertia), moments, rtol=1e-6)
 
 
-def test_wheels_without_feet_stand_on_nothing(robot):
-    bare = replace(DEVICE, carrier=replace(DEVICE.carrier, mass=0.0))
-    assert trunk_notes(robot, bare) == ()
+@pytest.mark.parametrize("name", ["ocs.urdf", "ocs.xml"])
+def test_snippets_weigh_it_too(robot, plated, tmp_path, name):
+    masses = []
+    for device in (plated, replace(plated, plate=None)):
+        export_snippets(device, robot, tmp_path)
+        text = (tmp_path / name).read_text()
+        assert ("plate" in text) == (device.plate is not None)
+        spec = mujoco.MjSpec.from_string(text)
+        spec.compiler.fusestatic = False
+        masses.append(sum(spec.compile().body_mass))
+    assert masses[0] - masses[1] == pytest.approx(plated.plate.mass)
+
+
+def test_it_has_a_mesh_of_its_own(robot, plated, tmp_path):
+    write_stl(Subject.of(robot, plated, "solo12"), tmp_path)
+    assert (tmp_path / "plate.stl").stat().st_size > 84
+
+
+def test_its_outline_is_a_drawing(robot, plated, tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    from ocs_design.export.dxf import write
+
+    write(Subject.of(robot, plated, "solo12"), tmp_path)
+    space = ezdxf.readfile(tmp_path / "plate.dxf").modelspace()
+    layers = [entity.dxf.layer for entity in space]
+    # Two windows, four threads and four holes.
+    assert (layers.count("OUTLINE"), layers.count("HOLES")) == (1, 10)

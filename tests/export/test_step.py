@@ -1,9 +1,11 @@
 """STEP files, read again by Open CASCADE, against the closed form."""
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from built import CAGED_DEVICE
 from made_parts import PARTS, TUBE
 
 from ocs_design.common.arrays import FloatArray
@@ -14,9 +16,11 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_ShapeEnum
+from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS_Shape
 
-from ocs_design.export.step import step_bytes
+from ocs_design.export.assembly.placed import placed_parts
+from ocs_design.export.step import module_bytes, step_bytes
 
 TOLERANCE = 1e-9
 
@@ -71,3 +75,26 @@ def test_file_bears_the_name_and_no_clock():
 def test_nothing_is_printed(capfd):
     step_bytes(TUBE)
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_module_has_all_its_pieces_in_their_places(tmp_path):
+    """Motor and cage among them: as many solids as pieces, each of its volume, at its place."""
+    (tmp_path / "module.step").write_bytes(module_bytes(CAGED_DEVICE))
+    shape = read(tmp_path / "module.step")
+    solids, found = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_SOLID), []
+    while solids.More():
+        found.append(integrated(solids.Current()))
+        solids.Next()
+    placed, text = placed_parts(CAGED_DEVICE), module_bytes(CAGED_DEVICE).decode()
+    assert text == (tmp_path / "module.step").read_text()
+    assert re.findall(r"PRODUCT\('(\w+)'", text) == ["module", *placed]
+    assert {"motor", "cage", "drum", "lid", "foot"} <= set(placed)
+    assert len(found) == len(placed)
+    for part, place in placed.values():
+        own = part.mass_properties()
+        at, volume = place.rotation @ own.com + place.position, own.mass / part.density
+        assert any(
+            solid.volume == pytest.approx(volume, rel=TOLERANCE)
+            and np.linalg.norm(solid.com - at) < 1e-9
+            for solid in found
+        )

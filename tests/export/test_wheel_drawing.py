@@ -10,7 +10,7 @@ from ocs_design.device.device import Web
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel_sheet import device_hash, wheel_drawing, write
 from ocs_design.export.formats import Subject
-from ocs_design.parts.rim import WEB_DENSITY, WEB_MATERIAL, WEB_THICKNESS, Hub
+from ocs_design.parts.rim import WEB_MATERIAL, WEB_THICKNESS, Hub
 from ocs_design.workflows.restoring import RecordedSeat
 
 DEVICE = paper_device()
@@ -19,7 +19,7 @@ HUB = Hub(0.010, 0.005, 0.0015, bolts=4, bolt_circle_radius=0.006, bolt_hole_rad
 
 def on_a_web(device):
     wheel = device.flywheel
-    web = Web(WEB_MATERIAL, WEB_DENSITY, WEB_THICKNESS, 0.01, HUB)
+    web = Web(WEB_MATERIAL, 2710.0, WEB_THICKNESS, 0.01, HUB)
     return replace(device, flywheel=replace(wheel, web=web))
 
 

@@ -1,19 +1,21 @@
 """The cage as it is printed, around its motor."""
 
+from dataclasses import replace
+
 import pytest
 from made_parts import CAGE
 from part_gaps import overlap_volume, thinnest_wall, turning_clearance
 
-from ocs_design.parts.cage import FLOOR, FRONT_GAP, cage_part
+from ocs_design.parts.cage import FLOOR, LEAST_POST, cage_part
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.parts.printed import CLEARANCE, UPRIGHT, WALL
 from ocs_design.parts.solids import hollow_cylinder
 
 MOTOR = Part(
     "motor", 1.0, (hollow_cylinder(0.0, CAGE.motor_radius, FLOOR, FLOOR + CAGE.motor_length),)
 )
 TURNING = Part(
-    "bell", 1.0, (hollow_cylinder(0.0, CAGE.motor_radius, FLOOR + 2.0 * CLEARANCE, 0.039),)
+    "bell", 1.0, (hollow_cylinder(0.0, CAGE.motor_radius, FLOOR + 2.0 * CLEARANCE, 0.036),)
 )
 
 
@@ -26,4 +28,20 @@ def test_the_motor_stands_on_its_floor_and_turns_freely():
     cage = cage_part(CAGE)
     assert overlap_volume(cage, MOTOR) == pytest.approx(0.0, abs=1e-15)
     assert turning_clearance([TURNING], [cage], 0.01) == pytest.approx(CLEARANCE, abs=5e-6)
-    assert CAGE.length - FLOOR - CAGE.motor_length == pytest.approx(FRONT_GAP)
+
+
+def test_it_reaches_from_the_motor_s_back_to_the_plate():
+    """1.5 mm of hub and 36 mm of motor, less 3 + 2 + 1.2 + 5 mm of half a rim, room and walls."""
+    assert CAGE.length == pytest.approx(0.0375 - 0.0112 + FLOOR)
+    tallest = replace(CAGE, rim_height=CAGE.rim_height_max)
+    assert tallest.length == pytest.approx(LEAST_POST + FLOOR)
+
+
+@pytest.mark.parametrize("height", [0.002, 0.01, 0.03])
+def test_posts_and_floor_weigh_what_the_cage_weighs(height):
+    """In the module's frame, about the wheel's middle."""
+    cage = replace(CAGE, rim_height=height)
+    whole = cage_part(cage).moments().turned(UPRIGHT).shifted(-cage.back, 0.0)
+    found = cage.posts.moments(height) + cage.floor_moments()
+    for name in ("mass", "y", "xx", "yy", "zz"):
+        assert getattr(found, name) == pytest.approx(getattr(whole, name), rel=1e-12), name

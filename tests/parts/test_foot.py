@@ -14,6 +14,7 @@ from ocs_design.parts.foot import (
     TRUNK_SCREW,
     Foot,
     foot_part,
+    stem_shock,
 )
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.printed import CLEARANCE, WALL
@@ -93,3 +94,24 @@ def test_plate_grows_with_the_mount():
     plain = replace(FOOT, housing=Housing(0.03, 0.01))
     assert plain.half_width == pytest.approx(0.0168)
     assert FOOT.half_width == pytest.approx(0.022)
+
+
+def test_the_plate_needs_no_support():
+    """Above the stem its disc leans out by 45 degrees at most, from the vertical."""
+    for foot in (FOOT, replace(FOOT, housing=Housing(0.03, 0.01))):
+        root = np.sqrt(foot.half_width**2 - foot.stem**2)
+        assert foot.stem < foot.half_width
+        assert np.degrees(np.arctan2(root, foot.stem)) <= 45.0 + 1e-9
+
+
+def test_holes_are_within_the_disc_and_the_disc_over_the_base():
+    assert FOOT.half_width >= HOUSING.mount.reach + 3e-3 - 1e-12
+    assert FOOT.wheel_height - FOOT.half_width > BASE_THICKNESS
+
+
+def test_a_stem_yields_where_a_cantilever_does():
+    """Half of 0.3 kg x a x H x t over w t^3 / 12, H above the base, against 47 MPa."""
+    shock = stem_shock(FOOT, 0.3)
+    arm, second = FOOT.wheel_height - 0.003, 2.0 * FOOT.stem * 0.005**3 / 12.0
+    assert 0.3 * shock * arm * 0.0025 / second == pytest.approx(47e6)
+    assert stem_shock(FOOT, 1.2) == pytest.approx(shock / 4.0)

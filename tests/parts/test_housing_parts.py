@@ -14,7 +14,7 @@ from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.errors import PartError
 from ocs_design.parts.housing import Housing, PlainDrum, housing_parts
 from ocs_design.parts.part import total
-from ocs_design.parts.printed import CLEARANCE, DENSITY, WALL, MountHoles
+from ocs_design.parts.printed import CLEARANCE, DENSITY, PANEL, WALL, MountHoles
 from ocs_design.parts.shapes import EAR_COUNT
 from ocs_design.parts.wheel import wheel_parts
 
@@ -37,11 +37,11 @@ def test_ears_and_holes_weigh_what_a_sketch_says():
     circle = side * np.sqrt(across**2 - side**2) + across**2 * np.arcsin(side / across)
     ear = 2.0 * side * axis + np.pi * side**2 / 2.0 - circle
     inside = 0.01 + 2.0 * CLEARANCE
-    ears = EAR_COUNT * ear * (inside + 2.0 * WALL)
+    ears = EAR_COUNT * ear * (inside + 2.0 * PANEL)
     quarter = np.pi / 4.0
     threads = EAR_COUNT * quarter * m2.tapping_drill**2 * inside
-    passages = EAR_COUNT * quarter * m2.clearance_hole**2 * WALL
-    floor = np.pi * WALL * (0.004**2 + 3 * 0.0017**2)
+    passages = EAR_COUNT * quarter * m2.clearance_hole**2 * PANEL
+    floor = np.pi * PANEL * (0.004**2 + 3 * 0.0017**2)
     assert made - plain == pytest.approx(DENSITY * (ears - threads - passages - floor), rel=1e-11)
 
 

@@ -13,7 +13,7 @@ from ocs_design.parts.housing import (
     undrilled,
 )
 from ocs_design.parts.module import Printed, shell_moments
-from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, WALL, MountHoles
+from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, PANEL, WALL, MountHoles
 
 SIZES = [(0.03, 0.01), (0.05, 0.003), (0.012, 0.03)]
 
@@ -36,13 +36,13 @@ def solid(radius, height):
 def test_a_full_drum_less_its_hollow_is_less_than_any_housing(outer_radius, height):
     radius, tall = outer_radius + CLEARANCE, height + 2.0 * CLEARANCE
     plain = PlainDrum().mass(outer_radius, height)
-    assert plain == pytest.approx(solid(radius + WALL, tall + 2.0 * WALL) - solid(radius, tall))
+    assert plain == pytest.approx(solid(radius + WALL, tall + 2.0 * PANEL) - solid(radius, tall))
     assert plain < housing_mass(outer_radius, height) < 1.4 * plain
 
 
 def test_room_for_the_wheel():
     assert housing_outer_radius(0.05) == pytest.approx(0.05 + CLEARANCE + WALL)
-    assert half_height(0.01) == pytest.approx(0.01 / 2.0 + CLEARANCE + WALL)
+    assert half_height(0.01) == pytest.approx(0.01 / 2.0 + CLEARANCE + PANEL)
 
 
 @pytest.mark.parametrize("shell", [PlainDrum(), Printed(0.0), Printed(0.02)])

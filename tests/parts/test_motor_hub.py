@@ -21,8 +21,6 @@ from ocs_design.parts.rim import (
     HUB_WALL,
     LIGAMENT,
     PILOT_BORE,
-    WEB_DENSITY,
-    WEB_MATERIAL,
     WEB_THICKNESS,
     Hub,
     hub_of,
@@ -38,7 +36,14 @@ DRILLED = [name for name, found in motors().items() if hub_of(found).bolts]
 def wheel_on(hub: Hub) -> Flywheel:
     """A steel rim as narrow as that hub allows."""
     inner = hub.radius + LIGAMENT
-    web = Web(WEB_MATERIAL, WEB_DENSITY, WEB_THICKNESS, web_mass(inner) + hub.mass, hub)
+    of = PAPER_WHEEL.density
+    web = Web(
+        PAPER_WHEEL.material,
+        of,
+        WEB_THICKNESS,
+        web_mass(inner, of, WEB_THICKNESS) + hub.mass(of),
+        hub,
+    )
     return replace(PAPER_WHEEL, inner_radius=inner, outer_radius=inner + 0.01, web=web)
 
 
@@ -89,8 +94,8 @@ def test_drilled_wheels_of_the_catalogue_weigh_what_their_meshes_do(name):
 @given(mountings())
 def test_hub_is_what_a_sum_hole_by_hole_gives(mounting):
     hub = on_threads(mounting)
-    found = [hub.mass, hub.axial_inertia, hub.transverse_inertia]
-    errors = np.abs(hub_body(hub) - found) / solid(hub.radius, hub.height, WEB_DENSITY)
+    found = [hub.mass(7850.0), hub.axial_inertia(7850.0), hub.transverse_inertia(7850.0)]
+    errors = np.abs(hub_body(hub, 7850.0) - found) / solid(hub.radius, hub.height, 7850.0)
     assert errors.max() < 1e-13
 
 
@@ -102,12 +107,14 @@ def test_hub_of_a_known_shaft_and_threads():
     assert hub.radius == pytest.approx(0.0085 + 0.0017 + HUB_WALL)
 
 
-def test_without_threads_it_is_as_wide_as_before_and_has_the_shaft_s_bore():
+def test_without_threads_it_is_as_long_and_twice_as_wide_as_the_shaft():
     bare, shaft = hub_of(PLAIN), on_threads(Mounting(shaft_diameter=0.006))
     assert (bare.bore_radius, bare.bolts) == (PILOT_BORE / 2.0, 0)
-    assert shaft == replace(bare, bore_radius=0.003)
+    assert shaft == replace(bare, bore_radius=0.003, radius=0.006, height=0.006)
     wide = on_threads(Mounting(shaft_diameter=0.04))
-    assert wide.radius == pytest.approx(0.02 + HUB_WALL)
+    assert (wide.radius, wide.height) == pytest.approx((0.04, 0.04))
+    thin = on_threads(Mounting(shaft_diameter=0.003))
+    assert (thin.radius, thin.height) == pytest.approx((0.0015 + HUB_WALL, 0.005))
 
 
 def test_a_pilot_bore_stays_clear_of_the_screws():

@@ -8,27 +8,45 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rims import STEEL, room
 
+from ocs_design.parts.joints import Ring, holed_peaks
 from ocs_design.parts.part import total
 from ocs_design.parts.rim import (
     LIGAMENT,
+    LIGHTENED,
+    LIGHTENED_STRESS,
     NO_CUTS,
     SHOULDER,
-    WEB_DENSITY,
-    WEB_MATERIAL,
+    SHRUNK_WEB_THICKNESS,
+    SMALLEST_LIGHTENING,
+    SPOKE,
+    STEP,
     WEB_THICKNESS,
     Hub,
     RimCuts,
+    WebHoles,
+    hoop_stress,
     wheel_body,
 )
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, wheel_parts
 from ocs_design.parts.wheel import Hub as MadeHub
-from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web
+from ocs_design.requirement.specification import LIGHTENINGS
+from ocs_design.sizing.bound.rim_problem import (
+    RimProblem,
+    limits_with_web,
+    stretch_beside_holes,
+)
 
 BARE = Hub(radius=0.009, height=0.005, bore_radius=0.0015)
 BOLTED = replace(BARE, bolts=4, bolt_circle_radius=0.006, bolt_hole_radius=0.0012)
 
 
-def made(inner, outer, height, hub, cuts=NO_CUTS):
+ALUMINIUM = 2710.0
+"""Density of a web that is no steel [kg/m^3]."""
+
+WEBS = pytest.mark.parametrize("web", [None, ALUMINIUM], ids=["one piece", "aluminium web"])
+
+
+def made(inner, outer, height, hub, web, cuts=NO_CUTS):
     """The same wheel as solids, rim of steel."""
     bolts = HoleRing(hub.bolt_circle_radius, hub.bolts, hub.bolt_hole_radius) if hub.bolts else None
     ring = None
@@ -36,25 +54,31 @@ def made(inner, outer, height, hub, cuts=NO_CUTS):
         ring = HoleRing((inner + outer) / 2.0, cuts.holes, cuts.hole_radius, cuts.hole_depth)
     rim = Rim(inner, outer, height, "steel", STEEL.density, cuts.chamfer, ring)
     sizes = (WEB_THICKNESS, hub.radius, hub.height, hub.bore_radius)
-    made_hub = MadeHub(*sizes, WEB_MATERIAL, WEB_DENSITY, bolts, chamfer=hub.chamfer)
+    of = ("steel", STEEL.density) if web is None else ("aluminium", web)
+    holes, lightening = hub.holes(inner), None
+    if holes is not None:
+        lightening = HoleRing(holes.circle_radius, holes.count, holes.hole_radius)
+    made_hub = MadeHub(*sizes, *of, bolts, lightening, chamfer=hub.chamfer)
     return total(wheel_parts(Wheel(rim, made_hub)))
 
 
+@WEBS
 @pytest.mark.parametrize("hub", [BARE, BOLTED], ids=["pilot bore", "bolted"])
 @given(
     bore=st.floats(0.0101, 0.1),
     wall=st.floats(0.5e-3, 0.05),
     height=st.floats(2.0e-3, 0.05),
 )
-def test_a_wheel_weighs_and_turns_like_its_solids(hub, bore, wall, height):
-    body = wheel_body(bore, bore + wall, height, STEEL.density, hub)
-    solids = made(bore, bore + wall, height, hub)
+def test_a_wheel_weighs_and_turns_like_its_solids(web, hub, bore, wall, height):
+    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, web_density=web)
+    solids = made(bore, bore + wall, height, hub, web)
     assert body.mass == pytest.approx(solids.mass, rel=1e-12)
     expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
     np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
     np.testing.assert_allclose(solids.com, 0.0, atol=1e-12)
 
 
+@WEBS
 @given(
     bore=st.floats(0.0101, 0.1),
     wall=st.floats(4.01e-3, 0.05),
@@ -62,16 +86,114 @@ def test_a_wheel_weighs_and_turns_like_its_solids(hub, bore, wall, height):
     chamfer=st.floats(0.0, 0.5e-3),
     holes=st.sampled_from([0, 3, 8]),
 )
-def test_what_is_cut_off_a_wheel_is_what_is_cut_off_its_solids(bore, wall, height, chamfer, holes):
+def test_what_is_cut_off_a_wheel_is_what_is_cut_off_its_solids(
+    web, bore, wall, height, chamfer, holes
+):
     cuts = RimCuts(chamfer, holes, hole_radius=0.5e-3, hole_depth=1e-3)
     hub = replace(BOLTED, chamfer=chamfer)
     assert wall >= cuts.wall_min
     assert height >= cuts.height_min
-    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, cuts=cuts)
-    solids = made(bore, bore + wall, height, hub, cuts)
+    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, cuts=cuts, web_density=web)
+    solids = made(bore, bore + wall, height, hub, web, cuts)
     assert body.mass == pytest.approx(solids.mass, rel=1e-12)
     expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
     np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
+
+
+COUNTS = [count for count in LIGHTENED if count]
+
+
+@WEBS
+@pytest.mark.parametrize("count", COUNTS)
+@given(
+    wider=st.floats(1.0, 3.0),
+    wall=st.floats(0.5e-3, 0.05),
+    height=st.floats(2.0e-3, 0.05),
+    radius=st.floats(8.5e-3, 20e-3),
+)
+def test_a_lightened_wheel_weighs_and_turns_like_its_solids(
+    web, count, wider, wall, height, radius
+):
+    """And it can be made, wherever its web has room for the holes."""
+    hub = replace(BOLTED, radius=radius, lightening=count)
+    bore = wider * hub.bore_min
+    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, web_density=web)
+    solids = made(bore, bore + wall, height, hub, web)
+    assert body.mass == pytest.approx(solids.mass, rel=1e-12)
+    expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
+    np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
+    np.testing.assert_allclose(solids.com, 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+@given(radius=st.floats(2e-3, 30e-3))
+def test_from_its_least_bore_on_a_web_has_room_for_holes_and_spokes(count, radius):
+    hub = replace(BARE, radius=radius, lightening=count)
+    least = hub.bore_min
+
+    def has_room(bore, less):
+        holes = WebHoles.of(count, radius, bore)
+        spoke = holes.spoke(radius, bore)
+        return spoke >= SPOKE * less and holes.hole_radius >= SMALLEST_LIGHTENING * less
+
+    assert all(has_room(bore, 1.0 - 1e-9) for bore in least * np.geomspace(1.0, 20.0, 200))
+    assert not has_room(least * (1.0 - 1e-6), 1.0)
+    assert replace(hub, lightening=0).bore_min == 0.0
+
+
+def test_holes_take_two_fifths_of_a_web():
+    """Six of 9.27 mm on 23.3 mm between a hub of 5 and a bore of 37 mm, by their areas."""
+    hub = replace(BARE, radius=0.005, lightening=6)
+    holes = hub.holes(0.037)
+    assert 1e3 * holes.hole_radius == pytest.approx(9.466, abs=1e-3)
+    web = 0.037**2 - 0.005**2
+    assert 6.0 * holes.hole_radius**2 == pytest.approx(0.4 * web)
+    solid = wheel_body(0.037, 0.04, 0.005, STEEL.density, replace(hub, lightening=0))
+    lighter = solid.mass - wheel_body(0.037, 0.04, 0.005, STEEL.density, hub).mass
+    assert lighter == pytest.approx(0.4 * np.pi * STEEL.density * WEB_THICKNESS * web)
+    assert replace(hub, lightening=0).holes(0.037) is None
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_what_a_web_with_holes_stands_is_counted_in_its_rims_speed(count):
+    """Holes have no more than so many times the hoop stress of a rim, whatever its size."""
+    rng, most = np.random.default_rng(count), 0.0
+    for _ in range(150):
+        hub = replace(BARE, radius=rng.uniform(3e-3, 16e-3), lightening=count)
+        hub = replace(hub, bore_radius=0.4 * hub.radius)
+        bore, wall = hub.bore_min * rng.uniform(1.0, 2.0), rng.uniform(0.5e-3, 0.02)
+        holes, of = hub.holes(bore), (7850.0, 205e9, 0.29)
+        rings = [
+            Ring(hub.bore_radius, hub.radius, hub.height, *of),
+            Ring(hub.radius, bore, WEB_THICKNESS, *of),
+            Ring(bore, bore + wall, rng.uniform(1.6e-3, 0.02), *of),
+        ]
+        sizes = (holes.count, holes.circle_radius, holes.hole_radius)
+        hoop = hoop_stress(bore, bore + wall, density=7850.0, poisson_ratio=0.29, wheel_speed=1e3)
+        most = max(most, max(holed_peaks(rings, 1e3, *sizes)) / hoop)
+    assert 0.6 * LIGHTENED_STRESS[count] < most <= LIGHTENED_STRESS[count]
+
+
+def test_where_holes_yield_first_less_stress_is_allowed():
+    alone = RimProblem(1e-4, room(0.05, 0.02), STEEL, 1000.0).limits
+    share = stretch_beside_holes(6.5, 2.0)
+    assert share == pytest.approx(2.0 / 6.5)
+    assert (stretch_beside_holes(6.5, 8.0), stretch_beside_holes(0.0, 2.0)) == (1.0, 1.0)
+    assert stretch_beside_holes(6.5, 0.0) == 1.0
+    holed = limits_with_web(alone, 0.012, lightened=0.4, lightened_bore=0.03, stretch_left=share)
+    solid = limits_with_web(alone, 0.012)
+    assert holed.stretch_max == pytest.approx(share * solid.stretch_max)
+    assert holed.inner_radius_min == 0.03
+    # As many per cent of a disc as the holes leave of a web.
+    hub = replace(BARE, lightening=6)
+    web = hub.web(0.03, STEEL.density)
+    disc = np.pi * STEEL.density * 0.03**2
+    assert disc * holed.heavy_web == pytest.approx(web.mass)
+    assert disc * holed.web * 0.03**2 / 2.0 == pytest.approx(web.axial_inertia)
+
+
+def test_as_many_holes_may_be_specified_as_are_known():
+    assert set(LIGHTENINGS) == set(LIGHTENED) == set(LIGHTENED_STRESS)
 
 
 def test_slopes_of_what_is_cut_off_are_those_of_its_figures():
@@ -90,14 +212,24 @@ def test_without_a_hub_there_is_the_rim_alone():
 
 
 @pytest.mark.parametrize("density", [1200.0, 2710.0, 7850.0, 17000.0])
-def test_a_rim_is_seated_on_its_web_around_its_hub(density):
+def test_a_rim_is_one_piece_with_a_web_around_its_hub(density):
     alone = RimProblem(1e-4, room(0.05, 0.02), replace(STEEL, density=density), 1000.0).limits
-    seated = limits_with_web(alone, 0.012)
+    whole = limits_with_web(alone, 0.012, RimCuts(chamfer=0.3e-3))
+    assert whole.inner_radius_min == pytest.approx(0.012 + LIGAMENT)
+    assert whole.height_min == pytest.approx(WEB_THICKNESS + 0.6e-3 + STEP)
+    assert whole.web == whole.heavy_web == WEB_THICKNESS
+    assert whole.stretch_max == alone.stretch_max
+
+
+@pytest.mark.parametrize("density", [1200.0, 2710.0, 7850.0, 17000.0])
+def test_a_rim_is_shrunk_on_a_web_of_aluminium(density):
+    alone = RimProblem(1e-4, room(0.05, 0.02), replace(STEEL, density=density), 1000.0).limits
+    seated = limits_with_web(alone, 0.012, web_density=ALUMINIUM)
     assert seated.inner_radius_min == pytest.approx(0.012 + LIGAMENT)
     # Taller than the web, and than as much of the rim's own material: what turns is then a rim.
-    assert seated.height_min >= WEB_THICKNESS + SHOULDER
+    assert seated.height_min >= SHRUNK_WEB_THICKNESS + SHOULDER
     assert seated.height_min >= seated.web + SHOULDER
-    assert seated.web * density == pytest.approx(WEB_THICKNESS * WEB_DENSITY)
+    assert seated.web * density == pytest.approx(SHRUNK_WEB_THICKNESS * ALUMINIUM)
 
 
 def test_wider_limits_than_the_webs_stay():

@@ -12,7 +12,7 @@ from ocs_design.report.text.layout import items, show
 from ocs_design.sizing.margins import Margin
 
 MARGINS = (
-    Margin("torque, to the current limit", 0.4, 1.0, "N m", "", "drop"),
+    Margin("motor torque", 0.4, 1.0, "N m", "", "drop"),
     Margin("rms current", 10.84, 3.469, "A", "a pause of 8.8 s cools it", "drop"),
     Margin("stored energy", 8.14, None, "J", "both wheels", "back-flip"),
 )
@@ -25,7 +25,7 @@ def test_each_margin_is_a_row_and_each_note_a_line():
     items(console, margin_notes(MARGINS))
     rows = file.getvalue().splitlines()
     table = [" ".join(row.split()) for row in rows]
-    assert "torque, to the current limit 0.4 N m 1 N m 2.50 drop" in table
+    assert "motor torque 0.4 N m 1 N m 2.50 drop" in table
     assert "stored energy 8.14 J - - back-flip" in table
     assert any("rms current: a pause of 8.8 s cools it" in row for row in rows)
     assert max(map(len, rows)) <= 80

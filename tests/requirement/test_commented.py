@@ -151,6 +151,7 @@ def test_the_title_stands_at_the_top(empty):
 
 def test_rounded_for_people(default):
     assert rounded_text(default, "flywheel.r_max") == "50 mm"
-    assert rounded_text(default, "motor.bus_voltage") == "24 V"
+    assert rounded_text(default, "supply.voltage") == "24 V"
+    assert rounded_text(default, "supply.controllers") == "auto"
     third = replace(default, requirement=RequirementSection(rate_change=1 / 3))
     assert rounded_text(third, "requirement.rate_change") == "3.183 rpm"

@@ -26,7 +26,7 @@ def test_stating_every_default_changes_nothing(robot, request):
     assumed, told = (resolve(each, robot, SIZE) for each in (Specification(), stated))
     assert told.envelope == assumed.envelope
     assert asdict(told.requirement) == asdict(assumed.requirement)
-    for name in ("motors", "gears", "materials", "bus_voltage", "wheel_speed_max"):
+    for name in ("motors", "gears", "materials", "supply", "wheel_speed_max"):
         assert getattr(told.choice, name) == getattr(assumed.choice, name)
 
 
@@ -34,7 +34,7 @@ def test_only_that_a_design_keeps_a_reserve_stays_an_assumption(solo12):
     default = default_specification(solo12, **GAINS)
     stated = replace(default, requirement=replace(default.requirement, maneuvers=None))
     left = " ".join(resolve(stated, solo12, SIZE).assumptions)
-    for said in ("Rim:", "Rim mass", "Bus:", "Web:", "Stress:", "paper's three"):
+    for said in ("Rim:", "Rim mass", "Supply:", "Web:", "Stress:", "paper's three"):
         assert said not in left
     assert "Reserve" in left
 

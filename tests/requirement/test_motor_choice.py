@@ -1,10 +1,12 @@
 """What may be chosen from, as it is stated."""
 
+from dataclasses import replace
 from math import inf
 
 import pytest
 
-from ocs_design.actuation.motor import DIRECT
+from ocs_design.actuation.controllers import controller_mass_of
+from ocs_design.actuation.motor import DIRECT, build_gaps
 from ocs_design.catalogue.gears import gears, stages
 from ocs_design.catalogue.materials import materials
 from ocs_design.catalogue.motors import motors
@@ -17,10 +19,29 @@ from ocs_design.requirement.specification import (
     OcsSection,
     RequirementSection,
     Specification,
+    SupplySection,
 )
+from ocs_design.requirement.values import Names, names_in
 from ocs_design.robot.manual import robot_by_hand
 
+OWN_GEAR = """
+[[gear]]
+name = "mine"
+maker = "me"
+source = "bench"
+kind = "fixed"
+ratios = [2]
+efficiency = 0.95
+mass_kg = 0.05
+inertia_kg_m2 = 1e-6
+inertia_at = "wheel"
+reverses = "no"
+torque_max_nm = 5
+motor_speed_max_rpm = 9000
+"""
+
 LIGHT = robot_by_hand(20.0, (0.3, 0.4, 0.5), name="light")
+HEAVIEST = robot_by_hand(60.1, (0.3, 0.4, 0.5), name="heaviest")
 HEAVY = robot_by_hand(20.1, (0.3, 0.4, 0.5), name="heavy")
 
 
@@ -30,20 +51,58 @@ def choice_of(robot=LIGHT, material=None, **motor):
 
 
 @pytest.mark.parametrize("word", [None, "auto"])
-def test_auto_is_everything_and_the_default(word):
-    choice = choice_of(name=word, gear=word, material=word)
-    assert choice.motors == tuple(motors().values())
-    assert choice.gears == (DIRECT, *stages(gears().values()))
-    assert {material.name for material in choice.materials} == {
+def test_auto_is_all_that_can_be_built_with_and_the_default(word):
+    choice = choice_of(name=word)
+    found = [replace(each, controller_mass=0.0) for each in choice.motors]
+    assert found == [each for each in motors().values() if not build_gaps(each)]
+    assert choice.wheel_speed_max is None
+
+
+def test_gears_are_for_the_asking_or_of_the_users_own(tmp_path):
+    assert choice_of().gears == (DIRECT,)
+    every = (DIRECT, *stages(gears().values()))
+    assert choice_of(gear="auto").gears == every
+    own = tmp_path / "own.toml"
+    own.write_text(OWN_GEAR)
+    mine = choice_of(gears=str(own)).gears
+    assert [gear.name for gear in mine if gear not in every] == ["mine 2:1"]
+
+
+def test_auto_is_every_material_whose_stress_can_be_checked():
+    assert {material.name for material in choice_of(material="auto").materials} == {
         name
         for name, found in materials().items()
         if found.yield_strength is not None and found.poisson_ratio is not None
     }
-    assert choice.wheel_speed_max is None
+
+
+@pytest.mark.parametrize("word", [None, "steel"])
+def test_steel_is_every_steel_and_the_default(word):
+    chosen = choice_of(material=word).materials
+    # Each steel by its name, and no other metal is as dense and as stiff as one.
+    assert {material.name for material in chosen} == {
+        "stainless-304",
+        "stainless-316",
+        "steel-1045-cold-worked",
+        "steel-4140-normalized",
+        "steel-a36",
+    }
+    assert all(7800.0 <= material.density <= 8000.0 for material in chosen)
 
 
 def test_none_is_no_choice_at_all():
     assert choice_of(name="none") is None
+
+
+def test_any_motor_is_every_motor():
+    found = [replace(each, controller_mass=0.0) for each in choice_of(any=True).motors]
+    assert found == [*motors().values()]
+
+
+def test_several_names_are_chosen_among_whatever_they_lack():
+    names = "R80 KV110, MN5212 KV340"
+    assert [motor.name for motor in choice_of(name=names).motors] == names.split(", ")
+    assert build_gaps(motors()["R80 KV110"])
 
 
 def test_names_are_taken_alone():
@@ -56,8 +115,17 @@ def test_names_are_taken_alone():
 
 
 def test_the_bus_goes_with_the_mass_unless_stated():
-    assert (choice_of(LIGHT).bus_voltage, choice_of(HEAVY).bus_voltage) == (24.0, 48.0)
-    assert choice_of(HEAVY, bus_voltage=12.0).bus_voltage == 12.0
+    assert [choice_of(robot).supply.voltage for robot in (LIGHT, HEAVY, HEAVIEST)] == [24, 48, 72]
+    stated = Specification(supply=SupplySection(voltage=12.0))
+    assert motor_choice(stated, HEAVY).supply.voltage == 12.0
+
+
+def test_a_pack_gives_400_watts_per_kg_of_robot_unless_stated():
+    assert choice_of(LIGHT).supply.power == 8000.0
+    stated = Specification(supply=SupplySection(power_max=100.0))
+    assert motor_choice(stated, LIGHT).supply.power == 100.0
+    stated = Specification(supply=SupplySection(current_max=10.0))
+    assert motor_choice(stated, LIGHT).supply.power == 240.0
 
 
 def test_a_stated_torque_limits_every_stage():
@@ -75,10 +143,44 @@ def test_a_gear_is_meant_with_any_ratio_or_with_the_one_that_is_printed(sheet):
         assert choice_of(gear=stage.name).gears == (stage,)
 
 
-def test_own_motors_join_the_catalogue(tmp_path):
+@pytest.mark.parametrize(
+    ("raw", "names"),
+    [
+        ("R80 KV110", ("R80 KV110",)),
+        ("a , b,,c", ("a", "b", "c")),
+        (["a", "b,c"], ("a", "b", "c")),
+        (["none", "none"], ("none",)),
+    ],
+)
+def test_names_are_a_list_or_a_text_with_commas(raw, names):
+    assert names_in(Names().read(raw, "motor.name")) == names
+
+
+@pytest.mark.parametrize("raw", ["", " ", 3, ["a", 3], [["a"]]])
+def test_what_is_no_name_is_refused(raw):
+    with pytest.raises(SpecificationError, match=r"motor\.name"):
+        Names().read(raw, "motor.name")
+
+
+@pytest.fixture
+def own(tmp_path):
     file = tmp_path / "own.toml"
     file.write_text('[[motor]]\nname = "Own 1"\nmaker = "me"\nsource = "bench"\n')
-    assert "Own 1" in {motor.name for motor in choice_of(motors=str(file)).motors}
+    return str(file)
+
+
+def test_own_motors_stand_instead_of_the_catalogue_or_beside_it(own):
+    assert [motor.name for motor in choice_of(motors=own, any=True).motors] == ["Own 1"]
+    both = choice_of(motors=own, with_catalogue=True, any=True).motors
+    assert {motor.name for motor in both} == {"Own 1", *motors()}
+    assert [motor.name for motor in choice_of(motors=own, name="Own 1").motors] == ["Own 1"]
+
+
+def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
+    with pytest.raises(SpecificationError) as caught:
+        choice_of(motors=own)
+    assert "Own 1 lacks kind: outrunner or inrunner, bolt circle of the stator" in str(caught.value)
+    assert "--motors-any" in caught.value.hint
 
 
 @pytest.mark.parametrize(
@@ -91,8 +193,8 @@ def test_own_motors_join_the_catalogue(tmp_path):
         (Specification(motor=MotorSection(name="%%%")), ("motor.name", "catalogue motors")),
         (Specification(motor=MotorSection(gear="no gear")), ("motor.gear", "no gear")),
         (
-            Specification(motor=MotorSection(name="none", bus_voltage=24.0)),
-            ("motor.bus_voltage", "says nothing"),
+            Specification(motor=MotorSection(name="none"), supply=SupplySection(voltage=24.0)),
+            ("supply.voltage", "says nothing"),
         ),
         (
             Specification(
@@ -116,3 +218,13 @@ def test_what_cannot_be_meant_is_said(specification, words):
 def test_a_stated_wheel_speed_is_handed_on():
     stated = Specification(requirement=RequirementSection(wheel_speed_max=500.0))
     assert motor_choice(stated, LIGHT).wheel_speed_max == 500.0
+
+
+def test_controllers_weigh_what_the_rule_or_the_specification_says():
+    auto = choice_of(name="R80 KV110").motors[0]
+    assert auto.controller_mass == controller_mass_of(motors()["R80 KV110"]) > 0.008
+    for stated, mass in ((0.035, 0.035), ("none", 0.0), ("auto", auto.controller_mass)):
+        specification = Specification(
+            motor=MotorSection(name="R80 KV110"), supply=SupplySection(controllers=stated)
+        )
+        assert motor_choice(specification, LIGHT).motors[0].controller_mass == mass

@@ -263,16 +263,33 @@ def test_example_of_solo12_states_the_paper():
     assert specification.ocs.alpha == pytest.approx(np.radians(40.0))
 
 
-def test_example_of_solo12_states_the_default_maneuvers(solo12):
+def test_example_of_solo12_states_the_default_maneuvers_and_turns_its_modules_by_hand(solo12):
     from ocs_design.requirement.froude import default_maneuvers
 
     stated = read_specification(EXAMPLES / "solo12.toml").maneuvers
+    assert [maneuver.incidence for maneuver in stated] == [None, None, 0.0]
     for one, other in zip(stated, default_maneuvers(solo12), strict=True):
         assert type(one) is type(other)
-        assert vars(one) == vars(other)
+        assert {**vars(one), "incidence": None} == vars(other)
 
 
 def test_example_by_hand_reads():
     specification = read_specification(EXAMPLES / "by_hand.toml")
     assert specification.robot.mass == 12.0
     assert specification.takes_default_maneuvers
+
+
+def test_the_voltage_of_older_files_is_that_of_the_supply():
+    old = parse_specification('motor.bus_voltage = "22.2 V"', "old.toml")
+    assert old.supply.voltage == 22.2
+    both = 'motor.bus_voltage = "22.2 V"\nsupply.voltage = "24 V"\nmotor.gear = "direct"'
+    assert parse_specification(both, "both.toml").supply.voltage == 24.0
+    assert parse_specification(both, "both.toml").motor.gear == "direct"
+
+
+def test_controllers_are_words_or_a_mass():
+    for text, value in (('"none"', "none"), ('"auto"', "auto"), ('"35 g"', 0.035)):
+        read = parse_specification(f"supply.controllers = {text}", "s.toml").supply.controllers
+        assert read == value
+    with pytest.raises(SpecificationError, match=r"supply\.controllers"):
+        parse_specification('supply.controllers = "some"', "s.toml")

@@ -5,9 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ocs_design.actuation.drive import missing_figures
-from ocs_design.actuation.motor import DIRECT
-from ocs_design.catalogue.gears import gears, stages
+from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import spin_demands
@@ -31,16 +29,17 @@ def test_nothing_stated_is_everything_assumed(solo12):
     resolved = resolve(Specification(), solo12, SIZE)
     assert resolved.envelope == default_envelope(solo12)
     told = "\n".join(resolved.assumptions)
-    usable = [found for found in motors().values() if not missing_figures(found, DIRECT)]
-    assert len(usable) < len(motors())
+    usable = [found for found in motors().values() if not build_gaps(found)]
+    assert 0 < len(usable) < len(motors())
     for words in (
         "the paper's three",
-        "Bus: 24 V, as robots up to 20 kg have.",
-        f"lightest device of {len(usable)} motors in the catalogue",
-        f"none, or one of {len(stages(gears().values()))} stages",
-        "Material: one of",
+        "Supply: 24 V, at most 1 kW (400 W per kg of robot).",
+        f"lightest device of {len(usable)} motors that can be built with",
+        "Gear: none, for how a gear and a motor are held together is not designed.",
+        "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate).",
+        "Material: one of 5 steels.",
         "at least 2.",
-        "95% of voltage and current",
+        "95% of voltage, current and speed limit",
         "broken by 0.2 mm",
     ):
         assert words in told
@@ -138,9 +137,36 @@ def test_faults_come_together(solo12):
     assert len(caught.value.problems) == 3
 
 
-def test_a_rate_change_alone_is_enough(solo12):
-    text = "[requirement]\nmaneuvers = 'none'\nrate_change = 2"
-    assert resolve(stated(text), solo12, SIZE).requirement.rate_change == 2.0
+@pytest.mark.parametrize("key", ["rate_change = 2", "spin_inertia = 1e-4"])
+@pytest.mark.parametrize(
+    ("maneuvers", "names"),
+    [
+        ("", []),
+        ("maneuvers = 'none'", []),
+        ("maneuvers = 'paper'", ["disturbance", "drop", "back-flip"]),
+    ],
+)
+def test_what_is_asked_for_is_the_requirement_and_nothing_is_added_unasked(
+    solo12, key, maneuvers, names
+):
+    resolved = resolve(stated(f"[requirement]\n{key}\n{maneuvers}"), solo12, SIZE)
+    assert [item.name for item in resolved.requirement.maneuvers] == names
+    assert ("the paper's three" in "\n".join(resolved.assumptions)) == bool(names)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("[flywheel]\nmaterial = 'steel'", "Material: one of 5 steels."),
+        ("[flywheel]\nmaterial = 'auto'", "Material: one of 10 materials whose strength is known."),
+        ("[ocs]\nalpha_criterion = 'lightest'", ""),
+        ("[ocs]\nalpha = '40 deg'", ""),
+    ],
+)
+def test_material_and_incidence_are_told_where_they_are_assumed(solo12, text, told):
+    assumed = resolve(stated(text), solo12, SIZE).assumptions
+    assert told in (*assumed, "")
+    assert any(line.startswith("Incidence: ") for line in assumed) == ("[ocs]" not in text)
 
 
 DROP = "[[maneuver]]\nkind = 'drop'\nname = 'x'\nheight = 1"

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from urdf_text import inertial, joint, link, robot
 
 from ocs_design.robot.chain import chain_of, nearest_turn, neutral_posture
-from ocs_design.robot.legs import leg_chain, trunk_body
+from ocs_design.robot.legs import leg_chain
 from ocs_design.robot.urdf import read_urdf
 
 TALOS = "talos_data/robots/talos_reduced"
@@ -19,7 +19,7 @@ A1 = "a1_description/urdf/a1"
 def first_leg(name):
     tree, legs = tree_of(name), legs_of(name)
     placements = tree.placements(neutral_posture(tree))
-    return tree, legs[0], leg_chain(tree, legs[0], trunk_body(tree, legs), placements)
+    return tree, legs[0], leg_chain(tree, legs[0], placements)
 
 
 def some_values(chain, seed):

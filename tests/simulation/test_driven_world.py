@@ -5,9 +5,8 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
-from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_device
+from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_device, paper_maneuvers
 
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder
 
@@ -24,7 +23,7 @@ def builder(solo12, device):
 
 @pytest.fixture(scope="module")
 def maneuvers(solo12):
-    return default_maneuvers(solo12)
+    return paper_maneuvers(solo12)
 
 
 def test_the_law_believes_in_robot_rims_and_carriers(solo12, device, builder, maneuvers):

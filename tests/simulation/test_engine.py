@@ -3,9 +3,8 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from wheels import paper_device
+from wheels import paper_device, paper_maneuvers
 
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.launch import Push
@@ -16,7 +15,7 @@ from ocs_design.simulation.world import WorldBuilder
 @pytest.fixture(scope="module")
 def worlds(solo12):
     builder = WorldBuilder(solo12, paper_device())
-    jump, drop, flip = default_maneuvers(solo12)
+    jump, drop, flip = paper_maneuvers(solo12)
     flights = [
         builder.flight(drop, Wheels.ACTIVE),
         builder.flight(jump, Wheels.ABSENT),

@@ -41,11 +41,11 @@ def test_without_a_line_there_is_full_torque_to_the_end():
     np.testing.assert_array_equal(highest, 2.0)
 
 
-def test_the_reserve_is_of_voltage_and_current_but_not_of_speed():
+def test_the_reserve_is_of_voltage_current_and_speed():
     usable = MotorLimits.of(SLOW).reserved()
     assert usable.no_load_speed == pytest.approx(0.95 * 650.4)
     assert usable.torque_limit == pytest.approx(0.95)
-    assert (usable.line_slope, usable.speed_max) == (pytest.approx(SLOPE), 300.0)
+    assert (usable.line_slope, usable.speed_max) == (pytest.approx(SLOPE), 285.0)
 
 
 def test_utilisation_counts_each_limit():

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from robots import ROBOTS
 from sampled import every
-from wheels import scaled_device
+from wheels import paper_maneuvers, scaled_device
 
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import run_scenarios
 
@@ -24,7 +23,7 @@ BIPEDS = [
 
 def fly(path):
     robot = read_robot(ROBOTS / f"{path}.urdf")
-    return run_scenarios(robot, scaled_device(robot), default_maneuvers(robot))
+    return run_scenarios(robot, scaled_device(robot), paper_maneuvers(robot))
 
 
 @pytest.mark.parametrize("path", every(3, [*QUADRUPEDS, *BIPEDS]))

@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from wheels import motor, paper_device
+from wheels import motor, paper_device, paper_maneuvers
 
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scenario import Options, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation
@@ -17,7 +16,7 @@ RPM = np.pi / 30.0
 @pytest.fixture(scope="module")
 def maneuvers(solo12):
     """The paper's own numbers: Solo12 is 0.1 % off the height that they are scaled by."""
-    jump, drop, flip = default_maneuvers(solo12)
+    jump, drop, flip = paper_maneuvers(solo12)
     jump = replace(jump, torque=(0.2, 0.8, 0.0), onset=0.1, duration=0.05)
     high = replace(jump, name="high jump", takeoff_velocity=(jump.takeoff_velocity[0], 4.5))
     return jump, replace(drop, height=1.0), replace(flip, jump_height=1.0, duration=2.0), high

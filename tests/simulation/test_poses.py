@@ -1,9 +1,8 @@
 import mujoco
 import numpy as np
 import pytest
-from wheels import paper_device
+from wheels import paper_device, paper_maneuvers
 
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.simulation.batch import pose_stride
 from ocs_design.simulation.engine import poses_of, simulate
 from ocs_design.simulation.scenario import Options, run_scenarios
@@ -14,7 +13,7 @@ from ocs_design.simulation.world import WorldBuilder
 @pytest.fixture(scope="module")
 def worlds(solo12):
     builder = WorldBuilder(solo12, paper_device())
-    _, drop, flip = default_maneuvers(solo12)
+    _, drop, flip = paper_maneuvers(solo12)
     return [builder.flight(flip, Wheels.ABSENT), builder.flight(drop, Wheels.ACTIVE)]
 
 
@@ -72,6 +71,6 @@ def test_a_pose_is_never_wanted_between_two_control_steps():
 
 
 def test_runs_carry_their_poses(solo12):
-    maneuver = default_maneuvers(solo12)[1]
+    maneuver = paper_maneuvers(solo12)[1]
     runs = run_scenarios(solo12, paper_device(), [maneuver], options=Options(pose_rate=30.0))
     assert [len(run.poses.qpos) for run in runs] == [len(run.poses.time) for run in runs]

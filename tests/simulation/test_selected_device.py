@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from wheels import braked_inertia
+from wheels import braked_inertia, paper_maneuvers
 
 from ocs_design.actuation.motor import DIRECT, Gear
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motor
-from ocs_design.requirement.froude import default_envelope, default_maneuvers, standing_height
+from ocs_design.requirement.froude import default_envelope, standing_height
 from ocs_design.requirement.maneuver import Requirement
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
@@ -30,7 +31,7 @@ def selected(request, solo12):
     """The lightest device, and its bus voltage."""
     names, gear, voltage = CHOICES[request.param]
     requirement = Requirement(
-        maneuvers=default_maneuvers(solo12),
+        maneuvers=paper_maneuvers(solo12),
         rate_change=None,
         wheel_speed_max=1000.0,
         spin_inertia=None,
@@ -44,14 +45,14 @@ def selected(request, solo12):
         [motor(name) for name in names],
         [gear],
         [material("steel-4140-normalized")],
-        voltage,
+        Supply(voltage),
     )
     return select(problem).best, voltage
 
 
 def test_the_device_is_the_one_that_was_selected(selected, solo12):
     chosen, voltage = selected
-    device = assemble_selected(chosen, voltage)
+    device = assemble_selected(chosen, Supply(voltage))
     assert device.mass == pytest.approx(chosen.mass, rel=1e-12)
     assert device.flywheel.spin_inertia == pytest.approx(chosen.spin_inertia, rel=1e-9)
     assert device.motor.armature == pytest.approx(chosen.armature, abs=1e-15)
@@ -63,8 +64,8 @@ def test_the_device_is_the_one_that_was_selected(selected, solo12):
 
 def test_it_passes_all_three_experiments_and_asks_no_more_than_it_has(selected, solo12):
     chosen, voltage = selected
-    device = assemble_selected(chosen, voltage)
-    runs = run_scenarios(solo12, device, default_maneuvers(solo12))
+    device = assemble_selected(chosen, Supply(voltage))
+    runs = run_scenarios(solo12, device, paper_maneuvers(solo12))
     assert [run.passed for run in runs] == [True, False] * 3, [run.reason for run in runs]
     drive = device.motor
     slope = drive.no_load_speed / drive.stall_torque
@@ -79,7 +80,7 @@ def test_it_passes_all_three_experiments_and_asks_no_more_than_it_has(selected, 
 def test_planned_by_optimal_control_a_drop_lands_level(selected, solo12):
     """Within a fifth of a degree: without a plan, direct drive comes down 3.5 deg off."""
     chosen, voltage = selected
-    device, drop = assemble_selected(chosen, voltage), default_maneuvers(solo12)[1]
+    device, drop = assemble_selected(chosen, Supply(voltage)), paper_maneuvers(solo12)[1]
     body = WorldBuilder(solo12, device).flight(drop, Wheels.ACTIVE).body
     plan = reference(body, chosen.line, drop, standing_height(solo12)).trajectory
     run = run_scenarios(solo12, device, [drop], references={drop.name: plan})[0]

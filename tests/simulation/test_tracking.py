@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from trajectories import from_rest
-from wheels import EC45, driven_device, geared
+from wheels import EC45, driven_device, geared, paper_maneuvers
 
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation import quaternions
@@ -129,7 +128,7 @@ def test_after_its_end_the_trunk_is_held_level():
 
 def test_each_maneuver_tracks_its_own_reference_and_a_push_none(solo12):
     device = driven_device(carrier=replace(driven_device().carrier, mass=0.05))
-    jump, drop, flip = default_maneuvers(solo12)
+    jump, drop, flip = paper_maneuvers(solo12)
     drop = replace(drop, pitch=np.radians(15.0))
     builder = WorldBuilder(solo12, device)
     references = {maneuver.name: planned(builder, maneuver) for maneuver in (jump, drop)}
@@ -158,7 +157,7 @@ def test_a_real_motor_never_does_what_it_cannot(solo12, speed_max, tracked):
     """The paper's drop, which takes all that the EC 45 has, and more with a slower wheel."""
     drive = replace(EC45, speed_max=speed_max)
     device = driven_device(drive=drive)
-    drop = default_maneuvers(solo12)[1]
+    drop = paper_maneuvers(solo12)[1]
     builder = WorldBuilder(solo12, device)
     references = {drop.name: planned(builder, drop)} if tracked else {}
     run, _ = run_scenarios(solo12, device, [drop], references=references)

@@ -3,10 +3,9 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
-from wheels import PAPER_WHEEL, paper_device
+from wheels import PAPER_WHEEL, paper_device, paper_maneuvers
 
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.simulation.scene import Wheels, lowest_point, robot_scene, set_gains
@@ -20,7 +19,7 @@ def builder(solo12):
 
 @pytest.fixture(scope="module")
 def maneuvers(solo12):
-    return default_maneuvers(solo12)
+    return paper_maneuvers(solo12)
 
 
 def placed(world):

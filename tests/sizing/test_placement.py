@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from ocs_design.parts.foot import base_radius
+from ocs_design.parts.motor_mount import Behind
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.sizing.placement import (
     CLEARANCE,
@@ -39,19 +40,19 @@ def test_arrays_and_symbols_as_numbers():
         arrays, [PLACE(*size)[0] for size in zip(outer, height, strict=True)]
     )
     R, h = casadi.SX.sym("R"), casadi.SX.sym("h")
-    left = casadi.vertcat(*PLACE.left(module_size(R, h, 0.03, 0.02, 0.01)))
+    left = casadi.vertcat(*PLACE.left(module_size(R, h, Behind(0.03, 0.02), 0.01)))
     symbols = casadi.Function("left", [R, h], [left])
-    number = PLACE.centers(module_size(0.03, 0.01, 0.03, 0.02, 0.01))[0]
+    number = PLACE.centers(module_size(0.03, 0.01, Behind(0.03, 0.02), 0.01))[0]
     np.testing.assert_allclose(symbols(0.03, 0.01).full()[:, 0], number)
 
 
 def test_the_sphere_that_is_swept_holds_housing_and_motor():
     """Shell 3.6 mm outside the rim, the motor behind the foot's 5 mm."""
-    flat = module_size(0.04, 0.004, 0.0, 0.0, 0.0)
-    assert flat.reach == pytest.approx(np.hypot(0.0436, 0.0056))
-    long = module_size(0.04, 0.004, 0.05, 0.02, 0.0)
-    assert long.reach == pytest.approx(np.hypot(0.0056 + 0.005 + 0.05, 0.02))
-    wide = module_size(0.01, 0.03, 0.0, 0.0, 0.0)
+    flat = module_size(0.04, 0.004, Behind(0.0, 0.0), 0.0)
+    assert flat.reach == pytest.approx(np.hypot(0.0436, 0.0052))
+    long = module_size(0.04, 0.004, Behind(0.05, 0.02), 0.0)
+    assert long.reach == pytest.approx(np.hypot(0.0052 + 0.005 + 0.05, 0.02))
+    wide = module_size(0.01, 0.03, Behind(0.0, 0.0), 0.0)
     assert wide.reach == base_radius(0.01, 0.03, 0.0) > 0.04
     # Rim, shell, 2 mm of air, and the foot's base of 3 mm.
     assert (flat.standing, long.standing) == pytest.approx((0.0486, 0.0486))
@@ -60,5 +61,5 @@ def test_the_sphere_that_is_swept_holds_housing_and_motor():
 def test_on_top_a_module_stands_on_its_foot():
     robot = robot_by_hand(2.5, (0.03, 0.05, 0.07))
     place = place_on_top(robot)
-    size = module_size(0.04, 0.004, 0.03, 0.02, 0.0)
+    size = module_size(0.04, 0.004, Behind(0.03, 0.02), 0.0)
     assert place.centers(size)[0, 2] - place.origin[2] == pytest.approx(size.standing)

@@ -28,7 +28,7 @@ MASS_DIGITS = 2e-5
 
 POSSIBLE = (
     *(0, 21),
-    *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (3, 9, 12, 17, 20, 22)),
+    *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (3, 9, 12, 20, 22)),
 )
 """Problems that have devices: direct and geared, some of which can only just be."""
 
@@ -154,7 +154,7 @@ def test_a_rate_change_alone():
     roll, pitch = found.demands
     assert (roll.source, pitch.source) == ("rate change, roll", "rate change, pitch")
     inertia = np.diag(found.total.inertia)[:2]
-    speed = min(0.95 * found.line.no_load_speed, found.line.speed_max)
+    speed = 0.95 * min(found.line.no_load_speed, found.line.speed_max)
     shares = np.array([np.sin(found.incidence), np.cos(found.incidence)])
     expected = inertia / (2.0 * shares * speed)
     np.testing.assert_allclose([roll.spin_inertia, pitch.spin_inertia], expected, rtol=1e-9)

@@ -97,8 +97,9 @@ def test_a_device_comes_back_to_the_last_digit(tmp_path, motor):
         task.robot, task.resolved, made, (), plans={}, mounting=None, seed=0, files={}
     )
     (tmp_path / "design.json").write_bytes(design_to_json(design))
-    again, device = device_of(read_design(tmp_path / "design.json").ocs), made.device
-    for name in ("incidence", "flywheel", "motor", "carrier"):
+    read, device = read_design(tmp_path / "design.json"), made.device
+    again = device_of(read.ocs, read.supply)
+    for name in ("incidence", "flywheel", "motor", "carrier", "supply"):
         assert getattr(again, name) == getattr(device, name)
     for ours, theirs in zip(again.modules, device.modules, strict=True):
         assert ours.name == theirs.name

@@ -19,7 +19,7 @@ def record(chosen):
 def test_the_parts_weigh_what_the_whole_does(record):
     for entry in record.ranking:
         parts = (entry.wheels_mass, entry.motors_mass, entry.gears_mass, entry.housings_mass)
-        assert sum(parts) == pytest.approx(entry.mass, rel=1e-12)
+        assert sum(parts) + entry.plate_mass == pytest.approx(entry.mass, rel=1e-12)
         assert min(entry.wheels_mass, entry.motors_mass, entry.housings_mass) > 0.0
 
 
@@ -28,7 +28,8 @@ def test_the_first_is_the_device(chosen, record):
     assert (first.motor, first.gear, first.gear_ratio) == (MOTOR, "direct", 1.0)
     assert first.material == device.flywheel.material
     assert first.mass == pytest.approx(device.mass, rel=1e-12)
-    assert first.motors_mass == 2.0 * device.motor.mass
+    bought = device.motor.mass + device.motor.controller_mass
+    assert first.motors_mass == pytest.approx(2.0 * bought, rel=1e-12)
     assert first.spin_inertia == pytest.approx(device.flywheel.spin_inertia, rel=1e-9)
     assert (first.outer_radius, first.height) == (
         device.flywheel.outer_radius,

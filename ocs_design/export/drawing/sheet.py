@@ -71,6 +71,14 @@ class Line:
 
 
 @dataclass(frozen=True)
+class Polyline:
+    """Straight lines from point to point, at least two points."""
+
+    points: tuple[Point, ...]
+    pen: Pen = THIN
+
+
+@dataclass(frozen=True)
 class Circle:
     """A whole circle."""
 
@@ -133,7 +141,7 @@ class Text:
         return (x, y - above, x + self.width, y + below)
 
 
-Item: TypeAlias = Line | Circle | Area | Text
+Item: TypeAlias = Line | Polyline | Circle | Area | Text
 
 
 @dataclass(frozen=True)

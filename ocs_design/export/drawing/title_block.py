@@ -193,13 +193,21 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
     yield _edges(wheel)
     yield {
         Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
-        Seat.ONE_PIECE: "Rim, web and hub turned from one piece.",
-        Seat.FITTED: f"Rim {Seat.FITTED.value} on the web, bonded with retaining compound.",
+        Seat.ONE_PIECE: "Rim, web and hub turned from one bar.",
+        Seat.FITTED: f"Rim shrunk on the web, {_interference(drawing)}.",
     }[seat(wheel)]
     if wheel.hub is not None:
         yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
         if wheel.hub.bolts is None:
             yield "Bolt circle not in the catalogue: drill to the motor."
+
+
+def _interference(drawing: WheelDrawing) -> str:
+    """How much too narrow the rim's bore is for its web."""
+    if drawing.interference is None:
+        return "which is not computed"
+    least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
+    return f"its bore {least} to {most} narrower than the web"
 
 
 def _edges(wheel: Wheel) -> str:

@@ -37,7 +37,7 @@ class Seat(Enum):
 
     FREE = ""
     ONE_PIECE = "one piece"
-    FITTED = "H7/h6"
+    FITTED = "shrink fit"
 
 
 @dataclass(frozen=True)
@@ -51,6 +51,8 @@ class WheelDrawing:
         tool: program and version.
         speed: highest in service [rad/s]; None: not limited.
         grade: of balance [mm/s].
+        interference: of a rim that is shrunk on, least and largest over the diameter [m]; None:
+            there is none, or it is not known.
     """
 
     wheel: Wheel
@@ -59,6 +61,7 @@ class WheelDrawing:
     tool: str
     speed: float | None
     grade: float = FLYWHEEL_GRADE
+    interference: tuple[float, float] | None = None
 
     @cached_property
     def masses(self) -> tuple[float, ...]:

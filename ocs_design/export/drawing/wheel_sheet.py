@@ -9,6 +9,7 @@ import msgspec
 
 from ocs_design import __version__
 from ocs_design.device.device import Device
+from ocs_design.device.joints import rim_fit
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.sheet import Item
 from ocs_design.export.drawing.title_block import frame, notes, parts_list, title_block
@@ -38,13 +39,14 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         device: that the wheel belongs to.
         robot: its name.
     """
-    speed = highest_speed(device.motor)
+    speed, fit = highest_speed(device.motor), rim_fit(device)
     return WheelDrawing(
         wheel=wheel_geometry(device.flywheel),
         robot=robot,
         identity=device_hash(device),
         tool=f"ocs-design {__version__}",
         speed=speed if math.isfinite(speed) else None,
+        interference=None if fit is None else (2.0 * fit.least, 2.0 * fit.most),
     )
 
 

@@ -11,10 +11,12 @@ from ocs_design.export.drawing.sheet import (
     HEIGHT,
     WIDTH,
     Area,
+    Box,
     Circle,
     Item,
     Line,
     Pen,
+    Polyline,
     Text,
     printable,
 )
@@ -27,41 +29,59 @@ POINTS_PER_MM = 72.0 / 25.4
 
 def pdf_bytes(items: Iterable[Item], title: str) -> bytes:
     """PDF of the sheet, one A4 page."""
+    return pdf_of_pages([items], title)
+
+
+def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: bool = False) -> bytes:
+    """PDF of several sheets, each one A4 page; compressed where there is more than a drawing."""
     buffer = BytesIO()
     size = (WIDTH * POINTS_PER_MM, HEIGHT * POINTS_PER_MM)
-    # Invariant: without the clock. Uncompressed it is 17 kB, and a person can read it.
-    canvas = Canvas(buffer, pagesize=size, invariant=1, pageCompression=0)
+    # Invariant: without the clock. Uncompressed a drawing is 17 kB, and a person can read it.
+    canvas = Canvas(buffer, pagesize=size, invariant=1, pageCompression=int(compressed))
     canvas.setTitle(printable(title))
     canvas.setCreator("ocs-design")
     canvas.setAuthor("")
     canvas.setSubject("")
-    canvas.scale(POINTS_PER_MM, POINTS_PER_MM)
-    # PDF counts y upwards.
-    for item in items:
-        match item:
-            case Line((x1, y1), (x2, y2), pen):
-                _take(canvas, pen)
-                canvas.line(x1, HEIGHT - y1, x2, HEIGHT - y2)
-            case Circle((x, y), radius, pen):
-                _take(canvas, pen)
-                canvas.circle(x, HEIGHT - y, radius)
-            case Area(((x, y), *others)):
-                path = canvas.beginPath()
-                path.moveTo(x, HEIGHT - y)
-                for x, y in others:
-                    path.lineTo(x, HEIGHT - y)
-                path.close()
-                canvas.drawPath(path, stroke=0, fill=1)
-            case Text():
-                x, y = item.start
-                text = canvas.beginText()
-                text.setFont(FONT, item.size)
-                turn = (0, 1, -1, 0) if item.upright else (1, 0, 0, 1)
-                text.setTextTransform(*turn, x, HEIGHT - y)
-                text.textOut(item.text)
-                canvas.drawText(text)
+    for items in pages:
+        canvas.scale(POINTS_PER_MM, POINTS_PER_MM)
+        for item in items:
+            _draw(canvas, item)
+        canvas.showPage()
     canvas.save()
     return buffer.getvalue()
+
+
+def _draw(canvas: Canvas, item: Item) -> None:
+    """Draw one item; PDF counts y upwards."""
+    match item:
+        case Line((x1, y1), (x2, y2), pen):
+            _take(canvas, pen)
+            canvas.line(x1, HEIGHT - y1, x2, HEIGHT - y2)
+        case Polyline(((x, y), *others), pen):
+            _take(canvas, pen)
+            path = canvas.beginPath()
+            path.moveTo(x, HEIGHT - y)
+            for x, y in others:
+                path.lineTo(x, HEIGHT - y)
+            canvas.drawPath(path)
+        case Circle((x, y), radius, pen):
+            _take(canvas, pen)
+            canvas.circle(x, HEIGHT - y, radius)
+        case Area(((x, y), *others)):
+            path = canvas.beginPath()
+            path.moveTo(x, HEIGHT - y)
+            for x, y in others:
+                path.lineTo(x, HEIGHT - y)
+            path.close()
+            canvas.drawPath(path, stroke=0, fill=1)
+        case Text():
+            x, y = item.start
+            text = canvas.beginText()
+            text.setFont(FONT, item.size)
+            turn = (0, 1, -1, 0) if item.upright else (1, 0, 0, 1)
+            text.setTextTransform(*turn, x, HEIGHT - y)
+            text.textOut(item.text)
+            canvas.drawText(text)
 
 
 def _take(canvas: Canvas, pen: Pen) -> None:
@@ -71,12 +91,22 @@ def _take(canvas: Canvas, pen: Pen) -> None:
 
 def svg_bytes(items: Iterable[Item], title: str) -> bytes:
     """SVG of the sheet at its size, A4."""
+    return (svg_text(items, title, (0.0, 0.0, WIDTH, HEIGHT)) + "\n").encode()
+
+
+def svg_text(items: Iterable[Item], title: str, box: Box) -> str:
+    """SVG of what is in a box of the sheet [mm], at its size."""
+    left, top, right, bottom = box
+    wide, tall = _num(right - left), _num(bottom - top)
     elements = []
     for item in items:
         match item:
             case Line((x1, y1), (x2, y2), pen):
                 place = f'x1="{_num(x1)}" y1="{_num(y1)}" x2="{_num(x2)}" y2="{_num(y2)}"'
                 elements.append(f"<line {place}{_stroke(pen)}/>")
+            case Polyline(corners, pen):
+                points = " ".join(f"{_num(round(x, 2))},{_num(round(y, 2))}" for x, y in corners)
+                elements.append(f'<polyline points="{points}"{_stroke(pen)}/>')
             case Circle((x, y), radius, pen):
                 place = f'cx="{_num(x)}" cy="{_num(y)}" r="{_num(radius)}"'
                 elements.append(f"<circle {place}{_stroke(pen)}/>")
@@ -95,12 +125,14 @@ def svg_bytes(items: Iterable[Item], title: str) -> bytes:
                 )
     body = "\n".join(elements)
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}mm" height="{HEIGHT:g}mm" '
-        f'viewBox="0 0 {WIDTH:g} {HEIGHT:g}" font-family="{FONTS}" fill="none" stroke="#000">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}mm" height="{tall}mm" '
+        f'viewBox="{_num(left)} {_num(top)} {wide} {tall}" font-family="{FONTS}" fill="none" '
+        'stroke="#000">\n'
         f"<title>{escape(title)}</title>\n"
-        f'<rect width="{WIDTH:g}" height="{HEIGHT:g}" fill="#fff" stroke="none"/>\n'
-        f"{body}\n</svg>\n"
-    ).encode()
+        f'<rect x="{_num(left)}" y="{_num(top)}" width="{wide}" height="{tall}" fill="#fff" '
+        'stroke="none"/>\n'
+        f"{body}\n</svg>"
+    )
 
 
 def _stroke(pen: Pen) -> str:

@@ -39,7 +39,7 @@ def front_chart(front: Front) -> Chart:
     """A line, broken where there is no device, and points in the colours of their drives."""
     values = _values(front, front.points)
     masses = np.array([1e3 * p.device.mass if p.device else np.nan for p in front.points])
-    y = Axis.around("mass of both modules", "g", masses, room=0.1)
+    y = Axis.around("mass of the device", "g", masses, room=0.1)
     marks: list[Mark] = [Line(values, masses, Ink.FAINT), *_drives(front)]
     without = [point for point in front.points if point.device is None]
     if without:

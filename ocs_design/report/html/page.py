@@ -11,14 +11,14 @@ from ocs_design.export.folder import REPORT_FILE
 from ocs_design.export.templates import template_text
 from ocs_design.report.charts.figures import scenario_charts
 from ocs_design.report.device import has_motor, share_of_robot
-from ocs_design.report.flights import verdict
 from ocs_design.report.html import sections
+from ocs_design.report.html.assembly import assembly_section
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.view import view, view_data
 from ocs_design.report.limits import recorded_margins
 from ocs_design.report.quantities import degrees, grams, rpm, tenths
 from ocs_design.report.story import Story
-from ocs_design.report.table import Tone
+from ocs_design.report.verdict import headline
 from ocs_design.report.viewer.decimation import decimated
 from ocs_design.report.warnings import turned_by_hand
 from ocs_design.sizing.margins import HOOP_STRESS
@@ -34,12 +34,11 @@ _PARTS = {
     "angles": "Incidence",
     "drive": "Drive",
     "maneuvers": "Maneuvers",
+    "assembly": "Assembly",
     "samples": "Monte Carlo",
     "record": "Provenance",
 }
 """Sections and their short names in the contents."""
-
-_VERDICTS = {Tone.PASS: "Pass", Tone.FAIL: "Fail", Tone.OPEN: "Not proved"}
 
 
 def write_report(story: Story, folder: Path) -> Path:
@@ -80,7 +79,7 @@ def _body(story: Story) -> Iterator[Markup]:
         for part, name in _PARTS.items()
         if part != "samples" or story.monte_carlo is not None
     )
-    line = verdict([run.passed for run in design.validation if run.ocs])
+    line = headline(design)
     yield element("a", "Skip to the content", href="#robot", class_="skip")
     yield element(
         "header",
@@ -88,9 +87,9 @@ def _body(story: Story) -> Iterator[Markup]:
         element("h1", title_of(design)),
         element(
             "p",
-            element("strong", _VERDICTS[line.tone]),
-            element("span", line.text),
-            *(element("span", each) for each in turned_by_hand(design)),
+            *(element("strong", part.text, class_=part.tone) for part in line.parts),
+            element("span", line.matter) if line.matter else "",
+            *(element("span", each) for each in turned_by_hand(design) if each != line.matter),
             class_=f"verdict {line.tone}",
         ),
         _tiles(design),
@@ -106,6 +105,7 @@ def _body(story: Story) -> Iterator[Markup]:
         sections.drive_section(story),
         sections.maneuvers_section(story, dict(scenario_charts(story)), scenarios),
         sections.monte_carlo_section(story),
+        assembly_section(story.design),
         sections.record_section(story),
     )
     yield data("design", design_to_json(design).decode())

@@ -51,6 +51,7 @@ _LIBRARIES = ("numpy", "scipy", "cvxpy", "clarabel", "casadi", "mujoco", "trimes
 def robot_section(story: Story, view: Markup) -> Markup:
     """View, facts and warnings of the robot with its device."""
     design = story.design
+    points = design.buildable.open
     return section(
         "robot",
         "Robot and device",
@@ -61,6 +62,7 @@ def robot_section(story: Story, view: Markup) -> Markup:
             element("div", element("h3", "Device"), facts(device_facts(design))),
             class_="halves",
         ),
+        table("What keeps it from being built", limits.open_points(design)) if points else "",
         items((*design.ocs.warnings, *warnings.device_warnings(design)), look="warnings"),
     )
 
@@ -111,6 +113,9 @@ def limits_section(design: OcsDesign) -> Markup:
         table("Each limit moved alone", limits.saving_table(design)),
         element("p", limits.saving_notes(design), class_="note"),
         more,
+        table("What would be lighter otherwise", limits.alternatives_table(design))
+        if design.alternatives
+        else "",
     )
 
 

@@ -1,1 +1,1 @@
-"""Facts in a terminal, on standard error."""
+"""Facts in a terminal, that commands print."""

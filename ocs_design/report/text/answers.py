@@ -6,7 +6,7 @@ from rich.console import Console
 from ocs_design.device.answers import BoundAnswer, Exported, Initialized
 from ocs_design.report.quantities import BOUND_NOTE, degrees, inertia, rpm
 from ocs_design.report.table import Table, columns
-from ocs_design.report.text.layout import facts, files_written, heading, note, show, warn
+from ocs_design.report.text.layout import facts, files_written, heading, note, show
 
 
 def print_bound(console: Console, answer: BoundAnswer) -> None:
@@ -39,8 +39,7 @@ def print_initialized(console: Console, initialized: Initialized) -> None:
 
 
 def print_export(console: Console, exported: Exported) -> None:
-    """Warnings, files by their folders, and notes on them."""
-    warn(console, exported.warnings)
+    """Files by their folders, and notes on them."""
     files_written(console, exported.folder, exported.files, "the design as it was")
     for each in exported.notes:
         note(console, each)

@@ -1,15 +1,17 @@
 """Catalogues in the terminal: tables of motors, gears and materials, with their sources."""
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Protocol
 
 from rich.console import Console
 
-from ocs_design.actuation.drive import missing_figures, speed_limit
-from ocs_design.actuation.motor import DIRECT, Motor, Mounting
+from ocs_design.actuation.drive import speed_limit
+from ocs_design.actuation.motor import Motor, Mounting, build_gaps
 from ocs_design.catalogue.gears import GearSheet, gears_to_json, known_gears
 from ocs_design.catalogue.materials import Material, materials, materials_to_json
 from ocs_design.catalogue.motors import known_motors, motors_to_json
@@ -99,8 +101,7 @@ def _sources(rows: Sequence[Row], *, verbose: bool) -> Iterator[str]:
     for row in rows:
         by_source.setdefault(row.source, []).append(row.name)
     for source, names in by_source.items():
-        several = f"{len(names)} of the above"
-        yield f"{several if len(names) > MOST_NAMES else ', '.join(names)}: {source}"
+        yield f"{_names_of(names)}: {source}"
 
 
 def motor_mounting(mounting: Mounting | None) -> str:
@@ -123,7 +124,13 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
     """Every motor with what a choice goes by, the lightest first; then what some lack."""
     heading(console, "Motors")
     heads = columns(
-        "<name", "mass [g]", "rated [V]", "max [rpm]", "peak  [N m ]", "k_t [mN m/A]", "R [ohm]"
+        "<name",
+        "mass [g]",
+        "rated [V]",
+        "max [rpm]",
+        "peak  [N m ]",
+        "k_t [mN m/A]",
+        "<lacks",
     )
     rows = tuple(
         (
@@ -133,14 +140,62 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
             _figure(speed_limit(motor), "rpm", ".0f"),
             _figure(motor.peak_torque, "N m", ".3g") + BASIS_MARK.get(motor.peak_basis, " "),
             _figure(motor.torque_constant, "mN m", ".3g"),
-            "-" if motor.resistance is None else f"{motor.resistance:.3f}",
+            _shortly(build_gaps(motor)),
         )
         for motor in sorted(found, key=lambda motor: (motor.mass or math.inf, motor.name))
     )
     show(console, Table(heads, rows))
     note(console, "+ k_t times the peak current   * stall torque, for want of a rating")
-    lacking = {motor.name: missing_figures(motor, DIRECT) for motor in found}
-    _print_lacking(console, lacking)
+    _print_classes(console, found)
+    _print_gaps(console, found)
+
+
+TORQUE_CLASSES = (0.0, 0.05, 0.2, 0.5, 1.0, 2.0, 5.0, 20.0, math.inf)
+"""Limits of the classes of short-term torque that motors are counted in [N m]."""
+
+
+def _print_classes(console: Console, found: Sequence[Motor]) -> None:
+    """How many motors of each class of torque a builder can use."""
+    heading(console, "Complete, by short-term torque")
+    rows = []
+    for least, most in pairwise(TORQUE_CLASSES):
+        of_class = [motor for motor in found if least <= (motor.peak_torque or -1.0) < most]
+        complete = sum(not build_gaps(motor) for motor in of_class)
+        if of_class:
+            limits = f"{least:g} to {most:g}" if most < math.inf else f"{least:g} and more"
+            rows.append((limits, str(complete), str(len(of_class))))
+    show(console, Table(columns("<peak [N m]", "complete", "motors"), tuple(rows)))
+    note(console, "size chooses among complete motors; with --motors-any among all")
+
+
+def _print_gaps(console: Console, found: Sequence[Motor]) -> None:
+    """What a builder misses of the others: one line for each set of gaps."""
+    by_gaps: dict[tuple[str, ...], list[str]] = {}
+    for motor in found:
+        by_gaps.setdefault(build_gaps(motor), []).append(motor.name)
+    by_gaps.pop((), None)
+    if by_gaps:
+        heading(console, "Cannot be built with")
+        items(
+            console,
+            (f"{_names_of(names)}: no {'; no '.join(gaps)}" for gaps, names in by_gaps.items()),
+        )
+
+
+def _shortly(gaps: Sequence[str]) -> str:
+    """The first gap in a word or two, and how many there are besides; a dash where there is none.
+
+    Each gap begins with them, before a comma, a colon or `of the`.
+    """
+    if not gaps:
+        return "-"
+    first = re.split(r"[,:]", gaps[0])[0].replace(" of the", "").replace("bolt circle ", "")
+    return first if len(gaps) == 1 else f"{first} +{len(gaps) - 1}"
+
+
+def _names_of(names: Sequence[str]) -> str:
+    """Names, or how many there are where there are many."""
+    return f"{len(names)} of the above" if len(names) > MOST_NAMES else ", ".join(names)
 
 
 def print_gears(console: Console, found: Sequence[GearSheet]) -> None:

@@ -1,4 +1,7 @@
-"""A console on standard error, at any width, with or without colour, and progress on it."""
+"""Consoles at any width, with or without colour: answers go to standard output, the rest beside it.
+
+Progress, warnings and errors go to standard error, so that an answer can be kept or searched.
+"""
 
 import os
 import time
@@ -69,10 +72,15 @@ class _Clean:
         return Measurement.get(console, options, self._inner)
 
 
-def make_console(*, color: bool = True) -> Console:
-    """A console on standard error; without colour there is no bold or dim text either."""
+def make_console(*, color: bool = True, stderr: bool = False) -> Console:
+    """A console on standard output; without colour there is no bold or dim text either.
+
+    Args:
+        color: whether there may be any.
+        stderr: on standard error instead, for what nobody asked for: progress, warnings, errors.
+    """
     plain = not color or bool(os.environ.get("NO_COLOR"))
-    console = Console(stderr=True, color_system=None if plain else "auto", highlight=False)
+    console = Console(stderr=stderr, color_system=None if plain else "auto", highlight=False)
     console.width = min(max(console.width, NARROWEST), WIDEST)
     console.push_render_hook(CleanHook())
     return console
@@ -80,7 +88,7 @@ def make_console(*, color: bool = True) -> Console:
 
 def error_panel(lines: Sequence[str], hint: str, *, color: bool = True) -> None:
     """One panel with what is wrong and how to mend it."""
-    console = make_console(color=color)
+    console = make_console(color=color, stderr=True)
     text = Text("\n".join(lines))
     if hint:
         text.append("\n\n" + hint, style="bold")
@@ -100,7 +108,7 @@ class Steps:
     @classmethod
     def silent(cls) -> "Steps":
         """Nothing is printed."""
-        return cls(make_console(), quiet=True)
+        return cls(make_console(stderr=True), quiet=True)
 
     @contextmanager
     def step(self, label: str) -> Iterator["Step"]:

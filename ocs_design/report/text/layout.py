@@ -1,6 +1,8 @@
 """Layout of what people read: headings, facts, tables, notes and lists of files."""
 
+import re
 import sys
+import textwrap
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -27,9 +29,22 @@ def heading(console: Console, text: str) -> None:
     console.print(Text(text, style="bold"))
 
 
+_UNITS = "mm|um|m|kg|g|N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"
+_TIED = re.compile(rf"(?<=\d) (?=(?:{_UNITS})\b)|(?<=\bN) (?=m\b)|(?<=\bkg) (?=m+2\b)")
+"""Spaces between a number and its unit, and within a unit."""
+
+
+def wrapped(text: str, width: int) -> str:
+    """Lines of a text, none of which ends between a number and its unit."""
+    tied = _TIED.sub("\N{NO-BREAK SPACE}", text)
+    lines = textwrap.wrap(tied, width, break_long_words=False, break_on_hyphens=False)
+    return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
+
+
 def note(console: Console, text: str, *, style: str = "dim") -> None:
     """A paragraph, indented like everything under a heading."""
-    console.print(Padding(Text(text, style=style), INDENT))
+    lines = wrapped(text, console.width - INDENT[-1])
+    console.print(Padding(Text(lines, style=style), INDENT))
 
 
 def warn(console: Console, warnings: Iterable[str]) -> None:
@@ -45,7 +60,8 @@ def items(console: Console, texts: Iterable[str], *, style: str = "dim") -> None
         return
     grid = rich_table.Table.grid(padding=(0, 1))
     for text in found:
-        grid.add_row(Text("  -", style=style), Text(text, style=style))
+        lines = wrapped(text, console.width - len("  - "))
+        grid.add_row(Text("  -", style=style), Text(lines, style=style))
     console.print(grid)
 
 

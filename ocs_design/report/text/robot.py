@@ -1,10 +1,10 @@
 """The robot in the terminal: what was read of it, as `inspect` and `size` show it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from rich.console import Console
 
-from ocs_design.device.answers import Inspection
+from ocs_design.device.answers import Inspection, RecognitionRecord
 from ocs_design.device.records import RobotRecord
 from ocs_design.report.device import heading_drift, joint_table, robot_facts
 from ocs_design.report.quantities import degrees_number
@@ -31,10 +31,13 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         [
             ("read from", f"{robot.source} ({robot.format})"),
             ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
-            ("legs", ", ".join(robot.legs) or "none found"),
+            ("legs", _legs(inspection)),
+            *_recognised(inspection.recognition),
             ("heading drift", heading_drift(inspection.heading_drift)),
         ],
     )
+    if inspection.recognition is not None and inspection.recognition.likely:
+        _ask(console, inspection.recognition)
     heading(console, "Incidence angle alpha* of the robot alone, by criterion")
     criteria = inspection.incidence_by_criterion.items()
     show(
@@ -64,6 +67,55 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         note(console, PAPER_ANGLE)
     if robot.posture and verbose:
         print_joints(console, robot)
+
+
+def _legs(inspection: Inspection) -> str:
+    """Feet with what they are, or that there are none."""
+    recognition = inspection.recognition
+    if recognition is None or not recognition.legs:
+        return ", ".join(inspection.robot.legs) or "none found"
+    kinds = {leg.ends_in for leg in recognition.legs}
+    feet = ", ".join(leg.foot for leg in recognition.legs)
+    ends = " and ".join(f"{kind}s" for kind in sorted(kinds))
+    return f"{feet} ({len(recognition.legs)}, ending in {ends})"
+
+
+def _recognised(recognition: RecognitionRecord | None) -> Iterator[tuple[str, str]]:
+    """Which way is forward, and how sure trunk and legs are."""
+    if recognition is None:
+        return
+    yield (
+        "directions",
+        f"forward {recognition.forward}, left {recognition.left}, up {recognition.up} of "
+        f"'{recognition.trunk}'",
+    )
+    if {"trunk", "legs"} <= set(recognition.stated):
+        yield "trunk, legs", "as stated"
+        return
+    stated = "".join(f", {name} as stated" for name in recognition.stated)
+    against = "; ".join(recognition.speaks_against)
+    yield (
+        "trunk, legs",
+        f"{recognition.confidence:.0%} confidence{stated}{f': but {against}' if against else ''}",
+    )
+
+
+def _ask(console: Console, recognition: RecognitionRecord) -> None:
+    """What to choose from where trunk and legs are not clear."""
+    heading(console, "Trunk and legs are not clear; `size` will ask for one of")
+    show(
+        console,
+        Table(
+            columns("<options", "confidence"),
+            tuple(
+                (
+                    f"--trunk {each.trunk} --legs {','.join(each.legs) or 'none'}",
+                    f"{each.confidence:.0%}",
+                )
+                for each in recognition.likely
+            ),
+        ),
+    )
 
 
 def print_joints(console: Console, robot: RobotRecord) -> None:

@@ -18,14 +18,17 @@ from ocs_design.report.text.layout import (
     warn,
 )
 from ocs_design.report.text.robot import print_joints, print_robot
-from ocs_design.report.text.validation import print_runs, print_verdict
+from ocs_design.report.text.validation import print_headline, print_runs
+from ocs_design.report.verdict import headline
 
 _FEWEST = 2
 """Columns of the ranking that the narrowest terminal shows: drive and mass."""
 
 
 def print_design(console: Console, design: OcsDesign) -> None:
-    """Everything about a design and its flights."""
+    """Everything about a design and its flights, the verdict first."""
+    print_headline(console, headline(design))
+    items(console, (f"{each.what}; {each.cure}" for each in design.buildable.open[1:]))
     print_robot(console, design.robot)
     heading(console, limits.requirement_title(design))
     show(console, limits.demand_table(design))
@@ -48,6 +51,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
         note(console, meaning)
     show(console, limits.saving_table(design))
     note(console, limits.saving_notes(design))
+    print_alternatives(console, design)
     margins = limits.recorded_margins(design)
     heading(console, "Margins")
     show(console, limits.margin_table(margins))
@@ -58,6 +62,13 @@ def print_design(console: Console, design: OcsDesign) -> None:
     if design.validation:
         print_runs(console, design.validation)
     items(console, landing_remarks(design), style="yellow")
+
+
+def print_alternatives(console: Console, design: OcsDesign) -> None:
+    """What one change of the question would give each; nothing where none was looked for."""
+    if design.alternatives:
+        heading(console, "What would be lighter otherwise")
+        show(console, limits.alternatives_table(design), fewest=3)
 
 
 def print_solution(console: Console, design: OcsDesign) -> None:
@@ -71,7 +82,7 @@ def print_solution(console: Console, design: OcsDesign) -> None:
         [
             ("status", sizing.status),
             ("method", sizing.method),
-            ("objective", f"{sizing.objective!r} kg, {'whole device' if chosen else 'one rim'}"),
+            ("objective", f"{sizing.objective!r} kg, {'the device' if chosen else 'one rim'}"),
             *(() if chosen else (("relative duality gap", f"{sizing.gap:.1e}"),)),
             ("fixed point", f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"),
             *((f"price of {name}", f"{price!r}") for name, price in sizing.shadow_prices.items()),
@@ -101,4 +112,4 @@ def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
     """What was written, and the verdict in one line."""
     files_written(console, str(folder), design.files, "everything in this report")
     console.print()
-    print_verdict(console, design.validation)
+    print_headline(console, headline(design))

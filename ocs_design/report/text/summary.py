@@ -10,11 +10,13 @@ from ocs_design.device.records import OcsDesign
 from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
 from ocs_design.report.device import device_facts, device_title, has_motor, robot_facts
 from ocs_design.report.flights import short_verdict
-from ocs_design.report.limits import used_up, what_saves
+from ocs_design.report.limits import first_margins, used_up, what_saves
 from ocs_design.report.table import Cell, Table, columns
 from ocs_design.report.text.layout import facts, heading, items, note, show
 from ocs_design.report.text.plots import tilt_plots
-from ocs_design.report.text.validation import print_verdict
+from ocs_design.report.text.size import print_alternatives
+from ocs_design.report.text.validation import print_headline
+from ocs_design.report.verdict import headline
 from ocs_design.report.warnings import all_warnings
 from ocs_design.simulation.scenario import Run
 
@@ -22,6 +24,7 @@ ROBOT_FACTS = ("mass", "posture", "locked inertia")
 DEVICE_FACTS = (
     "total mass",
     "mass of a module",
+    "carrier plate",
     "incidence alpha*",
     "rim",
     "spin inertia",
@@ -37,7 +40,9 @@ BESIDE_PLOTS = 63
 
 
 def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], folder: Path) -> None:
-    """What was assumed first and the verdict last, where the eye is when a command ends."""
+    """The verdict first, and last once more, where the eye is when a command ends."""
+    line = headline(design)
+    print_headline(console, line)
     if design.requirement.assumptions:
         heading(console, "Assumed, because nothing else was specified")
         note(console, " ".join(design.requirement.assumptions))
@@ -48,11 +53,15 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     if has_motor(design):
         # The source of a motor's figures is left to the whole report.
         rows["motor"] = design.ocs.motor.name
+    used = first_margins(design)
+    if used:
+        rows["used at most"] = used
     rows["limits"] = used_up(design)
     saves = "" if design.selection is None else what_saves(design.selection)
     if saves:
         rows["looser limits"] = saves
     facts(console, rows.items())
+    print_alternatives(console, design)
     if runs:
         heading(console, "Flights in MuJoCo, with the device and without")
         show(console, _flights(console, design, runs))
@@ -67,7 +76,7 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     folders = sorted({f"{path.parts[0]}/" for path in paths if len(path.parts) > 1})
     written = ", ".join([DESIGN_FILE, REPORT_FILE, *beside, *folders])
     console.print(Text(f"{folder}/: {written}"))
-    print_verdict(console, design.validation, Text("(-v: all figures)", "dim"))
+    print_headline(console, line, Text("(-v: all figures)", "dim"))
 
 
 def _chosen(rows: Iterable[tuple[str, str]], names: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -10,13 +10,14 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.records import ValidationRecord
 from ocs_design.monte_carlo.summary import Validated
 from ocs_design.monte_carlo.uncertainty import key_of
-from ocs_design.report.flights import flight_table, run_sentence, verdict
+from ocs_design.report.flights import flight_table, run_sentence
 from ocs_design.report.monte_carlo import (
     campaign_remarks,
     campaign_title,
     spread_table,
     success_table,
 )
+from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import (
     STYLES,
     facts,
@@ -25,8 +26,8 @@ from ocs_design.report.text.layout import (
     items,
     note,
     show,
-    warn,
 )
+from ocs_design.report.verdict import SEPARATOR, Headline, flights_headline
 from ocs_design.requirement.uncertainty import spreads
 
 
@@ -37,23 +38,24 @@ def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
     items(console, map(run_sentence, runs))
 
 
-def print_verdict(console: Console, runs: Sequence[ValidationRecord], *more: Text) -> None:
-    """Flights with the device in one line, and more on it."""
-    line = verdict([run.passed for run in runs if run.ocs])
-    console.print(Text(line.text, style=f"bold {STYLES[line.tone]}"), *more)
+def print_headline(console: Console, line: Headline, *more: Text) -> None:
+    """Verdict in one line, what is more to it, and what matters most below."""
+    parts = (Text(part.text, style=f"bold {STYLES[part.tone]}") for part in line.parts)
+    console.print(Text(SEPARATOR).join(parts), *more)
+    if line.matter:
+        console.print(Text(line.matter, style="" if line.tone is Tone.PASS else STYLES[line.tone]))
 
 
 def print_validated(
     console: Console, found: Validated, folder: Path | None, files: Sequence[str]
 ) -> None:
-    """Warnings, flights as `size` prints them, what many samples show, and the verdict.
+    """Flights as `size` prints them, what many samples show, and the verdict.
 
     Args:
         console: to print on.
         found: what came of it.
         folder: that was written to, if any. files: in it.
     """
-    warn(console, found.warnings)
     if found.sample is not None:
         heading(console, f"Sample {found.sample.index} of seed {found.sample.seed}")
         units = {key: spread.unit for key, spread in spreads().items()}
@@ -76,4 +78,4 @@ def print_validated(
     if folder is not None:
         files_written(console, str(folder), files)
     console.print()
-    print_verdict(console, found.validation)
+    print_headline(console, flights_headline(found.validation))

@@ -42,12 +42,13 @@ from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import (
     LIGAMENT,
     NO_CUTS,
-    SEAT,
     SHOULDER,
-    WEB_DENSITY,
+    SHRUNK_WEB_THICKNESS,
+    STEP,
     WEB_THICKNESS,
     RimCuts,
     hoop_weights,
+    spread_left,
 )
 from ocs_design.requirement.froude import Envelope
 
@@ -63,10 +64,13 @@ class RimLimits:
         stretch_max: largest (3 + nu) R^2 + (1 - nu) r^2 that the allowed hoop stress admits, which
             is 4 sigma / (rho w^2) [m^2]; inf: not limited.
         poisson_ratio: nu; of no account where the hoop stress is not limited.
-        web: thickness of a disc of the rim's material that weighs as much as the web, which fills
+        web: thickness of a disc of the rim's material that has the web's spin inertia and fills
             the bore [m]; 0: massless spokes.
         outer_radius_min: that leaves room for a motor's mount [m]; 0: any.
         cuts: chamfers and holes, the same of all; the other limits leave room for them.
+        web_weight: mass of the web over that of the disc; below 1 with lightening holes.
+        lightened_bore: least bore with room for those [m]; 0: none. `inner_radius_min` has it.
+        stretch_left: share of the stretch that they leave; `stretch_max` has it.
     """
 
     density: float | FloatArray
@@ -81,6 +85,14 @@ class RimLimits:
     web: float | FloatArray = 0.0
     outer_radius_min: float | FloatArray = 0.0
     cuts: RimCuts = NO_CUTS
+    web_weight: float | FloatArray = 1.0
+    lightened_bore: float | FloatArray = 0.0
+    stretch_left: float | FloatArray = 1.0
+
+    @property
+    def heavy_web(self) -> float | FloatArray:
+        """Thickness of a disc of the rim's material that weighs as much as the web [m]."""
+        return self.web * self.web_weight
 
     @property
     def hoop_weights(self) -> tuple[FloatArray, FloatArray]:
@@ -135,26 +147,66 @@ class RimProblem:
 
 
 def limits_with_web(
-    limits: RimLimits, hub_radius: float | FloatArray, cuts: RimCuts = NO_CUTS
+    limits: RimLimits,
+    hub_radius: float | FloatArray,
+    cuts: RimCuts = NO_CUTS,
+    web_density: float | FloatArray | None = None,
+    rim_height_min: float | FloatArray = 0.0,
+    *,
+    lightened: float | FloatArray = 0.0,
+    lightened_bore: float | FloatArray = 0.0,
+    stretch_left: float | FloatArray = 1.0,
 ) -> RimLimits:
-    """Limits of rims that are seated on a web around a hub of that radius [m].
+    """Limits of rims around a web, with a hub of that radius [m] in it.
 
-    They are taller than the web, and than as much of it if it were of their own material, and
-    leave room for what is cut off them.
+    They are taller than the web, leave room for what is cut off them, and, where they are shrunk
+    on, have a shoulder and are taller than as much of the web in their own material.
+
+    Args:
+        limits: of the rims alone.
+        hub_radius: [m].
+        cuts: off the rims.
+        web_density: of web and hub [kg/m^3]; None: of one piece with the rim.
+        rim_height_min: that leaves room for the hub's screws (`Hub.rim_height_min`) [m].
+        lightened: share of the web that holes take (`Hub.lightened`).
+        lightened_bore: that leaves room for them (`Hub.bore_min`) [m].
+        stretch_left: share of the allowed hoop stress with which they stand theirs.
     """
-    web = WEB_THICKNESS * WEB_DENSITY / np.asarray(limits.density)
-    seated = np.maximum(np.maximum(WEB_THICKNESS, web) + SHOULDER, cuts.height_min)
-    seated = np.maximum(seated, WEB_THICKNESS + 2.0 * cuts.chamfer + SEAT)
+    spread = spread_left(np.asarray(lightened, dtype=np.float64))
+    web = np.full_like(np.asarray(limits.density, dtype=np.float64), WEB_THICKNESS)
+    seated = np.maximum(WEB_THICKNESS + 2.0 * cuts.chamfer + STEP, cuts.height_min)
+    if web_density is not None:
+        web = SHRUNK_WEB_THICKNESS * web_density / np.asarray(limits.density)
+        band = SHRUNK_WEB_THICKNESS + 2.0 * cuts.chamfer + STEP
+        shoulder = np.maximum(SHRUNK_WEB_THICKNESS, web) + SHOULDER
+        seated = np.maximum(np.maximum(seated, band), shoulder)
+    around = np.maximum(hub_radius + LIGAMENT, lightened_bore)
     return replace(
         limits,
         inner_radius_min=np.maximum(
-            np.maximum(limits.inner_radius_min, cuts.inner_radius_min), hub_radius + LIGAMENT
+            np.maximum(limits.inner_radius_min, cuts.inner_radius_min), around
         ),
-        height_min=np.maximum(limits.height_min, seated),
+        height_min=np.maximum(np.maximum(limits.height_min, seated), rim_height_min),
         wall_min=np.maximum(limits.wall_min, cuts.wall_min),
-        web=web,
+        web=web * spread,
         cuts=cuts,
+        web_weight=(1.0 - lightened) / spread,
+        lightened_bore=lightened_bore,
+        stretch_max=limits.stretch_max * stretch_left,
+        stretch_left=stretch_left,
     )
+
+
+def stretch_beside_holes(stress: float | FloatArray, stress_safety: float) -> float | FloatArray:
+    """Share of the allowed hoop stress at which holes in the web yield, or all of it.
+
+    Args:
+        stress: of the holes over the hoop stress (`Hub.lightened_stress`).
+        stress_safety: yield strength over the allowed hoop stress; 0: it is not limited.
+    """
+    if stress_safety == 0.0:
+        return 1.0
+    return stress_safety / np.maximum(stress, stress_safety)
 
 
 def limits_with_mount(limits: RimLimits, mount_reach: float | FloatArray) -> RimLimits:

@@ -7,9 +7,10 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.sweep import change_text
 from ocs_design.sizing.changes import Progress, advice, smallest_changes, unseen
 from ocs_design.sizing.limits import TIME, Limit
-from ocs_design.sizing.selection.feasibility import Field
+from ocs_design.sizing.selection.feasibility import Field, largest_wheel
+from ocs_design.sizing.selection.needed_motor import needed_motor
 from ocs_design.sizing.selection.problem import SelectionProblem, limits_of, with_limit, with_time
-from ocs_design.sizing.selection.rejections import largest_wheel, rejections
+from ocs_design.sizing.selection.rejections import rejections
 from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.search import Found
 
@@ -75,7 +76,7 @@ class Refused(Infeasible):
             # No change of a limit mends an incidence.
             if reason is not Reason.INCIDENCE:
                 changes = single_changes(field, progress)
-            hints = _hints(field, reason, changes)
+            hints = [*self._motor_hint(), *_hints(field, reason, changes)]
         return Infeasible(
             self.message,
             binding=self.binding,
@@ -84,6 +85,13 @@ class Refused(Infeasible):
             relaxations={limit.name: value for limit, value in changes.items()},
             hint=" ".join(hints),
         )
+
+    def _motor_hint(self) -> Iterator[str]:
+        """What motor would do, as heavy for its torque as the nearest."""
+        model = next(each for each in self.problem.motors if each.name == self.nearest.motor)
+        needed = needed_motor(self.problem, model)
+        if needed is not None:
+            yield needed.text
 
 
 def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, float]:
@@ -131,8 +139,8 @@ def _hints(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iter
     free = replace(field.problem, incidence=None)
     if field.problem.incidence is not None and field.changed(free).possible:
         yield (
-            "At another incidence there is a device: leave out --alpha and --alpha-criterion, or "
-            "choose --alpha-criterion lightest."
+            "At another incidence there is a device: leave out --alpha and choose "
+            "--alpha-criterion lightest."
         )
     elif reason is Reason.INCIDENCE:
         yield (

@@ -33,7 +33,7 @@ from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import PlainDrum, half_height
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.rim import WEB_DENSITY, WEB_THICKNESS, hub_of
+from ocs_design.parts.rim import LIGHTENED, hub_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import (
@@ -43,7 +43,7 @@ from ocs_design.sizing.bound.rim_problem import (
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
-from ocs_design.sizing.placement import Place, Size, module_size
+from ocs_design.sizing.placement import Place, Size
 from ocs_design.sizing.selection.candidates import Candidates, Drives, rim_limits
 from ocs_design.sizing.selection.composite_inertia import pairs_of
 from ocs_design.sizing.selection.demand import column, columns, needed_by_rate
@@ -95,10 +95,12 @@ class RimFloor:
         spin_inertia: of the rim [kg m^2], increasing along axis 1, shape (materials, rims).
         mass: of the lightest rim with its housing and foot [kg], never decreasing, inf where there
             is none.
+        web_density: of their webs and hubs [kg/m^3], shape (materials,).
     """
 
     spin_inertia: FloatArray
     mass: FloatArray
+    web_density: FloatArray
 
     @classmethod
     def of(cls, problem: SelectionProblem) -> "RimFloor":
@@ -117,20 +119,27 @@ class RimFloor:
             )
         slow, hub, mount = (np.full(kinds.size, value) for value in (1e-3, narrow, reach))
         limits = rim_limits(problem, kinds, slow, hub, mount)
+        webs = [limits]
+        if problem.lightening:
+            share = LIGHTENED[problem.lightening]
+            webs.append(rim_limits(problem, kinds, slow, hub, mount, lightened=share))
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), len(problem.materials))
-        least = np.maximum(smallest_rim(limits) * _OFF_THE_EDGE, 1e-9 * disc)
+        least = np.minimum.reduce([smallest_rim(each) for each in webs])
+        least = np.maximum(least * _OFF_THE_EDGE, 1e-9 * disc)
         inertia = least * np.maximum(disc / least, 1.0) ** steps
-        mass = np.nan_to_num(lightest_module(inertia, limits, Printed(reach)).mass, nan=np.inf)
+        # Where there is no room for holes the web is solid.
+        each = [lightest_module(inertia, limits, Printed(reach)).mass for limits in webs]
+        mass = np.nan_to_num(np.fmin.reduce(each), nan=np.inf)
         shape = (len(problem.materials), _RIMS)
-        return cls(inertia.reshape(shape), mass.reshape(shape))
+        return cls(inertia.reshape(shape), mass.reshape(shape), problem.web_densities)
 
     def at(self, spin_inertia: FloatArray) -> FloatArray:
-        """Mass of no more spin inertia than that [kg], shape (materials, n)."""
+        """Mass of no more spin inertia than that [kg], both of shape (materials, n)."""
         rows = [
-            mass[np.maximum(np.searchsorted(grid, spin_inertia, side="right") - 1, 0)]
-            for grid, mass in zip(self.spin_inertia, self.mass, strict=True)
+            mass[np.maximum(np.searchsorted(grid, asked, side="right") - 1, 0)]
+            for grid, mass, asked in zip(self.spin_inertia, self.mass, spin_inertia, strict=True)
         ]
         beyond = spin_inertia > self.spin_inertia[:, -1:]
         return np.where(beyond, np.inf, np.stack(rows))
@@ -138,9 +147,10 @@ class RimFloor:
 
 def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:
     """Masses that no device is below [kg] in every material, shape (materials, n); inf: none."""
-    rim = spin_inertia - drives.beside_rim
+    on_webs = drives.of_webs(floor.web_density[:, None])
+    rim = spin_inertia - on_webs.beside_rim
     lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
-    return 2.0 * (drives.mass + lightest)
+    return 2.0 * (on_webs.mass + lightest)
 
 
 def least_spin_inertias(
@@ -263,23 +273,26 @@ def least_inertia(
         # A wheel of more spin inertia is no smaller.
         radius = np.minimum(smallest_radius(rim, limits), widest)
         wheel = np.nan_to_num(lightest_module(rim, limits, PlainDrum()).mass)
-    motor = drives.behind_depth, drives.behind_radius, drives.mount_reach
-    behind = drives.behind.mass + drives.mount_mass
+    at_floor, at_wheel = drives.by_floor, drives.by_wheel
+    stands = at_floor.mass + drives.mount_mass
+    behind = stands + at_wheel.mass
     # The holes stand by less than that behind the floor.
     holes = drives.mount_mass * PLATE_THICKNESS
     fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
-    web = np.pi * WEB_THICKNESS * WEB_DENSITY * widest**2
+    web = np.pi * problem.web_thickness * drives.web_most * widest**2
+    # Posts are longest behind the flattest rim.
     shell = Printed(drives.mount_reach).mass(widest, zero + room.height_max)
+    shell = shell + drives.posts.mass(zero)
     least = Least(
         mass=np.maximum(wheel + drives.hub_mass - drives.mount_mass, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
-        inertia=np.minimum(drives.hub_share, drives.hub_across) + rim / 2.0,
+        inertia=drives.hub_inertia + rim / 2.0,
         behind=behind,
-        depth=half_height(room.height_max) + (holes - drives.behind.y) / behind,
-        above=drives.behind.z / behind,
-        smallest=module_size(radius, zero + room.height_min, *motor),
-        largest=module_size(widest, zero + room.height_max, *motor),
-        heaviest=np.asarray(drives.mass + fullest + web + shell),
+        depth=(half_height(room.height_max) * stands + holes - at_floor.y - at_wheel.y) / behind,
+        above=(at_floor.z + at_wheel.z) / behind,
+        smallest=drives.size(radius, zero + room.height_min),
+        largest=drives.size(widest, zero + room.height_max),
+        heaviest=at_floor.mass + at_wheel.mass + drives.hub_mass_most + fullest + web + shell,
     )
     return least_composite_inertia(problem.robot, problem.place, least)
 

@@ -1,7 +1,7 @@
 """Candidates as arrays: every motor behind every gear, with a rim of every material."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -13,37 +13,41 @@ from ocs_design.actuation.drive import (
     armature,
     drive_line,
     missing_figures,
+    power_less_friction,
     rotor_share,
 )
-from ocs_design.actuation.motor import Gear, GearRoom, Motor
+from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.parts.cage import Posts
 from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import half_height
+from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.module import (
     Printed,
-    drive_moments,
+    by_floor,
+    by_wheel,
     gear_moments,
-    motor_middle,
     shell_moments,
 )
 from ocs_design.parts.moments import MassMoments, round_body, stacked
-from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.printed import WALL
-from ocs_design.parts.rim import NO_HUB, WEB_THICKNESS, cylinder_transverse_inertia
+from ocs_design.parts.motor_mount import Behind, mount_of
+from ocs_design.parts.printed import PANEL
+from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
     RimProblem,
     limits_with_mount,
     limits_with_web,
     smallest_spin_inertia,
+    stretch_beside_holes,
 )
 from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
-from ocs_design.sizing.placement import module_size
+from ocs_design.sizing.placement import Size, module_size
 from ocs_design.sizing.selection.composite_inertia import Modules
 from ocs_design.sizing.selection.problem import SelectionProblem
 
-OVERSPEED = 1.2
-"""Speed at which a rim is proved, over the highest that it can get to."""
+WHEELS = 2
+"""That share the supply."""
 
 _OFF_THE_EDGE = 1.0 + 1e-10
 """Factor on the smallest rim of all, which must not get lost to rounding."""
@@ -58,64 +62,133 @@ class Drives(Table):
 
     Attributes:
         motor, gear: their indices in the problem's sequences.
-        behind: moments of motor, gear and mount, less its holes, about the middle of the outside of
-            the housing's floor (`module.behind_floor`).
-        behind_depth, behind_radius: see `MotorMount.behind` [m].
+        by_floor: moments about the middle of the outside of the housing's floor, see
+            `module.by_floor`. by_wheel: about the wheel's middle, see `module.by_wheel`.
+        behind_depth, behind_radius, behind_wheel: see `MotorMount.behind` [m].
         mount_reach, mount_mass: of the mount's holes [m, kg].
-        hub_mass: of the wheel's hub [kg].
+        post_area, post_gyration, seat: see `Posts`.
+        height_max: of a rim that the mount leaves room for [m].
+        hub_volume: mass of the wheel's hub, over its density [m^3].
         hub_radius: of that, or of the screws' heads beside it [m]; 0 without a web.
-        hub_share: of the spin inertia. hub_across: about any axis across [kg m^2].
+        rim_height: least one that leaves room for the hub's screws [m]; 0: any.
+        lightened: share of its web that holes take. lightened_bore: least one of a rim with room
+            for them [m]; 0: any. lightened_stress: see `Hub`.
+        hub_spread: of the spin inertia. hub_across: about any axis across; both over its density
+            [m^5].
+        web_least, web_most: density of web and hub, which is any of the problem's as long as no
+            material is chosen [kg/m^3].
         rotor_share: of the spin inertia [kg m^2].
         armature: what the motor accelerates beyond the spin inertia [kg m^2].
-        stall_torque, no_load_speed, torque_limit, speed_max: see `DriveLine`, nothing held back.
+        stall_torque, no_load_speed, torque_limit, speed_max, power_max: see `DriveLine`, nothing
+            held back.
     """
 
     motor: NDArray[np.intp]
     gear: NDArray[np.intp]
-    behind: MassMoments[FloatArray]
+    by_floor: MassMoments[FloatArray]
+    by_wheel: MassMoments[FloatArray]
     behind_depth: FloatArray
     behind_radius: FloatArray
+    behind_wheel: FloatArray
     mount_reach: FloatArray
     mount_mass: FloatArray
-    hub_mass: FloatArray
+    post_area: FloatArray
+    post_gyration: FloatArray
+    seat: FloatArray
+    height_max: FloatArray
+    hub_volume: FloatArray
     hub_radius: FloatArray
-    hub_share: FloatArray
+    rim_height: FloatArray
+    lightened: FloatArray
+    lightened_bore: FloatArray
+    lightened_stress: FloatArray
+    hub_spread: FloatArray
     hub_across: FloatArray
+    web_least: FloatArray
+    web_most: FloatArray
     rotor_share: FloatArray
     armature: FloatArray
     stall_torque: FloatArray
     no_load_speed: FloatArray
     torque_limit: FloatArray
     speed_max: FloatArray
+    power_max: FloatArray
 
     def __len__(self) -> int:
         return self.motor.size
 
+    def of_webs(self, density: FloatArray) -> "Drives":
+        """The same with webs and hubs of these densities [kg/m^3]."""
+        return replace(self, web_least=density, web_most=density)
+
+    @property
+    def hub_mass(self) -> FloatArray:
+        """Mass of the wheel's hub beyond its web, at the least [kg]."""
+        return self._of_hub(self.hub_volume).least
+
+    @property
+    def hub_mass_most(self) -> FloatArray:
+        """Mass of the wheel's hub beyond its web, at the most [kg]."""
+        return self._of_hub(self.hub_volume).most
+
+    @property
+    def hub_inertia(self) -> FloatArray:
+        """Inertia of the wheel's hub about any axis, at the least [kg m^2]."""
+        return self._of_hub(np.minimum(self.hub_spread, self.hub_across)).least
+
     @property
     def mass(self) -> FloatArray:
-        """Mass of motor, gear and the wheel's hub, less the mount's holes [kg]."""
-        return self.behind.mass + self.hub_mass
+        """Mass of motor, gear and hub, less the mount's holes, without posts, at the least [kg]."""
+        return self.by_floor.mass + self.by_wheel.mass + self.hub_mass
+
+    @property
+    def posts(self) -> Posts[FloatArray]:
+        """Posts of the motors' cages."""
+        return Posts(self.post_area, self.post_gyration, self.seat)
+
+    def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
+        """Size of modules with rims of these outer radii and heights [m]."""
+        behind = Behind(self.behind_depth, self.behind_radius, self.behind_wheel)
+        return module_size(outer_radius, height, behind, self.mount_reach)
 
     @property
     def beside_rim(self) -> FloatArray:
-        """Part of the spin inertia that rim and web need not have [kg m^2]."""
-        return self.rotor_share + self.hub_share
+        """Part of the spin inertia that rim and web need not have, at the most [kg m^2]."""
+        return self.rotor_share + self._of_hub(self.hub_spread).most
+
+    def _of_hub(self, figure: FloatArray) -> "_Extremes":
+        """A figure per density. A hub of a wide bore has less than the web in its place."""
+        ends = figure * self.web_least, figure * self.web_most
+        return _Extremes(np.minimum(*ends), np.maximum(*ends))
 
     @property
     def line(self) -> DriveLine:
         """Voltage lines and limits that a design may use."""
-        whole = DriveLine(self.stall_torque, self.no_load_speed, self.torque_limit, self.speed_max)
+        whole = DriveLine(
+            self.stall_torque,
+            self.no_load_speed,
+            self.torque_limit,
+            self.speed_max,
+            self.power_max,
+        )
         return whole.reserved()
 
     @property
     def top_speed(self) -> FloatArray:
         """Speed of the wheel that a design may use [rad/s]."""
-        return np.minimum(self.line.no_load_speed, self.speed_max)
+        return np.minimum(self.line.no_load_speed, self.line.speed_max)
 
     @property
     def overspeed(self) -> FloatArray:
         """Speed at which the hoop stress of a rim is limited [rad/s]."""
         return OVERSPEED * np.minimum(self.no_load_speed, self.speed_max)
+
+
+class _Extremes(NamedTuple):
+    """The least and the largest value of a figure."""
+
+    least: FloatArray
+    most: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,28 +197,45 @@ class Candidates(Table):
 
     Attributes:
         problem: robot, requirement and room, shared by all.
-        drives: motor and gear of each. material: its index in the problem's sequence.
+        pairs: motor and gear of each, with a hub of any material.
+        material: its index in the problem's sequence.
     """
 
     problem: SelectionProblem
-    drives: Drives
+    pairs: Drives
     material: NDArray[np.intp]
 
     def __len__(self) -> int:
         return self.material.size
 
     @cached_property
+    def drives(self) -> Drives:
+        """Motor and gear of each, with the hub of its wheel."""
+        return self.pairs.of_webs(self.problem.web_densities[self.material])
+
+    @cached_property
     def limits(self) -> RimLimits:
         """Limits of their rims."""
         drives = self.drives
-        return rim_limits(
-            self.problem, self.material, drives.overspeed, drives.hub_radius, drives.mount_reach
+        limits = rim_limits(
+            self.problem,
+            self.material,
+            drives.overspeed,
+            drives.hub_radius,
+            drives.mount_reach,
+            rim_height=drives.rim_height,
+            lightened=drives.lightened,
+            lightened_bore=drives.lightened_bore,
+            stretch_left=stretch_beside_holes(
+                drives.lightened_stress, self.problem.envelope.stress_safety
+            ),
         )
+        return replace(limits, height_max=np.minimum(limits.height_max, drives.height_max))
 
     @property
     def shell(self) -> Printed:
         """Housing and foot around their wheels."""
-        return Printed(self.drives.mount_reach)
+        return Printed(self.drives.mount_reach, self.drives.posts)
 
     @cached_property
     def least_spin_inertia(self) -> FloatArray:
@@ -168,18 +258,22 @@ class Candidates(Table):
         across = cylinder_transverse_inertia(inner, outer, height, 1.0)
         across = across - self.limits.cuts.transverse_inertia(inner, outer, height, 1.0)
         across = across * self.limits.density
-        # A web's mass tells its thickness: m (3 r^2 + t^2) / 12.
-        web = shapes.web_mass * (3.0 * inner**2 + WEB_THICKNESS**2) / 12.0
+        web = web_inertia(self.limits, inner) / 2.0
+        web = web + shapes.web_mass * self.problem.web_thickness**2 / 12.0
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
         whole = (
-            round_body(mass, wheel, across + web + drives.hub_across)
+            round_body(mass, wheel, across + web + drives.hub_across * drives.web_most)
             + shell_moments(outer, height, drives.mount_reach)
-            + drives.behind.shifted(-half_height(height), np.zeros_like(height))
+            + drives.posts.moments(height)
+            + drives.by_wheel
+            + drives.by_floor.shifted(-half_height(height), np.zeros_like(height))
         )
-        size = module_size(
-            outer, height, drives.behind_depth, drives.behind_radius, drives.mount_reach
-        )
-        return Modules.of(whole, size)
+        return Modules.of(whole, drives.size(outer, height))
+
+
+def web_inertia(limits: RimLimits, bore: FloatArray) -> FloatArray:
+    """Inertia of webs about their axes in rims of these bore radii [m], without hubs [kg m^2]."""
+    return np.asarray(np.pi / 2.0 * np.asarray(limits.density) * limits.web * bore**4)
 
 
 def rim_limits(
@@ -188,6 +282,11 @@ def rim_limits(
     overspeed: FloatArray,
     hub_radius: FloatArray,
     mount_reach: FloatArray,
+    *,
+    rim_height: float | FloatArray = 0.0,
+    lightened: float | FloatArray = 0.0,
+    lightened_bore: float | FloatArray = 0.0,
+    stretch_left: float | FloatArray = 1.0,
 ) -> RimLimits:
     """Limits of rims, one per row.
 
@@ -195,6 +294,8 @@ def rim_limits(
         problem: room and materials.
         material: index of each. overspeed: at which its hoop stress is limited [rad/s].
         hub_radius: in its middle [m]. mount_reach: of the holes in its housing's floor [m].
+        rim_height: least one that leaves room for the hub's screws [m].
+        lightened, lightened_bore, stretch_left: see `limits_with_web`.
     """
     room = problem.envelope
     each = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
@@ -214,7 +315,19 @@ def rim_limits(
         web=np.zeros_like(density),
     )
     mounted = limits_with_mount(alone, mount_reach)
-    return limits_with_web(mounted, hub_radius, problem.cuts) if problem.web else mounted
+    if not problem.web:
+        return mounted
+    web = None if problem.web_material is None else problem.web_densities[material]
+    return limits_with_web(
+        mounted,
+        hub_radius,
+        problem.cuts,
+        web,
+        rim_height,
+        lightened=lightened,
+        lightened_bore=lightened_bore,
+        stretch_left=stretch_left,
+    )
 
 
 def known_pairs(motors: Sequence[Motor], gears: Sequence[Gear]) -> NDArray[np.bool_]:
@@ -237,41 +350,52 @@ def drives_of(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Drives:
     """
     motors, gears = pairs.T
     figures: list[tuple[float, ...]] = []
+    webs = problem.web_densities
     for index, gear_index in pairs.tolist():
         motor, gear = problem.motors[index], problem.gears[gear_index]
         line, hub = drive_line(motor, gear, problem.bus_voltage), problem.hub(motor, gear) or NO_HUB
         rotor, top = motor.rotor_inertia or 0.0, problem.wheel_speed_max or np.inf
+        gain = gear.ratio * gear.efficiency * (motor.torque_constant or np.inf)
+        peak = float(line.torque_limit) / gain
         figures.append(
             (
-                hub.mass,
+                hub.mass(1.0),
                 hub.radius,
-                hub.axial_inertia,
-                hub.transverse_inertia,
+                hub.rim_height_min,
+                hub.lightened,
+                hub.bore_min,
+                hub.lightened_stress,
+                hub.axial_inertia(1.0),
+                hub.transverse_inertia(1.0),
+                webs.min(),
+                webs.max(),
                 rotor_share(rotor, gear),
                 armature(rotor, gear),
                 float(line.stall_torque),
                 float(line.no_load_speed),
                 float(line.torque_limit),
                 min(float(line.speed_max), top),
+                gear.efficiency * power_less_friction(problem.supply, WHEELS, motor, peak) / WHEELS,
             )
         )
     columns = np.array(figures, dtype=np.float64).reshape(len(figures), -1).T.copy()
     seats = _seats(problem, pairs)
     if problem.web:
         columns[1] = np.maximum(columns[1], seats.head_reach)
-    return Drives(motors, gears, seats.behind, *seats.columns, *columns)
+    return Drives(motors, gears, seats.by_floor, seats.by_wheel, *seats.columns, *columns)
 
 
 class _Seats(NamedTuple):
     """Places of the motors behind their floors, see `Drives`.
 
     Attributes:
-        behind: see there.
-        columns: depth, radius, reach and mass of the mount's holes, shape (4, n).
+        by_floor, by_wheel: see there.
+        columns: from `behind_depth` to `height_max`, shape (9, n).
         head_reach: of the screws in the housing [m], shape (n,).
     """
 
-    behind: MassMoments[FloatArray]
+    by_floor: MassMoments[FloatArray]
+    by_wheel: MassMoments[FloatArray]
     columns: FloatArray
     head_reach: FloatArray
 
@@ -287,20 +411,24 @@ def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> _Seats:
             (
                 *mount.behind(motor),
                 mount.holes.reach,
-                -mount.holes.cut_out(WALL + PLATE_THICKNESS).mass,
+                -mount.holes.cut_out(PANEL + PLATE_THICKNESS).mass,
+                mount.posts.area,
+                mount.posts.gyration,
+                mount.posts.seat,
+                mount.rim_height_max,
                 mount.head_reach,
-                motor_middle(motor, mount),
             )
             for motor, mount in held
         ]
     )
-    gears = [problem.gears[g].room for g in pairs[:, 1].tolist()]
-    row = 2 * of_motor + np.array([room is None for room in gears])
-    depth = np.array([0.0 if room is None else room.depth for room in gears])
-    up = np.array([0.0 if room is None else room.offset for room in gears])
+    gears = [problem.gears[g] for g in pairs[:, 1].tolist()]
+    row = 2 * of_motor + np.array([gear.room is None for gear in gears])
+    # Behind a gear a motor stands as far back as that is deep.
+    depth = np.array([0.0 if gear.room is None else gear.room.depth for gear in gears])
+    up = np.array([0.0 if gear.room is None else gear.room.offset for gear in gears])
     seats = rows[row].T
     seats[0] += depth
-    alone = stacked([drive_moments(motor) for motor in motors]).take(of_motor)
+    at_floor = stacked([by_floor(motor, DIRECT, mount) for motor, mount in held]).take(row)
+    at_wheel = stacked([by_wheel(motor, mount) for motor, mount in held]).take(row)
     geared = stacked([gear_moments(gear) for gear in problem.gears]).take(pairs[:, 1])
-    mounts = stacked([mount.moments() for _, mount in held]).take(row)
-    return _Seats(alone.shifted(seats[5] - depth, up) + geared + mounts, seats[:4], seats[4])
+    return _Seats(at_floor.shifted(-depth, up) + geared, at_wheel, seats[:-1], seats[-1])

@@ -154,5 +154,4 @@ def column(inertia: TiltInertia) -> TiltInertia:
 
 def columns(line: DriveLine) -> DriveLine:
     """Lines of n drives against a second axis, of incidences."""
-    values = (line.stall_torque, line.no_load_speed, line.torque_limit, line.speed_max)
-    return DriveLine(*(np.asarray(value)[:, None] for value in values))
+    return DriveLine(*(np.asarray(value)[:, None] for value in vars(line).values()))

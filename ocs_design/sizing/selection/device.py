@@ -35,6 +35,9 @@ foot are heavier."""
 HUB, WEB = "hub", "web"
 """Stand for the bore and the height where the hub and the web ask for more than was specified."""
 
+LIGHTENING_HOLES, HOLED_STRESS = "lightening holes", "stress at lightening holes"
+"""Stand for the bore where they ask for more, and for the hoop stress where they stand less."""
+
 CUT_WALL, CUT_HEIGHT = "wall for edges and holes", "height for edges and holes"
 """Stand for wall and height where chamfers or balancing holes ask for more than was specified."""
 
@@ -55,10 +58,25 @@ def device_of(solved: Solved) -> Candidate:
     height, rim_mass = shapes.height.item(), shapes.rim_mass.item()
     hub, cuts = problem.hub(motor, gear), candidates.limits.cuts
     carrier = standing(motor, gear, outer, height)
-    wheel = wheel_body(inner, outer, height, material.density, hub, cuts=cuts)
+    web = problem.web_material
+    wheel = wheel_body(
+        inner,
+        outer,
+        height,
+        material.density,
+        hub,
+        cuts=cuts,
+        web_density=None if web is None else web.density,
+    )
     centers = problem.place.centers(motor_size(motor, gear.room, outer, height))
     incidence = float(solved.point.angle[0])
-    line = (drives.stall_torque, drives.no_load_speed, drives.torque_limit, drives.speed_max)
+    line = (
+        drives.stall_torque,
+        drives.no_load_speed,
+        drives.torque_limit,
+        drives.speed_max,
+        drives.power_max,
+    )
     found = Candidate(
         motor=motor,
         gear=gear,
@@ -83,6 +101,7 @@ def device_of(solved: Solved) -> Candidate:
         binding=binding_limits(shapes, candidates.limits, problem.envelope, 0),
         residual=float(solved.point.residual[0]),
         iterations=int(solved.point.iterations[0]),
+        web_material=web,
     )
     return replace(found, demands=tuple(_task_demands(problem, found)))
 
@@ -161,13 +180,16 @@ def binding_limits(
     weight, bore_weight = hoop_weights(at["poisson_ratio"])
     stretched = weight * outer**2 + bore_weight * inner**2
     bore = HUB if at["inner_radius_min"] > room.inner_radius_min else "r_min"
+    if at["lightened_bore"] >= at["inner_radius_min"] > 0.0:
+        bore = LIGHTENING_HOLES
+    stress = HOLED_STRESS if at["stretch_left"] < 1.0 else "hoop_stress"
     seat = CUT_HEIGHT if limits.cuts.height_min >= at["height_min"] else WEB
     flat = seat if at["height_min"] > room.height_min else "h_min"
     wall = CUT_WALL if at["wall_min"] > room.wall_min else "wall_min"
     touched = {
         "r_max": (outer, at["outer_radius_max"]),
         "h_max": (height, at["height_max"]),
-        "hoop_stress": (stretched, at["stretch_max"]),
+        stress: (stretched, at["stretch_max"]),
         "wheel_mass_max": (float(shapes.rim_mass[row]), at["mass_max"]),
         bore: (inner, at["inner_radius_min"]),
         flat: (height, at["height_min"]),
@@ -177,5 +199,5 @@ def binding_limits(
     names = tuple(
         name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
     )
-    radius_is_held = {"r_max", "hoop_stress", MOUNT} & set(names) or {flat, wall} <= set(names)
+    radius_is_held = {"r_max", stress, MOUNT} & set(names) or {flat, wall} <= set(names)
     return names if radius_is_held else (*names, HOUSING)

@@ -13,7 +13,9 @@ from itertools import chain, repeat
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.sizing.bound.rim_problem import largest_spin_inertia
+from ocs_design.parts.rim import web_axial_inertia
+from ocs_design.requirement.froude import Envelope
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE, largest_spin_inertia
 from ocs_design.sizing.selection.bounds import (
     Guess,
     cells_of,
@@ -123,3 +125,24 @@ class Field:
 def any_solved(candidates: Candidates, guess: Guess) -> bool:
     """Whether any of the candidates has a device; closes in no further than to the first."""
     return any(solved.point.feasible.any() for solved in solve_stepwise(candidates, guess))
+
+
+def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
+    """Spin inertia of the largest rim of any material, whatever its hoop stress [kg m^2].
+
+    With its web, without its hub and what is cut off it. As wide and tall as may be, and as thick
+    as its mass allows; if it must be thicker, lower.
+    """
+    density = np.array([material.density for material in problem.materials])
+    outer, layer = room.outer_radius_max, np.pi * density * room.height_max
+    bore = max(room.inner_radius_min, BORE_SHARE * outer)
+    square = np.maximum(outer**2 - room.mass_max / layer, bore**2)
+    inner = np.minimum(np.sqrt(square), outer - room.wall_min)
+    mass = np.minimum(layer * (outer**2 - inner**2), room.mass_max)
+    beside = np.zeros_like(inner)
+    if problem.web:
+        cut = problem.cuts.axial_inertia(inner, np.full_like(inner, outer), 1.0)
+        web = web_axial_inertia(inner, problem.web_densities, problem.web_thickness)
+        beside = web - density * cut
+    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + beside, 0.0)
+    return float(inertia.max(initial=0.0))

@@ -71,7 +71,7 @@ def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[Price]
             found = lightest(looser, start)
             if found.violation <= _HELD:
                 change = min(float(np.expm1(found.value - before)), 0.0)
-        yield Price(limit, value, changed, float(change * chosen.mass))
+        yield Price(limit, value, changed, float(change * chosen.modules_mass))
 
 
 def _programme(alone: SelectionProblem) -> Programme:

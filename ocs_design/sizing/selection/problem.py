@@ -2,20 +2,42 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import isfinite
 
-from ocs_design.actuation.motor import DIRECT, Gear, Motor
-from ocs_design.catalogue.materials import Material
+import numpy as np
+
+from ocs_design.actuation.motor import Gear, Motor, Mounting
+from ocs_design.actuation.supply import Supply
+from ocs_design.catalogue.materials import Material, material
+from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError, UsageError
 from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import Criterion
-from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hub_of
+from ocs_design.parts.joints import SERVICE, hub_joint
+from ocs_design.parts.motor_mount import is_held
+from ocs_design.parts.rim import (
+    NO_CUTS,
+    SHRUNK_WEB_THICKNESS,
+    WEB_MATERIAL,
+    WEB_THICKNESS,
+    Hub,
+    RimCuts,
+    hub_height,
+    hub_of,
+)
+from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Requirement
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import (
+    ALUMINIUM_WEB,
+    AUTO,
     BALANCING_DEPTH,
     BALANCING_DIAMETER,
     CHAMFER,
+    EQUAL_RATE,
+    LARGEST_CHAMFER,
+    LIGHTENING,
     LIGHTEST,
     NO_WEB,
     FlywheelSection,
@@ -25,8 +47,9 @@ from ocs_design.requirement.sweep import slower
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.bound.rim_problem import check_limits
-from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
-from ocs_design.sizing.placement import Place, specified_place
+from ocs_design.sizing.footing import footing_of
+from ocs_design.sizing.limits import BUS_POWER, BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
+from ocs_design.sizing.placement import Place
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,17 +57,19 @@ class SelectionProblem:
     """Find the lightest device that does everything that is required.
 
     Attributes:
-        robot: without the device, in B.
+        robot: without the modules, with the plate that they stand on, in B.
         requirement: what the device must do; its `wheel_speed_max` is not looked at here. A stated
             spin inertia is kept, and the motors must do with it what is required.
         envelope: room for one rim; its housing stands around it.
         place: of the modules, by outer radius and height of their housings.
         motors, gears, materials: to choose from; direct drive is the gear `DIRECT`.
-        bus_voltage: of the motors' supply [V].
+        supply: of all motors; each of the wheels may take its share of the power.
         incidence: of the wheel axes [rad]; None: the best.
         wheel_speed_max: stated highest speed of a wheel [rad/s]; None: what the drive can do.
         web: whether wheels have a web and a hub; massless spokes otherwise.
         cuts: chamfers and balancing holes of wheels with a web; those without are plain rims.
+        web_material: of web and hub; None: of one piece with the rim.
+        lightening: holes in webs that have room for them (`hub`); 0: none.
     """
 
     robot: MassProperties
@@ -54,17 +79,51 @@ class SelectionProblem:
     motors: Sequence[Motor]
     gears: Sequence[Gear]
     materials: Sequence[Material]
-    bus_voltage: float
+    supply: Supply
     incidence: float | None = None
     wheel_speed_max: float | None = None
     web: bool = True
     cuts: RimCuts = NO_CUTS
+    web_material: Material | None = None
+    lightening: int = 0
+
+    @property
+    def web_densities(self) -> FloatArray:
+        """Density of web and hub of a wheel of each material [kg/m^3]."""
+        of_rims = np.array([material.density for material in self.materials])
+        return (
+            of_rims
+            if self.web_material is None
+            else np.full_like(of_rims, self.web_material.density)
+        )
+
+    @property
+    def bus_voltage(self) -> float:
+        """Voltage of the supply [V]."""
+        return self.supply.voltage
+
+    @property
+    def web_thickness(self) -> float:
+        """Thickness of their webs [m]."""
+        return WEB_THICKNESS if self.web_material is None else SHRUNK_WEB_THICKNESS
 
     def hub(self, motor: Motor, gear: Gear) -> Hub | None:
-        """Hub of a wheel on this motor behind this gear; None: massless spokes."""
+        """Hub of a wheel on this motor behind this gear; None: massless spokes.
+
+        Its web is solid where the largest rim leaves no room for lightening holes.
+        """
         if not self.web:
             return None
-        return hub_of(motor, direct=gear == DIRECT, chamfer=self.cuts.chamfer)
+        hub = hub_of(
+            motor,
+            direct=gear.room is None,
+            chamfer=self.cuts.chamfer,
+            web_thickness=self.web_thickness,
+            lightening=self.lightening,
+        )
+        wall = max(self.envelope.wall_min, self.cuts.wall_min)
+        fits = hub.bore_min + wall <= self.envelope.outer_radius_max
+        return hub if fits else replace(hub, lightening=0)
 
     def check(self) -> None:
         """Refuse a problem that is no question.
@@ -82,17 +141,19 @@ class SelectionProblem:
                 hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
             )
         speed = 1.0 if self.wheel_speed_max is None else self.wheel_speed_max
-        for material in self.materials:
-            check_limits(self.envelope, material, speed)
+        for each in self.materials:
+            check_limits(self.envelope, each, speed)
 
 
 def limits_of(problem: SelectionProblem) -> dict[Limit, float]:
     """Every limit that may be in the way, as it is [SI]."""
     speed = {} if problem.wheel_speed_max is None else {WHEEL_SPEED: problem.wheel_speed_max}
+    power = {BUS_POWER: problem.supply.power} if isfinite(problem.supply.power) else {}
     return {
         **{limit: limit.value(problem.envelope) for limit in RIM_LIMITS},
         **speed,
-        BUS_VOLTAGE: problem.bus_voltage,
+        BUS_VOLTAGE: problem.supply.voltage,
+        **power,
         TIME: 1.0,
     }
 
@@ -100,7 +161,12 @@ def limits_of(problem: SelectionProblem) -> dict[Limit, float]:
 def with_limit(problem: SelectionProblem, limit: Limit, value: float) -> SelectionProblem:
     """The problem with one of its limits changed [SI]."""
     if limit is BUS_VOLTAGE:
-        return replace(problem, bus_voltage=value)
+        return replace(problem, supply=replace(problem.supply, voltage=value))
+    if limit is BUS_POWER:
+        # The current gives way with it, where it is the smaller limit of the two.
+        supply = problem.supply
+        current = max(supply.current_max, value / supply.voltage)
+        return replace(problem, supply=Supply(supply.voltage, current, value))
     if limit is WHEEL_SPEED:
         return replace(problem, wheel_speed_max=value)
     if limit is TIME:
@@ -129,20 +195,51 @@ def selection_problem(
     if choice is None:
         return None
     stated = specification.ocs
+    footing = footing_of(robot, resolved.envelope, stated.position)
     return SelectionProblem(
-        robot=robot.mass_properties,
+        robot=footing.carried(robot.mass_properties),
         requirement=resolved.requirement,
         envelope=resolved.envelope,
-        place=specified_place(stated.position, robot, resolved.envelope),
-        motors=choice.motors,
+        place=footing.place,
+        motors=_held(specification, choice),
         gears=choice.gears,
         materials=choice.materials,
-        bus_voltage=choice.bus_voltage,
+        supply=choice.supply,
         incidence=stated.alpha,
         wheel_speed_max=choice.wheel_speed_max,
         web=specification.flywheel.web != NO_WEB,
         cuts=specified_cuts(specification.flywheel, resolved.envelope),
+        web_material=material(WEB_MATERIAL)
+        if specification.flywheel.web == ALUMINIUM_WEB
+        else None,
+        lightening=specified_lightening(specification.flywheel),
     )
+
+
+def _held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...]:
+    """Motors to choose from: of those that nobody named, the ones that are held and hold a wheel.
+
+    All of them where none is, whose open points then say why.
+    """
+    stated = specification.motor
+    if stated.any or stated.name not in {None, AUTO} or any(gear.room for gear in choice.gears):
+        return choice.motors
+    held = (motor for motor in choice.motors if is_held(motor, None) and _holds_wheel(motor))
+    return tuple(held) or choice.motors
+
+
+def _holds_wheel(motor: Motor) -> bool:
+    """True if the joint of hub and motor carries its peak torque with what is to spare."""
+    mounting = motor.mounting or Mounting()
+    carried = hub_joint(mounting, hub_height(mounting) - 2.0 * LARGEST_CHAMFER)
+    return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
+
+
+def specified_lightening(stated: FlywheelSection) -> int:
+    """Lightening holes of a web of one piece with its rim; a shrunk one is pressed, and solid."""
+    if stated.web in {NO_WEB, ALUMINIUM_WEB}:
+        return 0
+    return LIGHTENING if stated.lightening is None else stated.lightening
 
 
 def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
@@ -183,5 +280,5 @@ def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
 
 def specified_criterion(specification: Specification) -> Criterion | None:
     """Criterion for the incidence; None: whatever makes the device lightest."""
-    stated = specification.ocs.alpha_criterion
-    return None if stated in {None, LIGHTEST} else Criterion(stated)
+    stated = specification.ocs.alpha_criterion or EQUAL_RATE
+    return None if stated == LIGHTEST else Criterion(stated)

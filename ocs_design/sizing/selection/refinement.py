@@ -8,16 +8,18 @@ it (Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-
 """
 
 from dataclasses import dataclass
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from threadpoolctl import ThreadpoolController
 
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.rim import cylinder_mass, cylinder_spin_inertia
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
 from ocs_design.sizing.lightest_module import ModuleShape
-from ocs_design.sizing.selection.candidates import Candidates
+from ocs_design.sizing.selection.candidates import Candidates, web_inertia
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia, composite_inertia
 from ocs_design.sizing.selection.demand import margins_of, shares_of
 from ocs_design.sizing.selection.fixed_point import FINE, Design, FixedPoint, fixed_point
@@ -90,18 +92,32 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
 
     stated = programme.candidates.problem.requirement.spin_inertia is not None
     equal, unequal = slice(int(stated)), slice(int(stated), None)
-    found = minimize(
-        evaluations.value,
-        np.clip(start, low, high),
-        jac=evaluations.slope,
-        method="SLSQP",
-        bounds=Bounds(low, high),
-        constraints=[constraint(unequal, np.inf), *([constraint(equal, 0.0)] if stated else [])],
-        options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
-    )
+    with _libraries().limit(limits=1, user_api="blas"):
+        found = minimize(
+            evaluations.value,
+            np.clip(start, low, high),
+            jac=evaluations.slope,
+            method="SLSQP",
+            bounds=Bounds(low, high),
+            constraints=[
+                constraint(unequal, np.inf),
+                *([constraint(equal, 0.0)] if stated else []),
+            ],
+            options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
+        )
     end = evaluations.at(np.asarray(found.x))
     missed = np.append(-end.limits, end.limits[equal])
     return Optimum(np.asarray(found.x), end.value, max(float(missed.max()), 0.0))
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    """The libraries of linear algebra that are loaded, SciPy's among them.
+
+    SLSQP multiplies by packed triangles (DTPMV), which OpenBLAS splits among its threads however
+    small they are: with another number of them it rounds otherwise, and so ends elsewhere.
+    """
+    return ThreadpoolController()
 
 
 class _Evaluation(NamedTuple):
@@ -215,7 +231,7 @@ class Programme:
         dimensions = (shapes.inner_radius, shapes.outer_radius, shapes.height)
         cut = limits.cuts.axial_inertia(shapes.inner_radius, shapes.outer_radius, 1.0)
         rim = (cylinder_spin_inertia(*dimensions, 1.0) - cut) * np.asarray(limits.density)
-        web = shapes.web_mass * shapes.inner_radius**2 / 2.0
+        web = web_inertia(limits, shapes.inner_radius)
         spin = rim + web + candidates.drives.beside_rim
         modules = candidates.modules(spin, shapes)
         return spin, composite_inertia(problem.robot, problem.place, modules)
@@ -228,7 +244,7 @@ class Programme:
         density = np.asarray(limits.density)
         cut = limits.cuts.mass(inner, outer, 1.0)
         mass = (cylinder_mass(inner, outer, height, 1.0) - cut) * density
-        web = np.pi * density * limits.web * inner**2
+        web = np.pi * density * limits.heavy_web * inner**2
         shell = self.candidates.shell.mass(outer, height)
         return ModuleShape(inner, outer, height, mass, web, shell)
 

@@ -17,10 +17,7 @@ from ocs_design.actuation.wheel_pair import (
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
-from ocs_design.parts.rim import web_axial_inertia
-from ocs_design.requirement.froude import Envelope
 from ocs_design.sizing.bound.rim_problem import (
-    BORE_SHARE,
     RimLimits,
 )
 from ocs_design.sizing.bound.rim_problem import (
@@ -36,6 +33,7 @@ from ocs_design.sizing.selection.demand import (
     pair_task,
     shares_of,
 )
+from ocs_design.sizing.selection.feasibility import largest_wheel
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Reason, Rejection
 from ocs_design.sizing.selection.search import Found
@@ -215,7 +213,8 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
         # A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia.
         kinds = np.arange(len(problem.materials))
         each = drive.repeat(kinds.size)
-        limits = rim_limits(problem, kinds, each.overspeed, each.hub_radius, each.mount_reach)
+        size = (each.hub_radius, each.mount_reach)
+        limits = rim_limits(problem, kinds, each.overspeed, *size, rim_height=each.rim_height)
         rims = np.maximum(part.needed - each.beside_rim, smallest_rim(limits) * (1.0 + 1e-9))
         if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
             return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{_too_narrow(limits)}"
@@ -250,23 +249,3 @@ def _too_narrow(limits: RimLimits) -> str:
         f": {where} it has a radius of {format_quantity(float(radius), 'mm')} at the least, r_max "
         f"is {format_quantity(most, 'mm')}"
     )
-
-
-def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
-    """Spin inertia of the largest rim of any material, whatever its hoop stress [kg m^2].
-
-    With its web, without its hub and what is cut off it. As wide and tall as may be, and as thick
-    as its mass allows; if it must be thicker, lower.
-    """
-    density = np.array([material.density for material in problem.materials])
-    outer, layer = room.outer_radius_max, np.pi * density * room.height_max
-    bore = max(room.inner_radius_min, BORE_SHARE * outer)
-    square = np.maximum(outer**2 - room.mass_max / layer, bore**2)
-    inner = np.minimum(np.sqrt(square), outer - room.wall_min)
-    mass = np.minimum(layer * (outer**2 - inner**2), room.mass_max)
-    beside = np.zeros_like(inner)
-    if problem.web:
-        cut = problem.cuts.axial_inertia(inner, np.full_like(inner, outer), 1.0)
-        beside = web_axial_inertia(inner) - density * cut
-    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + beside, 0.0)
-    return float(inertia.max(initial=0.0))

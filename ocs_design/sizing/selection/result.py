@@ -1,6 +1,6 @@
 """What a selection comes to: the lightest devices, and why the other motors fell out."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from ocs_design.actuation.drive import DriveLine
@@ -8,6 +8,7 @@ from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records import TaskDemand
+from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.rim import Hub, RimCuts, wheel_body
@@ -18,6 +19,7 @@ from ocs_design.sizing.bound.rim_problem import (
     RimProblem,
     limits_with_mount,
     limits_with_web,
+    stretch_beside_holes,
 )
 
 
@@ -44,6 +46,8 @@ class Candidate:
             larger rim would be lighter, but its housing heavier.
         residual: relative change of the spin inertia in one more iteration of the fixed point.
         iterations: taken.
+        web_material: of web and hub; None: of one piece with the rim.
+        plate: that it stands on; None: the trunk itself, or not looked for yet.
     """
 
     motor: Motor
@@ -69,25 +73,61 @@ class Candidate:
     binding: tuple[str, ...]
     residual: float
     iterations: int
+    web_material: Material | None = None
+    plate: CarrierPlate | None = None
+
+    @property
+    def web_density(self) -> float | None:
+        """Density of web and hub [kg/m^3]; None: of one piece with the rim."""
+        return None if self.web_material is None else self.web_material.density
+
+    @property
+    def hub_share(self) -> float:
+        """Part of the spin inertia that is the hub's [kg m^2]."""
+        if self.hub is None:
+            return 0.0
+        return self.hub.axial_inertia(self.web_density or self.material.density)
 
     @property
     def mass(self) -> float:
+        """Mass of both modules and of the plate under them [kg]."""
+        return self.modules_mass + self.plate_mass
+
+    @property
+    def modules_mass(self) -> float:
         """Mass of both modules: wheels, motors, gears, housings and feet [kg]."""
         return 2.0 * (self.wheel_mass + self.carrier.mass)
 
     @property
+    def plate_mass(self) -> float:
+        """Mass of the plate; 0 without one [kg]."""
+        return 0.0 if self.plate is None else self.plate.mass
+
+    @property
     def printed_mass(self) -> float:
         """Mass of one housing with its foot, what holds the motor, and all screws [kg]."""
-        return self.carrier.mass - (self.motor.mass or 0.0) - self.gear.mass
+        bought = (self.motor.mass or 0.0) + self.motor.controller_mass + self.gear.mass
+        return self.carrier.mass - bought
 
     def limits(self, room: Envelope) -> RimLimits:
         """Limits of its rim, scalars, in the room that is specified."""
         alone = RimProblem(self.spin_inertia, room, self.material, self.overspeed).limits
         mount = mount_of(self.motor, self.gear.room)
         mounted = limits_with_mount(alone, mount.holes.reach)
+        mounted = replace(mounted, height_max=min(room.height_max, mount.rim_height_max))
         if self.hub is None:
             return mounted
-        return limits_with_web(mounted, max(self.hub.radius, mount.head_reach), self.cuts)
+        reach = max(self.hub.radius, mount.head_reach)
+        return limits_with_web(
+            mounted,
+            reach,
+            self.cuts,
+            self.web_density,
+            self.hub.rim_height_min,
+            lightened=self.hub.lightened,
+            lightened_bore=self.hub.bore_min,
+            stretch_left=stretch_beside_holes(self.hub.lightened_stress, room.stress_safety),
+        )
 
     @property
     def wheel_mass(self) -> float:
@@ -98,7 +138,9 @@ class Candidate:
     def wheel(self) -> Carrier:
         """One wheel, without what turns in the motor."""
         size = (self.inner_radius, self.outer_radius, self.height)
-        return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts)
+        return wheel_body(
+            *size, self.material.density, self.hub, cuts=self.cuts, web_density=self.web_density
+        )
 
     @property
     def binding_maneuver(self) -> str:

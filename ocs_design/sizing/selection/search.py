@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.motor_mount import MotorMount, mount_of
 from ocs_design.sizing.selection.bounds import (
     CELLS,
     Guess,
@@ -45,8 +45,9 @@ _CHUNK = 1024
 _PROMISING = 0.99
 """Margin of a candidate that is not feasible where it was solved, but may be nearby."""
 
-_FALL = 0.03
-"""Share of the mass that a refinement may save at most."""
+_FALL, _FALL_STATED = 0.03, 0.003
+"""Share of the mass that a refinement may save at most, and where the incidence is stated: there it
+saved at most 1e-4 on the robots tried."""
 
 
 @dataclass(frozen=True, order=True)
@@ -70,6 +71,8 @@ class Found:
             inf: there is none.
         spin_inertia: lower bound of that of its wheels [kg m^2], as far as it was looked for.
         batches: solved candidates. places: of the lightest, lightest first.
+        below: mass of what is heavier than anybody asks for [kg].
+        ranks: whether the next lightest are looked for too.
     """
 
     problem: SelectionProblem
@@ -79,13 +82,15 @@ class Found:
     spin_inertia: FloatArray
     batches: list[Solved] = field(default_factory=list)
     places: list[Rank] = field(default_factory=list)
+    below: float = np.inf
+    ranks: bool = True
 
     @classmethod
     def nothing(cls, problem: SelectionProblem) -> "Found":
         """State before the search."""
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
-        mounts = np.array([mount_of(motor, None).moments().mass for motor in problem.motors])
+        mounts = np.array([_held_mass(mount_of(motor, None)) for motor in problem.motors])
         gears = np.array([gear.mass for gear in problem.gears])
         direct = np.array([gear.room is None for gear in problem.gears])
         drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
@@ -102,6 +107,8 @@ class Found:
     @property
     def enough(self) -> FloatArray:
         """Mass that a device of each motor must stay below to be listed [kg], shape (motors,)."""
+        if not self.ranks:
+            return np.full(len(self.problem.motors), min(self.lightest, self.below))
         best = _best_of_motors(self.places)
         # A motor is listed below the last that is, and then with what is lighter yet.
         last = best[-1].mass if len(best) >= MOTORS else np.inf
@@ -129,7 +136,8 @@ class Found:
         self._list([rank for i, batch in enumerate(self.batches) for rank in _ranks(i, batch)])
 
     def _refined(self, solved: Solved) -> Solved:
-        near = solved.mass < (1.0 + _FALL) * self.lightest
+        fall = _FALL if self.problem.incidence is None else _FALL_STATED
+        near = solved.mass < (1.0 + fall) * self.lightest
         hope = ~solved.point.feasible & (solved.point.margin > _PROMISING)
         for row in np.flatnonzero((near | hope) & (solved.guess.mass < self.lightest)):
             at = np.array([row])
@@ -162,15 +170,38 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
     return list(best.values())[:MOTORS]
 
 
+def _held_mass(mount: MotorMount) -> float:
+    """Mass of screws and cage at the least, less the holes [kg]."""
+    return mount.by_floor().mass + mount.by_wheel().mass
+
+
 def search(problem: SelectionProblem) -> Found:
     """The lightest devices, and for every motor and gear how light its lightest is at least."""
     found = Found.nothing(problem)
+    _search(found)
+    found.refine()
+    return found
+
+
+def search_lightest(problem: SelectionProblem, below: float = np.inf) -> Found:
+    """The lightest device alone, not refined: at a stated incidence to 0.1 % of its mass.
+
+    Args:
+        problem: see `SelectionProblem`.
+        below: what is no lighter need not be found [kg].
+    """
+    found = Found.nothing(problem)
+    found.below, found.ranks = below, False
+    _search(found)
+    return found
+
+
+def _search(found: Found) -> None:
+    """Look at every motor behind every gear that may be worth it."""
     for pairs in _chunks(found):
         worth = pairs[found.least[tuple(pairs.T)] < found.enough[pairs[:, 0]]]
         if worth.size:
             _examine(found, worth)
-    found.refine()
-    return found
 
 
 def _chunks(found: Found) -> Iterator[NDArray[np.intp]]:

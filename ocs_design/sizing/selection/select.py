@@ -1,22 +1,31 @@
 """The lightest device that does everything that is required, at the best or a stated incidence."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from math import pi
+
+import numpy as np
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.selection.advice import Refused
-from ocs_design.sizing.selection.bounds import cells_of
+from ocs_design.sizing.selection.bounds import Guess, cells_of
+from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.device import device_of
+from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
 from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.rejections import rejections
 from ocs_design.sizing.selection.result import Candidate, Reason, Rejection, Selection
-from ocs_design.sizing.selection.search import search
+from ocs_design.sizing.selection.search import Found, search, search_lightest
 
 _CONVERGED = 1e-10
 _ITERATIONS_MAX = 50
 _WINNERS_MAX = 8
+_ABOUT = 1e-4
+"""Relative difference of masses that an incidence which is about right may make."""
 
 
 def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
@@ -35,20 +44,60 @@ def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
         Refused: the same, not advised.
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
     """
-    problem.check()
-    found = search(problem)
-    if not found.places:
-        refused = Refused(found)
-        raise refused.advised() if advise else refused
-    ranking = tuple(map(device_of, found.devices))
+    return _solid_where_lighter(problem, select_given_webs, None, advise=advise)
+
+
+def _solid_where_lighter(
+    problem: SelectionProblem,
+    choose: Callable[..., Selection],
+    criterion: Criterion | None,
+    *,
+    advise: bool,
+) -> Selection:
+    """Selection with solid webs where lightening holes ask for more room or strength than is best.
+
+    A small wheel of a fast motor has no room for them, and may yet be the lightest.
+    """
+    if not problem.lightening:
+        return choose(problem, advise=advise)
+    solid = replace(problem, lightening=0)
+    try:
+        holed = choose(problem, advise=False)
+    except Infeasible:
+        return choose(solid, advise=advise)
+    lighter = lightest_by(solid, criterion)
+    if lighter is None or lighter.mass >= holed.best.mass:
+        return holed
+    try:
+        other = choose(solid, advise=False)
+    except Infeasible:
+        return holed
+    return min(holed, other, key=lambda selection: selection.best.mass)
+
+
+def select_given_webs(problem: SelectionProblem, *, advise: bool) -> Selection:
+    """The lightest devices, of webs as the problem has them (`select`)."""
+    found = _found(problem, search, advise=advise)
     ranked = {rank.motor for rank in found.places}
     return Selection(
-        ranking=ranking,
+        ranking=tuple(map(device_of, found.devices)),
         rejections=rejections(found, ranked),
         candidates=int(found.known.sum())
         * len(problem.materials)
         * len(cells_of(problem.incidence)),
     )
+
+
+def _found(
+    problem: SelectionProblem, look: Callable[[SelectionProblem], Found], *, advise: bool
+) -> Found:
+    """What a search finds, at least one device (`select`)."""
+    problem.check()
+    found = look(problem)
+    if not found.places:
+        refused = Refused(found)
+        raise refused.advised() if advise else refused
+    return found
 
 
 def select_by(
@@ -72,37 +121,61 @@ def select_by(
     """
     if problem.incidence is not None or criterion is None:
         return select(problem, advise=advise)
+    choose = partial(_select_by, criterion=criterion)
+    return _solid_where_lighter(problem, choose, criterion, advise=advise)
+
+
+def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
+    """The lightest device alone, not refined; None where only the whole selection can tell.
+
+    Args:
+        problem, criterion: see `select_by`.
+    """
+    problem.check()
+    if problem.incidence is not None or criterion is None:
+        found = search_lightest(problem)
+        return device_of(found.devices[0]) if found.places else None
     angle = incidence_by_criterion(problem.robot.inertia)[criterion]
-    selection = select(replace(problem, incidence=angle), advise=advise)
+    found = search_lightest(replace(problem, incidence=angle))
+    if not found.places:
+        return None
+    return at_own_incidence(problem, device_of(found.devices[0]), criterion)[1]
+
+
+def _select_by(problem: SelectionProblem, *, criterion: Criterion, advise: bool) -> Selection:
+    """The lightest devices at their own incidence, of webs as the problem has them."""
+    angle = incidence_by_criterion(problem.robot.inertia)[criterion]
+    # Only its winner is of use, and a refined one would be at the wrong incidence too.
+    found = _found(replace(problem, incidence=angle), search_lightest, advise=advise)
+    winner = device_of(found.devices[0])
     winners: list[Candidate] = []
     own: list[Candidate] = []
-    while len(winners) < _WINNERS_MAX and not any(
-        _same(selection.best, winner) for winner in winners
-    ):
-        winner = selection.best
-        angle, found = _at_own_incidence(problem, winner, criterion)
-        selection = select(replace(problem, incidence=angle), advise=advise)
-        if _same(selection.best, winner):
-            return selection
+    while not any(same_parts(winner, earlier) for earlier in winners):
+        angle, settled = at_own_incidence(problem, winner, criterion)
+        selection = select_given_webs(replace(problem, incidence=angle), advise=advise)
+        if same_parts(selection.best, winner):
+            _, exact = at_own_incidence(problem, selection.best, criterion)
+            return selection if exact is None else _with_best(problem, exact, selection)
         winners.append(winner)
-        own += [] if found is None else [found]
+        own += [] if settled is None else [settled]
+        if len(winners) == _WINNERS_MAX:
+            break
+        winner = selection.best
     if not own:
         return selection
     lightest = min(own, key=lambda candidate: candidate.mass)
-    there = select(replace(problem, incidence=lightest.incidence), advise=advise)
+    there = select_given_webs(replace(problem, incidence=lightest.incidence), advise=advise)
     return _led_by(lightest, there)
 
 
-def _at_own_incidence(
+def at_own_incidence(
     problem: SelectionProblem, winner: Candidate, criterion: Criterion
 ) -> tuple[float, Candidate | None]:
     """The incidence [rad] that the criterion sets for the device of these parts, and that device.
 
-    Where they make no device on the way there, the first incidence at which they do not, and None.
+    It keeps its radius, which hardly depends on the incidence. Where these parts make no device on
+    the way there, the first incidence at which they do not, and None.
     """
-    alone = replace(
-        problem, motors=(winner.motor,), gears=(winner.gear,), materials=(winner.material,)
-    )
     found, angle = winner, winner.incidence
     for _ in range(_ITERATIONS_MAX):
         momenta = design_momenta(problem.requirement, found.total.inertia)
@@ -110,12 +183,48 @@ def _at_own_incidence(
         change, angle = abs(following - angle), following
         if change < _CONVERGED:
             break
-        try:
-            found = select(replace(alone, incidence=min(angle, pi / 2.0)), advise=False).best
-        except Infeasible:
+        turned = device_at(problem, found, min(angle, pi / 2.0))
+        if turned is None:
             # Not of these parts, then: whether of others, the whole selection tells.
             return angle, None
+        found = turned
     return angle, found
+
+
+def device_at(problem: SelectionProblem, device: Candidate, incidence: float) -> Candidate | None:
+    """The device of the same parts and radius for another problem, at an incidence [rad].
+
+    None: there is none near it.
+    """
+    alone = replace(
+        problem,
+        motors=(device.motor,),
+        gears=(device.gear,),
+        materials=(device.material,),
+        incidence=incidence,
+    )
+    first = np.zeros(1, dtype=np.intp)
+    candidates = Candidates(alone, drives_of(alone, np.zeros((1, 2), dtype=np.intp)), first)
+    angle, nothing = np.array([incidence]), np.zeros(1)
+    design = Design(np.array([device.outer_radius]), angle, nothing)
+    point = fixed_point(candidates, nothing, design, FINE)
+    if not point.feasible[0]:
+        # The iteration runs away where a device can only just carry itself; a programme does not.
+        point = refine(candidates, point)
+    if not point.feasible[0]:
+        return None
+    return device_of(Solved(candidates, Guess(nothing, nothing, angle, nothing), point))
+
+
+def _with_best(problem: SelectionProblem, exact: Candidate, selection: Selection) -> Selection:
+    """Selection with its best at exactly its own incidence, and there what is about as light."""
+    near = exact.mass * (1.0 + _ABOUT)
+    others = (
+        device_at(problem, entry, exact.incidence) or entry if entry.mass < near else entry
+        for entry in selection.ranking[1:]
+    )
+    ranking = sorted((exact, *others), key=lambda entry: entry.mass)
+    return replace(selection, ranking=tuple(ranking))
 
 
 def _led_by(chosen: Candidate, selection: Selection) -> Selection:
@@ -126,7 +235,7 @@ def _led_by(chosen: Candidate, selection: Selection) -> Selection:
         selection: at that incidence.
     """
     heavier = [entry for entry in selection.ranking if entry.mass > chosen.mass]
-    ranking = (chosen, *(entry for entry in heavier if not _same(entry, chosen)))
+    ranking = (chosen, *(entry for entry in heavier if not same_parts(entry, chosen)))
     listed = {entry.motor.name for entry in ranking}
     lighter = {entry.motor.name: entry.mass for entry in reversed(selection.ranking)}
     fallen = [
@@ -138,5 +247,6 @@ def _led_by(chosen: Candidate, selection: Selection) -> Selection:
     return replace(selection, ranking=ranking, rejections=(*fallen, *others))
 
 
-def _same(one: Candidate, other: Candidate) -> bool:
+def same_parts(one: Candidate, other: Candidate) -> bool:
+    """Whether motor, gear and material are the same."""
     return (one.motor, one.gear, one.material) == (other.motor, other.gear, other.material)

@@ -19,7 +19,6 @@ from ocs_design.device.layout import module_axes
 from ocs_design.device.records import TaskDemand
 from ocs_design.parts.module import Printed, standing
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.rim import wheel_body
 from ocs_design.requirement.bound import AXES
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import lightest_module_at
@@ -254,24 +253,21 @@ def with_wheels(
         factors: spin inertias over the selected one, shape (n,).
         radii: outer radii likewise; the nearest possible one is taken.
     """
-    motor, gear, hub, cuts = selected.motor, selected.gear, selected.hub, selected.cuts
-    turning = selected.rotor_share + (0.0 if hub is None else hub.axial_inertia)
+    motor, gear, turning = selected.motor, selected.gear, selected.rotor_share + selected.hub_share
     limits = selected.limits(problem.envelope)
-    shell = Printed(mount_of(motor, gear.room).holes.reach)
+    mount = mount_of(motor, gear.room)
+    shell = Printed(mount.holes.reach, mount.posts)
     spin_inertias, outer_radii = factors * selected.spin_inertia, radii * selected.outer_radius
     shapes = lightest_module_at(spin_inertias - turning, outer_radii, limits, shell)
     for row in np.flatnonzero(np.isfinite(shapes.mass)):
         inner, outer = float(shapes.inner_radius[row]), float(shapes.outer_radius[row])
         height, rim_mass = float(shapes.height[row]), float(shapes.rim_mass[row])
-        wheel = wheel_body(inner, outer, height, selected.material.density, hub, cuts=cuts)
+        sized = replace(selected, inner_radius=inner, outer_radius=outer, height=height)
         yield replace(
-            selected,
+            sized,
             spin_inertia=float(spin_inertias[row]),
-            inner_radius=inner,
-            outer_radius=outer,
-            height=height,
             rim_mass=rim_mass,
-            web_mass=wheel.mass - rim_mass,
+            web_mass=sized.wheel.mass - rim_mass,
             carrier=standing(motor, gear, outer, height),
             centers=problem.place.centers(motor_size(motor, gear.room, outer, height)),
             binding=binding_limits(shapes, limits, problem.envelope, int(row)),

@@ -85,6 +85,20 @@ def bernstein_basis(s: FloatArray, degree: int = TORQUE_DEGREE) -> FloatArray:
     return np.asarray(counts * x**i * (1.0 - x) ** (degree - i))
 
 
+def bernstein_product(degree: int) -> list[list[tuple[int, float]]]:
+    """Shares of a_i b_(k-i) in each Bernstein coefficient k of a product a b, as pairs (i, share).
+
+    `C(n, i) C(n, k - i) / C(2 n, k)` for two factors of degree n (Farouki 2012, section 3).
+    """
+    return [
+        [
+            (i, comb(degree, i) * comb(degree, k - i) / comb(2 * degree, k))
+            for i in range(max(0, k - degree), min(k, degree) + 1)
+        ]
+        for k in range(2 * degree + 1)
+    ]
+
+
 def _from_monomials(degree: int) -> FloatArray:
     """Matrix from coefficients of 1, s, s^2, ... to Bernstein coefficients."""
     rows = range(degree + 1)

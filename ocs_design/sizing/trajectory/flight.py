@@ -39,6 +39,8 @@ class Trajectory:
             both sides.
         turned: angle that the trunk has turned about the maneuver's axis [rad], shape (m,).
         note: what a reader should know of it; empty if nothing.
+        step_torque: of the motors at start and end of each step, shape (m - 1, 2, n) [N m]; None:
+            `wheel_torque` nowhere jumps.
     """
 
     time: FloatArray
@@ -49,6 +51,7 @@ class Trajectory:
     wheel_torque: FloatArray
     turned: FloatArray
     note: str
+    step_torque: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -134,6 +137,7 @@ def fly(
         wheel_torque=torque,
         turned=flown[:, -1],
         note="",
+        step_torque=np.stack([first, last], axis=1),
     )
     claimed = motion.state_at(trajectory.time)
     momentum = np.append(0.0, mass_matrix[:3] @ np.append(rate, speed))
@@ -146,7 +150,11 @@ def fly(
     return Flight(
         trajectory,
         FineGrid(
-            violation=limit_violation(trajectory.wheel_speed, torque, line),
+            # Before and after each jump: both torques may be allowed, and their mean not.
+            violation=max(
+                limit_violation(trajectory.wheel_speed[:-1], first, line),
+                limit_violation(trajectory.wheel_speed[1:], last, line),
+            ),
             end_tilt=_missed(asked, flown[-1, :4]),
             end_rate=float(np.linalg.norm(trajectory.rate[-1][gyrostat.reach])),
             defect=difference / largest if largest > 0.0 else 0.0,
@@ -155,14 +163,16 @@ def fly(
 
 
 def limit_violation(speed: FloatArray, torque: FloatArray, line: DriveLine) -> float:
-    """Largest overstepping of current limit, voltage line and speed, relative; 0 if none."""
+    """Largest overstepping of current, voltage line, speed and power, relative; 0 if none."""
     slope = line.no_load_speed / line.stall_torque
+    power = np.sum(torque * (slope * torque + speed), axis=-1)
     return float(
         np.max(
             [
                 np.abs(torque).max() / line.torque_limit - 1.0,
                 np.abs(speed + slope * torque).max() / line.no_load_speed - 1.0,
                 np.abs(speed).max() / line.speed_max - 1.0,
+                np.abs(power).max() / (torque.shape[-1] * line.power_max) - 1.0,
                 0.0,
             ]
         )

@@ -1,4 +1,4 @@
-"""The turns that flights track: of least effort, planned for the device at hand."""
+"""The turns that flights track: of least peak power, planned for the device at hand."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ocs_design.actuation.drive import RESERVE, DriveLine
+from ocs_design.actuation.drive import RESERVE, DriveLine, power_less_friction
 from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.maneuver import Maneuver, Unforeseen
 from ocs_design.robot.mass import MassProperties
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 INTERVALS = 24
 
 PLANNED = (1.0 + RESERVE) / 2.0
-"""Share of voltage and current that a plan may use. A device is sized so that its hardest maneuver
-just takes `RESERVE` of them: half of the rest lets a plan be smoother than that, the other half is
-left to the feedback."""
+"""Share of voltage, current, speed limit and power that a plan may use. A device is sized so that
+its hardest maneuver just takes `RESERVE` of them: half of the rest lets a plan be smoother than
+that, the other half is left to the feedback."""
 
 _UNFORESEEN = "a push is not known beforehand: no trajectory is planned, feedback holds the trunk"
 
 
 @dataclass(frozen=True, eq=False)
 class Planned:
-    """A maneuver of least effort.
+    """A maneuver of least peak power.
 
     Attributes:
         solution: of the program. fine: its errors on a finer grid.
@@ -68,7 +68,7 @@ class Reference:
 def plan(
     robot: MassProperties, device: "Device", maneuvers: Sequence[Maneuver], standing_height: float
 ) -> Mapping[str, Reference]:
-    """The turn of least effort for each maneuver by its name; none is planned for a push.
+    """The turn of least peak power for each maneuver by its name; none is planned for a push.
 
     Args:
         robot: without the device, in B.
@@ -88,7 +88,7 @@ def plan(
 def reference(
     gyrostat: Gyrostat, line: DriveLine, maneuver: Maneuver, standing_height: float
 ) -> Reference:
-    """Least effort within `PLANNED` of voltage and current, else with all of both.
+    """Least peak power within `PLANNED` of voltage, current and power, else with all of them.
 
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
@@ -99,18 +99,18 @@ def reference(
     if isinstance(maneuver, Unforeseen):
         return Reference(None, _UNFORESEEN, None)
     turn = Turn(boundary(maneuver, standing_height), gyrostat)
-    planned = least_effort(turn, line.reserved(PLANNED))
+    planned = gentlest(turn, line.reserved(PLANNED))
     if not planned.failure:
         return Reference(planned.trajectory, "", planned)
-    planned = least_effort(turn, line)
+    planned = gentlest(turn, line)
     if planned.failure:
         return Reference(None, f"no optimal turn was found ({planned.failure})", planned)
-    note = f"the turn takes more than {PLANNED:.1%} of the motors' voltage or current"
+    note = f"the turn takes more than {PLANNED:.1%} of voltage, current or power"
     return Reference(replace(planned.trajectory, note=note), note, planned)
 
 
-def least_effort(turn: Turn, line: DriveLine, intervals: int = INTERVALS) -> Planned:
-    """The turn of least integral of squared torques, flown again on a finer grid.
+def gentlest(turn: Turn, line: DriveLine, intervals: int = INTERVALS) -> Planned:
+    """The turn of least peak power, or of least effort where none is limited, flown once more.
 
     Where the wheels do not reach an axis, nothing is asked about it at the end.
     """
@@ -128,16 +128,24 @@ def gyrostat_of(robot: MassProperties, device: "Device") -> Gyrostat:
         wheel.transverse_inertia,
     )
     centers = np.stack([module.position for module in device.modules])
-    whole = braked(robot, (rim, device.carrier), centers, device.incidence)
+    whole = braked(device.plated(robot), (rim, device.carrier), centers, device.incidence)
     return Gyrostat(whole.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
 
 
 def drive_line_of(device: "Device") -> DriveLine:
     """What each drive does at its wheel, nothing held back."""
-    motor = device.motor
+    motor, supply, wheels = device.motor, device.supply, len(device.modules)
+    power, k_t = inf, motor.torque_constant
+    if supply is not None:
+        limit = motor.torque_limit
+        gain = motor.gear_ratio * motor.gear_efficiency * (k_t or 0.0)
+        peak = limit / gain if limit is not None and gain > 0.0 else inf
+        left = power_less_friction(supply, wheels, motor, peak)
+        power = motor.gear_efficiency * left / wheels
     return DriveLine(
         stall_torque=inf if motor.stall_torque is None else motor.stall_torque,
         no_load_speed=motor.no_load_speed,
         torque_limit=inf if motor.torque_limit is None else motor.torque_limit,
         speed_max=inf if motor.speed_max is None else motor.speed_max,
+        power_max=power,
     )

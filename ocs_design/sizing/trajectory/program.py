@@ -22,7 +22,12 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.sizing.trajectory.boundary import Boundary
-from ocs_design.sizing.trajectory.collocation import DEGREE, TORQUE_DEGREE, collocation
+from ocs_design.sizing.trajectory.collocation import (
+    DEGREE,
+    TORQUE_DEGREE,
+    bernstein_product,
+    collocation,
+)
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import FixedAxisTurn, Motion
 
@@ -54,6 +59,11 @@ EFFORT_WEIGHT = 1e-4
 Of all ways through a maneuver that does not decide, it makes the gentlest the only one; without it
 IPOPT wanders among them. It costs less of the objective than the collocation's own error.
 """
+
+POWER_EFFORT = 0.2
+"""Weight of the mean squared torque beside the peak power, each over its limit.
+
+The power alone would have the torque at its limit wherever the wheels are slow."""
 
 _PUSH_STEPS = 8
 
@@ -145,7 +155,9 @@ def solve(
     passes: Sequence[int],
     dimensions: Dimensions | None = None,
 ) -> Solution:
-    """Least effort, or the best dimensions with which every turn can be done.
+    """Least peak power, or the best dimensions with which every turn can be done.
+
+    Where no power is limited, it is the least effort.
 
     Where a finer pass fails the one before it counts.
 
@@ -189,16 +201,22 @@ def _solve(
     found = []
     for turn, guess in zip(turns, guesses, strict=True):
         plant = Plant.of(turn.gyrostat) if turn.plant is None else turn.plant(free)
-        *variables, effort = _transcribe(program, turn, plant, line, guess)
+        *variables, effort, peak = _transcribe(program, turn, plant, line, guess)
+        # Without a supply that limits it nothing is known of the power, and effort alone counts.
         objective += weight * effort
+        if dimensions is None and peak is not None:
+            objective += peak / POWER_EFFORT
         found.append(variables)
     program.minimize(objective)
-    options = {
+    options: dict[str, Any] = {
         "ipopt.max_iter": ITERATIONS_MAX,
         "detect_simple_bounds": True,
         # One flat graph is quicker; splines of the dimensions have none.
         "expand": dimensions is None,
     }
+    if dimensions is None and isfinite(float(line.power_max)):
+        # A peak is flat at many instants at once: half the time where the barrier falls steadily.
+        options["ipopt.mu_strategy"] = "monotone"
     program.solver("ipopt", IPOPT_OPTIONS | options)
     try:
         program.solve()
@@ -223,12 +241,12 @@ def _solve(
 
 def _transcribe(
     program: ca.Opti, turn: Turn, plant: Plant, line: DriveLine, guess: Motion
-) -> tuple[ca.MX, ca.MX, ca.MX]:
+) -> tuple[ca.MX, ca.MX, ca.MX, ca.MX | None]:
     """One turn by direct collocation on the intervals of a guess.
 
     Returns:
-        States and torques as in `Motion`, and the mean over the time of all squared torques over
-        the square of the largest.
+        States and torques as in `Motion`, the mean over the time of all squared torques over the
+        square of the largest, and the peak power over the largest; None: it is not limited.
     """
     asked, outline, wheels = turn.asked, turn.outline, len(guess.torques)
     count, shares = len(guess.lengths), guess.lengths / guess.lengths.sum()
@@ -247,7 +265,9 @@ def _transcribe(
 
     attitude, figures = _start(asked, wheels)(*plant)
     speed = np.broadcast_to(np.asarray(asked.wheel_speed) / speed_unit, (wheels,))
-    mapped = _interval(wheels, outline.axis).map(count)(
+    slope = 1.0 / float(line.stall_torque)
+    copper = slope * float(line.no_load_speed)
+    mapped = _interval(wheels, outline.axis, copper).map(count)(
         states=ca.DM(scale)
         * ca.horzcat(*(states[:, k * DEGREE : (k + 1) * DEGREE + 1] for k in range(count))),
         torques=torques * torque_unit,
@@ -268,7 +288,7 @@ def _transcribe(
 
     # On Bernstein coefficients, so that limits hold between the nodes too.
     speeds, elevated = ca.vec(mapped["speeds"]) / speed_unit, ca.vec(mapped["elevated"])
-    slope, highest = 1.0 / float(line.stall_torque), float(line.speed_max) / speed_unit
+    highest = float(line.speed_max) / speed_unit
     if isfinite(float(line.torque_limit)):
         largest = float(line.torque_limit) / torque_unit
         program.subject_to(program.bounded(-largest, ca.vec(torques), largest))
@@ -277,10 +297,28 @@ def _transcribe(
     if slope == 0.0 or highest < 1.0:
         program.subject_to(program.bounded(-min(highest, 1.0), speeds, min(highest, 1.0)))
     effort = ca.sum(mapped["effort"]) / (torque_unit**2 * asked.duration)
-    return ca.DM(scale) * states, torques * torque_unit, effort
+    return (
+        ca.DM(scale) * states,
+        torques * torque_unit,
+        effort,
+        _peak(program, mapped, line, wheels),
+    )
 
 
-def _interval(wheels: int, axis: FloatArray) -> ca.Function:
+def _peak(program: ca.Opti, mapped: dict[str, ca.MX], line: DriveLine, wheels: int) -> ca.MX | None:
+    """Largest power of all wheels either way over the most that there is; None: not limited."""
+    largest = wheels * float(line.power_max)
+    if not isfinite(largest):
+        return None
+    peak, power = program.variable(), ca.vec(mapped["power"]) / largest
+    program.set_initial(peak, 1.0)
+    program.subject_to(program.bounded(0.0, peak, 1.0))
+    program.subject_to(power - peak <= 0.0)
+    program.subject_to(power + peak >= 0.0)
+    return peak
+
+
+def _interval(wheels: int, axis: FloatArray, copper: float) -> ca.Function:
     """One interval of the collocation, to be mapped over all of them; d = `DEGREE`.
 
     Inputs: `states` at its nodes (4 + n, d + 1), Bernstein coefficients of the `torques` (n, 3),
@@ -288,7 +326,9 @@ def _interval(wheels: int, axis: FloatArray) -> ca.Function:
     motion at the Radau points times the length, of the attitude (4, d) and of the wheels' (n, d)
     [N m s]; Bernstein coefficients of the wheels' `speeds` (n, d + 1) and of the torques in the
     same degree; the trunk's `rates` at its end (3, 1); `effort`, the integral of all squared
-    torques; `swept`, the angle about `axis` [rad].
+    torques; `swept`, the angle about `axis` [rad]; Bernstein coefficients of the `power`
+    of all motors (1, 2 d + 1), with `copper`, the heat over a squared torque [W/(N m)^2], times the
+    gear's efficiency [W].
     """
     table = collocation()
     states = ca.SX.sym("states", 4 + wheels, DEGREE + 1)
@@ -300,6 +340,12 @@ def _interval(wheels: int, axis: FloatArray) -> ca.Function:
     mass = driven * ca.SX.eye(wheels) - mobility @ held
     slopes, values = states @ table.derivative.T, torques @ table.torque.T
     turning, driving, rates = [], [], []
+    speeds, elevated = states[4:, :] @ table.bernstein.T, torques @ table.elevation.T
+    given = copper * elevated + speeds
+    power = [
+        sum(share * ca.dot(elevated[:, i], given[:, k - i]) for i, share in row)
+        for k, row in enumerate(bernstein_product(DEGREE))
+    ]
     for j in range(DEGREE):
         attitude, speed = states[:4, j + 1], states[4:, j + 1]
         seen = _turned(_back(attitude), momentum)
@@ -315,14 +361,15 @@ def _interval(wheels: int, axis: FloatArray) -> ca.Function:
         [
             ca.horzcat(*turning),
             ca.horzcat(*driving),
-            states[4:, :] @ table.bernstein.T,
-            torques @ table.elevation.T,
+            speeds,
+            elevated,
             rates[-1],
             ca.trace(torques @ table.square @ torques.T) * length,
             ca.DM(axis).T @ ca.horzcat(*rates) @ table.weights * length,
+            ca.horzcat(*power),
         ],
         ["states", "torques", "length", "figures"],
-        ["turning", "driving", "speeds", "elevated", "rates", "effort", "swept"],
+        ["turning", "driving", "speeds", "elevated", "rates", "effort", "swept", "power"],
     )
 
 

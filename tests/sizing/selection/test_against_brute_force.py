@@ -19,7 +19,7 @@ from selections import lopsided, random_problem
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.selection.select import select, select_given_webs
 
 FAST = (2, 12)
 SLOW = (1, 3, 6, 4, 5, 7, 8, 10, 11, 14)
@@ -30,9 +30,10 @@ LOPSIDED = (3, 9, 12, 16, 20)
 
 
 def selected(problem):
-    """The lightest device; None if there is none."""
+    """The lightest device of the webs that were drawn; None if there is none."""
+    choose = select_given_webs if problem.lightening else select
     try:
-        return select(problem, advise=False).best
+        return choose(problem, advise=False).best
     except Infeasible:
         return None
 
@@ -92,6 +93,11 @@ def check_neighbours(problem, chosen):
 @pytest.mark.parametrize("seed", FAST)
 def test_nothing_lighter_is_on_a_grid(seed):
     check_nothing_lighter(draw(seed).problem)
+
+
+@pytest.mark.parametrize("seed", [12, pytest.param(10, marks=pytest.mark.exhaustive)])
+def test_nothing_lighter_has_lightening_holes(seed):
+    check_nothing_lighter(replace(draw(seed).problem, lightening=6))
 
 
 @pytest.mark.parametrize(

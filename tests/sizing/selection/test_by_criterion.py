@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive
-from naive_inertia import inertia_on
+from naive_device import Drive, chord_of
+from naive_inertia import coupling_on, inertia_on
 from naive_wheel import Rims
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
@@ -36,37 +36,46 @@ def found(problem):
 
 
 def worked_out(problem, device):
-    """Inertia about roll and pitch with the device on, by hand."""
+    """Inertia about roll and pitch with the device on, and what couples them, by hand."""
     drive = Drive(problem, device.motor, device.gear)
     sizes = (device.outer_radius, device.inner_radius, device.height)
     rims = Rims(*(np.array([size]) for size in sizes), device.material.density, device.cuts.chamfer)
-    return inertia_on(problem, drive, rims, np.array([device.incidence]))[:, 0]
+    on = problem, drive, rims, np.array([device.incidence])
+    return inertia_on(*on)[:, 0], coupling_on(*on)[0]
 
 
-def largest_momenta(problem, inertia):
-    """On roll and on pitch, by the formulas of each kind of maneuver."""
-    both = TiltInertia.uncoupled(inertia)
+def largest_momenta(problem, inertia, coupling):
+    """On roll and on pitch, by the formulas of each kind of maneuver.
+
+    A turn after which the trunk would be off level by more than a degree counts the coupling.
+    """
     found = [np.zeros(2)]
-    found.extend(
-        maneuver.momentum(both, problem.requirement.standing_height)
-        for maneuver in problem.requirement.maneuvers
-        if maneuver.incidence is None
-    )
+    for maneuver in problem.requirement.maneuvers:
+        strays = np.abs(coupling) / inertia * chord_of(maneuver) > np.radians(1.0)
+        tilt = TiltInertia(inertia, np.asarray(coupling if strays.any() else 0.0))
+        if maneuver.incidence is None:
+            found.append(maneuver.momentum(tilt, problem.requirement.standing_height))
     found.append(inertia * (problem.requirement.rate_change or 0.0))
     return np.max(found, axis=0)
 
 
 def test_equal_rate_is_that_of_robot_and_device(problem, found):
-    """tan(alpha) = I_roll / I_pitch: the same momentum per inertia on both axes."""
+    """The busier wheel takes as much for a change of roll as for the same change of pitch.
+
+    That of roll takes I_roll about roll and the coupling about pitch: I_roll / sin + |J| / cos,
+    and the other way round.
+    """
     device = found[EQUAL_RATE]
-    roll, pitch = worked_out(problem, device)
-    assert device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
+    (roll, pitch), coupling = worked_out(problem, device)
+    sine, cosine, both = np.sin(device.incidence), np.cos(device.incidence), np.abs(coupling)
+    assert both > 1e-4 * roll
+    assert roll / sine + both / cosine == pytest.approx(both / sine + pitch / cosine, rel=1e-8)
 
 
 def test_simultaneous_is_that_of_robot_and_device(problem, found):
     """tan(alpha) = (h_roll / h_pitch)^(1/3)."""
     device = found[SIMULTANEOUS]
-    roll, pitch = largest_momenta(problem, worked_out(problem, device))
+    roll, pitch = largest_momenta(problem, *worked_out(problem, device))
     assert device.incidence == pytest.approx(np.arctan(np.cbrt(roll / pitch)), abs=1e-8)
 
 
@@ -119,13 +128,15 @@ def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(prob
         return replace(lightest, ranking=tuple(found), rejections=())
 
     def settled(problem, winner, criterion):
-        """As the criterion would have it."""
+        """As the criterion would have it; what wins first, neither of both, leads to a's."""
+        if winner.motor.name not in angles:
+            return angles["a"], None
         angle = angles[winner.motor.name]
         return angle, device(winner.motor.name, angle)
 
     lightest = select(replace(problem, incidence=0.5))
     monkeypatch.setattr(selecting, "select", choose)
-    monkeypatch.setattr(selecting, "_at_own_incidence", settled)
+    monkeypatch.setattr(selecting, "at_own_incidence", settled)
     found = select_by(problem, EQUAL_RATE)
     assert (found.best.motor.name, found.best.incidence) == ("a", 0.4)
     assert found.best.mass == pytest.approx(0.10)

@@ -10,7 +10,7 @@ from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.trajectory.plans import plan
 
-POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 11)
+POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 16)
 
 
 @pytest.mark.parametrize("seed", every(10, POSSIBLE))
@@ -18,7 +18,7 @@ def test_a_chosen_device_passes_with_its_motors_limits(seed):
     drawn = draw(seed)
     problem, requirement = drawn.problem, drawn.problem.requirement
     chosen = select(problem, advise=False).best
-    device = assemble_selected(chosen, problem.bus_voltage)
+    device = assemble_selected(chosen, problem.supply)
     plans = plan(
         drawn.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height
     )

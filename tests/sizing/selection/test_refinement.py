@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drawn_selections import draw
+from threadpoolctl import threadpool_limits
 
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
@@ -55,6 +56,21 @@ def test_the_start_does_not_matter(seed, factors, turn):
     assert mass == pytest.approx(chosen.mass, rel=1e-9)
     assert found.margin[0] >= 1.0 - 1e-9
     assert found.residual[0] < 1e-9
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_the_number_of_threads_does_not_matter(seed):
+    """To the last digit, though libraries round otherwise on another number of them."""
+    problem = draw(seed).problem
+    chosen = select(problem, advise=False).best
+    candidates = candidates_of(problem, chosen)
+    turn = 0.01 if problem.incidence is None else 0.0
+    found = []
+    for threads in (1, 2, 4):
+        with threadpool_limits(limits=threads, user_api="blas"):
+            found.append(refine(candidates, beside(chosen, (0.97, 0.98, 0.95), turn)).shapes)
+    for name in ("inner_radius", "outer_radius", "height"):
+        assert len({getattr(shapes, name).item() for shapes in found}) == 1, name
 
 
 def test_what_cannot_be_is_not_possible():

@@ -9,7 +9,7 @@ from rims import STEEL, UNLIMITED, room
 from selections import ALUMINIUM, random_problem
 
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
-from ocs_design.sizing.selection.rejections import largest_wheel
+from ocs_design.sizing.selection.feasibility import largest_wheel
 
 RADIUS, HEIGHT = 0.05, 0.015
 STEPS = 20_000
@@ -27,7 +27,7 @@ def largest_of_all(limits, web):
         tall = Rims(*full, np.full_like(bores, limits.height_max), material.density)
         lower = np.minimum(1.0, limits.mass_max / tall.body[0])
         rims = Rims(*full, lower * limits.height_max, material.density)
-        inertia = rims.body[1] + (rims.web[1] if web else 0.0)
+        inertia = rims.body[1] + (rims.web(material.density)[1] if web else 0.0)
         largest = max(largest, float(inertia.max()))
     return largest
 

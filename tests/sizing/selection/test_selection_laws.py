@@ -9,6 +9,7 @@ import pytest
 from drawn_selections import draw
 from naive_wheel import wheel_of
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.selection.select import select
@@ -142,7 +143,8 @@ def test_more_voltage_is_no_heavier_where_no_speed_is_limited(problem):
         wheel_speed_max=None,
         materials=[replace(kind, yield_strength=None) for kind in problem.materials],
     )
-    higher = [replace(free, bus_voltage=free.bus_voltage * times) for times in (1.2, 2.0)]
+    volts = free.supply.voltage
+    higher = [replace(free, supply=Supply(volts * times)) for times in (1.2, 2.0)]
     assert no_heavier(free, *higher)
 
 

@@ -55,20 +55,22 @@ def answer(request):
 def lightest_mass(problem, device, room, stress):
     """Of one rim with its housing, over outer and inner radius in parts of the design's."""
     drive, chamfer = Drive(problem, device.motor, device.gear), chamfer_of(problem)
-    inertia = device.spin_inertia - drive.rotor_momentum - drive.hub[1]
     density, nu = device.material.density, device.material.poisson_ratio
+    of_web = drive.web_density(density)
+    disc = (of_web, drive.web, drive.in_web) if drive.webbed else ()
+    inertia = device.spin_inertia - drive.rotor_momentum - of_web * drive.hub[1]
     radius = device.outer_radius
 
     def rims(x):
         outer, inner = radius * x
-        web = Rims(outer, inner, 0.0, density).web[1] if drive.webbed else 0.0
+        web = Rims(outer, inner, 0.0, density).web(*disc)[1] if drive.webbed else 0.0
         edges = Rims(outer, inner, 0.0, density, chamfer).body[1]
         height = 2.0 * (inertia - web - edges) / (np.pi * density * (outer**4 - inner**4))
         return Rims(outer, inner, height, density, chamfer)
 
     def mass(x):
         rim = rims(x)
-        web = rim.web + drive.hub if drive.webbed else np.zeros(3)
+        web = rim.web(*disc) + of_web * drive.hub if drive.webbed else np.zeros(3)
         one = Rims(*np.array([[rim.outer], [rim.inner], [rim.height]]), density, chamfer)
         return rim.body[0] + web[0] + drive.standing(one)[0, 0]
 

@@ -7,7 +7,7 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.parts.rim import NO_CUTS, RimCuts
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.reading import parse_specification
-from ocs_design.sizing.selection.problem import specified_cuts
+from ocs_design.sizing.selection.problem import specified_cuts, specified_lightening
 
 ROOM = Envelope(
     outer_radius_max=0.05, inner_radius_min=0.01, height_max=0.01, height_min=0.002,
@@ -31,6 +31,15 @@ def test_massless_spokes_carry_the_papers_sharp_rim():
 def test_holes_are_those_stated():
     text = 'chamfer = "0.3 mm"\nbalancing_holes = 12\nbalancing_hole_diameter = "2 mm"'
     assert cuts_of(text) == RimCuts(0.3e-3, 12, 1.0e-3, 1.0e-3)
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [("", 6), ("lightening = 0", 0), ("lightening = 7", 7), ('web = "aluminium"', 0)],
+)
+def test_webs_of_one_piece_are_lightened_unless_it_is_stated(text, count):
+    stated = parse_specification(f"[flywheel]\n{text}", "x").flywheel
+    assert specified_lightening(stated) == count
 
 
 def refusal(text):
@@ -59,6 +68,9 @@ def test_holes_without_room_are_refused(text, words):
         ("balancing_holes = 2", "2 is not 3 to 100, or 0"),
         ('web = "none"\nchamfer = "0.1 mm"', "says nothing where flywheel.web is 'none'"),
         ('chamfer = "2 mm"', "above 0.5 mm"),
+        ("lightening = 3", "3 is none of 0, 5, 6, 7, 8"),
+        ('lightening = 6\nweb = "aluminium"', "shrunk on has no holes"),
+        ('lightening = 6\nweb = "none"', "says nothing where flywheel.web is 'none'"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(text, words):

@@ -9,6 +9,7 @@ from scipy.integrate import quad
 from ocs_design.sizing.trajectory.collocation import (
     DEGREE,
     bernstein_basis,
+    bernstein_product,
     collocation,
     radau_points,
 )
@@ -93,3 +94,15 @@ def test_intervals_get_short_where_torques_switch():
     assert lengths[np.argmin(np.abs(middles - 1.25))] < 0.3 * lengths.mean()
     # Where nothing changes the evenly spread share is all that there is.
     assert lengths.max() < 2.0 / 20 / 0.39
+
+
+@given(*2 * [arrays(float, DEGREE + 1, elements=st.floats(-10.0, 10.0))])
+def test_a_product_in_bernstein_form_is_the_product(one, other):
+    coefficients = [
+        sum(share * one[i] * other[k - i] for i, share in row)
+        for k, row in enumerate(bernstein_product(DEGREE))
+    ]
+    basis = bernstein_basis(S, DEGREE)
+    np.testing.assert_allclose(
+        bernstein_basis(S, 2 * DEGREE) @ coefficients, basis @ one * (basis @ other), atol=1e-10
+    )

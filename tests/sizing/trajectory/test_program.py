@@ -1,5 +1,7 @@
 """Maneuvers in 3-D: laws of motion, limits, and integrators that know nothing of collocation."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -22,8 +24,9 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.maneuver import Disturbance, Flip
 from ocs_design.sizing.trajectory.boundary import Boundary, vertical_of
 from ocs_design.sizing.trajectory.collocation import collocation
+from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.plans import least_effort
+from ocs_design.sizing.trajectory.plans import gentlest
 from ocs_design.sizing.trajectory.program import Turn, after_push
 
 FORTY = np.radians(40.0)
@@ -53,7 +56,7 @@ def solved(request):
 
 
 def _planned(gyrostat, maneuver, line=EC_45_FLAT, **options):
-    return least_effort(Turn(asked(maneuver), gyrostat), line, **options)
+    return gentlest(Turn(asked(maneuver), gyrostat), line, **options)
 
 
 def _momentum(gyrostat, path):
@@ -263,7 +266,7 @@ def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
         rate=np.array([0.3, -0.4, 0.2]),
         wheel_speed=np.array([50.0, -80.0, 20.0]),
     )
-    found = least_effort(Turn(start, gyrostat), EC_45_FLAT)
+    found = gentlest(Turn(start, gyrostat), EC_45_FLAT)
     assert not found.failure
     assert found.fine.end_tilt < 1e-5
     path = found.trajectory
@@ -272,3 +275,33 @@ def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
     np.testing.assert_allclose(path.rate[-1], 0.0, rtol=0, atol=1e-5)
     length = np.linalg.norm(_momentum(gyrostat, path), axis=1)
     np.testing.assert_allclose(length, length[0], rtol=1e-7)
+
+
+def _power(path, line=EC_45_FLAT):
+    """Of both motors at every sample, R i^2 = w_0 / tau_s tau^2 [W]."""
+    torque, slope = path.wheel_torque, line.no_load_speed / line.stall_torque
+    return (torque * (slope * torque + path.wheel_speed)).sum(axis=1)
+
+
+@pytest.mark.parametrize("name", ["pitch", "pitch and roll", "half a flip"])
+def test_the_peak_power_is_less_than_that_of_least_effort_both_ways(name):
+    gyrostat, maneuver = CASES[name]
+    before = np.abs(_power(_planned(gyrostat, maneuver).trajectory)).max()
+    found = _planned(gyrostat, maneuver, replace(EC_45_FLAT, power_max=before))
+    assert found.failure == ""
+    assert np.abs(_power(found.trajectory)).max() < 0.95 * before
+
+
+def test_power_is_a_limit_at_every_sample():
+    gyrostat, maneuver = CASES["pitch"]
+    before = np.abs(_power(_planned(gyrostat, maneuver).trajectory)).max()
+    tight = replace(EC_45_FLAT, power_max=0.45 * before)
+    path = _planned(gyrostat, maneuver, tight).trajectory
+    assert np.abs(_power(path)).max() <= 0.9 * before * (1.0 + 1e-5)
+    assert limit_violation(path.wheel_speed, path.wheel_torque, tight) < 1e-5
+    assert limit_violation(path.wheel_speed, path.wheel_torque, replace(tight, power_max=1.0)) > 1.0
+
+
+def test_too_little_power_leaves_no_turn():
+    gyrostat, maneuver = CASES["pitch"]
+    assert _planned(gyrostat, maneuver, replace(EC_45_FLAT, power_max=10.0)).failure

@@ -1,0 +1,29 @@
+"""What feeds the motors: one supply for all of them."""
+
+from dataclasses import dataclass, replace
+from math import inf
+
+
+@dataclass(frozen=True)
+class Supply:
+    """A battery or a power supply, which gives and takes back no more than this.
+
+    Attributes:
+        voltage: [V].
+        current_max: drawn or fed back, of all motors together [A]; inf: not limited.
+        power_max: drawn or fed back, of all motors together [W]; inf: not limited.
+    """
+
+    voltage: float
+    current_max: float = inf
+    power_max: float = inf
+
+    @property
+    def power(self) -> float:
+        """The power that both limits leave [W]."""
+        return min(self.power_max, self.voltage * self.current_max)
+
+    @property
+    def told(self) -> "Supply":
+        """The same supply with both limits as figures, for records that have no infinity."""
+        return replace(self, current_max=self.power / self.voltage, power_max=self.power)

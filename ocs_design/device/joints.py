@@ -1,0 +1,288 @@
+"""Joints of a designed device, and how its wheels are balanced."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import inf
+
+from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.catalogue.materials import Material, materials
+from ocs_design.common.units import format_quantity
+from ocs_design.device.device import Device, Flywheel
+from ocs_design.parts.joints import (
+    COLDEST,
+    FRICTION,
+    GRADE,
+    OVERSPEED,
+    SERVICE,
+    WARMEST,
+    Correction,
+    Joint,
+    Ring,
+    ShrinkFit,
+    TurningRings,
+    correction,
+    holed_peaks,
+    hub_joint,
+    preload,
+    shear_torque,
+    shrink_fit,
+    slip_fit_eccentricity,
+    tightening_torque,
+)
+from ocs_design.parts.rim import LIGAMENT
+
+RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
+
+RUN_OUT = 0.01e-3
+"""Distance of a turned wheel's middle from that of its bore, half of the run-out on its drawing
+[m]."""
+
+
+def top_speed(device: Device) -> float:
+    """Highest speed that the drive can bring a wheel to, nothing held back [rad/s]."""
+    return min(device.motor.no_load_speed, device.motor.speed_max or inf)
+
+
+def joints_of(device: Device) -> tuple[Joint, ...]:
+    """Joints of one module's wheel, those of the rim first; none with massless spokes.
+
+    Where no capacity is known, the joint keeps the device from being built.
+    """
+    if device.flywheel.web is None:
+        return ()
+    return (*_rim_joints(device), *_shaft_joints(device))
+
+
+def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:
+    """Hub, web and rim as rings; None where a figure of their materials is not known."""
+    web = wheel.web
+    if web is None:
+        return None
+    known = materials()
+    inside, around = _elastic(known.get(web.material)), _elastic(known.get(wheel.material))
+    if inside is None or around is None:
+        return None
+    hub = web.hub
+    return (
+        Ring(hub.bore_radius, hub.radius, hub.height, web.density, *inside),
+        Ring(hub.radius, wheel.inner_radius, web.thickness, web.density, *inside),
+        Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *around),
+    )
+
+
+def _elastic(material: Material | None) -> tuple[float, float] | None:
+    """Elastic modulus [Pa] and Poisson's ratio."""
+    if material is None or material.elastic_modulus is None or material.poisson_ratio is None:
+        return None
+    return material.elastic_modulus, material.poisson_ratio
+
+
+def _rim_joints(device: Device) -> Iterator[Joint]:
+    wheel = device.flywheel
+    rings, speed = wheel_rings(wheel), OVERSPEED * top_speed(device)
+    if wheel.web is None:
+        return
+    if rings is None:
+        yield Joint(
+            RIM_JOINT, 0.0, None, "Pa", f"elastic figures of {wheel.material} are not known"
+        )
+    elif wheel.web.material == wheel.material:
+        yield _one_piece(wheel, rings, speed)
+    else:
+        fit = rim_fit(device)
+        if fit is None:
+            yield Joint(RIM_JOINT, 0.0, None, "Pa", "thermal expansions are not known")
+        else:
+            yield from _shrunk(wheel, fit)
+
+
+def _one_piece(wheel: Flywheel, rings: tuple[Ring, ...], speed: float) -> Joint:
+    """Largest stress of a wheel of one piece, hub, web and rim."""
+    turning, names = TurningRings.of(rings, speed), ["the hub", "the web", "the rim"]
+    values = [turning.peak(ring) for ring in range(len(rings))]
+    hub = wheel.web.hub if wheel.web is not None else None
+    holes = wheel.web.holes if wheel.web is not None else None
+    if holes is not None:
+        names[1] = "the web's holes"
+        sizes = (holes.count, holes.circle_radius, holes.hole_radius)
+        values = list(holed_peaks(rings, speed, *sizes))
+    peaks = dict(zip(names, values, strict=True))
+    if hub is not None and hub.bolts:
+        peaks["the hub's holes"] = turning.peak_at_hole(0, hub.bolt_circle_radius)
+    where = max(peaks, key=lambda name: peaks[name])
+    note = (
+        f"one piece; stress in {where} at {OVERSPEED:g} x top speed, rotating disc of three "
+        "thicknesses, against yield"
+    )
+    return Joint(RIM_JOINT, peaks[where], materials()[wheel.material].yield_strength, "Pa", note)
+
+
+def rim_fit(device: Device) -> ShrinkFit | None:
+    """Shrink fit of a rim on a web of another material; None: one piece, or figures not known."""
+    wheel = device.flywheel
+    rings = wheel_rings(wheel)
+    if wheel.web is None or rings is None or wheel.web.material == wheel.material:
+        return None
+    inside, around = (materials()[name] for name in (wheel.web.material, wheel.material))
+    if inside.thermal_expansion is None or around.thermal_expansion is None:
+        return None
+    return shrink_fit(
+        rings,
+        (inside.thermal_expansion, around.thermal_expansion),
+        OVERSPEED * top_speed(device),
+        SERVICE * (device.motor.torque_limit or 0.0),
+    )
+
+
+def _shrunk(wheel: Flywheel, fit: ShrinkFit) -> Iterator[Joint]:
+    """Pressure, stresses and buckling of a shrink fit."""
+    web = wheel.web
+    if web is None:
+        return
+    across = ", ".join(
+        format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most)
+    )
+    yield Joint(
+        RIM_JOINT,
+        fit.needed,
+        fit.held,
+        "Pa",
+        f"shrunk on, {across} too narrow across; least pressure at {OVERSPEED:g} x top speed, "
+        f"{COLDEST:g} to {WARMEST:g} deg C, against what carries {SERVICE:g} x peak torque at a "
+        f"friction of {FRICTION:g}",
+    )
+    for name, stress, material in (
+        ("web of the shrink fit", fit.stress_web, web.material),
+        ("rim of the shrink fit", fit.stress_rim, wheel.material),
+    ):
+        strength = materials()[material].yield_strength
+        yield Joint(name, stress, strength, "Pa", "largest stress at the tightest fit, to yield")
+    yield Joint(
+        "web of the shrink fit, to buckling",
+        fit.squeezed,
+        fit.buckling,
+        "Pa",
+        "a full plate with its edge held",
+    )
+
+
+def _shaft_joints(device: Device) -> Iterator[Joint]:
+    """What holds the wheel on its motor."""
+    drive, web = device.motor, device.flywheel.web
+    mounting = drive.mounting
+    torque = SERVICE * (drive.torque_limit or 0.0)
+    if web is None:
+        return
+    if drive.gear != DIRECT.name:
+        unknown = "how a wheel is held on this gear is not in the catalogue"
+        yield Joint(SHAFT_JOINT, torque, None, "N m", unknown)
+    elif mounting is not None and mounting.rotor is not None:
+        circle = mounting.rotor
+        held, figures = screw(circle.thread), (circle.bolts, circle.radius)
+        tight = format_quantity(tightening_torque(held), "N m", digits=2)
+        force = f"{preload(held):,.0f} N"
+        yield Joint(
+            SHAFT_JOINT,
+            torque,
+            hub_joint(mounting, 0.0),
+            "N m",
+            f"friction under {circle}, class 8.8, tightened with {tight} to {force}, against "
+            f"{SERVICE:g} x peak torque",
+        )
+        yield Joint(
+            "shaft joint, screws in shear",
+            torque,
+            shear_torque(held, *figures),
+            "N m",
+            "should the faces slip: a reserve, not what it is built on",
+        )
+    elif mounting is not None and mounting.shaft_diameter is not None:
+        length = web.hub.height - 2.0 * web.hub.chamfer
+        carried = hub_joint(mounting, length)
+        across = format_quantity(mounting.shaft_diameter, "mm")
+        long = format_quantity(length, "mm", digits=3)
+        yield Joint(
+            SHAFT_JOINT,
+            torque,
+            carried,
+            "N m",
+            f"bonded with a retaining compound on {across} of shaft over {long}, half of 25 MPa, "
+            f"against {SERVICE:g} x peak torque; the fit alone carries nothing",
+        )
+    else:
+        unknown = "the shaft and the rotor's threads are not in the catalogue"
+        yield Joint(SHAFT_JOINT, torque, None, "N m", unknown)
+
+
+@dataclass(frozen=True)
+class Balance:
+    """How one wheel is balanced: assembled on its motor, as what holds it leaves it off centre.
+
+    Attributes:
+        grade: of ISO 21940-11 [mm/s]. speed: at which it holds [rad/s].
+        eccentricity: permissible, e = G / w [m].
+        unbalance: permissible, m e [kg m].
+        off_centre: that turning and what centres it may leave [m]; None: nothing centres it.
+        centred_by: what does.
+        correction: holes in the rim's faces that take an unbalance away.
+    """
+
+    grade: float
+    speed: float
+    eccentricity: float
+    unbalance: float
+    off_centre: float | None
+    centred_by: str
+    correction: Correction
+
+    @property
+    def found(self) -> float | None:
+        """Largest unbalance before it is balanced [kg m]."""
+        return None if self.off_centre is None else self.off_centre * self._mass
+
+    @property
+    def enough(self) -> bool:
+        """True if the holes can take the largest unbalance away."""
+        return self.found is not None and self.found <= self.correction.most
+
+    @property
+    def _mass(self) -> float:
+        return self.unbalance / self.eccentricity
+
+
+def balance_of(device: Device) -> Balance:
+    """Balance of one wheel at the highest speed of its drive."""
+    wheel, speed = device.flywheel, top_speed(device)
+    eccentricity = 1e-3 * GRADE / speed
+    rim = Ring(
+        wheel.inner_radius,
+        wheel.outer_radius,
+        wheel.height,
+        wheel.density,
+        elastic_modulus=inf,
+        poisson_ratio=0.0,
+    )
+    off_centre, by = _centring(device)
+    return Balance(
+        grade=GRADE,
+        speed=speed,
+        eccentricity=eccentricity,
+        unbalance=eccentricity * wheel.mass,
+        off_centre=off_centre,
+        centred_by=by,
+        correction=correction(rim, chamfer=wheel.cuts.chamfer, ligament=LIGAMENT),
+    )
+
+
+def _centring(device: Device) -> tuple[float | None, str]:
+    """How far off centre a wheel may sit on its motor [m], and what centres it."""
+    mounting = device.motor.mounting
+    if mounting is not None and mounting.shaft_diameter is not None:
+        across = mounting.shaft_diameter
+        return RUN_OUT + slip_fit_eccentricity(across), "its bore on the shaft, H7/h6"
+    if mounting is not None and mounting.rotor is not None:
+        held = screw(mounting.rotor.thread)
+        play = (held.clearance_hole - held.diameter) / 2.0
+        return RUN_OUT + play, "its screws alone, in clearance holes"
+    return None, "nothing that is known"

@@ -1,0 +1,251 @@
+"""`assembly.pdf`: exploded view, section, steps, screws, tests, wiring and safety on A4 sheets."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ocs_design import __version__
+from ocs_design.export.assembly.content import Assembly, Chapter
+from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
+from ocs_design.export.drawing.sheet import (
+    FRAME_BOX,
+    THIN,
+    Anchor,
+    Box,
+    Circle,
+    Item,
+    Line,
+    Polyline,
+    Scale,
+    Text,
+    fitted,
+    wrapped,
+)
+from ocs_design.export.drawing.title_block import frame
+from ocs_design.export.drawing.wheel_sheet import device_hash
+from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
+
+if TYPE_CHECKING:
+    from ocs_design.export.formats import Notes, Subject
+
+LEFT, TOP, RIGHT, BOTTOM = FRAME_BOX
+_INSET = 4.0
+"""Between the frame and what is in it [mm]."""
+
+_TEXT, _LEADING, _AFTER = 1.9, 3.9, 1.3
+"""Height of capitals, distance of lines and of paragraphs [mm]."""
+
+_HEADING, _TITLE = 2.5, 3.5
+"""Heights of capitals of headings and of a page's title [mm]."""
+
+_NUMBER = 6.0
+"""Width of a step's number [mm]."""
+
+_GUTTER = 8.0
+"""Between columns [mm]."""
+
+EXPLODED_BOX: Box = (LEFT + 2.0, TOP + 11.0, RIGHT - 2.0, TOP + 129.0)
+"""Of the exploded view on its sheet [mm]."""
+
+_SECTION_BOX: Box = (LEFT + 2.0, TOP + 14.0, LEFT + 124.0, BOTTOM - 14.0)
+
+
+def write(subject: "Subject", folder: Path) -> "Notes":
+    """Write `assembly.pdf`."""
+    assembly = Assembly(subject.name, subject.device, subject.margins, subject.fitting)
+    (folder / "assembly.pdf").write_bytes(assembly_pdf(assembly))
+    return ()
+
+
+def assembly_pdf(assembly: Assembly) -> bytes:
+    """The booklet; the same bytes every time."""
+    title = f"Assembly of the orientation control system for {assembly.robot}"
+    return pdf_of_pages(assembly_pages(assembly), title, compressed=True)
+
+
+def assembly_pages(assembly: Assembly) -> list[list[Item]]:
+    """Sheets of the booklet."""
+    chapters = assembly.chapters()
+    bodies = [_first_page(assembly), *_text_pages(assembly, chapters)]
+    identity = f"design {device_hash(assembly.device)} · ocs-design {__version__}"
+    return [
+        [*frame(), *_heading(assembly.robot, identity, number, len(bodies)), *body]
+        for number, body in enumerate(bodies, start=1)
+    ]
+
+
+def exploded_svg(assembly: Assembly) -> str:
+    """The exploded view alone, for web pages."""
+    items, _ = exploded_view(assembly.pieces, assembly.numbers, EXPLODED_BOX)
+    return svg_text(items, "Exploded view of one module", _around(items))
+
+
+def section_svg(assembly: Assembly) -> str:
+    """The section alone, for web pages."""
+    items, _ = section_view(assembly.pieces, assembly.numbers, _SECTION_BOX)
+    return svg_text(items, "Section along the axis of one module", _around(items))
+
+
+def _around(items: Iterable[Item]) -> Box:
+    """Box of the lines and numbers, with a margin [mm]."""
+    points = [point for item in items if isinstance(item, Polyline) for point in item.points]
+    points += [item.center for item in items if isinstance(item, Circle)]
+    across, down = zip(*points, strict=True)
+    margin = BALLOON + 2.0
+    return (min(across) - margin, min(down) - margin, max(across) + margin, max(down) + margin)
+
+
+def _heading(robot: str, identity: str, number: int, count: int) -> Iterator[Item]:
+    """Title and number of a page, within the frame."""
+    y = TOP + 7.0
+    yield Text((LEFT + _INSET, y), fitted(f"Assembly, {robot}", 130.0, _TITLE), _TITLE)
+    text = f"{identity} · sheet {number} / {count}"
+    yield Text((RIGHT - _INSET, y), text, _TEXT, Anchor.END)
+    yield Line((LEFT, TOP + 10.0), (RIGHT, TOP + 10.0))
+
+
+def _first_page(assembly: Assembly) -> list[Item]:
+    """Exploded view, and below it the pieces by their numbers."""
+    items, scale = exploded_view(assembly.pieces, assembly.numbers, EXPLODED_BOX)
+    items += [*_scale("One module pulled apart", scale, EXPLODED_BOX)]
+    rows = list(assembly.piece_rows())
+    cells = [
+        (str(row.number), str(row.quantity), row.name, row.made, row.file or "") for row in rows
+    ]
+    top = EXPLODED_BOX[3] + 3.0
+    half = (len(cells) + 1) // 2
+    width = (RIGHT - LEFT - 2.0 * _INSET - _GUTTER) / 2.0
+    widths = (6.0, 8.0, 40.0, 0.0, 29.0)
+    header = ("No.", "Qty", "Piece (of the whole device)", "Made", "File in cad/")
+    for column, part in enumerate((cells[:half], cells[half:])):
+        left = LEFT + _INSET + column * (width + _GUTTER)
+        items += _table(header, part, widths, (left, top, left + width))[0]
+    return items
+
+
+def _text_pages(assembly: Assembly, chapters: Sequence[Chapter]) -> list[list[Item]]:
+    """Text in columns: beside the section, then below the table of screws, then alone."""
+    items, scale = section_view(assembly.pieces, assembly.numbers, _SECTION_BOX)
+    items += [*_scale("One module cut along its axis", scale, _SECTION_BOX)]
+    table, bottom = _screw_table(assembly)
+    pages = [items, table]
+    columns = [(0, (_SECTION_BOX[2] + _GUTTER, TOP + 15.0, RIGHT - _INSET, BOTTOM - 3.0))]
+    columns += [(1, each) for each in _halves(bottom + 6.0)]
+    here = columns.pop(0)
+    y = here[1][1]
+    blocks = list(_blocks(chapters))
+    for block, following in zip(blocks, [*blocks[1:], None], strict=True):
+        width = here[1][2] - here[1][0]
+        lines = block.lines(width)
+        need = _LEADING * len(lines)
+        if block.heading and following is not None:
+            # No heading stands alone at the end of a column.
+            need += _LEADING * len(following.lines(width)) + 2.0 * _AFTER
+        if y + need - _LEADING > here[1][3]:
+            if not columns:
+                columns = [(len(pages), each) for each in _halves(TOP + 15.0)]
+                pages.append([])
+            here = columns.pop(0)
+            y = here[1][1]
+            lines = block.lines(here[1][2] - here[1][0])
+        if block.heading and y > here[1][1]:
+            y += _AFTER
+        left = here[1][0]
+        height = _HEADING if block.heading else _TEXT
+        if block.number:
+            pages[here[0]].append(Text((left, y), block.number, _TEXT))
+        indent = _NUMBER if block.number else 0.0
+        for line in lines:
+            pages[here[0]].append(Text((left + indent, y), line, height))
+            y += _LEADING
+        y += _AFTER
+    return pages
+
+
+def _halves(top: float) -> list[Box]:
+    """Two columns of a page below that height [mm]."""
+    middle = (LEFT + RIGHT) / 2.0
+    return [
+        (LEFT + _INSET, top, middle - _GUTTER / 2.0, BOTTOM - 3.0),
+        (middle + _GUTTER / 2.0, top, RIGHT - _INSET, BOTTOM - 3.0),
+    ]
+
+
+@dataclass(frozen=True)
+class _Block:
+    """A heading or a paragraph, with the number or dash before it."""
+
+    text: str
+    number: str = ""
+    heading: bool = False
+
+    def lines(self, width: float) -> list[str]:
+        """Lines in a column of that width [mm]."""
+        if self.heading:
+            return [self.text]
+        return wrapped(self.text, width - (_NUMBER if self.number else 0.0), _TEXT)
+
+
+def _blocks(chapters: Sequence[Chapter]) -> Iterator[_Block]:
+    for chapter in chapters:
+        yield _Block(chapter.title, heading=True)
+        for number, text in enumerate(chapter.texts, start=1):
+            yield _Block(text, str(number) if chapter.numbered else "–")
+
+
+def _screw_table(assembly: Assembly) -> tuple[list[Item], float]:
+    """Screws with lengths and torques over the whole width, and where the table ends."""
+    rows = [
+        (
+            str(row.number),
+            str(row.quantity),
+            row.designation,
+            row.purpose,
+            row.engagement,
+            row.torque,
+            row.rule,
+        )
+        for row in assembly.screw_rows()
+    ]
+    if not rows:
+        return [], TOP + 15.0
+    header = ("No.", "Qty", "Screw", "What it holds", "Thread that holds", "Torque", "Set by")
+    widths = (6.0, 8.0, 28.0, 0.0, 26.0, 18.0, 78.0)
+    box = (LEFT + _INSET, TOP + 14.0, RIGHT - _INSET)
+    return _table(header, rows, widths, box)
+
+
+def _scale(what: str, scale: Scale, box: Box) -> Iterator[Item]:
+    yield Text((box[0] + 2.0, box[3] - 1.0), f"{what}, {scale}", _TEXT)
+
+
+def _table(
+    header: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    widths: Sequence[float],
+    box: tuple[float, float, float],
+) -> tuple[list[Item], float]:
+    """Rows of wrapped cells between thin lines, and the height where they end.
+
+    Args:
+        header, rows: texts.
+        widths: of the columns [mm]; 0: what is left.
+        box: left, top and right [mm].
+    """
+    left, y, right = box
+    rest = right - left - sum(widths)
+    wide = [width or rest for width in widths]
+    items: list[Item] = []
+    for number, row in enumerate((header, *rows)):
+        lines = [wrapped(cell, width - 1.5, _TEXT) for cell, width in zip(row, wide, strict=True)]
+        x = left
+        for texts, width in zip(lines, wide, strict=True):
+            for place, text in enumerate(texts):
+                items.append(Text((x, y + 3.0 + place * 3.1), text, _TEXT))
+            x += width
+        y += 3.1 * max(1, *map(len, lines)) + 1.5
+        items.append(Line((left, y), (right, y), THIN))
+        if number == 0:
+            items.append(Line((left, y + 0.3), (right, y + 0.3), THIN))
+    return items, y

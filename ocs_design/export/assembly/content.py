@@ -1,0 +1,513 @@
+"""What a builder has to know, as plain values: pieces, screws, steps, tests, wiring, safety.
+
+Pages and the report's section show the same text.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ocs_design.actuation.fasteners import IN_PLASTIC
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.catalogue.materials import materials
+from ocs_design.common.units import format_quantity
+from ocs_design.device.device import Device
+from ocs_design.device.joints import SHAFT_JOINT, balance_of, joints_of, rim_fit
+from ocs_design.device.naming import joint_name
+from ocs_design.device.records import MarginRecord
+from ocs_design.device.solids import motor_mount
+from ocs_design.export.assembly.placed import Piece, holds_wheel, module_pieces
+from ocs_design.export.assembly.tightening import Tightened, tightened
+from ocs_design.export.assembly_notes import drive_notes
+from ocs_design.export.bill_of_materials import BillRow, bill_rows
+from ocs_design.export.device_parts import printed_foot, wheel_geometry
+from ocs_design.export.drawing.title_block import RUN_OUT
+from ocs_design.export.drawing.wheel import Seat, seat
+from ocs_design.export.electrics import demand_of, electrics
+from ocs_design.export.module_bodies import highest_speed
+from ocs_design.parts.guard import Containment, containment, fragment_of
+from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.parts.rim import stored_energy
+
+SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
+"""Shares of the top speed at which a wheel is watched for a minute each."""
+
+OVERSPEED = 1.1
+"""Of the top speed, once, before the wheel goes on a robot."""
+
+LEAST_DRILL = 0.8e-3
+"""Diameter below which steel is ground and not drilled [m]."""
+
+DROP = 0.03e-3
+"""Air on the diameter with which a hot rim drops on its web before it has cooled [m]."""
+
+_LABELS = {
+    "flywheel": "flywheel",
+    "rim": "rim",
+    "hub": "web with hub",
+    "motor": "motor",
+    "gear": "gear",
+    "drum": "housing, drum",
+    "lid": "housing, lid",
+    "foot": "foot",
+    "cage": "cage of the motor",
+}
+
+_SOFT = 68.0
+"""Heat deflection temperature of PETG at 0.45 MPa [deg C]: Prusament PETG, technical data sheet."""
+
+
+@dataclass(frozen=True)
+class PieceRow:
+    """A piece, or equal screws, as the pictures number them.
+
+    Attributes:
+        number: in the pictures. name: for people. quantity: in the whole device.
+        made: "bought", "turned" or "printed", and of what.
+        file: to make it from; empty: none.
+    """
+
+    number: int
+    name: str
+    quantity: int
+    made: str
+    file: str
+
+
+@dataclass(frozen=True)
+class ScrewRow:
+    """Equal screws: number in the pictures, what they are, and how they are tightened."""
+
+    number: int
+    designation: str
+    quantity: int
+    purpose: str
+    engagement: str
+    torque: str
+    rule: str
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """Sentences under a heading; in order where `numbered`."""
+
+    title: str
+    texts: tuple[str, ...]
+    numbered: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """Everything that the pages and the report's section are made of.
+
+    Attributes:
+        robot: its name.
+        device: to build.
+        margins: of the recorded flights; empty where none are known.
+        notes: what the design leaves to do by hand, one sentence each.
+    """
+
+    robot: str
+    device: Device
+    margins: Sequence[MarginRecord] = ()
+    notes: tuple[str, ...] = ()
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """Pieces of one module in their places."""
+        return module_pieces(self.device)
+
+    @cached_property
+    def numbers(self) -> dict[str, int]:
+        """Numbers of the pieces by their names."""
+        names = dict.fromkeys(piece.name for piece in self.pieces)
+        return {name: number for number, name in enumerate(names, start=1)}
+
+    @cached_property
+    def screws(self) -> dict[str, Tightened]:
+        """Screws by what they hold."""
+        on_wheel = {
+            each.fastening.purpose for each in motor_mount(self.device).screwed if holds_wheel(each)
+        }
+        return {
+            piece.name: tightened(piece.fastening, on_metal=piece.name in on_wheel)
+            for piece in self.pieces
+            if piece.fastening is not None
+        }
+
+    @cached_property
+    def top_speed(self) -> float | None:
+        """Highest that motor, voltage and gear let the wheel reach [rad/s]; None: not limited."""
+        speed = highest_speed(self.device.motor)
+        return speed if math.isfinite(speed) else None
+
+    @cached_property
+    def burst(self) -> Containment | None:
+        """What would hold a wheel that bursts at its top speed; None where that is not known."""
+        if self.top_speed is None:
+            return None
+        return burst_of(self.device, self.top_speed)
+
+    def piece_rows(self) -> Iterator[PieceRow]:
+        """Pieces and screws in the order of their numbers."""
+        count, bill = len(self.device.modules), bill_rows(self.device)
+        for piece in {piece.name: piece for piece in self.pieces}.values():
+            number = self.numbers[piece.name]
+            if piece.fastening is not None:
+                what = piece.fastening.screw.designation(piece.fastening.length)
+                each = count * piece.fastening.count
+                yield PieceRow(number, f"screw, {_short(piece.name)}", each, f"bought: {what}", "")
+            else:
+                label = _LABELS.get(piece.name, piece.name)
+                made, file = _made(self.device, piece.name, bill)
+                yield PieceRow(number, label, count, made, file)
+
+    def screw_rows(self) -> Iterator[ScrewRow]:
+        """Screws with their torques."""
+        count = len(self.device.modules)
+        for name, found in self.screws.items():
+            held = found.fastening
+            depth = (
+                f"{1e3 * found.engagement:.1f} mm ({found.engagement / held.screw.diameter:.1f} d)"
+            )
+            yield ScrewRow(
+                self.numbers[name],
+                held.screw.designation(held.length),
+                count * held.count,
+                held.purpose,
+                depth,
+                f"{found.torque:.2g} N m",
+                found.rule,
+            )
+
+    def chapters(self) -> tuple[Chapter, ...]:
+        """All text, in the order of the work."""
+        whole = (
+            Chapter("Before you start", tuple(self._before())),
+            Chapter("Steps, for each module", tuple(self._steps()), numbered=True),
+            Chapter("Balance", tuple(self._balance())),
+            Chapter("Spin test, before anything goes on the robot", tuple(self._test()), True),
+            Chapter("Wiring", tuple(self._wiring())),
+            Chapter("Safety", tuple(self._safety())),
+        )
+        return tuple(chapter for chapter in whole if chapter.texts)
+
+    def _number(self, name: str) -> str:
+        number = self.numbers.get(name)
+        return "" if number is None else f" ({number})"
+
+    def _before(self) -> Iterator[str]:
+        yield "Read the safety notes at the end before anything turns."
+        notes = (*drive_notes(self.device), *self.notes)
+        yield from (f"{note[:1].upper()}{note[1:]}." for note in dict.fromkeys(notes))
+        if any(
+            found.fastening.depth < IN_PLASTIC and "motor" in found.fastening.purpose
+            for found in self.screws.values()
+        ):
+            yield (
+                "Measure how deep the motor's threads are before you put screws into them: the "
+                "catalogue does not know. A screw that is too long cuts into the winding; take a "
+                "shorter one, or washers, so that its tip stays 0.5 mm off the bottom."
+            )
+        yield (
+            "Tools: torque screwdriver from 0.05 N m, hex keys, taps for the threads in the prints "
+            "(drill sizes are those of the holes), dial gauge, hand drill on a stand, scales to "
+            "0.01 g, tachometer."
+        )
+
+    def _steps(self) -> Iterator[str]:
+        device, wheel = self.device, wheel_geometry(self.device.flywheel)
+        if self.numbers.get("drum"):
+            yield (
+                "Print drum, lid, foot and cage in PETG as they lie in cad/housing.3mf: "
+                f"0.2 mm layers, walls of {1e3 * WALL:g} mm are solid, at least 50 % infill in the "
+                "foot, no supports. Tap the ears of drum and cage M2."
+                if "cage" in self.numbers
+                else "Print drum, lid and foot in PETG as they lie in cad/housing.3mf: "
+                f"0.2 mm layers, walls of {1e3 * WALL:g} mm are solid, at least 50 % infill in the "
+                "foot, no supports. Tap the ears of the drum M2."
+            )
+        yield (
+            f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {RUN_OUT:g} mm. Weigh "
+            f"it: {1e3 * device.flywheel.mass:.1f} g."
+        )
+        if seat(wheel) is Seat.FITTED:
+            yield (
+                f"Shrink the rim{self._number('rim')} on the web{self._number('hub')}: heat it in "
+                f"an oven{self._hot()} until it drops on the web on a flat plate, and let both "
+                "cool."
+            )
+        yield from self._motor()
+        yield from (self._screwed(name) for name in self.screws if name not in self._late)
+        yield from self._joint()
+        if "lid" in self.numbers:
+            yield (
+                "Turn the wheel by hand: it is free all around, and a strip of "
+                f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and drum. Check the rim's "
+                f"run-out on its motor: at most {2 * RUN_OUT:g} mm."
+            )
+            yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
+            yield self._screwed(
+                next(name for name in self.screws if name.startswith("lid")), lid=True
+            )
+            yield "Run the spin test (below), lid on."
+            yield from self._on_the_trunk()
+        yield self._direction()
+
+    def _hot(self) -> str:
+        """How much hotter than its web a rim has to be to drop on it; empty: not known."""
+        fit, wheel = rim_fit(self.device), self.device.flywheel
+        material = materials().get(wheel.material)
+        if fit is None or material is None or material.thermal_expansion is None:
+            return ""
+        grown = 2.0 * fit.most + DROP
+        hotter = grown / (2.0 * wheel.inner_radius * material.thermal_expansion)
+        return f", at least {hotter:.0f} K hotter than the web,"
+
+    @property
+    def _late(self) -> tuple[str, ...]:
+        """Screws that come after balancing: those of lid and trunk."""
+        return tuple(name for name in self.screws if name.startswith(("lid", "foot on trunk")))
+
+    def _motor(self) -> Iterator[str]:
+        """How a motor is held whose threads are not known."""
+        held = (name for name in self.screws if name.startswith("motor"))
+        if "motor" in self.numbers and not any(held):
+            yield (
+                f"Fix the motor{self._number('motor')} to plate and drum, its axis within "
+                f"{RUN_OUT:g} mm of the middle of their hole, as said above."
+            )
+
+    def _joint(self) -> Iterator[str]:
+        """What the joints of the wheel rest on, and how a wheel is put on a shaft."""
+        if "drum" not in self.numbers:
+            return
+        for joint in joints_of(self.device):
+            if joint.name == SHAFT_JOINT and not any(map(_is_wheel_s, self.screws)):
+                yield f"Put the wheel on the motor's shaft: {joint.note}."
+            elif joint.name == SHAFT_JOINT:
+                yield f"That joint carries the wheel by {joint.note}."
+
+    def _screwed(self, name: str, *, lid: bool = False) -> str:
+        found = self.screws[name]
+        held = found.fastening
+        joint = "Lid on drum" if lid else _short(name).capitalize()
+        lock = (
+            "; threadlocker of medium strength" if held.depth < IN_PLASTIC else "; no threadlocker"
+        )
+        return (
+            f"{joint}: {held.count} x {held.screw.designation(held.length)}"
+            f"{self._number(name)}, {found.torque:.2g} N m, crosswise in two rounds{lock}."
+        )
+
+    def _on_the_trunk(self) -> Iterator[str]:
+        foot, name = printed_foot(self.device), "foot on trunk"
+        found = next(each for key, each in self.screws.items() if key.startswith(name))
+        radius, places = foot.slot_radius / math.sqrt(2.0), []
+        for module in self.device.modules:
+            slope = math.copysign(1.0, float(module.axis[0] * module.axis[1]))
+            x, y, _ = (float(value) for value in module.position)
+            ends = ((x + side * slope * radius, y + side * radius) for side in (1.0, -1.0))
+            at = " and ".join(f"({1e3 * px:.1f}, {1e3 * py:.1f})" for px, py in ends)
+            places.append(f"{module.name} foot {at}")
+        under = float(self.device.modules[0].position[2]) - foot.wheel_height
+        angle = format_quantity(self.device.incidence, "deg")
+        held, mass = found.fastening, self.device.mass / len(self.device.modules)
+        yield (
+            f"Weigh the module with all its screws: {1e3 * mass:.0f} g. If it is 2 % off, "
+            "weigh its parts against cad/bill_of_materials.csv."
+        )
+        yield (
+            "Both modules are of the same parts. On the robot the right one is turned by half a "
+            "turn about the vertical, so that both motors are on the inner side."
+        )
+        yield (
+            "Drill the trunk, in mm forward and to the left of the frame that the design is in "
+            f"(`robot.trunk` of design.json): {'; '.join(places)}; the feet stand at z = "
+            f"{1e3 * under:.1f} mm. Scribe a line forward through the middle of each foot, turn "
+            f"the foot until it meets the scale at {angle}, and tighten {held.count} x "
+            f"{held.screw.designation(held.length)} with {found.torque:.2g} N m each, into "
+            "threads, inserts or nuts of the trunk."
+        )
+
+    def _direction(self) -> str:
+        names = " and ".join(joint_name(module) for module in self.device.modules)
+        axes = "; ".join(
+            f"{module.name} ({', '.join(f'{value:.3f}' for value in np.round(module.axis, 3))})"
+            for module in self.device.modules
+        )
+        return (
+            f"Name the drives {names}, as the robot files do. A positive torque has to turn the "
+            f"wheel counter-clockwise seen from the tip of its axis, which points to {axes} (x "
+            "forward, y left, z up). Else swap two of the motor's three wires."
+        )
+
+    def _balance(self) -> Iterator[str]:
+        wheel, speed = self.device.flywheel, self.top_speed
+        if speed is None:
+            return
+        balance = balance_of(self.device)
+        yield (
+            f"Grade G {balance.grade:g} (ISO 21940-11) at {_rpm(speed)}: at most "
+            f"{1e6 * balance.unbalance:.2g} g mm are left in one plane, the wheel's own; its "
+            f"centre of mass is then {1e6 * balance.eccentricity:.2g} µm off the axis."
+        )
+        if balance.off_centre is not None:
+            found = balance.off_centre * wheel.mass
+            yield (
+                f"As made it may be {1e6 * balance.off_centre:.0f} µm off, {1e6 * found:.2g} g mm "
+                f"(turning, and {balance.centred_by}). So balance it on its motor, and mark both: "
+                "taken apart, they go together again the same way."
+            )
+        holes, cuts = balance.correction, wheel.cuts
+        if cuts.holes:
+            yield (
+                f"Remove mass by deepening the {cuts.holes} balancing holes in a face, a little at "
+                "a time, on the heavy side; never to the middle of the rim."
+            )
+        elif holes.hole_radius >= LEAST_DRILL / 2.0:
+            yield (
+                f"Remove mass with a drill of {2e3 * holes.hole_radius:.2g} mm, "
+                f"{1e3 * holes.depth:.2g} mm deep, in both faces of the rim, one opposite the "
+                f"other, {1e3 * holes.radius:.1f} mm from the axis: each pair takes "
+                f"{1e6 * holes.mass * holes.radius:.2g} g mm, all that have room on one half "
+                f"{1e6 * holes.most:.2g} g mm. Nothing is taken off the web."
+            )
+        else:
+            yield (
+                "The rim's wall is too thin to drill by hand: grind the heavy side of its face, "
+                "evenly over 60 degrees."
+            )
+        yield (
+            "By hand: shaft level on two blades, heavy side down; or with an accelerometer on the "
+            "foot, a trial mass of wax in three places, and the circle through the three readings."
+        )
+
+    def _test(self) -> Iterator[str]:
+        speed, burst = self.top_speed, self.burst
+        if speed is None or burst is None:
+            return
+        wheel, steel = self.device.flywheel, burst.steel.wall
+        yield (
+            "Clamp the module on a bench inside a closed steel box or behind steel of at least "
+            f"{max(2.0, math.ceil(2e3 * steel)):.0f} mm (twice the wall that holds it, see "
+            "Safety) on all sides of the wheel's plane. Nobody stands in that plane. Drive it "
+            "from behind the wall; a switch there cuts the supply."
+        )
+        steps = ", ".join(f"{share:.0%} ({_rpm(share * speed)})" for share in SPIN_STEPS)
+        yield f"One minute each at {steps}; stop, and feel the motor and look at all screws."
+        over = _rpm(OVERSPEED * speed)
+        motor = self.device.motor
+        limited = motor.speed_max is not None and motor.speed_max <= motor.no_load_speed
+        supply = (
+            ""
+            if motor.bus_voltage is None or limited
+            else f", which takes {OVERSPEED * motor.bus_voltage:.3g} V"
+        )
+        margin = wheel.stress_margin
+        stress = (
+            ""
+            if margin is None
+            else f" The yield strength is then {margin / OVERSPEED**2:.1f} times the hoop stress."
+        )
+        yield f"Once, for ten seconds, {OVERSPEED:.0%}: {over}{supply}.{stress}"
+        yield (
+            "It fails if anything hums that did not before, if the vibration rises between two "
+            "steps other than with the square of the speed, if the run-out has changed, if a screw "
+            f"has moved, or if the print at the motor is warmer than {_SOFT - 8:.0f} °C (PETG "
+            f"gives way at {_SOFT:.0f} °C). Then balance again, or build again."
+        )
+        yield (
+            "Brake from full speed with the battery that will be used, and watch the bus voltage: "
+            "it must stay below what controllers and battery stand."
+        )
+
+    def _wiring(self) -> Iterator[str]:
+        yield from electrics(self.device, self.margins).sentences()
+
+    def _safety(self) -> Iterator[str]:
+        speed, burst = self.top_speed, self.burst
+        if speed is None or burst is None:
+            return
+        count = len(self.device.modules)
+        energy = stored_energy(self.device.flywheel.spin_inertia, speed)
+        both = demand_of(self.margins, "stored energy")
+        flown = "" if both is None else f"; the planned maneuvers reach {both:.3g} J in all wheels"
+        yield (
+            f"Each wheel stores {energy:.3g} J at {_rpm(speed)}, {count} of them "
+            f"{count * energy:.3g} J{flown}. That is {count * energy / 9.81:.2g} kg dropped from "
+            "1 m."
+        )
+        part = burst.fragment
+        yield (
+            f"If a wheel bursts at that speed, a third of it ({1e3 * part.mass:.0f} g) flies off "
+            f"at {part.speed:.0f} m/s with {part.energy:.2g} J."
+        )
+        if "drum" in self.numbers:
+            yield (
+                "The printed guard keeps fingers out. It does not hold a burst rim: that would "
+                f"need a closed band of {1e3 * burst.steel.wall:.2g} mm of mild steel around the "
+                f"drum, {1e3 * burst.steel.mass:.0f} g each "
+                f"({2e3 * burst.steel.inner_radius:.1f} mm inside, "
+                f"{1e3 * burst.steel.height:.1f} mm wide; BRL formula, 1.25 times the "
+                "thickness that is just perforated), or by an estimate without tests behind it "
+                f"{1e3 * burst.aluminium.wall:.2g} mm of 6061-T6, {1e3 * burst.aluminium.mass:.0f} "
+                "g each. Neither is in the device's mass."
+            )
+        yield (
+            "Whenever the supply is on: nobody in the plane of a wheel, eye protection for "
+            "everybody in the room, no loose sleeves or cables, the lid on. Wheels coast on "
+            "after the supply is cut; wait until they stand."
+        )
+        yield (
+            "After a crash, a fall on a wheel, or a touch of rim and housing: run-out, balance and "
+            "spin test again before the next flight."
+        )
+
+
+def burst_of(device: Device, wheel_speed: float) -> Containment:
+    """What would hold a wheel of the device that bursts at a speed [rad/s]."""
+    wheel = device.flywheel
+    web = 0.0 if wheel.web is None else wheel.web.mass
+    piece = fragment_of(
+        inner_radius=wheel.inner_radius,
+        outer_radius=wheel.outer_radius,
+        height=wheel.height,
+        rim_mass=wheel.rim_mass,
+        web_mass=web,
+        wheel_speed=wheel_speed,
+    )
+    return containment(piece, wheel.outer_radius, wheel.height)
+
+
+def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]:
+    """How a piece is made, and the file to make it from."""
+    motor = device.motor
+    if name == "motor":
+        return f"bought: {motor.name}", ""
+    if name == "gear":
+        return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
+    if name in ("drum", "lid", "foot", "cage"):
+        return "printed, PETG", f"housing_{name}.stl"
+    rows = {"flywheel": "flywheel, one piece", "rim": "flywheel rim", "hub": "flywheel web and hub"}
+    row = next((each for each in bill if each.part == rows.get(name)), None)
+    if row is None:
+        row = next((each for each in bill if each.part.startswith("flywheel")), None)
+    made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
+    return made, "wheel.pdf"
+
+
+def _is_wheel_s(purpose: str) -> bool:
+    return purpose.startswith("wheel")
+
+
+def _short(purpose: str) -> str:
+    """What screws hold, without what to mind."""
+    return purpose.split(";", maxsplit=1)[0].split(", ", maxsplit=1)[0]
+
+
+def _rpm(speed: float) -> str:
+    return f"{speed * 30.0 / math.pi:,.0f} rpm"

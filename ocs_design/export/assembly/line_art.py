@@ -1,0 +1,200 @@
+"""Line drawings of triangle meshes with their hidden lines left out, and sections through them."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.export.meshes import Mesh
+
+PIXEL = 0.2e-3
+"""Size of the depth map's pixels [m]."""
+
+_CREASE = np.cos(np.radians(25.0))
+"""Cosine between the normals of two faces whose common edge is drawn."""
+
+
+def view_of(camera: Sequence[float], up: Sequence[float]) -> FloatArray:
+    """Rotation into the picture's axes: right, up, and towards the eye, shape (3, 3).
+
+    Args:
+        camera: direction from the scene to the eye. up: what stands upright in the picture.
+    """
+    eye = np.asarray(camera, dtype=np.float64) / np.linalg.norm(camera)
+    right = np.cross(up, eye)
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(eye, right), eye])
+
+
+def visible_lines(meshes: Sequence[Mesh]) -> tuple[tuple[FloatArray, ...], ...]:
+    """Visible creases and outlines of each mesh as chains of points, shape (k, 2) [m].
+
+    Meshes are in the picture's axes. A line is visible where no pixel around it is nearer.
+    """
+    depth = _DepthMap(np.concatenate([mesh.corners for mesh in meshes]))
+    return tuple(_chains(_visible_parts(_edges(mesh), depth)) for mesh in meshes)
+
+
+def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
+    """Where a mesh meets the plane x = 0, as chains of points (y, z), shape (k, 2) [m]."""
+    corners = mesh.corners
+    # No corner lies exactly in the plane.
+    side = corners[:, :, 0] - 1e-9
+    crossing = ~((side > 0.0).all(axis=1) | (side < 0.0).all(axis=1))
+    segments = []
+    for triangle, distance in zip(corners[crossing], side[crossing], strict=True):
+        ends = []
+        for a, b in ((0, 1), (1, 2), (2, 0)):
+            if (distance[a] > 0.0) != (distance[b] > 0.0):
+                share = distance[a] / (distance[a] - distance[b])
+                ends.append((triangle[a] + share * (triangle[b] - triangle[a]))[1:])
+        segments.append(np.array(ends))
+    return _chains(segments)
+
+
+def _edges(mesh: Mesh) -> FloatArray:
+    """Both ends of creases and outlines that look at the eye on one side, shape (n, 2, 3)."""
+    corners = mesh.corners
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    normals = normals / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    ends = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    faces = np.repeat(np.arange(len(corners)), 3)
+    order = np.lexsort(ends.T)
+    ends, faces = ends[order], faces[order]
+    pairs = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
+    one, other = normals[faces[pairs]], normals[faces[pairs + 1]]
+    front = (one[:, 2] > 0.0).astype(int) + (other[:, 2] > 0.0)
+    crease = np.einsum("ij,ij->i", one, other) < _CREASE
+    drawn = (front == 1) | (crease & (front == 2))
+    return np.asarray(mesh.vertices[ends[pairs[drawn]]])
+
+
+class _DepthMap:
+    """Largest depth towards the eye on a grid of pixels."""
+
+    def __init__(self, corners: FloatArray) -> None:
+        flat = corners.reshape(-1, 3)
+        self._low = flat[:, :2].min(axis=0) - 2.0 * PIXEL
+        size = np.ceil((flat[:, :2].max(axis=0) - self._low) / PIXEL).astype(int) + 3
+        self._depth = np.full((size[1], size[0]), -np.inf)
+        self._fill(corners)
+        # The farthest around each pixel: what lies at an edge of a face is not hidden by it.
+        farthest = self._depth.copy()
+        for axis in (0, 1):
+            before, after = (np.roll(farthest, shift, axis) for shift in (1, -1))
+            farthest = np.minimum(farthest, np.minimum(before, after))
+        self._farthest = farthest
+
+    def _fill(self, corners: FloatArray) -> None:
+        """Fill the triangles that look at the eye, line by line of the grid.
+
+        Of closed meshes the others are behind them.
+        """
+        points = corners.copy()
+        points[:, :, :2] = (points[:, :, :2] - self._low) / PIXEL
+        edge_1, edge_2 = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+        area = edge_1[:, 0] * edge_2[:, 1] - edge_1[:, 1] * edge_2[:, 0]
+        front = area > 1e-9
+        points, area, edge_1, edge_2 = points[front], area[front], edge_1[front], edge_2[front]
+        slope_x = (edge_1[:, 2] * edge_2[:, 1] - edge_2[:, 2] * edge_1[:, 1]) / area
+        slope_y = (edge_2[:, 2] * edge_1[:, 0] - edge_1[:, 2] * edge_2[:, 0]) / area
+        at_zero = points[:, 0, 2] - slope_x * points[:, 0, 0] - slope_y * points[:, 0, 1]
+        low = np.ceil(points[:, :, 1].min(axis=1)).astype(int)
+        high = np.floor(points[:, :, 1].max(axis=1)).astype(int)
+        counts = np.maximum(high - low + 1, 0)
+        owner = np.repeat(np.arange(len(points)), counts)
+        rows = _ranges(low, counts)
+        left, right = np.full(len(rows), np.inf), np.full(len(rows), -np.inf)
+        for a, b in ((0, 1), (1, 2), (2, 0)):
+            start, end = points[owner, a], points[owner, b]
+            rise = end[:, 1] - start[:, 1]
+            with np.errstate(divide="ignore", invalid="ignore"):
+                share = (rows - start[:, 1]) / rise
+                across = start[:, 0] + share * (end[:, 0] - start[:, 0])
+            met = (share >= 0.0) & (share <= 1.0)
+            left = np.where(met, np.minimum(left, across), left)
+            right = np.where(met, np.maximum(right, across), right)
+        met = right >= left
+        owner, rows, left, right = owner[met], rows[met], left[met], right[met]
+        first = np.ceil(left).astype(int)
+        counts = np.maximum(np.floor(right).astype(int) - first + 1, 0)
+        columns = _ranges(first, counts)
+        start = at_zero[owner] + slope_y[owner] * rows
+        depth = np.repeat(start, counts) + np.repeat(slope_x[owner], counts) * columns
+        np.maximum.at(self._depth, (np.repeat(rows, counts), columns), depth)
+
+    def sees(self, points: FloatArray) -> FloatArray:
+        """Whether nothing is in front of each point, shape (n,)."""
+        columns, rows = np.rint((points[:, :2] - self._low) / PIXEL).astype(int).T
+        return np.asarray(points[:, 2] + 0.5 * PIXEL >= self._farthest[rows, columns])
+
+
+def _ranges(first: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """`first[i], first[i] + 1, ...` of `counts[i]` numbers each, one behind the other."""
+    total = np.cumsum(counts)
+    within = np.arange(total[-1] if len(total) else 0) - np.repeat(total - counts, counts)
+    return np.asarray(np.repeat(first, counts) + within)
+
+
+def _visible_parts(edges: FloatArray, depth: _DepthMap) -> list[FloatArray]:
+    """Parts of edges that are seen, each by its two ends, shape (2, 2)."""
+    if not len(edges):
+        return []
+    lengths = np.linalg.norm(edges[:, 1, :2] - edges[:, 0, :2], axis=1)
+    counts = np.maximum(np.ceil(lengths / PIXEL).astype(int), 1)
+    owner = np.repeat(np.arange(len(edges)), counts)
+    share = (_ranges(np.zeros(len(edges), dtype=int), counts) + 0.5) / counts[owner]
+    start, along = edges[owner, 0], edges[owner, 1] - edges[owner, 0]
+    seen = depth.sees(start + share[:, None] * along)
+    found, position = [], 0
+    for edge, count in zip(edges[:, :, :2], counts, strict=True):
+        flags = np.concatenate([[False], seen[position : position + count], [False]])
+        position += count
+        turns = np.flatnonzero(flags[1:] != flags[:-1])
+        for begin, end in zip(turns[::2], turns[1::2], strict=True):
+            # Specks are noise of the depth map.
+            if end - begin > 1 or count <= 2:
+                ends = np.array([begin, end])[:, None] / count
+                found.append(edge[0] + ends * (edge[1] - edge[0]))
+    return found
+
+
+def _chains(segments: Iterable[FloatArray]) -> tuple[FloatArray, ...]:
+    """Segments with common ends joined to chains of points."""
+    pieces = [segment for segment in segments if _key(segment[0]) != _key(segment[1])]
+    by_end: dict[tuple[int, int], list[int]] = {}
+    keys = [[_key(point) for point in piece] for piece in pieces]
+    for number, (start, end) in enumerate(keys):
+        by_end.setdefault(start, []).append(number)
+        by_end.setdefault(end, []).append(number)
+    left, chains = set(range(len(pieces))), []
+    for number in range(len(pieces)):
+        if number not in left:
+            continue
+        left.discard(number)
+        chain, ends = list(pieces[number]), list(keys[number])
+        for at_end in (True, False):
+            while True:
+                end = ends[1] if at_end else ends[0]
+                following = next((each for each in by_end[end] if each in left), None)
+                if following is None:
+                    break
+                left.discard(following)
+                forwards = keys[following][0] == end
+                point, key = pieces[following][int(forwards)], keys[following][int(forwards)]
+                if at_end:
+                    chain.append(point)
+                    ends[1] = key
+                else:
+                    chain.insert(0, point)
+                    ends[0] = key
+        chains.append(np.array(chain))
+    return tuple(chains)
+
+
+def _key(point: FloatArray) -> tuple[int, int]:
+    """Point to the hundredth of a micrometre."""
+    x, y = np.rint(1e8 * point).astype(int).tolist()
+    return x, y

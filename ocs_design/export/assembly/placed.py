@@ -1,0 +1,177 @@
+"""The pieces of one module in their places, as meshes in the frame of the left wheel.
+
+The wheel's axis is z, the floor of its housing at -z, the motor behind it; y points down.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import cos, pi, sin
+
+import numpy as np
+
+from ocs_design.actuation.fasteners import Fastening, Screw
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Device
+from ocs_design.device.solids import drive_solids, motor_mount
+from ocs_design.export.device_parts import printed_foot, printed_parts, wheel_pieces
+from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
+from ocs_design.export.visuals import cage_placement
+from ocs_design.parts.foot import BASE_THICKNESS, TRUNK_SCREWS
+from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS
+from ocs_design.parts.motor_mount import DriveSolid, Screwed
+from ocs_design.parts.part import Part
+from ocs_design.parts.printed import LID_SCREW, ear_axis
+from ocs_design.parts.solids import HERE, Revolution, hollow_cylinder, revolved
+from ocs_design.robot.tree import Placement
+
+SECTIONS = 64
+"""Chords of a full circle."""
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A piece of the module, or equal screws of it.
+
+    Attributes:
+        name: "drum", "lid", "foot", "cage", "motor", "gear", names of the wheel's pieces, or the
+            purpose of screws.
+        mesh: in its place in the wheel's frame [m].
+        fastening: of screws; None: no screws.
+        upright: whether it is put in from above and not along the axis.
+    """
+
+    name: str
+    mesh: Mesh
+    fastening: Fastening | None = None
+    upright: bool = False
+
+    def moved(self, offset: FloatArray) -> "Piece":
+        """The piece elsewhere."""
+        return replace(self, mesh=Mesh(self.mesh.vertices + offset, self.mesh.triangles))
+
+
+def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
+    """Wheel, printed parts, motor and gear of one module by their names, each with its place.
+
+    Motor and gear are cylinders of their mass; a gear of two wheels has one by the name of each.
+    """
+    found = {
+        name.removeprefix("flywheel_"): (part, HERE)
+        for name, part in wheel_pieces(device.flywheel).items()
+    }
+    if device.carrier.mass == 0.0:
+        return found
+    foot, cage = printed_foot(device), motor_mount(device).cage
+    places = {"foot": foot.placement}
+    if cage is not None:
+        places["cage"] = cage_placement(foot, cage)
+    for part in printed_parts(device):
+        found[part.name] = (part, places.get(part.name, HERE))
+    motor = device.motor
+    masses = {"motor": motor.mass, "gear": motor.gear_mass}
+    solids = [solid for solid in drive_solids(device) if solid.name in masses]
+    volumes = {
+        name: sum(_cylinder(solid).volume() for solid in solids if solid.name == name)
+        for name in masses
+    }
+    for solid in solids:
+        name = solid.name if solid.name not in found else f"{solid.name}_2"
+        part = Part(name, masses[solid.name] / volumes[solid.name], (_cylinder(solid),))
+        found[name] = (part, Placement(np.eye(3), np.array([0.0, -solid.up, 0.0])))
+    return found
+
+
+def _cylinder(solid: DriveSolid) -> Revolution:
+    return hollow_cylinder(0.0, solid.radius, solid.low, solid.high)
+
+
+def module_pieces(device: Device) -> tuple[Piece, ...]:
+    """Pieces in the order along the axis in which they come apart, the motor's end first.
+
+    Wheels alone have no other pieces.
+    """
+    parts = {
+        name: Piece(name, _placed(part_mesh(part, SECTIONS), place))
+        for name, (part, place) in placed_parts(device).items()
+    }
+    wheel = [parts.pop(name.removeprefix("flywheel_")) for name in wheel_pieces(device.flywheel)]
+    if device.carrier.mass == 0.0:
+        return tuple(wheel)
+    foot, mount = printed_foot(device), motor_mount(device)
+    floor = -foot.housing.half_height
+    screws = [(each, _screws(each, floor)) for each in mount.screwed]
+    on_wheel = [piece for each, piece in screws if each.towards < 0.0 and holds_wheel(each)]
+    inside = [piece for each, piece in screws if each.towards < 0.0 and not holds_wheel(each)]
+    behind = [piece for each, piece in screws if each.towards > 0.0]
+    back = [parts.pop("cage")] if "cage" in parts else []
+    drum, lid, base = (parts.pop(name) for name in ("drum", "lid", "foot"))
+    lid_screws = _ring(
+        LID_SCREWS, ear_axis(foot.housing.radius, LID_SCREW), FIRST_EAR, foot.housing.half_height
+    )
+    return (
+        *behind,
+        *back,
+        *parts.values(),
+        _trunk_screws(foot.placement, foot.slot_radius),
+        base,
+        drum,
+        *inside,
+        *wheel,
+        *on_wheel,
+        lid,
+        lid_screws,
+    )
+
+
+def holds_wheel(screwed: Screwed) -> bool:
+    """Whether screws hold the wheel, not the motor or what carries it."""
+    return screwed.fastening.purpose.startswith("wheel")
+
+
+def _screws(screwed: Screwed, floor: float) -> Piece:
+    """Screws of a mount; `floor` is the outside of the housing's floor along the axis [m]."""
+    circle, along = screwed.circle, floor + screwed.along
+    return _ring(screwed.fastening, circle.radius, -pi / 2.0, along, screwed.towards)
+
+
+def _ring(
+    fastening: Fastening, radius: float, first: float, along: float, towards: float = -1.0
+) -> Piece:
+    """Screws on a circle, with the undersides of their heads at `along` [m].
+
+    Args:
+        fastening: what they are.
+        radius: of the circle [m]. first: angle of the first of them from the x axis [rad].
+        along: along the wheel's axis [m].
+        towards: 1: their tips point outward, -1: to the motor.
+    """
+    one = solid_mesh(_screw(fastening.screw, fastening.length), 24)
+    flip = np.diag([1.0, -towards, -towards])
+    meshes = []
+    for index in range(fastening.count):
+        angle = first + 2.0 * pi * index / fastening.count
+        place = np.array([radius * cos(angle), radius * sin(angle), along])
+        meshes.append(Mesh(one.vertices @ flip.T + place, one.triangles))
+    return Piece(fastening.purpose, merged(meshes), fastening)
+
+
+def _trunk_screws(foot: Placement, radius: float) -> Piece:
+    """Screws into the trunk in the middle of the foot's slots."""
+    one = solid_mesh(_screw(TRUNK_SCREWS.screw, TRUNK_SCREWS.length), 24)
+    meshes = [
+        Mesh(one.vertices + np.array([0.0, side * radius, BASE_THICKNESS]), one.triangles)
+        for side in (1.0, -1.0)
+    ]
+    return Piece(TRUNK_SCREWS.purpose, _placed(merged(meshes), foot), TRUNK_SCREWS, upright=True)
+
+
+def _screw(screw: Screw, length: float) -> Revolution:
+    """A screw with its head above z = 0 and its tip below."""
+    thread, head, top = screw.diameter / 2.0, screw.head_diameter / 2.0, screw.head_height
+    return revolved(
+        [(0.0, -length), (thread, -length), (thread, 0.0), (head, 0.0), (head, top), (0.0, top)]
+    )
+
+
+def _placed(mesh: Mesh, place: Placement) -> Mesh:
+    return Mesh(mesh.vertices @ place.rotation.T + place.position, mesh.triangles)

@@ -1,0 +1,217 @@
+"""Exploded view and section of a module on a sheet, with the numbers of its pieces."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.export.assembly.line_art import section_lines, view_of, visible_lines
+from ocs_design.export.assembly.placed import Piece
+from ocs_design.export.drawing.sheet import (
+    CENTRE,
+    OUTLINE,
+    THIN,
+    Anchor,
+    Box,
+    Circle,
+    Item,
+    Line,
+    Pen,
+    Polyline,
+    Scale,
+    Text,
+    largest_scale,
+)
+from ocs_design.export.meshes import Mesh
+
+_CAMERA, _UP = (0.80, -0.38, 0.55), (0.0, -1.0, 0.0)
+
+_DRAWN = Pen(0.25)
+
+_GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
+"""Between pieces that are pulled apart, over the largest radius: the widest that fits the sheet is
+taken. Share of it before screws."""
+
+_LIFT = 0.012
+"""Of screws that are put in from above [m]."""
+
+BALLOON = 3.2
+"""Radius of a number's circle [mm]."""
+
+
+def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
+    """Pieces moved along the axis until they are so far from each other [m]."""
+    moved, end = [], -np.inf
+    lift = 0.0
+    for piece in pieces:
+        heights = piece.mesh.vertices[:, 2]
+        low, high = float(heights.min()), float(heights.max())
+        if piece.upright:
+            moved.append(piece)
+            continue
+        if piece.name == "foot":
+            # Its base is below the motor; before it its screws are to be seen.
+            above = piece.mesh.vertices[piece.mesh.vertices[:, 1] < 0.0]
+            low = float(above[:, 2].min())
+        gap = between * (_SCREW_GAP if piece.fastening is not None else 1.0)
+        shift = 0.0 if np.isneginf(end) else end + gap - low
+        end = high + shift
+        moved.append(piece.moved(np.array([0.0, 0.0, shift])))
+        if piece.name == "foot":
+            lift = shift
+    # Screws that come from above follow the foot.
+    return tuple(
+        piece.moved(np.array([0.0, -_LIFT, lift])) if piece.upright else piece for piece in moved
+    )
+
+
+def exploded_view(
+    pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box
+) -> tuple[list[Item], Scale]:
+    """Exploded view in a box of the sheet [mm], with its scale.
+
+    Args:
+        pieces: of one module. numbers: of the pieces by their names.
+        box: that it is centred in.
+    """
+    view = view_of(_CAMERA, _UP)
+    left, top, right, bottom = box
+    room = np.array([right - left - 4.0, bottom - top - 4.0 * (BALLOON + 2.0)])
+    tried = []
+    radius = max(float(np.abs(piece.mesh.vertices[:, 0]).max()) for piece in pieces)
+    for gap in _GAPS:
+        apart = pulled_apart(pieces, gap * radius)
+        points = np.concatenate([piece.mesh.vertices for piece in apart]) @ view[:2].T
+        low, high = points.min(axis=0), points.max(axis=0)
+        tried.append((_fitting(high - low, room), apart, low, high))
+    # The first of the largest scale has the widest gaps.
+    scale, apart, low, high = max(tried, key=lambda each: each[0].paper / each[0].part)
+    meshes = [Mesh(piece.mesh.vertices @ view.T, piece.mesh.triangles) for piece in apart]
+    lines = visible_lines(meshes)
+    middle = (low + high) / 2.0
+    centre = np.array([(left + right) / 2.0, (top + bottom) / 2.0])
+
+    def place(at: FloatArray) -> tuple[float, float]:
+        x, y = centre + _on_paper(scale, (at - middle) * [1.0, -1.0])
+        return float(x), float(y)
+
+    items: list[Item] = []
+    for chains in lines:
+        items += [Polyline(tuple(map(place, chain)), _DRAWN) for chain in chains]
+    ends = _axis(apart, view)
+    items.append(Line(place(ends[0]), place(ends[1]), CENTRE))
+    above, below = [], []
+    for piece, mesh, chains in zip(apart, meshes, lines, strict=True):
+        # What cannot be seen is pointed at all the same.
+        flat = np.concatenate(chains) if chains else mesh.vertices[:, :2]
+        name = numbers[piece.name]
+        if piece.upright or piece.name == "foot":
+            below.append((name, place(flat[flat[:, 1].argmin()])))
+        else:
+            above.append((name, place(flat[flat[:, 1].argmax()])))
+    items += _balloons(above, top + BALLOON, (left, right))
+    items += _balloons(below, bottom - BALLOON, (left, right))
+    return items, scale
+
+
+def section_view(
+    pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box
+) -> tuple[list[Item], Scale]:
+    """Section along the axis, upright, in a box of the sheet [mm], with its scale."""
+    cut = [(piece, section_lines(piece.mesh)) for piece in pieces if not piece.upright]
+    cut = [(piece, chains) for piece, chains in cut if chains]
+    points = np.concatenate([chain for _, chains in cut for chain in chains])
+    low, high = points.min(axis=0), points.max(axis=0)
+    left, top, right, bottom = box
+    margin = 2.0 * BALLOON + 8.0
+    room = np.array([bottom - top - 8.0, right - left - 2.0 * margin])
+    scale = _fitting(high - low, room)
+    middle = (low + high) / 2.0
+    centre = np.array([(left + right) / 2.0, (top + bottom) / 2.0])
+
+    def place(at: FloatArray) -> tuple[float, float]:
+        # The axis to the right, y of the wheel's frame down.
+        y, x = _on_paper(scale, at - middle)
+        return float(centre[0] + x), float(centre[1] + y)
+
+    items: list[Item] = []
+    beside: dict[bool, list[tuple[int, tuple[float, float]]]] = {True: [], False: []}
+    for piece, chains in cut:
+        pen = THIN if piece.fastening is not None else OUTLINE
+        items += [Polyline(tuple(map(place, chain)), pen) for chain in chains]
+        corners = np.concatenate(chains)
+        behind = float(corners[:, 1].mean()) < middle[1]
+        ends = corners[:, 1] if behind else -corners[:, 1]
+        # The highest of the outermost corners.
+        outer = corners[np.lexsort((corners[:, 0], np.rint(1e6 * ends)))[0]]
+        beside[behind].append((numbers[piece.name], place(outer)))
+    zero = np.array([0.0, low[1] - 0.004]), np.array([0.0, high[1] + 0.004])
+    items.append(Line(place(zero[0]), place(zero[1]), CENTRE))
+    for behind, marks in beside.items():
+        x = left + BALLOON if behind else right - BALLOON
+        items += _balloons_beside(marks, x, (top, bottom))
+    return items, scale
+
+
+def _fitting(size: FloatArray, room: FloatArray) -> Scale:
+    """Largest standard scale at which a size [m] fits a room of the sheet [mm]."""
+    return largest_scale(lambda each: bool(np.all(_on_paper(each, size) <= room)))
+
+
+def _on_paper(scale: Scale, lengths: FloatArray) -> FloatArray:
+    return np.array([scale(float(length)) for length in lengths])
+
+
+def _axis(pieces: Sequence[Piece], view: FloatArray) -> FloatArray:
+    """Ends of the wheel's axis through all pieces, in the picture, shape (2, 2)."""
+    heights = np.concatenate([piece.mesh.vertices[:, 2] for piece in pieces])
+    ends = np.array([[0.0, 0.0, heights.min() - 0.01], [0.0, 0.0, heights.max() + 0.01]])
+    return np.asarray((ends @ view.T)[:, :2])
+
+
+def _balloons(
+    marks: Sequence[tuple[int, tuple[float, float]]], y: float, room: tuple[float, float]
+) -> list[Item]:
+    """Numbers in a row at one height, in the order of what they point to."""
+    ordered = sorted(marks, key=lambda mark: mark[1][0])
+    places = spread([at[0] for _, at in ordered], 2.0 * BALLOON + 1.5, room)
+    items: list[Item] = []
+    for (number, at), x in zip(ordered, places, strict=True):
+        items += _balloon(number, (x, y), at)
+    return items
+
+
+def _balloons_beside(
+    marks: Sequence[tuple[int, tuple[float, float]]], x: float, room: tuple[float, float]
+) -> list[Item]:
+    """Numbers in a column, in the order of what they point to."""
+    ordered = sorted(marks, key=lambda mark: mark[1][1])
+    places = spread([at[1] for _, at in ordered], 2.0 * BALLOON + 1.5, room)
+    items: list[Item] = []
+    for (number, at), y in zip(ordered, places, strict=True):
+        items += _balloon(number, (x, y), at)
+    return items
+
+
+def spread(wanted: Sequence[float], least: float, room: tuple[float, float]) -> list[float]:
+    """Rising places near the wanted ones, `least` apart at least, within the room if they fit."""
+    places: list[float] = []
+    for each in wanted:
+        places.append(max(each, places[-1] + least) if places else max(each, room[0] + least / 2.0))
+    end = room[1] - least / 2.0
+    for index in range(len(places) - 1, -1, -1):
+        places[index] = min(places[index], end)
+        end = places[index] - least
+    return places
+
+
+def _balloon(number: int, at: tuple[float, float], to: tuple[float, float]) -> list[Item]:
+    """A number in a circle, with a line to what it names."""
+    away = np.subtract(to, at)
+    start = np.add(at, away * BALLOON / max(float(np.linalg.norm(away)), BALLOON))
+    return [
+        Circle(at, BALLOON, THIN),
+        Line((float(start[0]), float(start[1])), to, THIN),
+        Circle(to, 0.4, THIN),
+        Text((at[0], at[1] + 1.25), str(number), 2.5, Anchor.MIDDLE),
+    ]

@@ -1,0 +1,475 @@
+"""Joints of a wheel, as formulas: rotating rings, shrink fits, screws, bonds, balance.
+
+Rings of constant thickness that turn together are solved exactly (Budynas and Nisbett, Shigley's
+Mechanical Engineering Design, 10th ed., sections 3-14 to 3-16; Timoshenko and Goodier, Theory of
+Elasticity, 3rd ed., section 32). In plane stress, at the speed w, each has
+
+    u         = A r + B / r - (1 - nu^2) rho w^2 r^3 / (8 E)
+    sigma_r   = E A / (1 - nu) - E B / ((1 + nu) r^2) - (3 + nu) / 8 rho w^2 r^2
+    sigma_phi = E A / (1 - nu) + E B / ((1 + nu) r^2) - (1 + 3 nu) / 8 rho w^2 r^2,
+
+no stress on the innermost and the outermost edge, and where two meet equal forces t sigma_r, and
+displacements that differ by the interference. A wheel of one piece is three of them, hub, web and
+rim, without interference; a rim that is shrunk on is the last of them, with one. A web with holes
+is softer where they are, and its stress is that over the share that is left in a section through
+their middles (the ligament efficiency of a tube plate, (p - d) / p, ASME VIII-1, UG-53).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import floor, inf, pi, sin
+
+import numpy as np
+
+from ocs_design.actuation.fasteners import Screw, screw
+from ocs_design.actuation.motor import Mounting
+from ocs_design.common.arrays import FloatArray
+
+OVERSPEED = 1.2
+"""Speed at which a wheel is proved, over the highest that it can get to."""
+
+SERVICE = 1.5
+"""Torque that a joint must carry, over the peak torque of its drive: it starts and stops hard."""
+
+_POINTS = 33
+"""Radii of each ring at which its stress is looked at, both edges among them."""
+
+_BANDS = 16
+"""Rings that a web's holes are cut into."""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """What is asked of one joint against what it stands.
+
+    Attributes:
+        name: of the joint; "rim joint" and "shaft joint" are the first of their kind.
+        demand: that is asked.
+        capacity: that it stands; None: not known, and `note` says why.
+        unit: of both, SI.
+        note: what the figures rest on, one sentence.
+    """
+
+    name: str
+    demand: float
+    capacity: float | None
+    unit: str
+    note: str
+
+    @property
+    def margin(self) -> float | None:
+        """Capacity over demand; None: no capacity is known, or nothing is asked."""
+        return None if self.capacity is None or self.demand == 0.0 else self.capacity / self.demand
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A ring of constant thickness.
+
+    Attributes:
+        inner, outer: radii [m]; inner 0: a full disc.
+        thickness: along the axis [m].
+        density: [kg/m^3]. elastic_modulus: [Pa]. poisson_ratio: of its material.
+    """
+
+    inner: float
+    outer: float
+    thickness: float
+    density: float
+    elastic_modulus: float
+    poisson_ratio: float
+
+    def _rows(self, radius: float | FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Factors of A and B in the displacement and in the radial stress, shape (2, ...)."""
+        r, of_b = np.asarray(radius, dtype=np.float64), 1.0 if self.inner > 0.0 else 0.0
+        modulus, nu = self.elastic_modulus, self.poisson_ratio
+        # A full disc has no B, whose factor is infinite in its middle.
+        safe = np.where(r > 0.0, r, 1.0)
+        moved = np.stack([r, of_b / safe])
+        stressed = np.stack(
+            [modulus / (1.0 - nu) + 0.0 * r, -of_b * modulus / (1.0 + nu) / safe**2]
+        )
+        return moved, stressed
+
+    def _spun(self, speed: float, radius: float | FloatArray) -> tuple[FloatArray, ...]:
+        """Displacement, radial and hoop stress by the speed alone."""
+        load, nu, r = self.density * speed**2, self.poisson_ratio, np.asarray(radius)
+        return (
+            -(1.0 - nu**2) * load * r**3 / (8.0 * self.elastic_modulus),
+            -(3.0 + nu) / 8.0 * load * r**2,
+            -(1.0 + 3.0 * nu) / 8.0 * load * r**2,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class TurningRings:
+    """Rings that turn together, from the axis outwards.
+
+    Attributes:
+        rings: each begins where the one before it ends.
+        speed: [rad/s].
+        constants: A and B of each, shape (n, 2).
+    """
+
+    rings: tuple[Ring, ...]
+    speed: float
+    constants: FloatArray
+
+    @classmethod
+    def of(
+        cls, rings: Sequence[Ring], speed: float, interferences: Sequence[float] | None = None
+    ) -> "TurningRings":
+        """Solve them.
+
+        Args:
+            rings: from the axis outwards.
+            speed: [rad/s].
+            interferences: by which each is too narrow for the one inside it, radial [m]; None: 0.
+        """
+        count = len(rings)
+        gaps = [0.0] * (count - 1) if interferences is None else list(interferences)
+        matrix, right = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
+        first, last = rings[0], rings[-1]
+        if first.inner > 0.0:
+            matrix[0, :2] = first._rows(first.inner)[1]
+            right[0] = -first._spun(speed, first.inner)[1]
+        else:
+            matrix[0, 1] = 1.0
+        matrix[-1, -2:] = last._rows(last.outer)[1]
+        right[-1] = -last._spun(speed, last.outer)[1]
+        for at, (inside, around) in enumerate(pairwise(rings)):
+            r, row, column = inside.outer, 2 * at + 1, 2 * at
+            (moved, pulled), (moved_out, pulled_out) = inside._rows(r), around._rows(r)
+            own, other = inside._spun(speed, r), around._spun(speed, r)
+            matrix[row, column : column + 4] = [*-moved, *moved_out]
+            right[row] = gaps[at] + float(own[0] - other[0])
+            matrix[row + 1, column : column + 4] = [
+                *(-inside.thickness * pulled),
+                *(around.thickness * pulled_out),
+            ]
+            right[row + 1] = float(inside.thickness * own[1] - around.thickness * other[1])
+        # Displacements are nine orders below stresses.
+        scale = np.abs(matrix).max(axis=1)
+        columns = np.abs(matrix / scale[:, None]).max(axis=0)
+        found = np.linalg.solve(matrix / scale[:, None] / columns, right / scale) / columns
+        return cls(tuple(rings), speed, found.reshape(count, 2))
+
+    def displacement(self, ring: int, radius: float) -> float:
+        """Radial displacement of one ring at a radius [m]."""
+        each = self.rings[ring]
+        moved = each._rows(radius)[0]
+        return float(self.constants[ring] @ moved + each._spun(self.speed, radius)[0])
+
+    def stresses(self, ring: int, radius: float | FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Radial and hoop stress in one ring [Pa]."""
+        each, (a, b) = self.rings[ring], self.constants[ring]
+        of_a, of_b = each._rows(radius)[1]
+        spun = each._spun(self.speed, radius)
+        return np.asarray(a * of_a + b * of_b + spun[1]), np.asarray(a * of_a - b * of_b + spun[2])
+
+    def pressure(self, joint: int) -> float:
+        """Pressure on the edge of the inner ring of a joint [Pa]; below 0 it would have to hold."""
+        return -float(self.stresses(joint, self.rings[joint].outer)[0])
+
+    def peak(self, ring: int) -> float:
+        """Largest equivalent stress of one ring by von Mises [Pa]."""
+        each = self.rings[ring]
+        radial, hoop = self.stresses(ring, np.linspace(each.inner, each.outer, _POINTS))
+        return float(np.sqrt(radial**2 - radial * hoop + hoop**2).max())
+
+    def peak_at_hole(self, ring: int, radius: float) -> float:
+        """Largest stress at the edge of a small hole at a radius: 3 s_1 - s_2 (Kirsch) [Pa]."""
+        radial, hoop = (float(stress) for stress in self.stresses(ring, radius))
+        return max(3.0 * hoop - radial, 3.0 * radial - hoop)
+
+
+def ligament_efficiencies(web: Ring, count: int, circle: float, hole: float) -> tuple[float, float]:
+    """Shares of a ring that holes leave of a section: from one to the next, and along a radius.
+
+    Args:
+        web: with the holes. count: of them.
+        circle: radius that their middles are on [m]. hole: radius of each [m].
+    """
+    pitch, width = 2.0 * circle * sin(pi / count), web.outer - web.inner
+    return 1.0 - 2.0 * hole / pitch, 1.0 - 2.0 * hole / width
+
+
+def holed_peaks(
+    rings: Sequence[Ring], speed: float, count: int, circle: float, hole: float
+) -> tuple[float, float, float]:
+    """Upper estimates of the largest stress in a hub, a web with holes and a rim [Pa].
+
+    The band of the web that the holes are in counts as rings of the stiffness and density that the
+    share of material at their radii has: the same all around, displacements make any body too
+    stiff. Radial stress on their circle is carried between the holes, the web's mean hoop stress
+    beside them: either is over its ligament efficiency e, and at the edge of a hole 2 + e^3 times
+    that, as in a strip with a hole in its middle (Heywood; Pilkey, Peterson's Stress Concentration
+    Factors, 3rd ed., section 4.3). The rim also stands what it has with no web at all.
+
+    Args:
+        rings: hub, web and rim. speed: [rad/s].
+        count, circle, hole: see `ligament_efficiencies`.
+    """
+    hub, web, rim = rings
+    edges = np.linspace(circle - hole, circle + hole, _BANDS + 1)
+    middles = (edges[:-1] + edges[1:]) / 2.0
+    cosines = (middles**2 + circle**2 - hole**2) / (2.0 * middles * circle)
+    shares = 1.0 - count * np.arccos(cosines) / pi
+    bands = [
+        replace(
+            web,
+            inner=inner,
+            outer=outer,
+            density=share * web.density,
+            elastic_modulus=share * web.elastic_modulus,
+        )
+        for (inner, outer), share in zip(pairwise(edges.tolist()), shares.tolist(), strict=True)
+    ]
+    inside = replace(web, outer=circle - hole)
+    around = replace(web, inner=circle + hole)
+    turning = TurningRings.of((hub, inside, *bands, around, rim), speed)
+    pulled = float(turning.stresses(2 + _BANDS // 2, circle)[0])
+    hoops = [
+        float(turning.stresses(row, np.linspace(ring.inner, ring.outer, _POINTS))[1].mean())
+        * (ring.outer - ring.inner)
+        for row, ring in enumerate(turning.rings[1:-1], start=1)
+    ]
+    stretched = sum(hoops) / (web.outer - web.inner)
+    between, beside = ligament_efficiencies(web, count, circle, hole)
+    return (
+        turning.peak(0),
+        max(
+            (2.0 + between**3) / between * pulled,
+            (2.0 + beside**3) / beside * stretched,
+            *(turning.peak(ring) for ring in (1, len(bands) + 2)),
+        ),
+        max(turning.peak(len(bands) + 3), TurningRings.of((rim,), speed).peak(0)),
+    )
+
+
+# --- screws -----------------------------------------------------------------------------------
+
+PROOF_STRESS = 580e6
+"""Of screws of property class 8.8 up to M16 [Pa]: ISO 898-1, table 3."""
+
+SCREW_YIELD = 640e6
+"""Of screws of property class 8.8 up to M16 [Pa]: ISO 898-1, table 3."""
+
+PRELOAD_SHARE = 0.75
+"""Preload over proof load of a joint that is taken apart again: Shigley, equation 8-31."""
+
+TIGHTENING_FACTOR = 1.6
+"""Largest preload over the least that a torque wrench leaves: VDI 2230-1, table A8."""
+
+FRICTION = 0.1
+"""Least coefficient between dry, clean faces of steel and aluminium: VDI 2230-1, table A6."""
+
+_SHEAR_SHARE = 0.577
+"""Shear strength over yield strength by distortion energy: Shigley, equation 5-21."""
+
+
+def stress_area(held: Screw) -> float:
+    """Tensile stress area of a thread, pi / 4 (d - 0.9382 P)^2 (ISO 898-1, 9.1.6.1) [m^2]."""
+    return pi / 4.0 * (held.diameter - 0.9382 * held.pitch) ** 2
+
+
+def preload(held: Screw) -> float:
+    """Force that a screw of class 8.8 is tightened to, 0.75 of its proof load [N]."""
+    return PRELOAD_SHARE * PROOF_STRESS * stress_area(held)
+
+
+def tightening_torque(held: Screw) -> float:
+    """Torque for that preload [N m]; see `Screw.torque`."""
+    return held.torque(preload(held))
+
+
+def friction_torque(held: Screw, count: int, radius: float) -> float:
+    """Torque that screws on a circle carry by friction under their least preload [N m].
+
+    Args:
+        held: each of them. count: of them. radius: of their circle [m].
+    """
+    return FRICTION * count * preload(held) / TIGHTENING_FACTOR * radius
+
+
+def shear_torque(held: Screw, count: int, radius: float) -> float:
+    """Torque at which their threads yield in shear, should the faces slip [N m]."""
+    return _SHEAR_SHARE * SCREW_YIELD * stress_area(held) * count * radius
+
+
+# --- shafts -----------------------------------------------------------------------------------
+
+BOND_STRENGTH = 25e6
+"""Shear strength of a retaining compound on steel [Pa]: Loctite 638, technical data sheet, ISO
+10123, at least."""
+
+BOND_SHARE = 0.5
+"""Of that: half is left at 80 deg C, on stainless steel and in wide gaps."""
+
+
+def cylinder_torque(diameter: float, length: float, shear: float) -> float:
+    """Torque of a shear stress on a shaft's surface, pi d L tau d / 2 [N m].
+
+    tau is mu p in a press fit or clamp, and the strength of the compound in a bond. A bore that
+    slides on has neither, and carries nothing.
+    """
+    return pi * diameter * length * shear * diameter / 2.0
+
+
+def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
+    """Torque that a hub's joint on its motor carries [N m]; None: nothing that is known carries.
+
+    Friction under the screws in the rotor's threads, else a bond on the shaft.
+
+    Args:
+        mounting: of the motor.
+        bond_length: of the hub's bore between its chamfers [m].
+    """
+    circle, shaft = mounting.rotor, mounting.shaft_diameter
+    if circle is not None:
+        return friction_torque(screw(circle.thread), circle.bolts, circle.radius)
+    return (
+        None if shaft is None else cylinder_torque(shaft, bond_length, BOND_SHARE * BOND_STRENGTH)
+    )
+
+
+# --- balance ----------------------------------------------------------------------------------
+
+GRADE = 6.3
+"""Balance quality grade of flywheels [mm/s]: ISO 21940-11, table 1."""
+
+_STEPS_MM = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
+_IT6 = (6, 8, 9, 11, 13, 16, 19, 22, 25, 29, 32, 36, 40)
+_IT7 = (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63)
+"""Upper ends of the steps of sizes [mm], and their tolerances [um]: ISO 286-1, table 1."""
+
+
+def tolerance(diameter: float, grade: int) -> float:
+    """Tolerance of grade 6 or 7 of a size [m]; above 500 mm as there."""
+    found = np.searchsorted(_STEPS_MM, round(1e3 * diameter, 9))
+    return 1e-6 * {6: _IT6, 7: _IT7}[grade][min(int(found), len(_STEPS_MM) - 1)]
+
+
+def slip_fit_eccentricity(diameter: float) -> float:
+    """Distance that an H7/h6 fit may be off centre: half of its largest play [m]."""
+    return (tolerance(diameter, 7) + tolerance(diameter, 6)) / 2.0
+
+
+@dataclass(frozen=True)
+class Correction:
+    """Holes in a rim's faces, on its middle radius, that take an unbalance away.
+
+    They are drilled where balancing asks for them, one opposite the other in both faces.
+
+    Attributes:
+        radius: that they are on [m].
+        hole_radius, depth: of each [m]; 0: there is no room for any.
+        mass: that a pair of them takes [kg].
+        most: largest unbalance that all that have room on one half take [kg m].
+    """
+
+    radius: float
+    hole_radius: float
+    depth: float
+    mass: float
+    most: float
+
+
+def correction(
+    rim: Ring, *, chamfer: float, ligament: float, hole_radius: float = 0.8e-3
+) -> Correction:
+    """Largest correction that holes in a rim can make.
+
+    Args:
+        rim: that is drilled.
+        chamfer: of its edges [m].
+        ligament: material between holes, to edges and between their bottoms [m].
+        hole_radius: wanted; narrower ones are taken where the wall asks for them [m].
+    """
+    middle = (rim.inner + rim.outer) / 2.0
+    beside = (rim.outer - rim.inner) / 2.0 - chamfer - ligament
+    hole, depth = max(min(hole_radius, beside), 0.0), max((rim.thickness - ligament) / 2.0, 0.0)
+    if hole == 0.0 or depth == 0.0:
+        return Correction(middle, 0.0, 0.0, 0.0, 0.0)
+    mass = 2.0 * pi * hole**2 * depth * rim.density
+    step = (2.0 * hole + ligament) / middle
+    count = max(floor(pi / step), 1)
+    angles = step * (np.arange(count) - (count - 1) / 2.0)
+    return Correction(middle, hole, depth, mass, float(mass * middle * np.cos(angles).sum()))
+
+
+# --- shrink fits ------------------------------------------------------------------------------
+
+COLDEST, MADE, WARMEST = -10.0, 20.0, 50.0
+"""Temperatures that a shrink fit must hold at, and the one that it is made at [deg C]."""
+
+
+@dataclass(frozen=True)
+class ShrinkFit:
+    """A rim on a web of another material.
+
+    Attributes:
+        least, most: radial interference at `MADE` [m].
+        needed: pressure that carries the torque [Pa].
+        held: least pressure, at the least interference, turning or not, cold or warm [Pa].
+        stress_web, stress_rim: largest, at the largest interference [Pa].
+        squeezed: largest pressure on the web [Pa].
+        buckling: pressure at which the web buckles [Pa].
+    """
+
+    least: float
+    most: float
+    needed: float
+    held: float
+    stress_web: float
+    stress_rim: float
+    squeezed: float
+    buckling: float
+
+
+_BUCKLING = 14.68
+"""Of a full plate with a clamped edge, N = 14.68 D / a^2: Timoshenko and Gere, Theory of Elastic
+Stability, 2nd ed., section 9.1. The rim holds the web's edge, its hub stiffens the middle."""
+
+
+def shrink_fit(
+    rings: Sequence[Ring], expansions: tuple[float, float], speed: float, torque: float
+) -> ShrinkFit:
+    """The loosest shrink fit that holds at that speed and at rest, cold and warm.
+
+    Web and rim grow by their expansions; bore and web are made to grade 6 each.
+
+    Args:
+        rings: hub, web and rim, or web and rim.
+        expansions: of web and rim [1/K].
+        speed: that it holds at [rad/s].
+        torque: that it carries [N m].
+    """
+    web = rings[-2]
+    radius, joint = web.outer, len(rings) - 2
+    needed = torque / (2.0 * pi * radius**2 * web.thickness * FRICTION)
+    grown = [(expansions[0] - expansions[1]) * (at - MADE) * radius for at in (COLDEST, WARMEST)]
+
+    def turning(interference: float, at: float) -> TurningRings:
+        return TurningRings.of(rings, at, [0.0] * joint + [interference])
+
+    # Pressure is linear in the interference.
+    per_interference = turning(1e-6, 0.0).pressure(joint) / 1e-6
+    loosest = min(turning(shift, at).pressure(joint) for shift in grown for at in (0.0, speed))
+    least = (SERVICE * needed - loosest) / per_interference
+    most = least + tolerance(2.0 * radius, 6)
+    states = [turning(most + shift, at) for shift in grown for at in (0.0, speed)]
+    stiffness = web.elastic_modulus * web.thickness**3 / (12.0 * (1.0 - web.poisson_ratio**2))
+    return ShrinkFit(
+        least=least,
+        most=most,
+        needed=needed,
+        held=min(
+            turning(least + shift, at).pressure(joint) for shift in grown for at in (0.0, speed)
+        ),
+        stress_web=max(state.peak(ring) for state in states for ring in range(joint + 1)),
+        stress_rim=max(state.peak(joint + 1) for state in states),
+        squeezed=max(state.pressure(joint) for state in states),
+        buckling=_BUCKLING * stiffness / (radius**2 * web.thickness) if radius > 0.0 else inf,
+    )

@@ -1,0 +1,73 @@
+"""Section of the page that says how the device is built, as `assembly.pdf` does."""
+
+from dataclasses import fields
+
+import numpy as np
+
+from ocs_design.device.device import Device, Module
+from ocs_design.device.records import OcsDesign
+from ocs_design.export.assembly.booklet import exploded_svg, section_svg
+from ocs_design.export.assembly.content import Assembly, Chapter
+from ocs_design.report.html.elements import Markup, element, items, joined, section, table
+from ocs_design.report.table import Table, columns
+
+
+def assembly_section(design: OcsDesign) -> Markup:
+    """Pictures, pieces, screws and all instructions."""
+    assembly = Assembly(design.robot.name, _device(design), design.margins, design.ocs.fitting)
+    rows = list(assembly.piece_rows())
+    pieces = tuple(
+        (str(row.number), str(row.quantity), row.name, row.made, row.file) for row in rows
+    )
+    screws = tuple(
+        (
+            str(row.number),
+            str(row.quantity),
+            row.designation,
+            row.purpose,
+            row.engagement,
+            row.torque,
+            row.rule,
+        )
+        for row in assembly.screw_rows()
+    )
+    held = (
+        "No.",
+        "quantity",
+        "<screw",
+        "<what it holds",
+        "<thread that holds",
+        "<torque",
+        "<set by",
+    )
+    return section(
+        "assembly",
+        "Assembly: how to build, balance, test and wire it",
+        element("figure", Markup(exploded_svg(assembly)), class_="sheet"),
+        table(
+            "Pieces of the whole device, by their numbers",
+            Table(columns("No.", "quantity", "<piece", "<made", "<file in cad/"), pieces),
+        ),
+        element("figure", Markup(section_svg(assembly)), class_="sheet"),
+        table("Screws", Table(columns(*held), screws)) if screws else "",
+        joined(_chapter(chapter) for chapter in assembly.chapters()),
+        element("p", "The same stands on paper in ", element("code", "cad/assembly.pdf"), "."),
+    )
+
+
+def _chapter(chapter: Chapter) -> Markup:
+    head = element("h3", chapter.title)
+    if not chapter.numbered:
+        return joined((head, items(chapter.texts)))
+    return joined((head, element("ol", *(element("li", text) for text in chapter.texts))))
+
+
+def _device(design: OcsDesign) -> Device:
+    """The recorded device: what the record holds under the names of the device's own fields."""
+    ocs = design.ocs
+    modules = [
+        Module(each.name, np.array(each.axis), np.array(each.position)) for each in ocs.modules
+    ]
+    names = {each.name for each in fields(Device)} - {"modules", "supply"}
+    same = {name: getattr(ocs, name) for name in names if hasattr(ocs, name)}
+    return Device(modules=(modules[0], modules[1]), supply=design.supply, **same)

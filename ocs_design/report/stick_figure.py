@@ -1,0 +1,194 @@
+"""What was recognised of a robot, drawn from three sides: an SVG of lines, boxes and words."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.robot.leg_geometry import up_axis
+from ocs_design.robot.meshes import extent_of, solid_shapes
+from ocs_design.robot.robot import Leg, Robot
+from ocs_design.robot.tree import Placement
+
+_SIDE = 300.0
+"""Width and height of one view [px]."""
+
+_EDGE = 34.0
+_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a6d00", "#6a3d9a")
+"""Of the legs; they differ for most eyes (Okabe and Ito 2008), and each foot is named."""
+
+_VIEWS = (
+    ("from the right", (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    ("from the front", (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    ("from above", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+)
+"""Name, direction to the right and direction up the page of each view, in B."""
+
+
+@dataclass(frozen=True, eq=False)
+class _View:
+    """A projection onto the page.
+
+    Attributes:
+        name: of the side. right, up: directions on the page, in B.
+        left: of the view's square on the page [px].
+        middle: of the robot, in B [m]. scale: [px/m].
+    """
+
+    name: str
+    right: FloatArray
+    up: FloatArray
+    left: float
+    middle: FloatArray
+    scale: float
+
+    def place(self, point: FloatArray) -> tuple[float, float]:
+        """A point of B on the page [px]."""
+        away = point - self.middle
+        return (
+            self.left + 0.5 * _SIDE + self.scale * float(self.right @ away),
+            _EDGE + 0.5 * _SIDE - self.scale * float(self.up @ away),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Figure:
+    """What is drawn.
+
+    Attributes:
+        robot: in its posture. legs: in colour.
+        places: of the robot's bodies in B.
+        feet: points of the legs in B [m], by name.
+        corners: of the box around the trunk in B [m].
+    """
+
+    robot: Robot
+    legs: Sequence[Leg]
+    places: Sequence[Placement]
+    feet: Mapping[str, FloatArray]
+    corners: Sequence[FloatArray]
+
+
+def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str:
+    """An SVG of a robot in its posture, from the right, the front and above.
+
+    Args:
+        robot: to draw; its trunk as a box, every other body as a line to what it hangs on.
+        legs: in colour, their feet named; those recognised, or the likeliest.
+        words: lines below.
+    """
+    places = robot.tree.placements_from(robot.trunk, robot.posture)
+    feet = {
+        leg.name: places[leg.body].rotation @ leg.foot + places[leg.body].position for leg in legs
+    }
+    corners = _trunk_corners(robot, places)
+    points = np.array([*(place.position for place in places), *feet.values(), *corners])
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = (_SIDE - 2.0 * _EDGE) / max(float((high - low).max()), 1e-9)
+    views = [
+        _View(
+            name,
+            np.array(right),
+            np.array(up),
+            _EDGE + i * (_SIDE + _EDGE),
+            0.5 * (low + high),
+            scale,
+        )
+        for i, (name, right, up) in enumerate(_VIEWS)
+    ]
+    width = _EDGE + len(views) * (_SIDE + _EDGE)
+    height = 2.0 * _EDGE + _SIDE + 18.0 * len(words)
+    figure = _Figure(robot, legs, places, feet, corners)
+    marks = [mark for view in views for mark in _drawn(view, figure)]
+    for row, line in enumerate(words):
+        marks.append(_text(_EDGE, 2.0 * _EDGE + _SIDE + 18.0 * row, line, size=13))
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
+        f'width="{width:.0f}" height="{height:.0f}" font-family="sans-serif">\n'
+        f"<title>{escape(robot.name)}</title>\n"
+        f'<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(marks) + "\n</svg>\n"
+    )
+
+
+def _trunk_corners(robot: Robot, places: Sequence[Placement]) -> list[FloatArray]:
+    """Corners of the box around the trunk's shapes along B's axes [m]; none without shapes."""
+    index = robot.tree.body_of_link[robot.trunk]
+    place, shapes = places[index], solid_shapes(robot.tree.bodies[index])
+    reaches = []
+    for side in np.vstack([np.eye(3), -np.eye(3)]):
+        reach = extent_of(shapes, place.rotation.T @ side)
+        if reach is None:
+            return []
+        reaches.append(reach + float(side @ place.position))
+    ends = np.array([[-reaches[axis + 3], reaches[axis]] for axis in range(3)])
+    return [np.array(corner) for corner in np.stack(np.meshgrid(*ends), axis=-1).reshape(-1, 3)]
+
+
+def _drawn(view: _View, figure: _Figure) -> Iterator[str]:
+    robot, legs, places = figure.robot, figure.legs, figure.places
+    yield _text(view.left, _EDGE - 10.0, view.name, size=14)
+    if figure.corners:
+        spots = np.array([view.place(corner) for corner in figure.corners])
+        (x, y), (far, low) = spots.min(axis=0), spots.max(axis=0)
+        yield (
+            f'<rect x="{x:.1f}" y="{y:.1f}" width="{far - x:.1f}" height="{low - y:.1f}" '
+            f'fill="#dddddd" stroke="#555555"/>'
+        )
+    color = _colors(robot, legs)
+    for index, body in enumerate(robot.tree.bodies):
+        if body.parent >= 0:
+            ends = view.place(places[body.parent].position), view.place(places[index].position)
+            yield _line(*ends, color.get(index, "#999999"), 3.0 if index in color else 1.5)
+    for number, leg in enumerate(legs):
+        ankle, foot = view.place(places[leg.body].position), view.place(figure.feet[leg.name])
+        paint = _COLORS[number % len(_COLORS)]
+        radius = max(3.5, view.scale * leg.foot_radius)
+        yield _line(ankle, foot, paint, 3.0)
+        yield (
+            f'<circle cx="{foot[0]:.1f}" cy="{foot[1]:.1f}" r="{radius:.1f}" fill="{paint}" '
+            f'fill-opacity="0.5" stroke="{paint}"/>'
+        )
+        # From the front and above, feet one behind the other would be named on one spot.
+        yield _text(foot[0] + 5.0, foot[1] + 12.0 * (1 + number % 2), leg.name, size=10, fill=paint)
+    yield from _axes(view, robot, legs)
+
+
+def _colors(robot: Robot, legs: Sequence[Leg]) -> Mapping[int, str]:
+    """Colour of each body of a leg."""
+    found = {}
+    for number, leg in enumerate(legs):
+        body = leg.body
+        while body not in (leg.base, -1):
+            found[body] = _COLORS[number % len(_COLORS)]
+            body = robot.tree.bodies[body].parent
+    return found
+
+
+def _axes(view: _View, robot: Robot, legs: Sequence[Leg]) -> Iterator[str]:
+    """Arrows from the trunk's origin: forward, left and up."""
+    up = up_axis(robot.tree, robot.trunk, legs) if legs else np.array([0.0, 0.0, 1.0])
+    directions = {"forward": np.eye(3)[0], "left": np.eye(3)[1], "up": up}
+    start = view.place(np.zeros(3))
+    for name, axis in directions.items():
+        along = np.array([view.right @ axis, -(view.up @ axis)])
+        if np.linalg.norm(along) < 0.5:
+            continue
+        end = np.array(start) + 46.0 * along
+        yield _line(start, (end[0], end[1]), "black", 1.5)
+        side = np.array([-along[1], along[0]])
+        tip = [end, end - 8.0 * along + 4.0 * side, end - 8.0 * along - 4.0 * side]
+        yield f'<polygon points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in tip)}"/>'
+        yield _text(end[0] + 4.0, end[1] - 4.0, name, size=11)
+
+
+def _line(start: tuple[float, float], end: tuple[float, float], color: str, width: float) -> str:
+    return (
+        f'<line x1="{start[0]:.1f}" y1="{start[1]:.1f}" x2="{end[0]:.1f}" y2="{end[1]:.1f}" '
+        f'stroke="{color}" stroke-width="{width}" stroke-linecap="round"/>'
+    )
+
+
+def _text(x: float, y: float, text: str, *, size: int, fill: str = "black") -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" fill="{fill}">{escape(text)}</text>'

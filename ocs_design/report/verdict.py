@@ -1,0 +1,105 @@
+"""The verdict on a design in one line: buildable, level, stands; and what matters most about it."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from ocs_design.device.records import Buildable, OcsDesign, ValidationRecord
+from ocs_design.report.table import Tone, Toned
+from ocs_design.report.warnings import turned_by_hand
+
+SEPARATOR = "  \N{MIDDLE DOT}  "
+"""Between the parts of the line."""
+
+
+@dataclass(frozen=True)
+class Headline:
+    """What a reader sees first.
+
+    Attributes:
+        parts: of the line, each with its tone.
+        matter: the one thing that matters most, a sentence; empty: nothing is in the way.
+    """
+
+    parts: tuple[Toned, ...]
+    matter: str
+
+    @property
+    def text(self) -> str:
+        """The line."""
+        return SEPARATOR.join(part.text for part in self.parts)
+
+    @property
+    def tone(self) -> Tone:
+        """The worst of all parts."""
+        tones = {part.tone for part in self.parts}
+        return next(tone for tone in (Tone.FAIL, Tone.OPEN, Tone.PASS) if tone in tones)
+
+
+def headline(design: OcsDesign) -> Headline:
+    """Verdict on a design and its flights."""
+    runs = [run for run in design.validation if run.ocs]
+    first = _buildable(design)
+    if design.buildable.yes is False and design.buildable.open:
+        point = design.buildable.open[0]
+        return Headline((first, *_flights(runs)), f"{point.what}; {point.cure}")
+    by_hand = next(iter(turned_by_hand(design)), "")
+    return Headline((first, *_flights(runs)), _of_flights(runs) or by_hand)
+
+
+def flights_headline(runs: Sequence[ValidationRecord]) -> Headline:
+    """Verdict on flights alone, of which those with the device count."""
+    carrying = [run for run in runs if run.ocs]
+    return Headline(tuple(_flights(carrying)), _of_flights(carrying))
+
+
+def _buildable(design: OcsDesign) -> Toned:
+    found: Buildable = design.buildable
+    if found.yes is True:
+        return Toned("buildable", Tone.PASS)
+    if found.yes is False:
+        return Toned("NOT buildable", Tone.FAIL)
+    if design.ocs.motor.bus_voltage is None:
+        return Toned("no motor chosen yet", Tone.OPEN)
+    if not design.robot.sha256:
+        return Toned("buildable: not told of a robot without shapes", Tone.OPEN)
+    return Toned("buildable: not told", Tone.OPEN)
+
+
+def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
+    """How many of the flights are level, and how many robots stand after them."""
+    if not runs:
+        yield Toned("no flight was simulated", Tone.OPEN)
+        return
+    unjudged = [run.passed for run in runs].count(None)
+    touching = [run.level for run in runs if run.level is not None or run.passed is None]
+    if touching:
+        yield _share("level", touching.count(True), len(touching), Tone.FAIL)
+    standing = [run for run in runs if run.stands is not None]
+    if standing:
+        # A robot whose legs do not bear even a level landing is no fault of the device.
+        fault = any(run.stands is False and run.passed is False for run in standing)
+        up = [run.stands for run in standing].count(True)
+        yield _share("stands", up, len(standing), Tone.FAIL if fault else Tone.OPEN)
+    if unjudged:
+        yield Toned(f"{unjudged} of {len(runs)} not judged", Tone.FAIL)
+    elif any(run.passed is False and run.level and run.stands is not False for run in runs):
+        passed = [run.passed for run in runs].count(True)
+        yield Toned(f"{passed} of {len(runs)} pass", Tone.FAIL)
+
+
+def _share(word: str, good: int, of: int, otherwise: Tone) -> Toned:
+    return Toned(f"{word} {good} of {of}", Tone.PASS if good == of else otherwise)
+
+
+def _of_flights(runs: Sequence[ValidationRecord]) -> str:
+    """What is wrong with the worst flight; empty if nothing is."""
+    for run in sorted(runs, key=lambda run: run.passed is None):
+        if run.passed is not True:
+            return f"{run.scenario}: {run.reason}"
+    fallen = [run.scenario for run in runs if run.stands is False]
+    if fallen:
+        return (
+            f"{', '.join(fallen)}: the robot lands level and then falls; its legs do not bear such "
+            "a landing by themselves, however level it is"
+        )
+    return ""

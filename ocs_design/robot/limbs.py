@@ -1,0 +1,356 @@
+"""Limbs of a robot, and what of them can be judged without knowing which are legs.
+
+Nothing here decides: `recognition` weighs what is found. Shapes are looked at for wheels only, for
+meshes may be missing or mere placeholders.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.robot.chain import Chain, chain_of, neutral_posture
+from ocs_design.robot.legs import ancestors, far_ends, farthest_frame, is_wheel
+from ocs_design.robot.mass import combine
+from ocs_design.robot.tree import Tree
+
+
+@dataclass(frozen=True, eq=False)
+class Limb:
+    """A chain that may be a leg, for some direction as up, in the root's frame.
+
+    Attributes:
+        base, first, last: indices of the body that it hangs on, of its first and its last body.
+        chain: of its bodies. hinges: its own joints, a wheel's not counted.
+        hip: origin of its first joint [m]. tip: at rest [m].
+        axes: of its first two joints at rest, shape (n, 3).
+        depth: of the stretched tip below the root's origin [m].
+        reach: of the stretched tip below the hip [m].
+    """
+
+    base: int
+    first: int
+    last: int
+    chain: Chain
+    hinges: int
+    hip: FloatArray
+    tip: FloatArray
+    axes: FloatArray
+    depth: float
+    reach: float
+
+
+_REACHES_BELOW = 0.6
+"""Least depth of a leg's tip below the centre of mass, over its reach."""
+_DEEP = 0.35
+"""Largest difference of depth among the legs of a robot, over their reach."""
+EVEN = 0.2
+"""Largest difference of depth, or height at rest, that counts as equal, over the reach."""
+_MIRRORED = 0.06
+"""Largest distance of a hip from the mirror image of another, over the reach."""
+_COAXIAL = 0.05
+"""Largest distance between the axes of limbs that share a hip, over the spread of all hips."""
+_PARALLEL = 0.97
+"""Least product of axes that count as parallel (14 degrees)."""
+_ONE_HIP = 0.3
+"""Distance within which two limbs with one axis share a hip, over the spread of all hips."""
+_LEG_WORDS = re.compile(
+    r"foot|feet|toe|calf|shank|thigh|shin|knee|hip|leg|ankle|tibia|femur|tarsus|paw|hock|sole|coxa|"
+    r"hoof|haa|hfe|kfe|hind",
+    re.IGNORECASE,
+)
+_ARM_WORDS = re.compile(
+    r"arm(?!ature)|hand(?!le)|finger|wrist|elbow|gripper|thumb|palm|wing|antenna|head|neck|tail|jaw|"
+    r"haltere|claw_?[lr]|rotor|propeller|labrum",
+    re.IGNORECASE,
+)
+_HANDS = re.compile(r"hand(?!le)|palm|gripper|wrist", re.IGNORECASE)
+
+
+class Anatomy:
+    """A tree at rest (joints at zero, or at the limit nearest to it), and its limbs."""
+
+    def __init__(self, tree: Tree) -> None:
+        self.tree = tree
+        self.placements = tree.placements(neutral_posture(tree))
+        self.masses = [
+            body.mass_properties.moved(place.rotation, place.position)
+            for body, place in zip(tree.bodies, self.placements, strict=True)
+        ]
+        self.robot = combine(self.masses)
+        self._known: dict[tuple[float, ...], list[Limb]] = {}
+        self.children: dict[int, list[int]] = {}
+        for index, body in enumerate(tree.bodies[1:], start=1):
+            self.children.setdefault(body.parent, []).append(index)
+
+    def limb(self, base: int, last: int, up: FloatArray) -> Limb:
+        """The limb from body `base` to body `last`."""
+        first = next(i for i in ancestors(self.tree, last) if self.tree.bodies[i].parent == base)
+        chain = chain_of(self.tree, first, last, self.placements)
+        end = chain.bodies[-1]
+        local = farthest_frame(end)
+        rest = chain.pose(chain.neutral())
+        hinge = chain.driven[0] if chain.driven else 0
+        hip = rest.origins[hinge]
+        lowest = float(up @ chain.pose(chain.stretched(local, -up)).point(local))
+        return Limb(
+            base,
+            first,
+            last,
+            chain,
+            len(chain.driven) - is_wheel(end),
+            hip,
+            rest.point(local),
+            rest.axes[hinge : hinge + 2],
+            -lowest,
+            float(up @ hip) - lowest,
+        )
+
+    def _all_limbs(self, up: FloatArray) -> list[Limb]:
+        """Limbs that move and are low, where a body has several or the root one."""
+        key = tuple(up)
+        if key in self._known:
+            return self._known[key]
+        ends = far_ends(self.tree)
+        found = []
+        for first, body in enumerate(self.tree.bodies[1:], start=1):
+            if body.parent != 0 and len(self.children[body.parent]) < 2:
+                continue
+            chain = [i for i in ancestors(self.tree, ends[first]) if i >= first]
+            moving = [self.tree.bodies[i].joint for i in chain]
+            lengths = [np.linalg.norm(self.tree.bodies[i].placement.position) for i in chain[:-1]]
+            length = sum(lengths) + np.linalg.norm(farthest_frame(self.tree.bodies[chain[0]]))
+            # Fingers and the like do not even reach down to the centre of mass.
+            low = float(up @ (self.placements[first].position - self.robot.com)) < length
+            if low and any(joint is not None and joint.mimic is None for joint in moving):
+                found.append(self.limb(body.parent, ends[first], up))
+        self._known[key] = found
+        return found
+
+    def limbs(self, up: FloatArray) -> list[Limb]:
+        """Limbs that stretch well below the centre of mass of the robot and of their carriers."""
+        return [limb for limb in self._all_limbs(up) if self._lifts(limb, up)]
+
+    def _lifts(self, limb: Limb, up: FloatArray) -> bool:
+        level = abs(limb.axes[0] @ up) < 0.3
+        rolls = limb.hinges == 1 and level and is_wheel(limb.chain.bodies[-1])
+        swings = limb.hinges == 1 and level and self.names([limb]) is True
+        if limb.reach <= 0.0 or not (limb.hinges >= 2 or rolls or swings):
+            return False
+        lifted = [self.masses[i] for i in ancestors(self.tree, limb.base)]
+        if limb.base != 0 or len(self.children[0]) > 1:
+            # A hopper's heavy foot lowers the centre of mass.
+            lifted.append(self.robot)
+        return all(
+            limb.depth + up @ each.com > _REACHES_BELOW * limb.reach
+            for each in lifted
+            if each.mass > 0.0
+        )
+
+    def share_hips(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
+        """Whether every limb shares its hip with another, chosen or not."""
+        hips = np.array([limb.hip for limb in chosen])
+        middle, spread = hips.mean(axis=0), float(np.ptp(hips, axis=0).max())
+        return all(
+            any(_on_one_hip(one, other, middle, spread) for other in self._all_limbs(up))
+            for one in chosen
+        )
+
+    def one_of_each_pair(self, chosen: Sequence[Limb], up: FloatArray) -> list[Limb]:
+        """The limbs, of those that share a hip only the deepest, or the first in the file."""
+        if not self.share_hips(chosen, up):
+            return list(chosen)
+        hips = np.array([limb.hip for limb in chosen])
+        middle, spread = hips.mean(axis=0), float(np.ptp(hips, axis=0).max())
+        kept: list[Limb] = []
+        for limb in sorted(chosen, key=lambda each: (-round(each.depth, 3), each.first)):
+            if not any(_on_one_hip(limb, other, middle, spread) for other in kept):
+                kept.append(limb)
+        return kept if len(kept) > 1 else list(chosen)
+
+    def may_stand(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
+        """Whether limbs with as many joints, or else mirror images, are a set worth judging."""
+        reach = max(limb.reach for limb in chosen)
+        return len({limb.hinges for limb in chosen}) == 1 or self.mirrored(chosen, up, reach)
+
+    def spines(self, sets: Sequence[Sequence[Limb]], up: FloatArray) -> Iterator[Sequence[Limb]]:
+        """Sets of legs at both ends of a spine, such as shoulders and pelvis of a dog."""
+        for one, other in combinations(sets, 2):
+            ends = one[0].base, other[0].base
+            if ends[0] == ends[1] or {limb.last for limb in one} & {limb.last for limb in other}:
+                continue
+            # The bodies between must be no part of either set's legs.
+            inside = {i for limb in (*one, *other) for i in bodies_of(self.tree, limb)}
+            mirrored = all(
+                self.mirrored(each, up, max(limb.reach for limb in each)) for each in (one, other)
+            )
+            if inside & set(ends) or not mirrored or not reach_alike((*one, *other), EVEN):
+                continue
+            yield (*one, *other)
+
+    def single(self, limbs: Sequence[Limb], up: FloatArray) -> Iterator[Sequence[Limb]]:
+        """The one leg of a hopper: the only limb, hanging on the root."""
+        at_root = [limb for limb in limbs if limb.base == 0]
+        if len(at_root) == 1 and len(self.children.get(0, ())) <= 2:
+            (limb,) = at_root
+            if self.names(at_root) is False:
+                return
+            if up @ (limb.hip - limb.tip) > 0.5 * limb.reach:
+                yield at_root
+
+    def mirrored(self, chosen: Sequence[Limb], up: FloatArray, reach: float) -> bool:
+        """Whether the hips are mirror images, or evenly spaced about an upright axis."""
+        hips = np.array([limb.hip for limb in chosen])
+        kinds = [(limb.hinges, round(limb.reach / reach, 1)) for limb in chosen]
+        middle = hips.mean(axis=0)
+        same = all(kind[0] == kinds[0][0] and abs(kind[1] - 1.0) <= 0.1 for kind in kinds)
+        if len(chosen) == 2 and same and np.ptp(hips, axis=0).max() < _MIRRORED * reach:
+            # A robot in a plane, one leg behind the other.
+            return True
+        for side in np.eye(3)[up == 0.0]:
+            if np.ptp(hips @ side) < _MIRRORED * reach:
+                continue
+            images = hips - 2.0 * np.outer((hips - middle) @ side, side)
+            gaps = np.linalg.norm(images[:, None, :] - hips[None, :, :], axis=2)
+            partner = gaps.argmin(axis=1)
+            if (gaps.min(axis=1) < _MIRRORED * reach).all() and all(
+                kinds[i][0] == kinds[j][0] and abs(kinds[i][1] - kinds[j][1]) <= 0.1
+                for i, j in enumerate(partner)
+            ):
+                # A row of fingers is mirrored about its middle one; legs are not in a row of three.
+                return len(chosen) % 2 == 0
+        if len(chosen) < 3:
+            return False
+        flat = (hips - middle) @ np.eye(3)[up == 0.0].T
+        radii = np.linalg.norm(flat, axis=1)
+        turns = np.diff(np.sort(np.arctan2(flat[:, 1], flat[:, 0])))
+        even = 2.0 * np.pi / len(chosen)
+        return bool(np.ptp(radii) < 0.1 * radii.max() and np.abs(turns - even).max() < 0.2)
+
+    def together(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
+        """Whether the tips are level and below the hips at rest or in a posture of the file."""
+        reach = max(limb.reach for limb in chosen)
+        postures: list[Mapping[str, float]] = [
+            neutral_posture(self.tree),
+            *self.tree.named_postures.values(),
+        ]
+        for posture in postures:
+            placements = self.tree.placements(posture)
+            tips, hips = [], []
+            for limb in chosen:
+                end = placements[limb.last]
+                local = farthest_frame(self.tree.bodies[limb.last])
+                tips.append(float(up @ (end.rotation @ local + end.position)))
+                hips.append(float(up @ placements[limb.first].position))
+            level = len(chosen) == 1 or np.ptp(tips) < EVEN * reach
+            if level and min(hips) - max(tips) > 0.2 * reach:
+                return True
+        return False
+
+    def balanced(self, chosen: Sequence[Limb], up: FloatArray, reach: float) -> bool:
+        """Whether the robot's centre of mass is over the hips' polygon, line or point, nearly."""
+        level = np.eye(3)[up == 0.0]
+        hips = np.array([limb.hip for limb in chosen]) @ level.T
+        com = level @ self.robot.com
+        return _distance_outside(hips, com) < (0.4 if len(chosen) < 3 else 0.1) * reach
+
+    def names(self, chosen: Sequence[Limb]) -> bool | None:
+        """Whether links and joints are named as of legs rather than of arms; None: neither."""
+        legs = arms = 0
+        for limb in chosen:
+            words = " ".join(
+                [
+                    *limb.chain.names,
+                    *(name for body in limb.chain.bodies for name in body.links),
+                ]
+            )
+            score = len(_LEG_WORDS.findall(words)) - len(_ARM_WORDS.findall(words))
+            legs, arms = legs + (score > 0), arms + (score < 0)
+        for base in {limb.base for limb in chosen}:
+            if _HANDS.search(self.tree.bodies[base].name):
+                arms += len(chosen)
+        return None if legs == arms else legs > arms
+
+    def floats(self) -> bool | None:
+        """Whether the robot is free in its file; None where the file does not say."""
+        root = self.tree.bodies[0]
+        return False if "world" in root.links else self.tree.floats
+
+
+def bodies_of(tree: Tree, limb: Limb) -> set[int]:
+    """Bodies of a limb, with all that hangs on them."""
+    found = {limb.first}
+    for index in range(limb.first + 1, len(tree.bodies)):
+        if tree.bodies[index].parent in found:
+            found.add(index)
+    return found
+
+
+def sets_of(limbs: Sequence[Limb]) -> Iterator[list[Limb]]:
+    """Sets of two or more limbs on one body: those with as many joints, and all of these."""
+    bases: dict[int, list[Limb]] = {}
+    for limb in limbs:
+        bases.setdefault(limb.base, []).append(limb)
+    for group in bases.values():
+        kinds: dict[int, list[Limb]] = {}
+        for limb in group:
+            kinds.setdefault(limb.hinges, []).append(limb)
+        alike = []
+        for kind in kinds.values():
+            deepest = max(limb.depth for limb in kind)
+            even = [limb for limb in kind if deepest - limb.depth < _DEEP * limb.reach]
+            if len(even) > 1:
+                alike.append(even)
+        yield from alike
+        if len(alike) > 1:
+            yield [limb for kind in alike for limb in kind]
+
+
+def reach_alike(limbs: Sequence[Limb], share: float) -> bool:
+    """Whether limbs reach equally deep, to a share of their reach."""
+    reach = max(limb.reach for limb in limbs)
+    return float(np.ptp([limb.depth for limb in limbs])) < share * reach
+
+
+def _on_one_hip(one: Limb, other: Limb, middle: FloatArray, spread: float) -> bool:
+    """Whether two limbs on one side turn about one hip axis, close by.
+
+    Args:
+        one, other: limbs.
+        middle: of all hips [m], shape (3,).
+        spread: of all hips [m].
+    """
+    between = other.hip - one.hip
+    return (
+        one.first != other.first
+        and one.base == other.base
+        and float(np.linalg.norm(between)) < _ONE_HIP * spread
+        and any(
+            abs(axis @ twin) > _PARALLEL
+            and float(np.linalg.norm(np.cross(axis, between))) < _COAXIAL * spread
+            # The hips of a quadruped's left and right leg turn about one axis too.
+            and axis @ (one.hip - middle) * (axis @ (other.hip - middle)) > 0.0
+            for axis in one.axes
+            for twin in other.axes
+        )
+    )
+
+
+def _distance_outside(points: FloatArray, point: FloatArray) -> float:
+    """Distance of a point, shape (2,), from the convex hull of others, shape (n, 2) [m]."""
+    middle = points.mean(axis=0)
+    if len(points) == 1:
+        return float(np.linalg.norm(point - points[0]))
+    order = np.argsort(np.arctan2(*(points - middle).T[::-1]))
+    ring = [*points[order], points[order[0]]]
+    inside = len(points) > 2
+    nearest = np.inf
+    for start, end in pairwise(ring):
+        edge = end - start
+        along = np.clip((point - start) @ edge / max(float(edge @ edge), 1e-300), 0.0, 1.0)
+        nearest = min(nearest, float(np.linalg.norm(point - start - along * edge)))
+        inside = inside and bool(edge[0] * (point - start)[1] - edge[1] * (point - start)[0] >= 0.0)
+    return 0.0 if inside else nearest

@@ -1,0 +1,504 @@
+"""What a robot's trunk and legs are, how sure that is, and what to ask where it is not.
+
+Every way to read a robot (a body as trunk, some limbs as legs) is judged by a few signs that a
+person looks at too. The confidence is the share of the signs that speak for it, less what speaks
+against it. No sign decides alone: names may mislead, meshes may be missing, and the posture at zero
+may be any.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import combinations
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.legs import ancestors, find_legs, find_trunk, leg_of
+from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
+from ocs_design.robot.links import listed
+from ocs_design.robot.robot import Leg
+from ocs_design.robot.tree import Tree
+
+SURE = 0.8
+"""Confidence from which on nothing is asked."""
+
+_LIKELY = 0.3
+"""Confidence from which on a reading is worth asking about."""
+
+_SHOWN = 0.5
+"""Confidence from which on a reading that is not sure is shown at all."""
+
+_MOST_ANSWERS = 3
+"""Likely answers that are shown."""
+
+
+@dataclass(frozen=True)
+class Sign:
+    """One thing that a person would look at.
+
+    Attributes:
+        what: as a sentence, where it holds. against: as a sentence, where it does not.
+        holds: whether it does; None where the file does not tell.
+        weight: among the signs.
+    """
+
+    what: str
+    against: str
+    holds: bool | None
+    weight: float = 1.0
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Something that speaks against a reading however good its signs are.
+
+    Attributes:
+        what: as a sentence.
+        factor: by which it lowers the confidence.
+    """
+
+    what: str
+    factor: float
+
+
+_STATED = (Sign("stated", "", holds=True),)
+
+NAMES = "their names are those of legs"
+SPINE = (
+    "the legs branch from several bodies, with joints between them (a spine), which are held where "
+    "they are at zero"
+)
+CLOSED = (
+    "limbs share a hip in pairs, as five-bar legs do whose loop the file leaves open: one of each "
+    "pair is the leg, and the other is held where it is at zero"
+)
+
+_SPINE = (Doubt(SPINE, 0.7),)
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """One way to read a robot.
+
+    Attributes:
+        trunk: link that carries the device.
+        legs: in file order; empty for a robot without.
+        signs: that it is judged by.
+        doubts: that lower its confidence.
+    """
+
+    trunk: str
+    legs: tuple[Leg, ...]
+    signs: tuple[Sign, ...]
+    doubts: tuple[Doubt, ...] = ()
+
+    @cached_property
+    def confidence(self) -> float:
+        """Share of the known signs that hold, by weight, times the factors of the doubts."""
+        known = [sign for sign in self.signs if sign.holds is not None]
+        total = sum(sign.weight for sign in known)
+        held = sum(sign.weight for sign in known if sign.holds)
+        share = held / total if total else 0.5
+        return share * float(np.prod([doubt.factor for doubt in self.doubts]))
+
+    @property
+    def liberties(self) -> tuple[str, ...]:
+        """What is taken otherwise than the robot has it, one sentence each."""
+        return tuple(each.what for each in self.doubts if each.what in {SPINE, CLOSED})
+
+    @property
+    def options(self) -> str:
+        """The options of the command line that state it."""
+        return f"--trunk {self.trunk} --legs {','.join(leg.name for leg in self.legs) or NO_LEGS}"
+
+
+NO_LEGS = "none"
+"""In place of the legs' names: the robot has none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recognition:
+    """What was recognised of a robot.
+
+    Attributes:
+        reading: that the program goes on with.
+        likely: readings to choose from where it is not sure, the likeliest first.
+        stated: what the user named: neither, `trunk`, `legs` or both.
+    """
+
+    reading: Reading
+    likely: tuple[Reading, ...] = ()
+    stated: frozenset[str] = field(default_factory=frozenset)
+
+    @property
+    def sure(self) -> bool:
+        """Whether nothing has to be asked."""
+        return not self.likely
+
+    def question(self) -> RobotError:
+        """What to ask the user, with the likely answers."""
+        best = self.likely[0]
+        against = [
+            *(doubt.what for doubt in best.doubts),
+            *(sign.against for sign in best.signs if sign.holds is False),
+        ]
+        found = (
+            f"{len(best.legs)} legs ({listed([leg.name for leg in best.legs], most=6)}) on "
+            f"'{best.trunk}'"
+            if best.legs
+            else f"no legs, and '{best.trunk}' as the trunk"
+        )
+        answers = "; or ".join(
+            f"{each.options} ({each.confidence:.0%})" if each.legs else each.options
+            for each in self.likely[:_MOST_ANSWERS]
+        )
+        none = f"; or --legs {NO_LEGS}" if f"--legs {NO_LEGS}" not in answers else ""
+        why = "; ".join(against) or "nothing certain"
+        return RobotError(
+            f"trunk and legs are not clear: most likely {found}, at {best.confidence:.0%} "
+            f"confidence ({SURE:.0%} needed). Against it: {why}",
+            hint=f"say which: {answers}{none}. `inspect ROBOT --picture FILE.svg` draws them",
+        )
+
+
+def recognise(
+    tree: Tree, *, trunk: str | None = None, legs: Sequence[str] | None = None
+) -> Recognition:
+    """Trunk and legs of a robot.
+
+    Args:
+        tree: of the robot.
+        trunk: link that the user named; None: found.
+        legs: links, one in each foot, that the user named; empty: the robot has none; None: found.
+
+    Raises:
+        RobotError: legs that were named cannot be legs.
+    """
+    anatomy = _Readings(tree)
+    if legs is not None:
+        unaided = recognise(tree, trunk=trunk)
+        first = next((each.legs for each in (unaided.reading, *unaided.likely) if each.legs), ())
+        found = unaided.reading.legs if legs else ()
+        if not legs:
+            named = Reading(trunk or find_trunk(tree, ()), (), _STATED)
+        elif {leg.name for leg in found} == set(legs):
+            named = anatomy.stated(trunk, found)
+        else:
+            named = anatomy.named(trunk, legs, anatomy.up_of(first))
+        # With a spine the legs do not tell which of its ends carries the device.
+        ends = {leg.base for leg in named.legs} if trunk is None else set()
+        heaviest = sorted(ends, key=lambda body: -anatomy.masses[body].mass)
+        spine = tuple(Reading(tree.bodies[i].name, named.legs, _STATED, _SPINE) for i in heaviest)
+        return Recognition(named, spine if len(spine) > 1 else (), _stated(trunk, legs))
+    usual = find_legs(tree)
+    readings = anatomy.readings(usual)
+    if trunk is not None:
+        # With the trunk named, what spoke against it is answered.
+        body = tree.body_of_link[trunk]
+        readings = [anatomy.on_trunk(each, trunk, body) for each in readings]
+    likely = [each for each in readings if each.confidence >= _LIKELY]
+    # Limbs that are named as arms and do not convince are arms.
+    arms = all(_speaks(each, NAMES) is False for each in likely)
+    none = anatomy.without_legs(trunk, likely=not arms)
+    best = _best(readings, usual) if readings else none
+    if best.confidence >= SURE and best.legs:
+        return Recognition(best, (), _stated(trunk, None))
+    if none.confidence >= SURE and arms:
+        return Recognition(none, (), _stated(trunk, None))
+    asked = sorted({id(each): each for each in (best, *likely)}.values(), key=_order)
+    if all(each.legs for each in asked):
+        asked.append(none)
+    # Who only looks, and does not have to be sure, is shown the likeliest.
+    shown = asked[0] if asked[0].confidence >= _SHOWN else none
+    return Recognition(shown, tuple(asked), _stated(trunk, None))
+
+
+def _speaks(reading: Reading, what: str) -> bool | None:
+    """Whether one sign of a reading holds."""
+    return next((sign.holds for sign in reading.signs if sign.what == what), None)
+
+
+def _stated(trunk: str | None, legs: Sequence[str] | None) -> frozenset[str]:
+    named = (("trunk", trunk is not None), ("legs", legs is not None))
+    return frozenset(what for what, given in named if given)
+
+
+def _order(reading: Reading) -> tuple[bool, float]:
+    return not reading.legs, -reading.confidence
+
+
+def _best(readings: Sequence[Reading], usual: Sequence[Leg]) -> Reading:
+    """The reading that explains most legs among those that are likely, else the most confident."""
+    best = max(readings, key=lambda each: each.confidence)
+    base = next((each for each in readings if usual and each.legs == tuple(usual)), best)
+    bodies = {leg.body for leg in base.legs}
+    larger = [
+        each
+        for each in readings
+        if bodies < {leg.body for leg in each.legs}
+        and each.confidence >= min(base.confidence, SURE)
+    ]
+    if larger:
+        return max(larger, key=lambda each: (each.confidence, len(each.legs)))
+    return base if base.confidence >= SURE else best
+
+
+_UPS = np.eye(3)[[2, 1, 0]]
+
+_LIGHT_TRUNK = 0.2
+"""Share of the mass that the legs carry, below which they seem to be most of the robot."""
+
+
+class _Readings(Anatomy):
+    """Ways to read a tree."""
+
+    def up_of(self, legs: Sequence[Leg]) -> FloatArray | None:
+        """Up of legs in the root's frame, shape (3,); None if there are none."""
+        if not legs:
+            return None
+        return np.round(self.placements[legs[0].base].rotation @ legs[0].up, 9)
+
+    def readings(self, usual: Sequence[Leg]) -> list[Reading]:
+        """Every reading with legs, the usual one among them, each set of feet once."""
+        found: dict[frozenset[int], Reading] = {}
+        known = self.up_of(usual)
+        ups = _UPS if known is None else known[None]
+        for up in ups:
+            limbs = self.limbs(up)
+            sets = [each for each in sets_of(limbs) if self.may_stand(each, up)]
+            sets = [self.one_of_each_pair(each, up) for each in sets]
+            for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
+                feet = frozenset(limb.last for limb in chosen)
+                reading = self._judged(chosen, sets, up)
+                if reading is None or feet in found:
+                    continue
+                # With a wrong direction for up some limbs hang by chance.
+                if up[2] == 1.0 or usual or _speaks(reading, NAMES):
+                    found[feet] = reading
+            # Files of other conventions are rare: only where nothing stands along z.
+            if any(each.confidence >= _LIKELY for each in found.values()):
+                break
+        if usual:
+            chosen = [self.limb(leg.base, leg.body, ups[0]) for leg in usual]
+            signs, doubts = self._signs(chosen, sets, ups[0])
+            feet = frozenset(leg.body for leg in usual)
+            found[feet] = Reading(find_trunk(self.tree, usual), tuple(usual), signs, doubts)
+        return [*found.values(), *self._on_other_bases(found.values())]
+
+    def _on_other_bases(self, readings: Iterable[Reading]) -> Iterator[Reading]:
+        """The readings of robots with a spine, with the other ends of it as trunk."""
+        for each in readings:
+            for base in sorted({leg.base for leg in each.legs}):
+                name = self.tree.bodies[base].name
+                if name != each.trunk and any(doubt.what == SPINE for doubt in each.doubts):
+                    lighter = Doubt(f"'{name}' is lighter than '{each.trunk}'", 0.9)
+                    yield Reading(name, each.legs, each.signs, (*each.doubts, lighter))
+
+    def without_legs(self, trunk: str | None, *, likely: bool) -> Reading:
+        """The reading of a robot without legs: the heaviest body is the trunk."""
+        name = trunk or find_trunk(self.tree, ())
+        body = self.tree.body_of_link[name]
+        share = self.masses[body].mass / max(self.robot.mass, 1e-300)
+        signs = (
+            Sign("no limbs look like legs", "some limbs look like legs", not likely),
+            Sign(
+                "the trunk is the root of the file",
+                f"'{name}' is not the root of the file",
+                body == 0,
+                0.5,
+            ),
+            Sign(
+                "the trunk has a third of the mass",
+                f"'{name}' has only {share:.0%} of the mass",
+                share > 1 / 3,
+            ),
+            Sign("the trunk has a sixth of the mass", "that is little", share > 1 / 6),
+        )
+        if trunk is not None:
+            return Reading(name, (), signs[:1])
+        chain = len(self.tree.bodies) > 2 and all(len(each) < 2 for each in self.children.values())
+        doubts = (Doubt("the robot is one chain, as an arm is", 0.6),) if chain and body else ()
+        return Reading(name, (), signs, doubts)
+
+    def on_trunk(self, reading: Reading, trunk: str, body: int) -> Reading:
+        """The same legs on a trunk that the user named."""
+        doubts = tuple(each for each in reading.doubts if each.what != SPINE)
+        if any(
+            body
+            in set(ancestors(self.tree, leg.body))
+            - {leg.base}
+            - set(ancestors(self.tree, leg.base))
+            for leg in reading.legs
+        ):
+            doubts = (*doubts, Doubt(f"'{trunk}' is part of a leg", 0.3))
+        return Reading(trunk, reading.legs, reading.signs, doubts)
+
+    def named(
+        self, trunk: str | None, names: Sequence[str], up: FloatArray | None = None
+    ) -> Reading:
+        """The reading that the user stated; `up` is in the root's frame, None where not known."""
+        bodies = [self.tree.body_of_link[name] for name in names]
+        for one, other in combinations(range(len(bodies)), 2):
+            if bodies[one] in ancestors(self.tree, bodies[other]) or bodies[other] in ancestors(
+                self.tree, bodies[one]
+            ):
+                raise RobotError(
+                    f"'{names[one]}' and '{names[other]}' are links of one limb",
+                    hint="name one link of each leg with --legs: its foot",
+                )
+        stem = 0 if trunk is None else self.tree.body_of_link[trunk]
+        bases = [self._base_of(body, bodies, stem, alone=trunk is None) for body in bodies]
+        for name, body, base in zip(names, bodies, bases, strict=True):
+            if base < 0 or base == body:
+                raise RobotError(
+                    f"'{name}' cannot be a leg: no joint moves it against the trunk",
+                    hint="name the feet with --legs, and with --trunk what carries the legs",
+                )
+        up = max(_UPS, key=lambda axis: self._hang(bodies, bases, axis)) if up is None else up
+        pairs = sorted(zip(bodies, bases, strict=True))
+        legs = tuple(leg_of(self.tree, base, body, up, self.placements) for body, base in pairs)
+        if any(leg.length <= 0.0 for leg in legs):
+            worst = next(leg for leg in legs if leg.length <= 0.0)
+            raise RobotError(
+                f"'{worst.name}' cannot be a leg: it does not reach below its hip",
+                hint="name the feet with --legs; `inspect ROBOT --picture FILE.svg` draws all",
+            )
+        return self.stated(trunk, legs)
+
+    def stated(self, trunk: str | None, legs: Sequence[Leg]) -> Reading:
+        """The reading with legs that the user stated."""
+        up = np.round(self.placements[legs[0].base].rotation @ legs[0].up, 9)
+        limbs = [self.limb(leg.base, leg.body, up) for leg in legs]
+        bases = [leg.base for leg in legs]
+        doubts = (
+            *((Doubt(SPINE, 1.0),) if len(set(bases)) > 1 else ()),
+            *((Doubt(CLOSED, 1.0),) if self.share_hips(limbs, up) else ()),
+        )
+        name = trunk or self.tree.bodies[self._spine_trunk(bases)].name
+        return Reading(name, tuple(legs), _STATED, doubts)
+
+    def _hang(self, bodies: Sequence[int], bases: Sequence[int], up: FloatArray) -> float:
+        """How well an axis does as up: what the legs hang and reach along it, z first."""
+        total = 0.5 * up[2] - 0.1 * up[0]
+        for body, base in zip(bodies, bases, strict=True):
+            limb = self.limb(base, body, up)
+            reach = max(limb.reach, 1e-9)
+            total += (float(up @ (limb.hip - limb.tip)) / reach + np.sign(limb.reach)) / len(bodies)
+        return float(total)
+
+    def _base_of(self, body: int, feet: Sequence[int], stem: int, *, alone: bool) -> int:
+        """The body that the leg to `body` branches from; -1 if there is none.
+
+        It is the first on the way to the root that other legs or the named trunk hang on too.
+        """
+        trunks = set() if alone else set(ancestors(self.tree, stem))
+        others = [foot for foot in feet if foot != body]
+        for above in list(ancestors(self.tree, body))[1:]:
+            shared = any(above in ancestors(self.tree, other) for other in others)
+            if shared or above in trunks or (not others and alone and above == 0):
+                return above
+        return -1
+
+    def _spine_trunk(self, bases: Sequence[int]) -> int:
+        """Of the bodies that the legs branch from and those between them, the heaviest."""
+        paths = [list(ancestors(self.tree, base)) for base in set(bases)]
+        joint = max(set.intersection(*map(set, paths)))
+        between = {body for path in paths for body in path if body >= joint}
+        return max(between, key=lambda body: (self.masses[body].mass, -body))
+
+    def _judged(
+        self, chosen: Sequence[Limb], sets: Sequence[Sequence[Limb]], up: FloatArray
+    ) -> Reading | None:
+        signs, doubts = self._signs(chosen, sets, up)
+        ordered = sorted(chosen, key=lambda limb: limb.last)
+        legs = tuple(
+            leg_of(self.tree, limb.base, limb.last, up, self.placements) for limb in ordered
+        )
+        if any(leg.length <= 0.0 for leg in legs):
+            return None
+        trunk = self._spine_trunk([limb.base for limb in chosen])
+        return Reading(self.tree.bodies[trunk].name, legs, signs, doubts)
+
+    def _signs(
+        self, chosen: Sequence[Limb], sets: Sequence[Sequence[Limb]], up: FloatArray
+    ) -> tuple[tuple[Sign, ...], tuple[Doubt, ...]]:
+        reach = max(limb.reach for limb in chosen)
+        inside = {i for limb in chosen for i in bodies_of(self.tree, limb)}
+        outside = [i for i in range(len(self.tree.bodies)) if i not in inside]
+        heavy = [i for i in outside if self.masses[i].mass > 0.0]
+        # A root's origin is often on the ground below the robot.
+        points = [self.masses[i].com for i in heavy]
+        points += [self.placements[i].position for i in heavy if i > 0]
+        lowest = min((float(up @ point) for point in points), default=0.0)
+        deep = min(limb.depth for limb in chosen) > -lowest + 0.1 * reach
+        several = len(chosen) > 1
+        signs = (
+            Sign(
+                "the limbs are mirror images",
+                "the limbs are no mirror images",
+                self.mirrored(chosen, up, reach),
+                2.0,
+            )
+            if several
+            else Sign(
+                "it is the robot's only limb",
+                "it is not the robot's only limb",
+                len(self.children.get(0, ())) == 1,
+                2.0,
+            ),
+            Sign(
+                "stretched, they reach below all else",
+                "something else is lower than their ends when they are stretched",
+                deep,
+                2.0,
+            ),
+            Sign(
+                "they reach equally deep",
+                "they do not reach equally deep",
+                reach_alike(chosen, EVEN) if several else None,
+            ),
+            Sign(
+                "their ends stand level in a posture of the file",
+                "in no posture of the file do their ends stand level below the hips",
+                self.together(chosen, up),
+            ),
+            Sign(
+                "the centre of mass is between them",
+                "the centre of mass is not between them",
+                self.balanced(chosen, up, reach),
+            ),
+            Sign(NAMES, "their names are rather those of arms", self.names(chosen), 1.5),
+            Sign(
+                "the robot is free in its file",
+                "the robot is fixed to the world in its file",
+                self.floats(),
+            ),
+        )
+        doubts: list[Doubt] = []
+        doubts = []
+        if len({limb.base for limb in chosen}) > 1:
+            doubts.extend(_SPINE)
+        if self.share_hips(chosen, up):
+            doubts.append(Doubt(CLOSED, 0.5))
+        if all(limb.hinges == 1 for limb in chosen):
+            doubts.append(Doubt("each has a single joint", 0.75))
+        if not several and not (signs[-2].holds or signs[-1].holds):
+            doubts.append(Doubt("one limb may as well be an arm", 0.6))
+        rivals = [
+            rival
+            for rival in sets
+            if not {i for limb in rival for i in bodies_of(self.tree, limb)} & inside
+            and not any(limb.base in inside for limb in rival)
+            and reach_alike((*rival, *chosen), EVEN)
+            and self.mirrored(rival, up, max(limb.reach for limb in rival))
+            and (self.names(rival) is not False or self.together((*chosen, *rival), up))
+        ]
+        if rivals:
+            names = listed([self.tree.bodies[limb.last].name for limb in rivals[0]])
+            doubts.append(Doubt(f"other limbs reach as deep: {names}", 0.65))
+        carried = sum(self.masses[i].mass for i in outside)
+        if carried < _LIGHT_TRUNK * self.robot.mass:
+            doubts.append(Doubt("what the legs carry is lighter than a fifth of the robot", 0.85))
+        return signs, tuple(doubts)

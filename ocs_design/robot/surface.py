@@ -1,0 +1,207 @@
+"""The upper surface of a trunk: how high it is at each place, as far as its shapes are known.
+
+What is seen counts, for screws go into what is there; collision shapes only stand in for it.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.robot.meshes import binary_stl_facets, check_mesh_file, load_with_trimesh
+from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.tree import Shape, ShapeKind
+
+STEP = 1e-3
+"""Distance of two places of a map, at the least [m]."""
+
+MOST_STEPS = 800
+"""Of a map along its longer side, at the most."""
+
+MOST_BYTES = 16 << 20
+"""Sum of the meshes that are read to look at a trunk: a .dae takes 0.1 s a MB."""
+
+_CHUNK = 1 << 21
+"""Pairs of triangles and places that are looked at at once."""
+
+_ROUND = 96
+"""Corners of a circle."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Heights of what is highest over each place of a grid.
+
+    Attributes:
+        x, y: of the first place in B [m].
+        step: between places [m].
+        heights: z in B, -inf where there is nothing [m], shape (m, n).
+    """
+
+    x: float
+    y: float
+    step: float
+    heights: FloatArray
+
+    def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Heights at places in B [m], each that of the nearest place of the grid."""
+        i = np.rint((np.asarray(x) - self.x) / self.step).astype(np.int64)
+        j = np.rint((np.asarray(y) - self.y) / self.step).astype(np.int64)
+        rows, columns = self.heights.shape
+        inside = (i >= 0) & (i < rows) & (j >= 0) & (j < columns)
+        found = self.heights[np.clip(i, 0, rows - 1), np.clip(j, 0, columns - 1)]
+        return np.where(inside, found, -np.inf)
+
+    @property
+    def x_range(self) -> tuple[float, float]:
+        """From where to where it goes forward [m]."""
+        return self.x, self.x + self.step * (len(self.heights) - 1)
+
+
+@lru_cache(maxsize=1)
+def trunk_surface(robot: Robot) -> Surface | None:
+    """Upper surface of the trunk, with all that is fixed to it; None if its shapes are not known.
+
+    Shapes to look at count; where none of them can be read, those that collide.
+    """
+    # The box of a robot by hand stands for its inertia.
+    triangles = None if robot.format is Format.MANUAL else _trunk_triangles(robot)
+    return None if triangles is None else surface_of(triangles)
+
+
+def _trunk_triangles(robot: Robot) -> FloatArray | None:
+    """Triangles of the trunk's shapes in B [m], shape (n, 3, 3)."""
+    body = robot.tree.bodies[robot.tree.body_of_link[robot.trunk]]
+    base = body.links[robot.trunk]
+    for collides in (False, True):
+        shapes = [shape for shape in body.shapes if shape.collides is collides]
+        paths = {shape.mesh for shape in shapes if shape.mesh is not None}
+        if sum(path.stat().st_size for path in paths) > MOST_BYTES:
+            continue
+        found = [triangles for shape in shapes if (triangles := triangles_of(shape)) is not None]
+        if found:
+            points = np.concatenate(found)
+            return frozen((points - base.position) @ base.rotation)
+    return None
+
+
+def triangles_of(shape: Shape) -> FloatArray | None:
+    """Triangles of a shape in its body's frame [m], shape (n, 3, 3); None if it cannot be read."""
+    if shape.kind is ShapeKind.MESH:
+        own = None if shape.mesh is None else _mesh_triangles(shape.mesh)
+        if own is None or not len(own):
+            return None
+        own = own * np.asarray(shape.size)
+    else:
+        own = _primitive_triangles(shape.kind, shape.size)
+    return np.asarray(own @ shape.rotation.T + shape.position)
+
+
+def _mesh_triangles(path: Path) -> FloatArray | None:
+    """Triangles of a mesh's file, shape (n, 3, 3)."""
+    try:
+        check_mesh_file(path)
+        count = binary_stl_facets(path)
+        if count:
+            facet = np.dtype([("n", "<f4", 3), ("corners", "<f4", (3, 3)), ("a", "<u2")])
+            facets = np.frombuffer(path.read_bytes(), facet, count, offset=84)
+            found = np.asarray(facets["corners"], dtype=np.float64)
+        else:
+            found = np.array(load_with_trimesh(path).triangles, dtype=np.float64)
+    except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
+        return None
+    return found if np.isfinite(found).all() else None
+
+
+def _primitive_triangles(kind: ShapeKind, size: tuple[float, ...]) -> FloatArray:
+    """Triangles around a primitive in its own frame, round ones as prisms of many corners."""
+    if kind is ShapeKind.BOX:
+        corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+        return np.array(list(_hull_faces(corners * np.array(size))))
+    angles = np.linspace(0.0, 2.0 * np.pi, _ROUND, endpoint=False)
+    radius, half = size[0], 0.0 if kind is ShapeKind.SPHERE else size[1]
+    if kind is ShapeKind.CYLINDER:
+        profile = np.array([[0.0, -half], [radius, -half], [radius, half], [0.0, half]])
+    else:
+        arc = np.linspace(-np.pi / 2.0, np.pi / 2.0, _ROUND // 2 + 1)
+        profile = radius * np.stack([np.cos(arc), np.sin(arc)], axis=1)
+        profile[:, 1] += np.where(np.arange(len(arc)) > len(arc) // 2, half, -half)
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    points = np.concatenate(
+        [
+            profile[:, :1, None] * ring[None],
+            np.broadcast_to(profile[:, 1:, None], (len(profile), _ROUND, 1)),
+        ],
+        axis=2,
+    )
+    low, high = points[:-1], points[1:]
+    after_low, after_high = np.roll(low, -1, axis=1), np.roll(high, -1, axis=1)
+    first = np.stack([low, after_low, high], axis=2).reshape(-1, 3, 3)
+    second = np.stack([after_low, after_high, high], axis=2).reshape(-1, 3, 3)
+    return np.concatenate([first, second])
+
+
+def _hull_faces(corners: FloatArray) -> Iterator[FloatArray]:
+    """Two triangles for each side of a box, of its eight corners."""
+    for axis in range(3):
+        for side in (corners[:, axis].min(), corners[:, axis].max()):
+            face = corners[corners[:, axis] == side]
+            yield from (face[list(three)] for three in combinations(range(4), 3))
+
+
+def surface_of(triangles: FloatArray) -> Surface:
+    """Map of the highest point of any triangle over each place of a grid.
+
+    Args:
+        triangles: corners in B [m], shape (n, 3, 3).
+    """
+    flat = triangles[..., :2]
+    low, high = flat.reshape(-1, 2).min(axis=0), flat.reshape(-1, 2).max(axis=0)
+    step = max(STEP, float((high - low).max()) / MOST_STEPS)
+    # Half a step off the edge, so that the first place is not on it.
+    origin = low + step / 2.0
+    shape = np.maximum(1, np.ceil((high - low) / step).astype(np.int64))
+    heights = np.full(int(shape.prod()), -np.inf)
+    first = np.ceil((flat.min(axis=1) - origin) / step - 1e-9).astype(np.int64)
+    last = np.floor((flat.max(axis=1) - origin) / step + 1e-9).astype(np.int64)
+    first, last = np.maximum(first, 0), np.minimum(last, shape - 1)
+    count = np.maximum(last - first + 1, 0)
+    pairs = count.prod(axis=1)
+    order = np.argsort(pairs, kind="stable")
+    order = order[pairs[order] > 0]
+    batches = np.cumsum(pairs[order]) // _CHUNK
+    for batch in np.unique(batches):
+        rows = order[batches == batch]
+        each = pairs[rows]
+        owner = np.repeat(rows, each)
+        within = np.arange(len(owner)) - np.repeat(np.cumsum(each) - each, each)
+        i = first[owner, 0] + within // count[owner, 1]
+        j = first[owner, 1] + within % count[owner, 1]
+        _raise(
+            heights, i * shape[1] + j, triangles[owner], origin + step * np.stack([i, j], axis=1)
+        )
+    return Surface(
+        float(origin[0]), float(origin[1]), step, frozen(heights.reshape(shape[0], shape[1]))
+    )
+
+
+def _raise(
+    heights: FloatArray, cells: NDArray[np.int64], triangles: FloatArray, places: FloatArray
+) -> None:
+    """Raise each place to the triangle above or below it, where it is within that."""
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    one, two, to = b - a, c - a, places - a[:, :2]
+    area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    # Triangles on edge have no inside; those beside them have their edges.
+    solid = np.abs(area) > 1e-16
+    area = np.where(solid, area, 1.0)
+    u = (to[:, 0] * two[:, 1] - to[:, 1] * two[:, 0]) / area
+    v = (one[:, 0] * to[:, 1] - one[:, 1] * to[:, 0]) / area
+    inside = solid & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1.0 + 1e-9)
+    z = a[:, 2] + u * one[:, 2] + v * two[:, 2]
+    np.maximum.at(heights, cells[inside], z[inside])

@@ -1,0 +1,490 @@
+"""What the feet stand on: the trunk's own surface, or a carrier plate across it.
+
+A foot is held where the ring that its screws' lands sweep, whatever the incidence, lies on the
+trunk whole: within `FLATNESS` below the plane that it stands on, and nothing above that plane under
+its base. A plate is held by four screws, where the trunk is as flat under each head or sleeve.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.actuation.fasteners import screw
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.device.device import Device
+from ocs_design.device.solids import foot_of
+from ocs_design.parts.carrier_plate import (
+    EDGE,
+    SAFETY,
+    STOCK,
+    YIELD_STRENGTH,
+    CarrierPlate,
+    Point,
+)
+from ocs_design.parts.foot import AROUND_SLOT, TRUNK_SCREW, Foot
+from ocs_design.parts.housing import Housing
+from ocs_design.requirement.froude import Envelope
+from ocs_design.robot.collision import collision_model
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.surface import Surface, trunk_surface
+from ocs_design.sizing.placement import (
+    CLEARANCE,
+    Place,
+    Search,
+    Sizes,
+    device_size,
+    place_at,
+    place_free,
+)
+
+FLATNESS = 1e-3
+"""Largest depth of a trunk's surface below what stands on it [m]: a washer's thickness."""
+
+PROUD = 1e-4
+"""Largest height of a trunk's surface above what stands on it [m]: rounding of meshes."""
+
+HEAD_ROOM = 0.5e-3
+"""Between a screw's head and a foot's base [m]."""
+
+PLATE_SCREW = screw("M3")
+
+SPREAD = 0.02
+"""Least distance of a plate's screws, forward and sideways [m]: four heads of M5 and a key."""
+
+WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
+"""By which half a neck's width may grow, to find where the trunk takes its screws or to bear what
+the narrowest does not [m]."""
+
+SLEEVE_MAX = 0.03
+"""Longest sleeve under a plate [m]: four times as long as wide, for M3."""
+
+MODULE_SHARE = 0.1
+"""Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
+
+_STEP = 4e-3
+"""Between places along the trunk that are tried [m], or a sixteenth of a module's reach."""
+
+_PATTERN_STEP = 2e-3
+"""Between patterns of screws that are tried [m], or a fortieth of a module's reach."""
+
+
+@dataclass(frozen=True)
+class FootContact:
+    """How something stands on what is below it.
+
+    Attributes:
+        name: what stands, as in "left foot".
+        on: what it stands on, as in "trunk".
+        area: of contact [m^2]; None: not known.
+        share: of its underside that is in contact; None likewise.
+        gap: largest under its screws' lands [m]; inf: nothing is there; None: not known.
+        proud: height of what is below over its underside [m]; 0: nothing is in its way.
+        held: whether all its screws' lands are in contact and nothing is in its way; None: not
+            known.
+    """
+
+    name: str
+    on: str
+    area: float | None
+    share: float | None
+    gap: float | None
+    proud: float
+    held: bool | None
+
+
+@dataclass(frozen=True)
+class Feet:
+    """Both feet, one beside the other, symmetric to the sagittal plane.
+
+    Attributes:
+        x, y: middle of the left one's base in B [m].
+        radius: of the bases [m].
+        slot_radius: of the circle that their screws are on [m].
+        reach: radius around each that its module stays within [m].
+        height: of the wheels' middles above their undersides [m].
+        mass: of one module [kg].
+    """
+
+    x: float
+    y: float
+    radius: float
+    slot_radius: float
+    reach: float
+    height: float
+    mass: float
+
+    @property
+    def screws(self) -> tuple[Point, ...]:
+        """Places of both feet's screws over (x, 0) [m]: at 45 degrees to the lateral direction."""
+        off = self.slot_radius / sqrt(2.0)
+        left = [(off, self.y + off), (-off, self.y - off)]
+        return (*left, *((x, -y) for x, y in left))
+
+
+@dataclass(frozen=True, eq=False)
+class Footing:
+    """Where modules stand before they are chosen.
+
+    Attributes:
+        place: of the modules by their size.
+        plate: what they would stand on, were they as large as they may be; None: the trunk.
+    """
+
+    place: Place
+    plate: CarrierPlate | None
+
+    def carried(self, robot: MassProperties) -> MassProperties:
+        """The robot with that plate, which the chosen device's own replaces."""
+        return robot if self.plate is None else combine([robot, self.plate.mass_properties()])
+
+
+def footing_of(
+    robot: Robot, envelope: Envelope, position: tuple[float, ...] | None = None
+) -> Footing:
+    """Place of modules with feet, and the plate under them where the trunk does not hold them.
+
+    The nearest place on top of the trunk over the centre of mass where the largest module's feet
+    are held, by the trunk or by a plate, and where no leg comes near. Where there is none, or the
+    trunk's shapes are not known, it is that of `place_free`.
+
+    Args:
+        robot: that carries them. envelope: room for a rim.
+        position: of the left wheel in B, as stated [m]; None: free.
+    """
+    sizes, surface = Sizes.of(envelope), trunk_surface(robot)
+    largest, mass = sizes.largest, MODULE_SHARE * robot.mass
+    foot = Foot(Housing(envelope.outer_radius_max, envelope.height_max))
+    base = foot.base_radius, foot.slot_radius, largest.reach, largest.standing
+    if position is not None:
+        feet = Feet(position[0], position[1], *base, mass)
+        fixed = position[2] - largest.standing
+        held = None if surface is None else _held_at(surface, feet, fixed)
+        return Footing(place_at(position), _plate_of(held))
+    if surface is not None:
+        start = round(float(robot.com[0]), 6) + 0.0
+        feet = Feet(start, CLEARANCE * largest.reach, *base, mass)
+        found = _nearest_footing(surface, feet, Search(collision_model(robot), sizes))
+        if found is not None:
+            return found
+    return Footing(place_free(robot, envelope).place, None)
+
+
+def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
+    """The device with its feet on the trunk, and a plate under them where they are not held.
+
+    Modules whose place is not stated go to the height of what they stand on, and forward or back
+    to the nearest place where they are held. Where there is none the device stays as it is: see
+    `contacts_of`.
+
+    Args:
+        device: as selected. robot: that carries it.
+        stated: whether the modules' places are.
+    """
+    found = footing_under(device, robot, stated=stated)
+    if found is None:
+        return device
+    left, right = device.modules
+    centers = found.place.centers(device_size(device))
+    return replace(
+        device,
+        modules=(replace(left, position=centers[0]), replace(right, position=centers[1])),
+        plate=found.plate,
+    )
+
+
+def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | None:
+    """Where a chosen device stands; see `stand_on_trunk`. None: where it is, on nothing known."""
+    surface = trunk_surface(robot)
+    if surface is None or device.carrier.mass == 0.0:
+        return None
+    feet, position = feet_of(device), device.modules[0].position
+    if stated:
+        held = _held_at(surface, feet, float(position[2]) - foot_of(device).wheel_height)
+        return Footing(place_at(tuple(position.tolist())), _plate_of(held))
+    size = device_size(device)
+    feet = replace(feet, y=CLEARANCE * size.reach)
+    return _nearest_footing(surface, feet, Search(collision_model(robot), Sizes(size, size)))
+
+
+def feet_of(device: Device) -> Feet:
+    """Feet of a device that has them."""
+    foot, (x, y, _) = foot_of(device), device.modules[0].position.tolist()
+    mass = device.flywheel.mass + device.carrier.mass
+    size = device_size(device)
+    return Feet(x, y, foot.base_radius, foot.slot_radius, size.reach, size.standing, mass)
+
+
+def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
+    """What both feet stand on, and each screw of the plate where there is one.
+
+    Empty for wheels without feet.
+    """
+    if device.carrier.mass == 0.0:
+        return ()
+    surface, plate, feet = trunk_surface(robot), device.plate, feet_of(device)
+    underside = float(device.modules[0].position[2]) - foot_of(device).wheel_height
+    found = []
+    for name, y in (("left foot", feet.y), ("right foot", -feet.y)):
+        middle = feet.x, y
+        if plate is not None:
+            found.append(_on_plate(name, plate, feet, middle, underside))
+        elif surface is None:
+            found.append(FootContact(name, "trunk", None, None, None, 0.0, held=None))
+        else:
+            lands = feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT
+            found.append(_contact(name, surface, middle, feet.radius, plane=underside, lands=lands))
+    if plate is not None:
+        found += _plate_contacts(surface, plate)
+    return tuple(found)
+
+
+def _on_plate(
+    name: str, plate: CarrierPlate, feet: Feet, middle: Point, underside: float
+) -> FootContact:
+    """Contact of a foot with a plate, which carries it around its screws' circle."""
+    base, gap = _disc(middle, feet.radius), abs(underside - plate.top)
+    share = float(_over_plate(plate, base).mean())
+    lands = _ring(middle, feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT)
+    held = bool(_over_plate(plate, lands).all()) and gap <= PROUD
+    return FootContact(name, "plate", share * pi * feet.radius**2, share, gap, 0.0, held)
+
+
+def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
+    """Whether points of B are over a plate's aluminium, its holes for screws counted as full."""
+    along, across = np.abs(points - np.array(plate.position[:2])).T
+    inside = along <= plate.shape.half_width(across)
+    return np.asarray(inside & (np.hypot(along, across - plate.across) >= plate.window))
+
+
+def _plate_contacts(surface: Surface | None, plate: CarrierPlate) -> Iterator[FootContact]:
+    """Contact of each of a plate's screws, or of its sleeve, with the trunk."""
+    x, y, z = plate.position
+    outline = None if surface is None else _highest(surface, _all_over(plate))
+    for number, ((along, across), sleeve) in enumerate(
+        zip(plate.trunk, plate.sleeves, strict=True), start=1
+    ):
+        name, middle = f"plate's screw {number}", (x + along, y + across)
+        if surface is None or outline is None:
+            yield FootContact(name, "trunk", None, None, None, 0.0, held=None)
+            continue
+        radius = plate.sleeve_radius
+        found = _contact(name, surface, middle, radius, plane=z - sleeve, lands=(0.0, radius))
+        proud = max(found.proud, outline - z)
+        yield replace(found, proud=proud, held=bool(found.held) and proud <= PROUD)
+
+
+def _contact(
+    name: str,
+    surface: Surface,
+    middle: Point,
+    radius: float,
+    *,
+    plane: float,
+    lands: tuple[float, float],
+) -> FootContact:
+    """Contact of a disc with the trunk, whose screws' lands are between two radii [m]."""
+    depth = plane - _heights(surface, _disc(middle, radius))
+    share = float(((depth <= FLATNESS) & (depth >= -PROUD)).mean())
+    gap = max(0.0, float((plane - _heights(surface, _ring(middle, *lands))).max()))
+    proud = max(0.0, -float(depth.min()))
+    held = gap <= FLATNESS and proud <= PROUD
+    return FootContact(name, "trunk", share * pi * radius**2, share, gap, proud, held)
+
+
+def _nearest_footing(surface: Surface, feet: Feet, search: Search) -> Footing | None:
+    """The nearest place to that of the feet where they are held and no leg comes near.
+
+    A longer sleeve is as bad as as far a way forward, and so is a plate as its thickness.
+    """
+    low, high = surface.x_range
+    step = max(_STEP, feet.reach / 16.0)
+    steps = np.arange(np.ceil((low - feet.x) / step), (high - feet.x) / step)
+    waiting: list[tuple[float, Footing]] = []
+    for shift in (*sorted((steps * step).tolist(), key=abs), np.inf):
+        # Nothing farther away can be better than what is nearer than that.
+        while waiting and waiting[0][0] <= abs(shift):
+            _, footing = waiting.pop(0)
+            if search.is_free(footing.place):
+                return footing
+        held = _held_at(surface, replace(feet, x=feet.x + shift)) if shift < np.inf else None
+        if held is not None:
+            plate = _plate_of(held)
+            height = held.top if isinstance(held, CarrierPlate) else held
+            origin = round(feet.x + shift, 6) + 0.0, 0.0, height
+            lift = 0.0 if plate is None else plate.thickness + max(plate.sleeves)
+            place = Place(origin, (0.0, CLEARANCE, 0.0), upright=True)
+            waiting.append((abs(shift) + lift, Footing(place, plate)))
+            waiting.sort(key=lambda each: each[0])
+    return None
+
+
+def _plate_of(held: CarrierPlate | float | None) -> CarrierPlate | None:
+    """The plate, where it is one that holds the feet."""
+    return held if isinstance(held, CarrierPlate) else None
+
+
+def _held_at(
+    surface: Surface, feet: Feet, underside: float | None = None
+) -> CarrierPlate | float | None:
+    """What holds the feet at their place: the trunk at a height [m], a plate, or nothing.
+
+    Args:
+        surface: of the trunk. feet: on it.
+        underside: height of the feet in B, where it is stated [m]; None: what the trunk has.
+    """
+    sides = [(feet.x, feet.y), (feet.x, -feet.y)]
+    bases = np.concatenate([_disc(side, feet.radius) for side in sides])
+    plane = _highest(surface, bases) if underside is None else underside
+    lands = feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT
+    if np.isfinite(plane) and all(
+        _contact("", surface, side, feet.radius, plane=plane, lands=lands).held for side in sides
+    ):
+        return float(round(plane, 6))
+    return _plate(surface, feet, underside)
+
+
+def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlate | None:
+    """The lightest plate of its necks in stock that carries both modules; None: there is none."""
+    edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
+    ring = feet.slot_radius + edge
+    # Heads stand clear of the feet, before and behind where these are nearest to each other.
+    inside = max(0.0, feet.y - SPREAD / 2.0)
+    beside = sqrt(max(0.0, _apart(feet) ** 2 - inside**2))
+    least = max(SPREAD / 2.0, beside + _PATTERN_STEP) + EDGE * PLATE_SCREW.clearance_hole
+    blank = CarrierPlate(
+        position=(feet.x, 0.0, 0.0),
+        radius=ring,
+        half_length=feet.y + ring,
+        neck=least,
+        thickness=STOCK[0],
+        across=feet.y,
+        window=max(0.0, feet.slot_radius - edge),
+        feet=feet.screws,
+        trunk=(),
+        sleeves=(),
+        thread=PLATE_SCREW.name,
+    )
+    best: CarrierPlate | None = None
+    for neck in (least + wider for wider in WIDER):
+        radius = max(ring, neck)
+        # A rounding this flat is none.
+        wide = neck if neck < radius - _PATTERN_STEP else radius
+        plate = replace(blank, radius=radius, half_length=feet.y + radius, neck=wide)
+        borne = _borne(surface, feet, plate, underside) if radius <= feet.y else None
+        if borne is not None and (best is None or borne.mass < best.mass):
+            best = borne
+        # What is wider and as thick is heavier.
+        if best is not None and best.thickness == STOCK[0]:
+            return best
+    return best
+
+
+def _borne(
+    surface: Surface, feet: Feet, blank: CarrierPlate, underside: float | None
+) -> CarrierPlate | None:
+    """The thinnest plate of this outline that the trunk holds and that bears the modules."""
+    around = [_disc((feet.x, side * feet.y), feet.reach) for side in (1.0, -1.0)]
+    # Beside the plate the trunk may be as high as the plate's top: modules begin above that.
+    beside = _highest(surface, np.concatenate(around)) - STOCK[0]
+    highest = max(_highest(surface, _all_over(blank)), beside)
+    if not np.isfinite(highest):
+        return None
+    held = None
+    for thickness in STOCK:
+        height = round(highest, 6) if underside is None else underside - thickness
+        if height < highest - PROUD:
+            return None
+        # Where its height is free, it does not change with the thickness.
+        if held is None or underside is not None:
+            held = _screwed(surface, feet, replace(blank, position=(feet.x, 0.0, height)))
+        if held is None:
+            return None
+        plate = replace(held, thickness=thickness)
+        if plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY:
+            return plate
+    return None
+
+
+def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate | None:
+    """The plate with the widest pattern of four screws that the trunk holds; None: there is none.
+
+    Heads stay clear of the feet. Patterns without sleeves come first.
+    """
+    radius = plate.sleeve_radius
+    x, _, z = plate.position
+    most = plate.neck - EDGE * PLATE_SCREW.clearance_hole
+    step = max(_PATTERN_STEP, feet.reach / 40.0)
+    steps = [np.append(np.arange(SPREAD / 2.0, end, step), end) for end in (most, feet.y)]
+    along, across = (each.ravel() for each in np.meshgrid(*steps, indexing="ij"))
+    clear = np.hypot(along, feet.y - across) >= _apart(feet)
+    along, across = along[clear], across[clear]
+    if not len(along):
+        return None
+    places = np.stack(
+        [np.stack([i * along, j * across], axis=1) for i in (1, -1) for j in (1, -1)], axis=1
+    )
+    lands = _ring((0.0, 0.0), 0.0, radius)
+    points = places[:, :, None] + lands + np.array([x, 0.0])
+    heights = surface.height(points[..., 0], points[..., 1])
+    top, low = heights.max(axis=2), heights.min(axis=2)
+    with np.errstate(invalid="ignore"):
+        good = (top - low <= FLATNESS) & (z - top <= SLEEVE_MAX) & (top <= z + PROUD)
+    ok = good.all(axis=1)
+    if not ok.any():
+        return None
+    direct = (z - low <= FLATNESS).all(axis=1)
+    score = np.where(ok, np.minimum(along, across) + 0.1 * (along + across) + direct, -1.0)
+    best = int(score.argmax())
+    gaps = np.where(z - low[best] <= FLATNESS, 0.0, np.round(z - top[best], 5))
+    return replace(
+        plate,
+        trunk=tuple((round(float(a), 6), round(float(b), 6)) for a, b in places[best]),
+        sleeves=tuple(gaps.tolist()),
+    )
+
+
+def _apart(feet: Feet) -> float:
+    """Least distance of a plate's screws from the middle of a foot [m]."""
+    return feet.radius + PLATE_SCREW.head_diameter / 2.0 + HEAD_ROOM
+
+
+def _heights(surface: Surface, points: FloatArray) -> FloatArray:
+    return surface.height(points[:, 0], points[:, 1])
+
+
+def _highest(surface: Surface, points: FloatArray) -> float:
+    return float(_heights(surface, points).max())
+
+
+def _disc(middle: Sequence[float], radius: float) -> FloatArray:
+    """Points that stand for equal shares of a disc [m], shape (n, 2)."""
+    return _ring(middle, 0.0, radius)
+
+
+def _ring(middle: Sequence[float], inner: float, outer: float) -> FloatArray:
+    """Points that stand for equal shares of a ring [m], shape (n, 2)."""
+    inner = max(inner, 0.0)
+    count = max(4, min(48, round((outer - inner) / 1e-3)))
+    around = max(16, min(180, round(2.0 * pi * outer / 1e-3)))
+    share = (np.arange(count) + 0.5) / count
+    radii = np.sqrt(inner**2 + share * (outer**2 - inner**2))
+    # The rim itself, where lands end first.
+    angles = (np.arange(around) + 0.5) * 2.0 * pi / around
+    rings = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return frozen((radii[:, None, None] * rings).reshape(-1, 2) + np.asarray(middle))
+
+
+def _all_over(plate: CarrierPlate) -> FloatArray:
+    """Points all over a plate [m], shape (n, 2)."""
+    x, y, _ = plate.position
+    xs, ys = (
+        np.linspace(-half, half, 1 + int(np.ceil(2.0 * half / max(1e-3, plate.radius / 40.0))))
+        for half in (plate.radius, plate.half_length)
+    )
+    along, across = (each.ravel() for each in np.meshgrid(xs, ys))
+    inside = np.abs(along) <= plate.shape.half_width(across)
+    return np.stack([x + along[inside], y + across[inside]], axis=1)

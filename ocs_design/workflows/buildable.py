@@ -1,0 +1,110 @@
+"""What keeps a device from being built as it stands, gathered from all that was looked at."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from ocs_design.actuation.motor import Motor, build_gaps
+from ocs_design.device.joints import RIM_JOINT, SHAFT_JOINT
+from ocs_design.device.records import Buildable, MarginRecord, OpenPoint
+from ocs_design.parts.joints import Joint
+from ocs_design.report.quantities import quantity
+from ocs_design.report.table import listed
+from ocs_design.sizing.margins import (
+    BUS_CURRENT,
+    BUS_POWER,
+    FED_BACK,
+    HOOP_STRESS,
+    MOTOR_SPEED,
+    MOTOR_TORQUE,
+    WHEEL_SPEED,
+)
+from ocs_design.sizing.mounting import Mounting, mounting_open_points
+
+_SUPPLY = "give a supply that stands it with --bus-power and --bus-current, or more time"
+_DRIVE = "choose a motor that can do more (--motor), or give more time"
+CURES: Mapping[str, str] = {
+    WHEEL_SPEED: _DRIVE,
+    MOTOR_SPEED: _DRIVE,
+    MOTOR_TORQUE: _DRIVE,
+    BUS_CURRENT: _SUPPLY,
+    BUS_POWER: _SUPPLY,
+    BUS_CURRENT + FED_BACK: _SUPPLY,
+    BUS_POWER + FED_BACK: _SUPPLY,
+    HOOP_STRESS: "choose a stronger material (--material), or a slower motor",
+    "bearing moment": "choose a motor with stronger bearings (--motor)",
+}
+"""Margins whose capacity is not to be exceeded, by name, and what can be done.
+
+The others may be: a continuous current for a second, and a voltage, which then gives less torque.
+"""
+
+_JOINT_CURES = {
+    RIM_JOINT: "make the wheel in one piece, of a stronger material (--material), or choose a "
+    "slower motor",
+    SHAFT_JOINT: "choose a motor with threads in its rotor (--motor)",
+}
+_SPARE = ("shaft joint, screws in shear",)
+"""Joints that are a reserve: friction carries the torque."""
+
+TOLERANCE = 1e-3
+"""By which a capacity may be exceeded, relative: what a wheel gains within one control step, beyond
+the limit that its law keeps."""
+
+
+def buildable(
+    motor: Motor | None,
+    mounting: Mounting | None,
+    margins: Sequence[MarginRecord],
+    joints: Sequence[Joint] = (),
+) -> Buildable:
+    """Whether a device can be built as it stands, and what is open.
+
+    Args:
+        motor: that was chosen; None: none was, and nothing can be told.
+        mounting: on the robot; where the robot's shapes are not known, nothing can be told either.
+        margins: of the device.
+        joints: of a module.
+    """
+    if motor is None:
+        return Buildable(yes=None)
+    points = (
+        *_motor_points(motor),
+        *_joint_points(joints),
+        *(() if mounting is None else mounting_open_points(mounting)),
+        *_exceeded(margins),
+    )
+    if mounting is None or not mounting.known:
+        return Buildable(yes=None, open=points)
+    return Buildable(yes=not points, open=points)
+
+
+def _motor_points(motor: Motor) -> Iterator[OpenPoint]:
+    gaps = build_gaps(motor)
+    if gaps:
+        yield OpenPoint(
+            what=f"no source gives the {listed(gaps)} of {motor.name}",
+            cure="leave the motor to the program, which takes one that can be built with, or state "
+            "its figures in a file of your own (--motors FILE)",
+        )
+
+
+def _joint_points(joints: Sequence[Joint]) -> Iterator[OpenPoint]:
+    """Joints that do not hold, or of which it is not known."""
+    for joint in joints:
+        cure = _JOINT_CURES[SHAFT_JOINT if joint.name.startswith(SHAFT_JOINT) else RIM_JOINT]
+        if joint.capacity is None:
+            yield OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure)
+        elif joint.margin is not None and joint.margin < 1.0 and joint.name not in _SPARE:
+            asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
+            yield OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure)
+
+
+def _exceeded(margins: Sequence[MarginRecord]) -> Iterator[OpenPoint]:
+    for margin in margins:
+        short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
+        if short and margin.name in CURES and margin.capacity is not None:
+            asked, there = (
+                quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
+            )
+            by = f" by {margin.scenario}" if margin.scenario else ""
+            what = f"{margin.name}: {asked} asked{by}, {there} is allowed"
+            yield OpenPoint(what=what, cure=CURES[margin.name])

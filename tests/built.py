@@ -1,0 +1,50 @@
+"""Whole devices on the paper's wheel, with all that holds them, for tests of what is built."""
+
+from dataclasses import replace
+
+from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
+
+from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, GearRoom, Mounting
+from ocs_design.catalogue.motors import motor
+from ocs_design.device.device import Device, Web
+from ocs_design.parts.module import standing
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.rim import WEB_THICKNESS, hub_of, web_mass
+
+CAGED = motor("MN5212 KV340")
+FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
+
+
+def housed(mounting: Mounting | None, outer_radius: float = 0.04) -> Device:
+    """The paper's rim on a web, in a housing, on a motor with that mounting."""
+    held = replace(CAGED, mounting=mounting)
+    hub = hub_of(held)
+    of = PAPER_WHEEL.density
+    mass = web_mass(PAPER_WHEEL.inner_radius, of, WEB_THICKNESS) + hub.mass(of)
+    web = Web(PAPER_WHEEL.material, of, WEB_THICKNESS, mass, hub)
+    wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web, outer_radius=outer_radius)
+    drive = replace(
+        EC45, mounting=mounting, mass=held.mass, diameter=held.diameter, length=held.length,
+        torque_constant=0.028,
+    )  # fmt: skip
+    carrier = standing(held, DIRECT, wheel.outer_radius, wheel.height)
+    return replace(driven_device(drive=drive, carrier=carrier), flywheel=wheel)
+
+
+def behind_a_gear() -> Device:
+    drive = replace(
+        geared(4.0), gear_mass=0.02, gear_room=GearRoom(0.01, 0.03, 0.01, 0.01), diameter=0.04,
+        length=0.03,
+    )  # fmt: skip
+    return driven_device(drive=drive, carrier=Carrier(0.3, 1e-4, 1e-4))
+
+
+CAGED_DEVICE = housed(CAGED.mounting)
+
+DEVICES = {
+    "caged": CAGED_DEVICE,
+    "by its face": housed(FLAT),
+    "unknown threads": housed(None),
+    "gear": behind_a_gear(),
+    "wheels alone": paper_device(),
+}

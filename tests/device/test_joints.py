@@ -1,0 +1,116 @@
+"""Joints and balance of a device: which kind it is, its figures, and what is not known."""
+
+from dataclasses import replace
+from math import pi
+
+import pytest
+from wheels import EC45, PAPER_WHEEL, driven_device
+
+from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.motor import BoltCircle, Mounting
+from ocs_design.catalogue.materials import material
+from ocs_design.device.device import Web
+from ocs_design.device.joints import balance_of, joints_of, rim_fit, top_speed, wheel_rings
+from ocs_design.parts.joints import TurningRings, friction_torque
+from ocs_design.parts.rim import WEB_THICKNESS, Hub
+
+STEEL, ALUMINIUM = material("steel-4140-normalized"), material("aluminium-6061-t6")
+HUB = Hub(0.0096, 0.005, 0.002, 4, 0.006, 0.0017, chamfer=0.2e-3)
+THREADS = Mounting(shaft_diameter=0.004, rotor=BoltCircle(0.012, 4, "M3"))
+
+
+def device(mounting=THREADS, web=STEEL, hub=HUB, **wheel):
+    """A rim of steel on such a web and motor, 0.9 N m and 9,000 rpm."""
+    drive = replace(EC45, mounting=mounting, torque_limit=0.9, speed_max=300.0 * pi)
+    joined = Web(web.name, web.density, WEB_THICKNESS, 0.02, hub)
+    made = replace(PAPER_WHEEL, material=STEEL.name, density=STEEL.density, web=joined)
+    sized = replace(made, inner_radius=0.036, outer_radius=0.04, height=0.006, **wheel)
+    return replace(driven_device(drive=drive), flywheel=sized)
+
+
+def named(found):
+    return {joint.name: joint for joint in joints_of(found)}
+
+
+def test_one_piece_stands_its_largest_stress_at_over_speed():
+    one = device()
+    joint = named(one)["rim joint"]
+    turning = TurningRings.of(wheel_rings(one.flywheel), 1.2 * top_speed(one))
+    peaks = [turning.peak(ring) for ring in range(3)]
+    assert joint.demand == pytest.approx(max(*peaks, turning.peak_at_hole(0, 0.006)))
+    assert joint.capacity == STEEL.yield_strength
+    assert joint.margin == pytest.approx(joint.capacity / joint.demand)
+    assert top_speed(one) == pytest.approx(min(650.4, 300.0 * pi))
+
+
+def test_a_rim_on_another_web_is_shrunk_on():
+    found = named(device(web=ALUMINIUM))
+    assert set(found) >= {"rim joint", "web of the shrink fit", "rim of the shrink fit"}
+    fit = rim_fit(device(web=ALUMINIUM))
+    joint = found["rim joint"]
+    assert (joint.demand, joint.capacity) == (fit.needed, fit.held)
+    assert joint.margin == pytest.approx(1.5)
+    # 1.5 x 0.9 N m on 2 pi 36^2 x 1 mm by a friction of 0.1.
+    assert joint.demand == pytest.approx(1.35 / (2.0 * pi * 0.036**2 * WEB_THICKNESS * 0.1))
+    assert rim_fit(device()) is None
+
+
+def test_screws_carry_by_friction_and_shear_is_a_reserve():
+    found = named(device())
+    joint, reserve = found["shaft joint"], found["shaft joint, screws in shear"]
+    assert joint.demand == reserve.demand == pytest.approx(1.35)
+    assert joint.capacity == friction_torque(screw("M3"), 4, 0.006)
+    assert reserve.capacity > joint.capacity > joint.demand
+
+
+def test_a_shaft_alone_is_bonded():
+    """4 mm by 4.6 mm under half of 25 MPa: pi d^2 / 2 L tau = 1.445 N m."""
+    joint = named(device(Mounting(shaft_diameter=0.004)))["shaft joint"]
+    assert joint.capacity == pytest.approx(1.445, abs=1e-3)
+    assert "alone carries nothing" in joint.note
+
+
+@pytest.mark.parametrize(
+    "unknown",
+    [
+        device(None),
+        replace(device(), motor=replace(device().motor, gear="5 to 1")),
+    ],
+    ids=["no mounting", "a gear"],
+)
+def test_what_is_not_in_the_catalogue_has_no_capacity(unknown):
+    joint = named(unknown)["shaft joint"]
+    assert joint.capacity is joint.margin is None
+    assert "not in the catalogue" in joint.note
+
+
+def test_a_material_without_figures_has_no_capacity():
+    plain = replace(device().flywheel, material="stainless-paper")
+    unknown = replace(plain, web=replace(plain.web, material="stainless-paper"))
+    assert named(replace(device(), flywheel=unknown))["rim joint"].capacity is None
+
+
+def test_massless_spokes_have_no_joints():
+    assert joints_of(replace(device(), flywheel=PAPER_WHEEL)) == ()
+
+
+def test_balance_is_g_6_3_at_the_top_speed():
+    """20,160 rpm leave 2.98 um."""
+    fast = replace(EC45, no_load_speed=3000.0, speed_max=20_160.0 * pi / 30.0)
+    found = balance_of(replace(device(), motor=fast))
+    assert 1e6 * found.eccentricity == pytest.approx(2.98, abs=0.005)
+    assert found.unbalance == pytest.approx(found.eccentricity * PAPER_WHEEL.mass)
+
+
+def test_what_centres_a_wheel_says_how_far_off_it_may_be():
+    """H7/h6 on 4 mm: (12 + 8) / 2 um; M3 in 3.4 mm: 0.2 mm; and 10 um of run-out."""
+    on_shaft, screwed = (
+        balance_of(device()),
+        balance_of(device(replace(THREADS, shaft_diameter=None))),
+    )
+    assert on_shaft.off_centre == pytest.approx(20e-6)
+    assert screwed.off_centre == pytest.approx(210e-6)
+    assert on_shaft.found == pytest.approx(20e-6 * PAPER_WHEEL.mass)
+    assert on_shaft.enough
+    assert balance_of(device(None)).found is None
+    assert not balance_of(device(None)).enough

@@ -1,0 +1,129 @@
+"""The command line asks which links are trunk and legs, takes the answer, and draws what it saw."""
+
+import xml.etree.ElementTree as ET
+
+import pytest
+from commands import BY_HAND, SOLO12, run
+from urdf_text import inertial, joint, link, robot
+
+LIMIT = '<limit lower="-3" upper="3" effort="3" velocity="4"/>'
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def hinge(name, parent, child, xyz):
+    return joint(name, parent, child, f'<origin xyz="{xyz}"/><axis xyz="0 1 0"/>', LIMIT)
+
+
+@pytest.fixture
+def dog(tmp_path):
+    """A chest and a pelvis with a hinge between them, two legs on each."""
+    elements = [
+        link("chest", inertial(4.0, "0.02 0.03 0.03")),
+        link("pelvis", inertial(2.0, "0.01 0.01 0.01")),
+        hinge("spine", "chest", "pelvis", "-0.3 0 0"),
+    ]
+    for parent in ("chest", "pelvis"):
+        for side, y in (("l", 0.1), ("r", -0.1)):
+            name = f"{parent[0]}{side}"
+            thigh, shank, foot = f"{name}_thigh", f"{name}_shank", f"{name}_foot"
+            elements += [
+                link(thigh, inertial(0.2, "3e-4 3e-4 3e-4", "0 0 -0.1")),
+                link(shank, inertial(0.1, "2e-4 2e-4 2e-4", "0 0 -0.1")),
+                link(foot),
+                hinge(f"{name}_hip", parent, thigh, f"0 {y} 0"),
+                hinge(f"{name}_knee", thigh, shank, "0 0 -0.2"),
+                joint(f"{name}_end", shank, foot, '<origin xyz="0 0 -0.2"/>', kind="fixed"),
+            ]
+    path = tmp_path / "dog.urdf"
+    path.write_bytes(robot(*elements))
+    return path
+
+
+FEET = "pl_foot,pr_foot,cl_foot,cr_foot"
+"""In the order of the tree."""
+
+
+@pytest.mark.parametrize("command", ["size", "pareto"])
+def test_a_command_that_designs_asks_and_writes_nothing(dog, tmp_path, command):
+    result = run(command, dog, "-o", tmp_path / "out")
+    assert result.code == 3
+    assert "trunk and legs are not clear" in result.said
+    assert "--trunk chest" in result.said
+    assert "--trunk pelvis" in result.said
+    assert not (tmp_path / "out").exists()
+
+
+def test_inspect_does_not_ask_but_tells(dog):
+    result = run("inspect", dog)
+    assert result.code == 0
+    assert f"--trunk chest --legs {FEET}" in result.stdout + result.stderr
+    recognition = run("inspect", dog, "--json").document["recognition"]
+    assert recognition["likely"][0] == {
+        "trunk": "chest",
+        "legs": FEET.split(","),
+        "confidence": pytest.approx(recognition["confidence"]),
+    }
+
+
+def test_the_answer_is_taken(dog):
+    document = run("inspect", dog, "--trunk", "pelvis", "--legs", FEET, "--json").document
+    recognition = document["recognition"]
+    assert document["robot"]["trunk"] == "pelvis"
+    assert [leg["foot"] for leg in recognition["legs"]] == FEET.split(",")
+    assert recognition["stated"] == ["legs", "trunk"]
+    assert recognition["likely"] == []
+    assert any("a spine" in warning for warning in document["robot"]["warnings"])
+
+
+def test_no_legs_is_an_answer():
+    document = run("inspect", SOLO12, "--legs", "none", "--json").document
+    assert document["robot"]["legs"] == []
+    assert document["robot"]["posture_name"] == "zero"
+
+
+def test_the_legs_of_a_specification(dog, tmp_path):
+    feet = ", ".join(f'"{foot}"' for foot in FEET.split(","))
+    specification = tmp_path / "spec.toml"
+    specification.write_text(
+        f'[robot]\nfile = "dog.urdf"\ntrunk = "chest"\nlegs = [{feet}]\n', encoding="utf-8"
+    )
+    recognition = run("inspect", "--spec", specification, "--json").document["recognition"]
+    assert [leg["foot"] for leg in recognition["legs"]] == FEET.split(",")
+
+
+def test_a_foot_that_is_not_there_is_named():
+    result = run("inspect", SOLO12, "--legs", "FL_FOOT,FR_TOE")
+    assert result.code == 3
+    assert "no link 'FR_TOE'" in result.said
+    assert "FR_FOOT" in result.said
+
+
+def test_the_picture_names_feet_and_directions(tmp_path):
+    path = tmp_path / "solo12.svg"
+    assert run("inspect", SOLO12, "--picture", path).code == 0
+    words = [text.text for text in ET.parse(path).iter(f"{SVG}text")]
+    feet = ("FL_FOOT", "FR_FOOT", "HL_FOOT", "HR_FOOT")
+    # From the right, the front and above.
+    assert [words.count(foot) for foot in feet] == [3, 3, 3, 3]
+    assert [words.count(way) for way in ("forward", "left", "up")] == [2, 2, 2]
+    circles = list(ET.parse(path).iter(f"{SVG}circle"))
+    right = {round(float(circle.get("cy")), 1) for circle in circles[:4]}
+    # All four feet on one ground, seen from the right; the front ones ahead of the hind ones.
+    assert len(right) == 1
+    front, hind = (float(circles[i].get("cx")) for i in (0, 2))
+    assert front > hind
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        ((SOLO12, "--picture", "solo12.png"), 2, "only .svg"),
+        ((SOLO12, "--picture", "nowhere/at/all.svg"), None, "cannot write"),
+        ((*BY_HAND, "--picture", "box.svg"), 2, "nothing to draw"),
+    ],
+)
+def test_pictures_that_cannot_be(arguments, code, said, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = run("inspect", *arguments)
+    assert result.code == code if code is not None else result.code != 0
+    assert said in result.said

@@ -1,0 +1,195 @@
+"""Every margin, and what the first screen shows, calculated once more from the files alone."""
+
+import math
+import re
+
+import pytest
+from commands import SOLO12, run
+from flown_margins import Flown, row_of
+
+MOTOR = "MN4014 KV400"
+UNPLANNED = """
+[motor]
+name = "MN4014 KV400"
+gear = "direct"
+[[maneuver]]
+kind = "disturbance"
+name = "push"
+takeoff_velocity = ["0.5 m/s", "2.4 m/s"]
+torque = ["0.3 N m", "1.2 N m", 0]
+onset = "0.1 s"
+duration = "0.05 s"
+"""
+"""A push that no plan foresees: what is asked of the drive is what was flown."""
+
+
+@pytest.fixture(scope="module")
+def sized(tmp_path_factory):
+    """What `size` said, and the files of a design that was pushed in the air."""
+    folder = tmp_path_factory.mktemp("pushed")
+    (folder / "push.toml").write_text(UNPLANNED)
+    out = folder / "out"
+    said = run("size", SOLO12, "--spec", folder / "push.toml", "-o", out)
+    assert said.code in {0, 1}, said.said
+    return said, Flown(out)
+
+
+def margins_of(flown):
+    return {margin["name"]: margin for margin in flown.design["margins"]}
+
+
+def test_the_motor_is_its_row_in_the_catalogue(sized):
+    motor, row = sized[1].motor, row_of("motors.csv", MOTOR)
+    assert motor["torque_constant"] == pytest.approx(30.0 / math.pi / float(row["kv_rpm_per_v"]))
+    assert motor["resistance"] == float(row["resistance_ohm"])
+    assert motor["no_load_current"] == float(row["no_load_current_a"])
+    useful = float(row["peak_current_a"]) - float(row["no_load_current_a"])
+    assert motor["torque_limit"] == pytest.approx(useful * motor["torque_constant"])
+
+
+def test_every_demand_is_what_was_flown(sized):
+    """To the six digits of the time series; less sharp where those are subtracted or summed."""
+    loose = {"winding heat": 5e-4, "bearing moment": 1e-3}
+    flown = sized[1]
+    margins = margins_of(flown)
+    for name, recorded in flown.demands().items():
+        rel = loose.get(name, 2e-5)
+        assert margins[name]["demand"] == pytest.approx(recorded, rel=rel), name
+        assert margins[name]["scenario"] == "push"
+
+
+def test_the_time_series_ask_for_no_more_than_the_margins_state(sized):
+    flown = sized[1]
+    margins = margins_of(flown)
+    for table in flown.tables:
+        assert table["power"].max() <= margins["bus power"]["demand"] * (1.0 + 1e-5)
+        assert -table["power"].min() <= margins["bus power, fed back"]["demand"] * (1.0 + 1e-5)
+        assert table["current"].max() <= margins["bus current"]["demand"] * (1.0 + 1e-5)
+        assert -table["current"].min() <= margins["bus current, fed back"]["demand"] * (1.0 + 1e-5)
+
+
+def test_energies_are_the_integral_of_the_power(sized):
+    """Power is linear while a torque is held; where it changes its sign is to a step."""
+    flown = sized[1]
+    margins = margins_of(flown)
+    (table,) = flown.tables
+    torque, speed, steps = (
+        table["torque"][:-1],
+        table["speed"],
+        table["time"][1:] - table["time"][:-1],
+    )
+    for name, idle, sign in (
+        ("energy from the bus", flown.idle, 1.0),
+        ("energy fed back", 0.0, -1.0),
+    ):
+        ends = [
+            (sign * flown.power(torque, each, idle * (each != 0.0))).clip(0.0)
+            for each in (speed[:-1], speed[1:])
+        ]
+        energy = float(steps @ (0.5 * (ends[0] + ends[1])))
+        assert margins[name]["demand"] == pytest.approx(energy, rel=0.03)
+
+
+def test_every_capacity_is_that_of_its_part(sized):
+    flown = sized[1]
+    margins, motor, row = margins_of(flown), flown.motor, row_of("motors.csv", MOTOR)
+    watts = 400.0 * flown.design["robot"]["mass"]
+    assert flown.design["supply"]["power_max"] == pytest.approx(watts)
+    for name in ("bus power", "bus power, fed back"):
+        assert margins[name]["capacity"] == pytest.approx(watts)
+    for name in ("bus current", "bus current, fed back"):
+        assert margins[name]["capacity"] == pytest.approx(watts / 24.0)
+    peak = float(row["peak_current_a"]) * motor["torque_constant"]
+    assert margins["motor torque"]["capacity"] == pytest.approx(peak)
+    # Its source gives no highest speed: no faster than without load at its rated voltage.
+    top = float(row["rated_voltage_v"]) / motor["torque_constant"]
+    assert margins["wheel speed"]["capacity"] == pytest.approx(top)
+    assert margins["motor speed"]["capacity"] == pytest.approx(top)
+    stress, strength = flown.hoop_stress()
+    assert margins["hoop stress"]["demand"] == pytest.approx(stress, rel=1e-9)
+    assert margins["hoop stress"]["capacity"] == strength
+    rating = motor["continuous_torque"] / motor["torque_constant"]
+    assert margins["rms current"]["capacity"] == pytest.approx(rating)
+    assert margins["voltage line"]["capacity"] == 1.0
+
+
+def test_a_margin_is_capacity_over_demand(sized):
+    for margin in sized[1].design["margins"]:
+        if margin["margin"] is not None:
+            factor = margin["capacity"] / margin["demand"]
+            assert margin["margin"] == pytest.approx(factor, rel=1e-12)
+
+
+def test_the_rms_current_is_that_of_the_flight(sized):
+    """The worse of the whole run and of lift-off to touchdown."""
+    flown = sized[1]
+    (table,) = flown.tables
+    (metrics,) = (run["metrics"] for run in flown.design["validation"] if run["ocs"])
+    begun, ended = metrics["lift_off_time"] - 1e-6, metrics["touchdown_time"] + 1e-6
+    inside = (table["time"] >= begun) & (table["time"] <= ended)
+    parts = [
+        {name: table[name][part] for name in ("time", "torque", "speed")} for part in (inside, ...)
+    ]
+    means = [
+        math.sqrt(
+            flown.heat(part) / flown.motor["resistance"] / (part["time"][-1] - part["time"][0])
+        )
+        for part in parts
+    ]
+    assert margins_of(flown)["rms current"]["demand"] == pytest.approx(max(means), rel=5e-4)
+
+
+def test_the_first_screen_shows_these_figures(sized):
+    """Each number of the device's block, from the files."""
+    said, flown = sized
+    ocs, wheel, motor = flown.design["ocs"], flown.design["ocs"]["flywheel"], flown.motor
+    shown = said.said
+    share = ocs["mass_total"] / flown.design["robot"]["mass"]
+    assert f"total mass {1e3 * ocs['mass_total']:.1f} g ({share:.1%} of the robot)" in shown
+    parts = re.search(r"mass of a module (.*?) (?:carrier plate|incidence)", shown)[1]
+    grams = sum(map(float, re.findall(r"([\d.]+) g", parts)))
+    plate = re.search(r"carrier plate ([\d.]+) g", shown)
+    whole = 2.0 * grams + (float(plate[1]) if plate else 0.0)
+    assert whole == pytest.approx(1e3 * ocs["mass_total"], abs=0.6)
+    sizes = (1e3 * wheel[name] for name in ("outer_radius", "inner_radius", "height"))
+    assert "R {:.2f} r {:.2f} h {:.2f} mm".format(*sizes) in shown
+    assert f"{math.degrees(ocs['incidence']):.2f} deg" in shown
+    top = 24.0 / motor["torque_constant"] * 30.0 / math.pi
+    assert f"{top:,.0f} rpm without load at 24 V" in shown
+    assert f"{motor['torque_limit']:.3g} N m at the current limit" in shown
+    demands, margins = flown.demands(), margins_of(flown)
+    used = re.search(r"used at most (.*?) limits", shown)[1]
+    for name in ("wheel speed", "motor torque", "bus current", "bus power", "bus power, fed back"):
+        percent = math.ceil(100.0 * demands[name] / margins[name]["capacity"] - 2e-3)
+        assert f"{name} {percent}%" in used
+
+
+@pytest.mark.parametrize("product", ["motor"], indirect=True)
+def test_no_flight_asks_for_more_than_is_stated(product):
+    """With plans, which may ask for more than was flown."""
+    flown = Flown(product.folder)
+    margins = margins_of(flown)
+    for name, recorded in flown.demands().items():
+        assert recorded <= margins[name]["demand"] * (1.0 + 2e-5), name
+
+
+DRAWN = (
+    ("--mass", "3.4", "--inertia", "0.05,0.09,0.12", "--motor", "AT4120 KV560", "--ballistic"),
+    (SOLO12, "--motor", "MN4014 KV400", "--bus-power", "700W"),
+    (SOLO12, "--motor", "AT2820 KV1050", "--alpha", "25deg", "--bus-voltage", "20V"),
+)
+"""Three of the twenty designs that were drawn at random when this was written."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options", DRAWN, ids=["by hand", "little power", "little voltage"])
+def test_no_flight_of_other_designs_asks_for_more_than_is_stated(options, tmp_path):
+    said = run("size", *options, "--gear", "direct", "-q", "-o", tmp_path / "out")
+    assert said.code in {0, 1}, said.said
+    flown = Flown(tmp_path / "out")
+    margins, supply = margins_of(flown), flown.design["supply"]
+    for name, recorded in flown.demands().items():
+        assert recorded <= margins[name]["demand"] * (1.0 + 5e-4), name
+    for table in flown.tables:
+        assert abs(table["power"]).max() <= supply["power_max"]
+        assert abs(table["current"]).max() <= supply["current_max"]

@@ -1,0 +1,188 @@
+"""The booklet of assembly: everything is in it, legible and where it belongs."""
+
+import re
+from dataclasses import replace
+from itertools import combinations, pairwise
+
+import numpy as np
+import pytest
+from built import DEVICES
+from hypothesis import given
+from hypothesis import strategies as st
+from wheels import paper_device
+
+from ocs_design.catalogue.materials import materials
+from ocs_design.device.joints import balance_of, rim_fit
+from ocs_design.device.records import MarginRecord
+from ocs_design.export.assembly.booklet import (
+    assembly_pages,
+    assembly_pdf,
+    exploded_svg,
+    section_svg,
+)
+from ocs_design.export.assembly.content import Assembly, burst_of
+from ocs_design.export.assembly.views import pulled_apart, spread
+from ocs_design.export.bill_of_materials import bill_rows
+from ocs_design.export.device_parts import printed_parts
+from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Polyline, Text
+from ocs_design.export.meshes import part_mesh
+
+
+@pytest.fixture(params=DEVICES, ids=str)
+def assembly(request):
+    return Assembly("solo12", DEVICES[request.param])
+
+
+def test_all_text_is_within_the_frame_and_none_on_another(assembly):
+    left, top, right, bottom = FRAME_BOX
+    for page in assembly_pages(assembly):
+        boxes = [item.box for item in page if isinstance(item, Text) and item.text]
+        for x1, y1, x2, y2 in boxes:
+            assert left <= x1 < x2 <= right
+            assert top <= y1 < y2 <= bottom
+        for a, b in combinations(boxes, 2):
+            apart = a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] + 0.3 or b[3] <= a[1] + 0.3
+            assert apart, (a, b)
+
+
+def test_all_lines_are_on_the_sheet(assembly):
+    for page in assembly_pages(assembly):
+        for item in page:
+            match item:
+                case Polyline(points):
+                    ends = points
+                case Line(start, end):
+                    ends = (start, end)
+                case Circle(center):
+                    ends = (center,)
+                case _:
+                    continue
+            assert all(0.0 <= x <= 297.0 and 0.0 <= y <= 210.0 for x, y in ends)
+
+
+def test_the_same_device_has_the_same_bytes(assembly):
+    again = replace(assembly)
+    content = assembly_pdf(assembly)
+    assert content == assembly_pdf(again)
+    assert content.startswith(b"%PDF")
+    assert exploded_svg(assembly) == exploded_svg(again)
+    assert section_svg(assembly).startswith("<svg")
+
+
+def test_every_screw_of_the_bill_is_numbered_and_has_a_torque():
+    assembly = Assembly("solo12", DEVICES["caged"])
+    bought = {
+        (row.part.removeprefix("screw "), row.quantity)
+        for row in bill_rows(assembly.device)
+        if row.part.startswith("screw")
+    }
+    rows = list(assembly.screw_rows())
+    assert {(row.designation, row.quantity) for row in rows} == bought
+    assert all(re.fullmatch(r"\d.*N m", row.torque) for row in rows)
+    numbers = [row.number for row in assembly.piece_rows()]
+    assert numbers == list(range(1, len(numbers) + 1))
+
+
+def test_the_pieces_are_those_that_are_made():
+    assembly = Assembly("solo12", DEVICES["caged"])
+    drum = next(piece for piece in assembly.pieces if piece.name == "drum")
+    made = next(part for part in printed_parts(assembly.device) if part.name == "drum")
+    assert np.ptp(drum.mesh.vertices, axis=0) == pytest.approx(
+        np.ptp(part_mesh(made, 64).vertices, axis=0)
+    )
+
+
+def test_pulled_apart_no_piece_touches_its_neighbour():
+    pieces = Assembly("solo12", DEVICES["caged"]).pieces
+    apart = [piece for piece in pulled_apart(pieces, 0.02) if not piece.upright]
+    for one, other in pairwise(apart):
+        if "foot" not in (one.name, other.name):
+            assert one.mesh.vertices[:, 2].max() < other.mesh.vertices[:, 2].min()
+
+
+@given(st.lists(st.floats(0.0, 200.0), max_size=15))
+def test_numbers_never_stand_on_each_other(wanted):
+    places = spread(sorted(wanted), 8.0, (0.0, 200.0))
+    assert np.all(np.diff(places) >= 8.0 - 1e-9)
+    assert all(place <= 200.0 for place in places)
+
+
+def texts(assembly, title):
+    (chapter,) = (each for each in assembly.chapters() if each.title.startswith(title))
+    return " ".join(chapter.texts)
+
+
+def test_the_guard_is_told_what_it_does_not_do():
+    device = DEVICES["caged"]
+    assembly = Assembly("solo12", device)
+    said, burst = texts(assembly, "Safety"), burst_of(device, assembly.top_speed)
+    assert assembly.top_speed == 650.4
+    assert "It does not hold a burst rim" in said
+    assert f"{1e3 * burst.steel.wall:.2g} mm of mild steel" in said
+    energy = 0.5 * device.flywheel.spin_inertia * 650.4**2
+    assert f"Each wheel stores {energy:.3g} J at 6,211 rpm, 2 of them {2 * energy:.3g} J" in said
+
+
+def test_the_balance_says_how_much_is_left_and_what_holes_take():
+    """U = m 6.3 mm/s / w."""
+    device = DEVICES["caged"]
+    said, balance = texts(Assembly("solo12", device), "Balance"), balance_of(device)
+    assert f"at most {1e6 * device.flywheel.mass * 6.3e-3 / 650.4:.2g} g mm" in said
+    pair = 1e6 * balance.correction.mass * balance.correction.radius
+    assert f"each pair takes {pair:.2g} g mm" in said
+    assert balance.centred_by in said
+
+
+def test_a_rim_of_another_material_is_shrunk_on():
+    """Steel of 12e-6 per K on aluminium: hotter by the tightest fit and 0.03 mm of air."""
+    wheel = DEVICES["caged"].flywheel
+    web = replace(wheel.web, material="aluminium-6061-t6", density=2700.0)
+    rim = replace(wheel, material="stainless-304", web=web)
+    device = replace(DEVICES["caged"], flywheel=rim)
+    said = texts(Assembly("solo12", device), "Steps")
+    expansion = materials()["stainless-304"].thermal_expansion
+    hotter = (2.0 * rim_fit(device).most + 0.03e-3) / (2.0 * rim.inner_radius * expansion)
+    assert f"at least {hotter:.0f} K hotter than the web" in said
+
+
+def test_what_carries_the_wheel_is_told():
+    assert "bonded with a retaining compound" in texts(
+        Assembly("solo12", DEVICES["by its face"]), "Steps"
+    )
+    caged = texts(Assembly("solo12", DEVICES["caged"]), "Steps")
+    assert "That joint carries the wheel by friction under 3 x M3" in caged
+
+
+def test_the_feet_s_screws_are_in_their_slots():
+    """As far forward as to the side, on the diagonal that the axis leans to."""
+    device = DEVICES["caged"]
+    said = texts(Assembly("solo12", device), "Steps")
+    found = re.search(r"left foot \(([-\d.]+), ([-\d.]+)\) and \(([-\d.]+), ([-\d.]+)\)", said)
+    x1, y1, x2, y2 = map(float, found.groups())
+    line, axis = np.array([x1 - x2, y1 - y2]), device.modules[0].axis[:2]
+    assert abs(line[0]) == pytest.approx(abs(line[1]), abs=0.21)
+    cosine = abs(line @ axis) / np.linalg.norm(line) / np.linalg.norm(axis)
+    assert np.degrees(np.arccos(cosine)) <= 45.2
+    position = 1e3 * device.modules[0].position[:2]
+    assert [(x1 + x2) / 2.0, (y1 + y2) / 2.0] == pytest.approx(position, abs=0.06)
+
+
+def test_open_points_stand_first_and_once():
+    note = "The feet are 41 mm above the trunk's top"
+    said = texts(Assembly("solo12", DEVICES["unknown threads"], (), (note, note)), "Before")
+    assert said.count(note) == 1
+    assert "The motor's threads are not in the catalogue" in said
+
+
+def test_the_flights_say_what_the_battery_gives():
+    asked = MarginRecord(name="bus current", demand=28.2, capacity=None, unit="A", margin=None)
+    said = texts(Assembly("solo12", DEVICES["caged"], (asked,)), "Wiring")
+    assert "gives at least 29 A (677 W)" in said
+    assert "brake resistor" in said
+
+
+def test_a_wheel_whose_speed_is_not_known_is_not_tested():
+    device = paper_device()
+    assert Assembly("solo12", device).top_speed is None
+    titles = [chapter.title for chapter in Assembly("solo12", device).chapters()]
+    assert "Safety" not in titles

@@ -1,0 +1,169 @@
+"""The plate under the feet: its mass is that of its mesh, its thickness what bending asks for."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from naive_outline import flat_figures, green
+
+from ocs_design.export.meshes import part_manifold
+from ocs_design.parts.carrier_plate import (
+    DENSITY,
+    FILLET,
+    STOCK,
+    CarrierPlate,
+    DogBone,
+    bending_stress,
+    plate_part,
+    sleeve_part,
+    twisting_stress,
+)
+from ocs_design.robot.mass import physical_defect
+
+
+def plate_of(radius, across, thickness, sleeve=0.0, neck=0.018):
+    slot = radius - 6e-3
+    off = slot / np.sqrt(2.0)
+    feet = [(off, across + off), (-off, across - off)]
+    feet += [(x, -y) for x, y in feet]
+    trunk = [(i * (neck - 8e-3), j * 0.012) for i in (1, -1) for j in (1, -1)]
+    return CarrierPlate(
+        position=(0.01, 0.0, 0.1),
+        radius=radius,
+        half_length=across + radius,
+        neck=neck,
+        thickness=thickness,
+        across=across,
+        window=slot - 6e-3,
+        feet=tuple(feet),
+        trunk=tuple(trunk),
+        sleeves=(sleeve,) * 4,
+    )
+
+
+plates = st.builds(
+    plate_of,
+    st.just(0.03),
+    st.floats(0.06, 0.2),
+    st.sampled_from(STOCK),
+    st.sampled_from([0.0, 0.005, 0.02]),
+)
+
+
+@settings(max_examples=25, deadline=None)
+@given(plates)
+def test_its_mesh_weighs_what_it_does(plate):
+    """One piece with ten holes: two windows, four threads and four holes for screws."""
+    part = plate_part(plate)
+    body = part_manifold(part, 48)
+    assert len(body.decompose()) == 1
+    assert body.genus() == 10
+    assert body.volume() * part.density == pytest.approx(part.mass(), rel=1e-9)
+
+
+@settings(max_examples=25, deadline=None)
+@given(plates)
+def test_plate_sleeves_and_screws_are_all_that_it_weighs(plate):
+    sleeves = sum(sleeve_part(plate, each).mass() for each in plate.sleeves if each)
+    screws = sum(plate.screw.mass(length) for length in plate.screw_lengths)
+    assert plate.mass == pytest.approx(plate_part(plate).mass() + sleeves + screws)
+    whole = plate.mass_properties()
+    assert physical_defect(whole) is None
+    # It is its own mirror image in the sagittal plane.
+    assert whole.com[1] == pytest.approx(0.0, abs=1e-12)
+    assert whole.inertia[0, 1] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_plain_plate_in_closed_form():
+    """A stadium 60 mm wide and 200 mm long, 3 mm thick: pi r^2 + 2 r l, 2710 kg/m^3."""
+    stadium = DogBone(0.03, 0.1, 0.03)
+    area = pi * 0.03**2 + 0.06 * 0.14
+    assert stadium.area == pytest.approx(area)
+    assert 3e-3 * DENSITY * area == pytest.approx(0.0913, rel=1e-3)
+
+
+bones = st.builds(
+    lambda radius, neck, beyond: DogBone(radius, (2.0 + beyond) * radius, neck * radius),
+    st.floats(0.01, 0.06),
+    st.floats(0.2, 0.95),
+    st.floats(0.0, 4.0),
+)
+
+
+@given(bones)
+def test_moments_of_a_bone_are_those_of_its_outline(bone):
+    area, first, second = flat_figures(bone.moments)
+    drawn_area, drawn_first, drawn_second = green(bone.outline())
+    size = bone.half_length
+    assert area == pytest.approx(drawn_area, rel=1e-9)
+    np.testing.assert_allclose(first, drawn_first, atol=1e-9 * area * size)
+    np.testing.assert_allclose(second, drawn_second, atol=1e-9 * area * size**2)
+
+
+@given(bones)
+def test_its_width_adds_up_to_its_area(bone):
+    along = (np.arange(20000) + 0.5) / 20000 * bone.half_length
+    area = 4.0 * bone.half_width(along).mean() * bone.half_length
+    assert area == pytest.approx(bone.area, rel=1e-4)
+    assert bone.half_width(np.array([-1.01, 1.01]) * bone.half_length).tolist() == [0.0, 0.0]
+
+
+@given(bones)
+def test_its_roundings_have_no_notch(bone):
+    """Each touches the neck and the disc without a corner: it is as far off both as it is round."""
+    (x, y), f = bone.meets, bone.fillet
+    centre = np.array([bone.neck + f, bone.straight])
+    assert 0.0 < f <= FILLET
+    assert bone.straight >= -1e-12
+    assert np.hypot(*(centre - [x, y])) == pytest.approx(f)
+    assert np.hypot(x, y - bone.across) == pytest.approx(bone.radius)
+    assert np.hypot(*(centre - [0.0, bone.across])) == pytest.approx(bone.radius + f)
+
+
+def test_moments_of_a_stadium_are_those_of_its_points():
+    stadium, rng = DogBone(0.03, 0.1, 0.03), np.random.default_rng(0)
+    x, y = rng.uniform(-1.0, 1.0, (2, 2_000_000)) * [[0.03], [0.1]]
+    inside = np.hypot(x, np.maximum(0.0, np.abs(y) - 0.07)) <= 0.03
+    share, moments = 4.0 * 0.03 * 0.1 / len(x), stadium.moments
+    assert moments.mass == pytest.approx(share * inside.sum(), rel=3e-3)
+    assert moments.xx == pytest.approx(share * (x[inside] ** 2).sum(), rel=5e-3)
+    assert moments.yy == pytest.approx(share * (y[inside] ** 2).sum(), rel=5e-3)
+
+
+def test_a_cantilever_by_hand():
+    """0.3 kg at 20 g, 40 mm out, on 60 mm by 3 mm: M = 2.354 N m, W = 90 mm^3, 26.15 MPa."""
+    assert bending_stress(0.3, 0.04, 0.06, 3e-3) == pytest.approx(26.15e6, rel=1e-3)
+
+
+def test_a_twisted_strip_by_hand():
+    """T = 2.942 N m on 30 mm by 3 mm: 3 T / (w t^2) = 32.69 MPa, times 1.0681 for t/w = 0.1.
+
+    Saint-Venant's own factor for a side ten times the other: T = 0.312 w t^2 tau.
+    """
+    stress = twisting_stress(0.3, 0.05, 0.03, 3e-3)
+    assert stress == pytest.approx(1.0681 * 32.69e6, rel=1e-3)
+    assert stress == pytest.approx(2.942 / (0.312 * 0.03 * 9e-6), rel=2e-3)
+
+
+def test_its_narrowest_sections_count():
+    """Neck 36 mm less two holes of 3.4 mm: 29.2 mm, where the screws stand 12 mm off the middle."""
+    plate = plate_of(0.03, 0.07, 3e-3)
+    assert plate.net_width(np.array([0.012])) == pytest.approx([0.036 - 2.0 * 3.4e-3])
+    # Over the middle of a foot: a disc less its window.
+    assert plate.net_width(np.array([0.07])) == pytest.approx([2.0 * (0.03 - 0.018)])
+    down = bending_stress(0.3, 0.07 - 0.012, 0.0292, 3e-3)
+    assert plate.stress(0.3, 0.01) == pytest.approx(down)
+    sideways = bending_stress(0.3, 0.1, 0.0292, 3e-3)
+    assert plate.stress(0.3, 0.1) == pytest.approx(sideways)
+
+
+def test_a_ring_that_is_thin_bears_less():
+    """A window that leaves 2 mm on either side makes the ring the weakest section."""
+    plate = replace(plate_of(0.03, 0.07, 3e-3), window=0.028)
+    off = 0.02
+    width = 2.0 * (np.sqrt(0.03**2 - off**2) - np.sqrt(0.028**2 - off**2))
+    assert plate.stress(0.3, 0.01) >= bending_stress(0.3, off, width, 3e-3)
+    assert plate.stress(0.3, 0.01) > plate_of(0.03, 0.07, 3e-3).stress(0.3, 0.01)

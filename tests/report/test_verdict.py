@@ -1,0 +1,117 @@
+"""The line that is read first: buildable, level, stands, and the one thing that matters most."""
+
+import re
+from dataclasses import replace
+from io import StringIO
+
+import pytest
+from designed import MOTOR
+from rich.console import Console
+from stories import design
+
+from ocs_design.device.records import Buildable, OpenPoint, ValidationRecord
+from ocs_design.report.table import Tone
+from ocs_design.report.text.layout import items, note, wrapped
+from ocs_design.report.verdict import flights_headline, headline
+
+
+def run(scenario="drop", *, passed=True, level=True, stands=True, ocs=True, reason="why"):
+    return ValidationRecord(
+        scenario=scenario, ocs=ocs, passed=passed, reason=reason, note="", metrics={},
+        can_stand=True, level=level, stands=stands,
+    )  # fmt: skip
+
+
+def verdict(*runs, yes=True, points=(), **motor):
+    found = design(MOTOR)
+    robot = replace(found.robot, sha256=motor.pop("sha256", "12ab"))
+    ocs = replace(found.ocs, motor=replace(found.ocs.motor, **motor))
+    # As the design stands, no module is turned by hand.
+    requirement = replace(found.requirement, demands=())
+    return headline(
+        replace(
+            found,
+            robot=robot,
+            ocs=ocs,
+            requirement=requirement,
+            validation=runs,
+            buildable=Buildable(yes=yes, open=points),
+        )
+    )
+
+
+def test_all_is_well():
+    line = verdict(run(), run("flip"), run(ocs=False, passed=False, level=False, stands=False))
+    assert line.text == "buildable  ·  level 2 of 2  ·  stands 2 of 2"
+    assert (line.tone, line.matter) == (Tone.PASS, "")
+
+
+def test_what_cannot_be_built_says_why_and_what_would_do():
+    point = OpenPoint(what="no source gives the threads", cure="choose another")
+    line = verdict(run(passed=False, reason="falls"), yes=False, points=(point,))
+    assert line.text.startswith("NOT buildable")
+    assert (line.tone, line.matter) == (Tone.FAIL, "no source gives the threads; choose another")
+
+
+def test_a_biped_that_lands_level_and_falls_is_told():
+    """Its legs bear no landing, so every flight passes, and none of them stands."""
+    line = verdict(*(run(name, stands=False) for name in ("drop", "flip")))
+    assert line.text == "buildable  ·  level 2 of 2  ·  stands 0 of 2"
+    assert line.tone is Tone.OPEN
+    assert line.matter.startswith("drop, flip: the robot lands level and then falls")
+
+
+def test_a_flight_that_fails_is_named_with_its_reason():
+    line = verdict(run(), run("flip", passed=False, level=False, stands=False, reason="turns 200"))
+    assert line.text == "buildable  ·  level 1 of 2  ·  stands 1 of 2"
+    assert (line.tone, line.matter) == (Tone.FAIL, "flip: turns 200")
+
+
+def test_a_turn_that_falls_short_is_no_pass_though_it_lands_level():
+    line = verdict(run(), run("flip", passed=False, reason="turns 0 of -360 deg"))
+    assert line.text == "buildable  ·  level 2 of 2  ·  stands 2 of 2  ·  1 of 2 pass"
+    assert line.tone is Tone.FAIL
+
+
+def test_what_was_not_judged_is_no_pass():
+    line = verdict(run(), run("flip", passed=None, level=None, stands=None, reason="not judged: x"))
+    assert line.text == "buildable  ·  level 1 of 2  ·  stands 1 of 1  ·  1 of 2 not judged"
+    assert (line.tone, line.matter) == (Tone.FAIL, "flip: not judged: x")
+
+
+def test_a_robot_without_legs_does_not_stand():
+    assert flights_headline([run(stands=None)]).text == "level 1 of 1"
+
+
+def test_without_flights():
+    line = verdict()
+    assert (line.text, line.tone) == ("buildable  ·  no flight was simulated", Tone.OPEN)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"bus_voltage": None}, "no motor chosen yet"),
+        ({"sha256": ""}, "buildable: not told of a robot without shapes"),
+        ({}, "buildable: not told"),
+    ],
+)
+def test_where_it_cannot_be_told_it_says_so(changes, words):
+    line = verdict(run(), yes=None, **changes)
+    assert line.parts[0].text == words
+    assert line.tone is Tone.OPEN
+
+
+@pytest.mark.parametrize("show", [note, lambda console, text: items(console, [text])])
+@pytest.mark.parametrize("width", range(20, 60))
+def test_no_line_ends_between_a_number_and_its_unit(width, show):
+    text = "turns by (0.2, 0.8, 0) N m on the trunk for 0.05 s, 0.1 s after 3 kg m2 and 2.4 m/s up."
+    console = Console(file=StringIO(), width=width)
+    show(console, text)
+    lines = console.file.getvalue().splitlines()
+    assert max(map(len, lines)) <= width
+    for line in lines[:-1]:
+        assert not re.fullmatch(r"[\d.]+", line.split()[-1]), line
+        assert not line.rstrip().endswith((" N", " kg")), line
+    assert " ".join(" ".join(lines).replace("- ", "").split()) == text
+    assert wrapped(text, 1000) == text

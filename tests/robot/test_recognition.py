@@ -1,0 +1,325 @@
+"""Trunks and legs of robots that stand in no usual posture at zero, and what is asked about others.
+
+The robots are small ones made for this: level, folded and radial legs, a spine, a hopper, wheels on
+legs, legs that share a hip, fingers and arms.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from urdf_text import inertial, joint, link, robot
+
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.recognition import SURE, Recognition, recognise
+from ocs_design.robot.tree import Tree
+from ocs_design.robot.urdf import read_urdf
+
+LIMIT = '<limit lower="-3.1" upper="3.1" effort="3" velocity="4"/>'
+CORNERS = {"fl": (0.2, 0.1), "fr": (0.2, -0.1), "hl": (-0.2, 0.1), "hr": (-0.2, -0.1)}
+TRUNK = link("trunk", inertial(5.0, "0.02 0.05 0.06"))
+
+
+def hinge(name, parent, child, xyz, axis="0 1 0"):
+    return joint(name, parent, child, f'<origin xyz="{xyz}"/><axis xyz="{axis}"/>', LIMIT)
+
+
+def leg(name, hip, thigh, shank, parent="trunk", words=("thigh", "shank", "foot")):
+    """Two hinges about y; `thigh` and `shank` are the vectors along them at zero [m]."""
+    upper, lower, foot = (f"{name}_{word}" for word in words)
+    text = [" ".join(f"{0.5 * x}" for x in part) for part in (thigh, shank)]
+    ends = [" ".join(map(str, part)) for part in (hip, thigh, shank)]
+    return (
+        link(upper, inertial(0.2, "3e-4 3e-4 3e-4", text[0])),
+        link(lower, inertial(0.1, "2e-4 2e-4 2e-4", text[1])),
+        link(foot),
+        hinge(f"{name}_a", parent, upper, ends[0]),
+        hinge(f"{name}_b", upper, lower, ends[1]),
+        joint(f"{name}_c", lower, foot, f'<origin xyz="{ends[2]}"/>', kind="fixed"),
+    )
+
+
+def quadruped(thigh, shank, words=("thigh", "shank", "foot")):
+    limbs = [leg(name, (*at, 0.0), thigh, shank, words=words) for name, at in CORNERS.items()]
+    return [TRUNK, *(element for limb in limbs for element in limb)]
+
+
+def read(elements) -> Tree:
+    return read_urdf(robot(*elements), find_mesh=lambda _: None)
+
+
+def found(elements) -> Recognition:
+    return recognise(read(elements))
+
+
+def feet(recognition: Recognition) -> list[str]:
+    return [each.name for each in recognition.reading.legs]
+
+
+ALL_FEET = [f"{name}_foot" for name in CORNERS]
+ZEROS = {
+    "hanging": ((0.0, 0.0, -0.2), (0.0, 0.0, -0.2)),
+    "level, knees outwards": ((0.2, 0.0, 0.0), (0.2, 0.0, 0.0)),
+    "level, shank back under the thigh": ((-0.25, 0.0, 0.0), (0.25, 0.0, 0.0)),
+    "folded upwards": ((0.0, 0.0, 0.2), (0.0, 0.0, -0.2)),
+    "upright": ((0.0, 0.0, 0.2), (0.0, 0.0, 0.2)),
+    "bent": ((0.1, 0.0, -0.15), (-0.15, 0.0, -0.1)),
+}
+
+
+@pytest.mark.parametrize("zero", ZEROS)
+def test_legs_are_found_whatever_they_are_like_at_zero(zero):
+    recognition = found(quadruped(*ZEROS[zero]))
+    assert recognition.sure
+    assert recognition.reading.confidence >= SURE
+    assert (recognition.reading.trunk, feet(recognition)) == ("trunk", ALL_FEET)
+
+
+def test_a_robot_with_level_legs_stands_on_them(tmp_path):
+    path = tmp_path / "level.urdf"
+    path.write_bytes(robot(*quadruped(*ZEROS["level, shank back under the thigh"])))
+    standing, level = read_robot(path), read_robot(path, posture="zero")
+    # Thigh and shank of 0.25 m, bent to 80 % of their length.
+    assert standing.standing_height == pytest.approx(0.8 * 0.5, abs=1e-4)
+    assert standing.inertia[0, 0] > 1.2 * level.inertia[0, 0]
+    assert standing.recognition is not None
+    assert standing.recognition.sure
+
+
+@given(st.lists(st.text("abcdxyz", min_size=3, max_size=3), min_size=3, max_size=3, unique=True))
+@settings(max_examples=15, deadline=None)
+def test_meaningless_names_change_nothing(words):
+    recognition = found(quadruped(*ZEROS["folded upwards"], words=words))
+    assert recognition.sure
+    assert feet(recognition) == [f"{name}_{words[2]}" for name in CORNERS]
+
+
+@pytest.mark.parametrize("zero", ["hanging", "level, knees outwards"])
+def test_hexapods_whose_middle_legs_are_longer(zero):
+    thigh, shank = ZEROS[zero]
+    elements = [TRUNK]
+    for name, x, scale in (("f", 0.2, 1.0), ("m", 0.0, 1.15), ("h", -0.2, 1.0)):
+        for side, y in (("l", 0.1), ("r", -0.1)):
+            parts = [tuple(scale * np.array(part)) for part in (thigh, shank)]
+            elements += leg(name + side, (x, y, 0.0), *parts)
+    recognition = found(elements)
+    assert recognition.sure
+    assert feet(recognition) == [f"{end}{side}_foot" for end in "fmh" for side in "lr"]
+
+
+def dog():
+    """Shoulders and pelvis, each with two legs, and a spine of two hinges between them."""
+    down = ((0.0, 0.0, -0.2), (0.0, 0.0, -0.2))
+    elements = [
+        link("chest", inertial(4.0, "0.02 0.03 0.03")),
+        link("vertebra", inertial(0.3, "1e-4 1e-4 1e-4")),
+        link("pelvis", inertial(2.0, "0.01 0.01 0.01")),
+        hinge("spine_1", "chest", "vertebra", "-0.15 0 0"),
+        hinge("spine_2", "vertebra", "pelvis", "-0.15 0 0", "0 0 1"),
+    ]
+    for name, (_, y) in CORNERS.items():
+        parent = "chest" if name[0] == "f" else "pelvis"
+        elements += leg(name, (0.0, y, 0.0), *down, parent=parent)
+    return elements
+
+
+def test_a_spine_is_asked_about():
+    recognition = found(dog())
+    assert not recognition.sure
+    question = recognition.question()
+    assert "a spine" in question.message
+    best = recognition.likely[0]
+    assert (best.trunk, sorted(each.name for each in best.legs)) == ("chest", sorted(ALL_FEET))
+    whole = {each.trunk for each in recognition.likely if len(each.legs) == 4}
+    assert whole == {"chest", "pelvis"}
+    assert best.options in (question.hint or "")
+
+
+@pytest.mark.parametrize("trunk", ["chest", "pelvis"])
+def test_a_robot_with_a_spine_stands_once_its_trunk_is_stated(tmp_path, trunk):
+    path = tmp_path / "dog.urdf"
+    path.write_bytes(robot(*dog()))
+    standing = read_robot(path, trunk=trunk, legs=ALL_FEET)
+    assert standing.trunk == trunk
+    assert standing.standing_height == pytest.approx(0.32, abs=1e-4)
+    assert [standing.posture[name] for name in ("spine_1", "spine_2")] == [0.0, 0.0]
+    assert {each.name: standing.tree.bodies[each.base].name for each in standing.legs} == {
+        "fl_foot": "chest",
+        "fr_foot": "chest",
+        "hl_foot": "pelvis",
+        "hr_foot": "pelvis",
+    }
+    assert any("a spine" in warning for warning in standing.warnings)
+
+
+def test_stating_the_legs_alone_leaves_the_end_of_a_spine_open():
+    recognition = recognise(read(dog()), legs=ALL_FEET)
+    assert {each.trunk for each in recognition.likely} == {"chest", "pelvis"}
+
+
+HOPPER = """<mujoco model="hopper"><compiler angle="degree"/><worldbody>
+  <body name="torso" pos="0 0 1.25">
+    <joint name="x" type="slide" axis="1 0 0"/><joint name="z" type="slide" axis="0 0 1"/>
+    <joint name="turn" axis="0 1 0"/>
+    <geom type="capsule" fromto="0 0 0.2 0 0 -0.2" size="0.05"/>
+    <body name="thigh" pos="0 0 -0.2"><joint name="hip" axis="0 -1 0" range="-150 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -0.45" size="0.05"/>
+      <body name="shank" pos="0 0 -0.45"><joint name="knee" axis="0 -1 0" range="-150 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.5" size="0.04"/>
+        <body name="foot" pos="0 0 -0.5"><joint name="ankle" axis="0 -1 0" range="-45 45"/>
+          <geom type="capsule" fromto="-0.13 0 -0.1 0.26 0 -0.1" size="0.06" density="3000"/>
+        </body></body></body></body></worldbody></mujoco>"""
+
+
+def test_the_trunk_of_a_hopper_is_not_its_heavy_foot(tmp_path):
+    path = tmp_path / "hopper.xml"
+    path.write_text(HOPPER)
+    hopper = read_robot(path)
+    heaviest = max(hopper.tree.bodies, key=lambda body: body.mass_properties.mass)
+    assert heaviest.name == "foot"
+    assert hopper.trunk == "torso"
+    assert [each.name for each in hopper.legs] == ["foot"]
+    assert hopper.recognition is not None
+    assert hopper.recognition.sure
+
+
+def test_a_nameless_limb_on_a_fixed_base_may_be_an_arm():
+    elements = [TRUNK, *leg("it", (0.0, 0.0, 0.0), *ZEROS["hanging"], words=("b", "c", "d"))]
+    recognition = found(elements)
+    assert not recognition.sure
+    assert "may as well be an arm" in recognition.question().message
+
+
+def test_an_arm_has_no_trunk():
+    names = ["base", "one", "two", "three", "four"]
+    elements = [link(names[0], inertial(1.0))]
+    for below, name in pairwise(names):
+        elements += [link(name, inertial(1.5, xyz="0 0 0.1")), hinge(name, below, name, "0 0 0.2")]
+    recognition = found(elements)
+    assert not recognition.sure
+    assert recognition.reading.legs == ()
+    assert "as an arm is" in recognition.question().message
+    assert recognise(read(elements), trunk="base", legs=[]).sure
+
+
+def wheel_leg(name, hip, joints):
+    """A leg of one or two hinges with a wheel of 60 mm at its end."""
+    disc = '<collision><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.06" length="0.03"/>'
+    parts, parent, at = [], "trunk", " ".join(map(str, hip))
+    for number in range(joints):
+        part = f"{name}_leg{number}"
+        parts += [link(part, inertial(0.2, "3e-4 3e-4 3e-4", "0 0 -0.1"))]
+        parts += [hinge(f"{name}_{number}", parent, part, at)]
+        parent, at = part, "0 0 -0.2"
+    turn = f'<origin xyz="{at}"/><axis xyz="0 1 0"/>'
+    return [
+        *parts,
+        link(f"{name}_wheel", inertial(0.2, "1e-4 2e-4 1e-4"), f"{disc}</geometry></collision>"),
+        joint(f"{name}_roll", parent, f"{name}_wheel", turn, kind="continuous"),
+    ]
+
+
+@pytest.mark.parametrize(("joints", "names"), [(1, ("hl", "hr")), (2, tuple(CORNERS))])
+def test_wheels_on_legs(joints, names):
+    at = {name: (0.0 if len(names) == 2 else x, y, 0.0) for name, (x, y) in CORNERS.items()}
+    elements = [TRUNK, *(part for name in names for part in wheel_leg(name, at[name], joints))]
+    recognition = found(elements)
+    # A single hinge and a wheel may be a trailing arm: then it is asked.
+    likely = recognition.reading if recognition.sure else recognition.likely[0]
+    assert recognition.sure == (joints == 2)
+    assert [each.name for each in likely.legs] == [f"{name}_wheel" for name in names]
+    assert [each.foot_radius for each in likely.legs] == [pytest.approx(0.06, abs=1e-6)] * len(
+        names
+    )
+
+
+def five_bars():
+    """Four legs of two limbs each, which turn about one hip axis 30 mm apart."""
+    elements = [TRUNK]
+    for name, (x, y) in CORNERS.items():
+        for side, thigh in (("i", (0.1, 0.0, -0.1)), ("o", (-0.1, 0.0, -0.1))):
+            shank = (-thigh[0], 0.0, -0.15)
+            hip = (x, y + (0.03 if side == "o" else 0.0) * np.sign(y), 0.0)
+            elements += leg(name + side, hip, thigh, shank)
+    return elements
+
+
+def test_legs_that_share_a_hip_are_asked_about_and_one_of_each_pair_is_offered():
+    recognition = found(five_bars())
+    assert not recognition.sure
+    assert "share a hip" in recognition.question().message
+    assert len(recognition.likely[0].legs) == 4
+    assert len({each.name[:2] for each in recognition.likely[0].legs}) == 4
+
+
+def test_how_five_bars_are_treated_is_said(tmp_path):
+    path = tmp_path / "bars.urdf"
+    path.write_bytes(robot(*five_bars()))
+    stated = read_robot(path, legs=[f"{name}i_foot" for name in CORNERS])
+    assert stated.trunk == "trunk"
+    assert any("the other is held" in warning for warning in stated.warnings)
+
+
+def test_closed_chains_of_a_model_are_said_to_be_cut_open(tmp_path):
+    loop = '</worldbody><equality><connect body1="foot" body2="torso" anchor="0 0 0"/></equality>'
+    path = tmp_path / "loop.xml"
+    path.write_text(HOPPER.replace("</worldbody>", loop))
+    assert any("cut open" in warning for warning in read_robot(path).warnings)
+
+
+def test_three_fingers_in_a_row_are_not_legs():
+    elements = [link("base", inertial(0.5))]
+    for name, y in (("a", -0.05), ("b", 0.0), ("c", 0.05)):
+        parts = ((0.0, 0.0, -0.05), (0.0, 0.0, -0.05))
+        elements += leg(name, (0.1, y, 0.0), *parts, parent="base", words=("p", "m", "d"))
+    recognition = found(elements)
+    assert not recognition.sure
+    likely = recognition.likely[0]
+    assert "the limbs are no mirror images" in {s.against for s in likely.signs if not s.holds}
+
+
+def test_arms_that_are_named_so_are_no_legs():
+    limbs = [
+        leg(name, (0.0, y, 0.1), *ZEROS["level, knees outwards"], words=("arm", "forearm", "hand"))
+        for name, y in (("l", 0.2), ("r", -0.2))
+    ]
+    recognition = found([TRUNK, *(element for limb in limbs for element in limb)])
+    assert recognition.sure
+    assert recognition.reading.legs == ()
+
+
+@pytest.mark.parametrize(
+    ("legs", "message"),
+    [
+        (["fl_foot", "fl_thigh"], "links of one limb"),
+        (["trunk", "fl_foot"], "links of one limb"),
+        (["fl_foot", "nowhere"], "no link 'nowhere'"),
+    ],
+)
+def test_legs_that_cannot_be(tmp_path, legs, message):
+    path = tmp_path / "robot.urdf"
+    path.write_bytes(robot(*quadruped(*ZEROS["hanging"])))
+    with pytest.raises(RobotError, match=message):
+        read_robot(path, legs=legs)
+
+
+def test_stated_legs_are_those_that_would_be_found():
+    tree = read(quadruped(*ZEROS["bent"]))
+    unaided, stated = recognise(tree), recognise(tree, legs=ALL_FEET)
+    assert [each.joints for each in stated.reading.legs] == [
+        each.joints for each in unaided.reading.legs
+    ]
+    # Any link of the foot's body names it, and a pair of legs is a biped.
+    biped = recognise(tree, legs=["fl_shank", "fr_foot"])
+    assert feet(biped) == ["fl_foot", "fr_foot"]
+    assert biped.stated == {"legs"}
+
+
+def test_no_legs_can_be_stated(tmp_path):
+    path = tmp_path / "robot.urdf"
+    path.write_bytes(robot(*quadruped(*ZEROS["hanging"])))
+    bare = read_robot(path, legs=[])
+    assert (bare.legs, bare.posture_name, bare.standing_height) == ((), "zero", None)

@@ -1,0 +1,60 @@
+"""Lightening holes in a selection: they are made as they are counted, and never make it heavier."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from drawn_selections import draw
+
+from ocs_design.actuation.supply import Supply
+from ocs_design.common.errors import Infeasible
+from ocs_design.export.device_parts import wheel_geometry
+from ocs_design.parts.part import total
+from ocs_design.parts.wheel import wheel_parts
+from ocs_design.sizing.assembly import assemble_selected
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.select import select
+
+SEEDS = (4, 10, 16)
+"""Of drawn problems with webs of one piece."""
+
+
+def problem_of(seed: int) -> SelectionProblem:
+    return replace(draw(seed).problem, incidence=0.6, lightening=6)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_selected_wheel_is_the_made_one(seed):
+    problem = problem_of(seed)
+    best = select(problem).best
+    wheel = assemble_selected(best, Supply(problem.bus_voltage)).flywheel
+    assert best.hub is not None
+    assert (wheel.web.holes is not None) == (best.hub.lightening == 6)
+    made = total(wheel_parts(wheel_geometry(wheel)))
+    assert made.mass == pytest.approx(best.wheel_mass, rel=1e-9)
+    assert made.mass == pytest.approx(wheel.mass, rel=1e-9)
+    spin = made.inertia[2, 2] + best.rotor_share
+    assert spin == pytest.approx(best.spin_inertia, rel=1e-9)
+    assert made.inertia[0, 0] == pytest.approx(wheel.transverse_inertia, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_with_holes_a_device_is_no_heavier(seed):
+    problem = problem_of(seed)
+    holed, solid = select(problem).best, select(replace(problem, lightening=0)).best
+    assert holed.mass <= solid.mass * (1.0 + 1e-3)
+
+
+def test_where_their_room_holds_the_device_back_the_web_is_solid():
+    """Wheels of the least spin inertia, in webs that are smaller than the holes ask for."""
+    problem = problem_of(SEEDS[0])
+    little = replace(problem.requirement, maneuvers=(), rate_change=None, spin_inertia=None)
+    solid = select(replace(problem, lightening=0)).best
+    asked = replace(little, spin_inertia=0.1 * solid.spin_inertia)
+    try:
+        found = select(replace(problem, requirement=asked)).best
+        alone = select(replace(problem, requirement=asked, lightening=0)).best
+    except Infeasible:
+        pytest.skip("no wheel is that small")
+    assert found.mass <= alone.mass * (1.0 + 1e-6)
+    assert np.isfinite(found.mass)

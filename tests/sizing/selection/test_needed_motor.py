@@ -1,0 +1,90 @@
+"""The motor that a refusal asks for: with it there is a device, with a weaker one there is none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from selections import random_problem
+
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.requirement.bound import spin_demands
+from ocs_design.sizing.selection.advice import Refused
+from ocs_design.sizing.selection.needed_motor import NeededMotor, needed_motor
+from ocs_design.sizing.selection.select import select
+
+SEEDS = (0, 3, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (9, 12, 17, 21)))
+
+
+def too_weak(seed):
+    """A problem with motors of a tenth of the torque, and the first of them."""
+    problem = replace(random_problem(seed, motors=2, mounted=False), incidence=0.6)
+    weak = tuple(
+        replace(motor, peak_torque=0.1 * motor.peak_torque, mass=0.1 * motor.mass)
+        for motor in problem.motors
+    )
+    return replace(problem, motors=weak), weak[0]
+
+
+def bought(need, model, share=1.0):
+    """A motor with these figures, or with a share of the torque, similar to the model in shape."""
+    peak = share * need.peak_torque
+    larger = peak / model.peak_torque
+    stall = model.rated_voltage * model.torque_constant / model.resistance / model.peak_torque
+    constant = need.voltage / need.no_load_speed
+    return replace(
+        model,
+        peak_torque=peak,
+        mass=share * need.mass,
+        diameter=model.diameter * np.cbrt(larger),
+        length=model.length * np.cbrt(larger),
+        rotor_inertia=model.rotor_inertia * larger * np.cbrt(larger) ** 2,
+        torque_constant=constant,
+        resistance=need.voltage * constant / (np.clip(stall, 2.0, 10.0) * peak),
+        rated_voltage=need.voltage,
+        no_load_speed=need.no_load_speed,
+        speed_max=None,
+    )
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_with_it_there_is_a_device_and_with_a_weaker_one_there_is_none(seed):
+    problem, model = too_weak(seed)
+    with pytest.raises(Refused):
+        select(problem, advise=False)
+    need = needed_motor(problem, model)
+    alone = replace(problem, gears=(DIRECT,))
+    device = select(replace(alone, motors=(bought(need, model),)), advise=False).best
+    assert device.motor.mass == need.mass
+    with pytest.raises(Refused):
+        select(replace(alone, motors=(bought(need, model, 0.93),)), advise=False)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_it_is_no_weaker_than_what_turns_the_robot_alone(seed):
+    """4 I theta / T^2 over both wheels and their axes (docs/theory.md, What a motor can do)."""
+    problem, model = too_weak(seed)
+    asked = replace(problem.requirement, wheel_speed_max=1.0)
+    demands = spin_demands(asked, problem.robot.inertia, problem.incidence)
+    assert needed_motor(problem, model).peak_torque > max(demand.torque for demand in demands)
+
+
+def test_the_refusal_names_it():
+    problem, _ = too_weak(0)
+    with pytest.raises(Refused) as caught:
+        select(problem, advise=False)
+    nearest = next(each for each in problem.motors if each.name == caught.value.nearest.motor)
+    assert needed_motor(problem, nearest).text in caught.value.advised().hint
+
+
+def test_where_no_time_is_set_any_torque_does_and_none_is_named():
+    problem, model = too_weak(0)
+    by_rate = replace(problem.requirement, maneuvers=(), rate_change=1.0)
+    assert needed_motor(replace(problem, requirement=by_rate), model) is None
+
+
+def test_words():
+    need = NeededMotor(peak_torque=21.3, no_load_speed=303.7, mass=2.11, voltage=48.0)
+    assert need.text == (
+        "A motor of about 22 N m peak torque and 2,900 rpm without load at 48 V, of at most 2.2 kg,"
+        " would do."
+    )

@@ -1,0 +1,115 @@
+"""What one change would save: each figure against a whole selection of the changed question."""
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from fronts import by_hand
+
+from ocs_design.requirement.maneuver import Flip
+from ocs_design.requirement.specification import (
+    FlywheelSection,
+    MotorSection,
+    OcsSection,
+    RequirementSection,
+    Specification,
+    SupplySection,
+)
+from ocs_design.sizing.alternatives import alternatives
+from ocs_design.sizing.design import design_device
+
+ABOUT = 0.01
+"""To which the figures are good."""
+MOTORS = "Antigravity MN5006 KV450, MN4014 KV400"
+"""Two, so that it is quick."""
+
+
+@cache
+def made(spec=None):
+    """The specification, the device for Solo12's figures, and what would be lighter by change."""
+    spec = spec or Specification(motor=MotorSection(name=MOTORS))
+    task = by_hand()
+    task = task.with_specification(replace(spec, robot=task.specification.robot))
+    designed = design_device(task.specification, task.robot, task.resolved)
+    found = alternatives(task.specification, designed, task.robot)
+    return task, designed, {each.change: each for each in found}
+
+
+def by_itself(**sections):
+    """Mass of the device of the changed specification [kg]."""
+    task, _, _ = made()
+    given = replace(task.specification, **sections)
+    task = task.with_specification(given)
+    return design_device(given, task.robot, task.resolved).device.mass
+
+
+def test_the_lightest_incidence():
+    _, designed, found = made()
+    one = found["the incidence with which it is lightest"]
+    asked = by_itself(ocs=OcsSection(alpha_criterion="lightest"))
+    assert one.mass_total == pytest.approx(asked, rel=ABOUT)
+    assert one.mass_total < designed.device.mass
+    assert one.note.startswith("alpha ")
+
+
+def test_any_material():
+    _, designed, found = made()
+    asked = by_itself(flywheel=FlywheelSection(material="auto"))
+    assert found["any material"].mass_total == pytest.approx(asked, rel=ABOUT)
+    assert found["any material"].mass_total <= designed.device.mass
+
+
+def test_a_flip_with_the_modules_turned_by_hand():
+    task, designed, found = made()
+    turned = tuple(
+        replace(maneuver, incidence=0.0) if isinstance(maneuver, Flip) else maneuver
+        for maneuver in task.maneuvers
+    )
+    one = found["modules turned to 0 deg by hand for each flip"]
+    assert one.mass_total == pytest.approx(by_itself(maneuvers=turned), rel=ABOUT)
+    assert one.mass_total < designed.device.mass
+
+
+def test_more_voltage_and_what_the_motor_is_rated_for():
+    _, _, found = made()
+    one = found["a supply of 48 V"]
+    asked = by_itself(supply=SupplySection(voltage=48.0))
+    assert one.mass_total == pytest.approx(asked, rel=ABOUT)
+    assert "rated for" in one.note or one.note == "saves nothing"
+
+
+def test_more_room():
+    _, designed, found = made()
+    one = found["r_max 60 mm, 20% more"]
+    asked = by_itself(flywheel=FlywheelSection(r_max=0.06))
+    assert one.mass_total == pytest.approx(asked, rel=ABOUT)
+    assert one.mass_total <= designed.device.mass
+
+
+def test_nothing_that_is_stated_is_offered_again():
+    stated = Specification(
+        motor=MotorSection(name=MOTORS),
+        flywheel=FlywheelSection(material="auto"),
+        ocs=OcsSection(alpha_criterion="lightest"),
+    )
+    offered = set(made(stated)[2])
+    assert not {"the incidence with which it is lightest", "any material"} & offered
+    assert not any("any motor" in change for change in offered)
+
+
+def test_without_maneuvers_nobody_offers_more_time_for_them():
+    by_rate = Specification(
+        motor=MotorSection(name=MOTORS), requirement=RequirementSection(rate_change=1.0)
+    )
+    assert not any("time" in change or "flip" in change for change in made(by_rate)[2])
+
+
+def test_without_a_motor_there_is_nothing_to_choose():
+    assert made(Specification(motor=MotorSection(name="none")))[2] == {}
+
+
+def test_any_motor_says_what_nobody_knows_of_it():
+    _, designed, found = made(Specification(motor=MotorSection(motors=None)))
+    one = found["any motor of the catalogue"]
+    assert one.mass_total <= designed.device.mass
+    assert one.note == "saves nothing" or "not buildable: " in one.note

@@ -1,0 +1,92 @@
+"""What keeps a device from being built: its motor, joints, mounting and margins."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ocs_design.actuation.motor import build_gaps
+from ocs_design.catalogue.motors import motors
+from ocs_design.device.records import Clearance, MarginRecord
+from ocs_design.parts.joints import Joint
+from ocs_design.sizing.mounting import Mounting
+from ocs_design.workflows.buildable import buildable
+
+WHOLE = next(motor for motor in motors().values() if not build_gaps(motor))
+FREE = Mounting(Clearance("trunk", 0.01), None, (), np.zeros(3), np.zeros(3))
+
+
+def margin(name, demand, capacity, factor="capacity over demand"):
+    """Of a quantity in W."""
+    value = capacity / demand if factor == "capacity over demand" else factor
+    return MarginRecord(
+        name=name, demand=demand, capacity=capacity, unit="W", margin=value, scenario="drop"
+    )
+
+
+def test_a_device_with_nothing_open_can_be_built():
+    found = buildable(WHOLE, FREE, (margin("bus power", 900.0, 1000.0),))
+    assert (found.yes, found.open) == (True, ())
+
+
+def test_without_a_motor_nothing_can_be_told():
+    found = buildable(None, FREE, (margin("bus power", 2000.0, 1000.0),))
+    assert (found.yes, found.open) == (None, ())
+
+
+def test_without_shapes_of_the_robot_it_cannot_be_told_but_what_is_open_is():
+    found = buildable(WHOLE, None, (margin("bus power", 2000.0, 1000.0),))
+    assert found.yes is None
+    assert len(found.open) == 1
+
+
+def test_a_motor_that_lacks_figures_is_named_with_them():
+    found = buildable(replace(WHOLE, diameter=None, mass=None), FREE, ())
+    (point,) = found.open
+    assert found.yes is False
+    assert point.what == f"no source gives the body diameter and mass of {WHOLE.name}"
+    assert "--motors" in point.cure
+
+
+@pytest.mark.parametrize(
+    "name", ["wheel speed", "motor torque", "bus current, fed back", "hoop stress"]
+)
+def test_a_capacity_that_is_exceeded_is_open(name):
+    found = buildable(WHOLE, FREE, (margin(name, 1200.0, 1000.0),))
+    assert found.yes is False
+    assert found.open[0].what == f"{name}: 1,200 W asked by drop, 1,000 W is allowed"
+
+
+def test_what_is_used_up_to_the_last_is_not_exceeded():
+    assert buildable(WHOLE, FREE, (margin("wheel speed", 1000.5, 1000.0),)).yes is True
+    assert buildable(WHOLE, FREE, (margin("wheel speed", 1002.0, 1000.0),)).yes is False
+
+
+@pytest.mark.parametrize("name", ["rms current", "voltage line"])
+def test_what_only_asks_for_a_pause_or_gives_less_torque_is_not_open(name):
+    assert buildable(WHOLE, FREE, (margin(name, 2000.0, 1000.0),)).yes is True
+
+
+@pytest.mark.parametrize(
+    ("joint", "words"),
+    [
+        (Joint("rim joint", 2e6, 1e6, "Pa", ""), "rim joint: 2.0 MPa asked, 1.0 MPa held"),
+        (Joint("shaft joint", 1.0, None, "N m", "not in the catalogue"), "not in the catalogue"),
+    ],
+)
+def test_a_joint_that_does_not_hold_or_is_not_known_is_open(joint, words):
+    found = buildable(WHOLE, FREE, (), (joint,))
+    assert found.yes is False
+    assert words in found.open[0].what
+
+
+def test_screws_in_shear_are_a_reserve():
+    spare = Joint("shaft joint, screws in shear", 2.0, 1.0, "N m", "")
+    assert buildable(WHOLE, FREE, (), (spare,)).yes is True
+
+
+def test_a_collision_is_open():
+    hit = replace(FREE, nearest=Clearance("leg", -0.002))
+    found = buildable(WHOLE, hit, ())
+    assert found.yes is False
+    assert "leg" in found.open[0].what
