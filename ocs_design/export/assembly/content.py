@@ -315,22 +315,33 @@ class Assembly:
             places.append(f"{module.name} foot {at}")
         under = float(self.device.modules[0].position[2]) - foot.wheel_height
         angle = format_quantity(self.device.incidence, "deg")
-        held, mass = found.fastening, self.device.mass / len(self.device.modules)
+        held, motor, plate = found.fastening, self.device.motor, self.device.plate
+        mass = self.device.flywheel.mass + self.device.carrier.mass - motor.controller_mass
         yield (
-            f"Weigh the module with all its screws: {1e3 * mass:.0f} g. If it is 2 % off, "
-            "weigh its parts against cad/bill_of_materials.csv."
+            f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
+            "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
         )
         yield (
             "Both modules are of the same parts. On the robot the right one is turned by half a "
             "turn about the vertical, so that both motors are on the inner side."
         )
+        frame = "in mm forward and to the left of the frame that the design is in (`robot.trunk` of"
+        places_of = f"{'; '.join(places)}; the feet stand at z = {1e3 * under:.1f} mm"
+        if plate is None:
+            under_feet = "trunk"
+            yield f"Drill the trunk, {frame} design.json): {places_of}."
+        else:
+            under_feet = "plate"
+            yield (
+                "Cut the plate (cad/plate.stl; `export --formats dxf` writes plate.dxf) and screw "
+                "it on the trunk, its sleeves under it where the bill has any. Its threads "
+                f"{plate.foot_thread} for the feet are, {frame} design.json), at {places_of}."
+            )
         yield (
-            "Drill the trunk, in mm forward and to the left of the frame that the design is in "
-            f"(`robot.trunk` of design.json): {'; '.join(places)}; the feet stand at z = "
-            f"{1e3 * under:.1f} mm. Scribe a line forward through the middle of each foot, turn "
-            f"the foot until it meets the scale at {angle}, and tighten {held.count} x "
+            "Scribe a line forward through the middle of each foot, turn the foot until it meets "
+            f"the scale at {angle}, and tighten {held.count} x "
             f"{held.screw.designation(held.length)} with {found.torque:.2g} N m each, into "
-            "threads, inserts or nuts of the trunk."
+            f"threads, inserts or nuts of the {under_feet}."
         )
 
     def _direction(self) -> str:
