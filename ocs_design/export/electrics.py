@@ -27,6 +27,7 @@ class Electrics:
         power_drawn, power_fed_back: likewise [W].
         energy_drawn, energy_fed_back: of the dearest maneuver [J].
         supply_current, supply_power: limits of the supply that the design keeps to [A], [W].
+        counted: whether the controllers are in the device's mass.
     """
 
     controllers: int
@@ -41,6 +42,7 @@ class Electrics:
     energy_fed_back: float | None = None
     supply_current: float | None = None
     supply_power: float | None = None
+    counted: bool = False
 
     @property
     def controller_voltage(self) -> float | None:
@@ -101,8 +103,8 @@ class Electrics:
         yield (
             "Torque is asked for from standstill and through zero speed: each motor needs a sensor "
             "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
-            "holds torque at low speed without one. Sensors, controllers and cables are not in the "
-            "device's mass."
+            "holds torque at low speed without one. Sensors and cables are not in the device's "
+            f"mass, controllers {'are' if self.counted else 'are not either'}."
         )
         if battery:
             yield f"The battery, for all motors together, {battery}. Cables and fuse stand as much."
@@ -146,6 +148,7 @@ def electrics(device: Device, margins: Sequence[MarginRecord]) -> Electrics:
         power_fed_back=demand_of(margins, "bus power, fed back") or _times(fed_back, voltage),
         energy_drawn=demand_of(margins, "energy from the bus"),
         energy_fed_back=demand_of(margins, "energy fed back"),
+        counted=motor.controller_mass > 0.0,
         supply_current=None if supply is None else _finite(supply.current_max),
         supply_power=None if supply is None else _finite(supply.power_max),
     )

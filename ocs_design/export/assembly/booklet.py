@@ -196,18 +196,7 @@ def _blocks(chapters: Sequence[Chapter]) -> Iterator[_Block]:
 
 def _screw_table(assembly: Assembly) -> tuple[list[Item], float]:
     """Screws with lengths and torques over the whole width, and where the table ends."""
-    rows = [
-        (
-            str(row.number),
-            str(row.quantity),
-            row.designation,
-            row.purpose,
-            row.engagement,
-            row.torque,
-            row.rule,
-        )
-        for row in assembly.screw_rows()
-    ]
+    rows = [row.cells for row in assembly.screw_rows()]
     if not rows:
         return [], TOP + 15.0
     header = ("No.", "Qty", "Screw", "What it holds", "Thread that holds", "Torque", "Set by")

@@ -89,6 +89,12 @@ class ScrewRow:
     torque: str
     rule: str
 
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """What a table shows of it."""
+        told = (self.designation, self.purpose, self.engagement, self.torque, self.rule)
+        return (str(self.number), str(self.quantity), *told)
+
 
 @dataclass(frozen=True)
 class Chapter:

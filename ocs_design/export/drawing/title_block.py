@@ -199,7 +199,7 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
     if wheel.hub is not None:
         yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
         if wheel.hub.bolts is None:
-            yield "Bolt circle not in the catalogue: drill to the motor."
+            yield "No bolt circle: bond it on the shaft, or drill it to the motor's threads."
 
 
 def _interference(drawing: WheelDrawing) -> str:

@@ -19,18 +19,7 @@ def assembly_section(design: OcsDesign) -> Markup:
     pieces = tuple(
         (str(row.number), str(row.quantity), row.name, row.made, row.file) for row in rows
     )
-    screws = tuple(
-        (
-            str(row.number),
-            str(row.quantity),
-            row.designation,
-            row.purpose,
-            row.engagement,
-            row.torque,
-            row.rule,
-        )
-        for row in assembly.screw_rows()
-    )
+    screws = tuple(row.cells for row in assembly.screw_rows())
     held = (
         "No.",
         "quantity",
