@@ -1,30 +1,37 @@
-"""How often the device of every legged robot of example-robot-data does its work, as it is built.
+"""The device of every legged robot of example-robot-data, and how often it works as it is built.
 
     python benchmarks/legged_samples.py FOLDER [--samples N] [--page docs/robots.md] [PART ...]
-    python benchmarks/legged_samples.py FOLDER --kept      of what is there; nothing is flown
+    python benchmarks/legged_samples.py FOLDER --kept      of what is there; nothing is run
 
-Sizes each robot with no option beyond its file and flies N samples of it; where no motor of the
-catalogue will do, with wheels that no motor limits. FOLDER keeps what came of each, so that a
-second run goes on where the first was stopped, or adds more samples. What is there by then is
-printed as Markdown tables, or put into the blocks of a page.
+Sizes each robot with no option beyond its file, and flies N samples of those that get a device.
+FOLDER keeps all of it: a second run sizes again, and flies again where the device is another or
+fewer samples were flown. `--samples 0` only sizes. The Markdown tables are printed, or put into the
+blocks of a page.
 """
 
 import argparse
 import json
+import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from math import degrees
+from dataclasses import dataclass, replace
+from math import ceil, degrees, floor
 from pathlib import Path
 from typing import Any
 
-from legged_robots import LEGGED, ROBOTS, Outcome, run
+from legged_robots import LEGGED, ROBOTS, run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "docs"))
 from blocks import filled, table
 
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.report.quantities import grams
+from ocs_design.robot.reader import read_robot
+
 NOTHING_SAID = ("_description", "_simple", "_data")
 """Endings of the names of packages."""
+WOULD_DO = re.compile(r"A motor of about (.+?),? would do")
+"""In the hint of a refusal."""
 
 
 @dataclass(frozen=True)
@@ -32,28 +39,36 @@ class Found:
     """What is kept of one robot.
 
     Attributes:
-        name: of the robot. samples: that were asked for.
-        document: that `validate --json` printed.
-        seconds: that all of it took, cold.
-        refusal: why no motor of the catalogue will do; empty if one does.
+        name: of the robot. mass: of the robot [kg].
+        sized: the document of `size --no-validate --json`.
+        flown: that of `validate --samples`; None: there is no device, or it was not flown yet.
     """
 
     name: str
-    samples: int
-    document: dict[str, Any]
-    seconds: float
-    refusal: str = ""
+    mass: float
+    sized: dict[str, Any]
+    flown: dict[str, Any] | None = None
+
+    @property
+    def refused(self) -> bool:
+        """Whether it gets no device."""
+        return "error" in self.sized
+
+    @property
+    def samples(self) -> int:
+        """How many flew."""
+        return 0 if self.flown is None else int(self.flown["monte_carlo"]["samples"])
 
     @property
     def designed(self) -> Mapping[str, dict[str, Any]]:
         """The flight with the device as designed, by scenario."""
-        flights = self.document["validation"]
+        flights = [] if self.flown is None else self.flown["validation"]
         return {flight["scenario"]: flight for flight in flights if flight["ocs"]}
 
     @property
     def scenarios(self) -> list[dict[str, Any]]:
         """What came of the samples."""
-        return self.document["monte_carlo"]["scenarios"]
+        return [] if self.flown is None else self.flown["monte_carlo"]["scenarios"]
 
 
 def main() -> None:
@@ -65,10 +80,8 @@ def main() -> None:
     parser.add_argument("parts", nargs="*")
     arguments = parser.parse_intermixed_args()
     for robot in () if arguments.kept else LEGGED:
-        wanted = not arguments.parts or any(part in robot for part in arguments.parts)
-        kept = kept_of(arguments.folder, robot)
-        if wanted and (kept is None or kept.samples < arguments.samples):
-            keep(arguments.folder, robot, arguments.samples)
+        if not arguments.parts or any(part in robot for part in arguments.parts):
+            renew(arguments.folder, robot, arguments.samples)
     found = [kept for robot in LEGGED if (kept := kept_of(arguments.folder, robot))]
     if arguments.page is None:
         print(*(make(found) for make in TABLES.values()), sep="\n")
@@ -78,13 +91,13 @@ def main() -> None:
 
 
 def place(folder: Path, robot: str) -> Path:
-    """Where the outcome of a robot is kept."""
-    return folder / f"{name_of(robot).replace('/', '-')}.json"
+    """Where all that came of a robot is kept."""
+    return folder / name_of(robot).replace("/", "-")
 
 
 def kept_of(folder: Path, robot: str) -> Found | None:
-    """None: it has not been flown yet."""
-    path = place(folder, robot)
+    """None: it has not been sized yet."""
+    path = place(folder, robot) / "found.json"
     return Found(**json.loads(path.read_text())) if path.exists() else None
 
 
@@ -96,42 +109,56 @@ def name_of(robot: str) -> str:
     return file if package in file else f"{package}/{file}"
 
 
-def keep(folder: Path, robot: str, samples: int) -> None:
-    """Size it and fly the samples; what they write stays for a closer look."""
-    work = place(folder, robot).with_suffix("")
+def renew(folder: Path, robot: str, samples: int) -> None:
+    """Size it, and fly it unless this device has flown as many samples."""
+    before, work, file = kept_of(folder, robot), place(folder, robot), ROBOTS / f"{robot}.urdf"
     work.mkdir(parents=True, exist_ok=True)
-    sizing = sized(robot, work / "ocs")
-    refusal = ""
-    if sizing.document.get("error", {}).get("kind") == "infeasible":
-        refusal = sizing.document["error"]["message"]
-        sizing = sized(robot, work / "ocs", "--motor", "none")
-    assert "error" not in sizing.document, sizing.document
-    out = work / str(samples)
-    flying = run("validate", str(work / "ocs"), "--samples", str(samples), out=out)
-    assert "error" not in flying.document, flying.document
-    seconds = sizing.seconds + flying.seconds
-    found = Found(name_of(robot), samples, flying.document, seconds, refusal)
-    place(folder, robot).write_text(json.dumps(vars(found)))
+    sized = run("size", str(file), "--no-validate", "--force", out=work / "ocs").document
+    found = Found(name_of(robot), read_robot(file).mass_properties.mass, sized)
+    assert not found.refused or sized["error"]["kind"] == "infeasible", sized
+    if not found.refused:
+        same = before is not None and before.sized.get("ocs") == sized["ocs"]
+        if same and before.samples >= samples:
+            found = replace(found, flown=before.flown)
+        elif samples:
+            options = (str(work / "ocs"), "--samples", str(samples), "--force")
+            found = replace(found, flown=run("validate", *options, out=work / "flown").document)
+    (work / "found.json").write_text(json.dumps(vars(found)))
+    print(found.name, f"{found.samples} samples", file=sys.stderr, flush=True)
 
 
-def sized(robot: str, out: Path, *options: str) -> Outcome:
-    """Its device, in place of an earlier one."""
-    return run("size", str(ROBOTS / f"{robot}.urdf"), *options, "--no-validate", "--force", out=out)
+def devices(found: list[Found]) -> str:
+    """A row for each robot that gets a device: the device, and how often it works."""
+    there = [robot for robot in found if not robot.refused]
+    names = list(dict.fromkeys(each["scenario"] for robot in there for each in robot.scenarios))
+    header = ("robot", "mass", "device", "of it", "α\\*", "motor", *names, "all", "95 % interval")
+    return table(header, (device_row(robot, names) for robot in there))
 
 
-def rates(found: list[Found]) -> str:
-    """A row for each robot: passes of all, and the largest error of attitude at touchdown."""
-    names = list(dict.fromkeys(each["scenario"] for robot in found for each in robot.scenarios))
-    rows = table(("robot", "samples", *names), (rate_row(robot, names) for robot in found))
-    there = {robot.name for robot in found}
-    missing = ", ".join(name for name in map(name_of, LEGGED) if name not in there)
-    return rows + (f"\nNot flown yet: {missing}.\n" if missing else "")
+def device_row(robot: Found, names: list[str]) -> tuple[str, ...]:
+    ocs = robot.sized["ocs"]
+    cells = {each["scenario"]: rate(robot, each) for each in robot.scenarios}
+    whole, interval = "not flown yet", ""
+    if robot.flown is not None:
+        success = robot.flown["monte_carlo"]["success"]
+        whole = f"{success['passed']} of {success['flown']}"
+        interval = f"{floor(100.0 * success['low'])} to {ceil(100.0 * success['high'])} %"
+    return (
+        robot.name + ("" if robot.sized["buildable"]["yes"] else " ‡"),
+        f"{robot.mass:.1f} kg",
+        grams(ocs["mass_total"]),
+        f"{ocs['mass_total'] / robot.mass:.1%}",
+        f"{degrees(ocs['incidence']):.1f}°",
+        motor(ocs["motor"]),
+        *(cells.get(each, "-") for each in names),
+        whole,
+        interval,
+    )
 
 
-def rate_row(robot: Found, names: list[str]) -> tuple[str, ...]:
-    cells = {scenario["scenario"]: rate(robot, scenario) for scenario in robot.scenarios}
-    name = robot.name + (" †" if robot.refusal else "")
-    return (name, str(robot.samples), *(cells.get(each, "-") for each in names))
+def motor(record: dict[str, Any]) -> str:
+    """Its name, and its gear if there is one."""
+    return str(record["name"]) + ("" if record["gear"] == DIRECT.name else f", {record['gear']}")
 
 
 def rate(robot: Found, scenario: dict[str, Any]) -> str:
@@ -181,13 +208,23 @@ def reason(note: str) -> str:
 
 
 def refusals(found: list[Found]) -> str:
-    """A row for each robot that no motor of the catalogue turns."""
-    rows = ((robot.name, robot.refusal.splitlines()[0]) for robot in found if robot.refusal)
-    return table(("robot", "told by `size`"), rows)
+    """A row for each robot that no motor turns: what came closest, and what would do."""
+    header = ("robot", "mass", "closest of all motors", "a motor that would do", "lightest")
+    rows = ((each.name, f"{each.mass:.1f} kg", *refusal(each)) for each in found if each.refused)
+    return table(header, rows)
+
+
+def refusal(robot: Found) -> tuple[str, str, str]:
+    """Of the message, and of the hint what it says of a motor and of another incidence."""
+    error = robot.sized["error"]
+    closest = error["message"].splitlines()[0].split("; ")[-1].removesuffix(" (direct).")
+    closest = closest.replace(" comes closest:", ",")
+    would_do, turned = WOULD_DO.search(error["hint"]), "At another incidence" in error["hint"]
+    return closest, would_do[1] if would_do else "-", "yes" if turned else "-"
 
 
 TABLES: Mapping[str, Callable[[list[Found]], str]] = {
-    "rates": rates,
+    "devices": devices,
     "failures": failures,
     "starts": starts,
     "refusals": refusals,

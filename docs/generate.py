@@ -12,6 +12,10 @@ See `blocks`. Kinds:
     run: COMMAND LINE      what the command prints, run in an empty folder that holds `examples/`
     refused: COMMAND LINE  the same for one that no design can satisfy, which is exit code 4
     source: FILE           a script, from the folder of the project
+    certificate: ROBOT     what many flights say of its device, from certified.json
+    certificates: all      the same of every robot there, as a table
+    characteristic: SHARE  how often the sequential test says what, exactly
+    distributions: all     table of what samples draw, with the sources
 """
 
 import argparse
@@ -26,6 +30,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))  # for those who load this file from elsewhere
 
 import blocks
+import certified
 import typer
 from blocks import table
 from typer.core import TyperCommand, TyperGroup
@@ -33,6 +38,7 @@ from typer.core import TyperCommand, TyperGroup
 from ocs_design.cli.app import app
 from ocs_design.requirement.maneuver import MANEUVER_KINDS
 from ocs_design.requirement.specification import SECTIONS, keys_of
+from ocs_design.requirement.uncertainty import entries, spreads
 from ocs_design.requirement.values import Choice, Value
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -102,6 +108,15 @@ def accepts(value: Value[object]) -> str:
     return value.takes.replace("true or false", "`true` or `false`")
 
 
+def distributions(_which: str) -> str:
+    """Table of the package's own distributions."""
+    rows = (
+        (f"`{name}`", entry.words(spreads()[name]), entry.drawn, entry.source)
+        for name, entry in entries().items()
+    )
+    return table(("key", "default", "drawn", "what it rests on"), rows)
+
+
 def run(command_line: str, exit_code: int = 0) -> str:
     """The output of a command, both streams in order, in an empty folder with the examples."""
     environment = {
@@ -142,6 +157,10 @@ KINDS: Mapping[str, Callable[[str], str]] = {
     "keys": section_keys,
     "maneuver keys": maneuver_keys,
     "source": source,
+    "distributions": distributions,
+    "certificate": certified.sentence,
+    "certificates": certified.certificates,
+    "characteristic": certified.characteristic,
     "run": run,
     "refused": lambda command_line: run(command_line, exit_code=4),
 }

@@ -113,7 +113,7 @@ CASES = {
         {},
         "size --mass 9.2 --inertia 107500,248400,258700",
         EXIT_3,
-        "radius of gyration of 258 m|107500kgmm2",
+        "radius of gyration of 149 m|107500kgmm2",
     ),
     "joint at no number": ({}, f"size {SOLO12} --joint FL_HAA=up", EXIT_2, "--joint.FL_HAA.*'up'"),
     "unknown key": (

@@ -7,6 +7,8 @@ from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Device, Web
+from ocs_design.export.device_parts import printed_foot
+from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import WEB_THICKNESS, hub_of, web_mass
@@ -15,7 +17,9 @@ CAGED = motor("MN5212 KV340")
 FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
 
 
-def housed(mounting: Mounting | None, outer_radius: float = 0.04) -> Device:
+def housed(
+    mounting: Mounting | None, outer_radius: float = 0.04, guard_wall: float = 0.0
+) -> Device:
     """The paper's rim on a web, in a housing, on a motor with that mounting."""
     held = replace(CAGED, mounting=mounting)
     hub = hub_of(held)
@@ -27,8 +31,9 @@ def housed(mounting: Mounting | None, outer_radius: float = 0.04) -> Device:
         EC45, mounting=mounting, mass=held.mass, diameter=held.diameter, length=held.length,
         torque_constant=0.028,
     )  # fmt: skip
-    carrier = standing(held, DIRECT, wheel.outer_radius, wheel.height)
-    return replace(driven_device(drive=drive, carrier=carrier), flywheel=wheel)
+    carrier = standing(held, DIRECT, wheel.outer_radius, wheel.height, guard_wall)
+    device = driven_device(drive=drive, carrier=carrier)
+    return replace(device, flywheel=wheel, guard_wall=guard_wall)
 
 
 def behind_a_gear() -> Device:
@@ -39,6 +44,20 @@ def behind_a_gear() -> Device:
     return driven_device(drive=drive, carrier=Carrier(0.3, 1e-4, 1e-4))
 
 
+def on_a_plate(device: Device) -> Device:
+    """The device on a plate, three of whose screws have sleeves, two of them of one length."""
+    (x, y, z), foot = device.modules[0].position.tolist(), printed_foot(device)
+    radius, screws = foot.slot_radius + 0.0045, foot.slot_radius / 2**0.5
+    plate = CarrierPlate(
+        position=(x, 0.0, z - foot.wheel_height - 0.003), radius=radius, half_length=y + radius,
+        neck=0.015, thickness=0.003, across=y, window=foot.slot_radius - 0.0045,
+        feet=tuple((s * screws, t * y + s * screws) for t in (1, -1) for s in (1, -1)),
+        trunk=tuple((s * 0.01, t * 0.01) for t in (1, -1) for s in (1, -1)),
+        sleeves=(0.0, 0.002, 0.002, 0.0045),
+    )  # fmt: skip
+    return replace(device, plate=plate)
+
+
 CAGED_DEVICE = housed(CAGED.mounting)
 
 DEVICES = {
@@ -46,5 +65,7 @@ DEVICES = {
     "by its face": housed(FLAT),
     "unknown threads": housed(None),
     "gear": behind_a_gear(),
+    "in a guard ring": housed(CAGED.mounting, guard_wall=0.0015),
+    "on a plate": on_a_plate(CAGED_DEVICE),
     "wheels alone": paper_device(),
 }

@@ -7,13 +7,10 @@ from wheels import driven_device
 from ocs_design.monte_carlo.campaign import make_campaign
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.uncertainty import Constant, UncertaintySection
+from ocs_design.requirement.uncertainty import Constant, UncertaintySection, spreads
 from ocs_design.simulation.scenario import Options
 
-NOTHING = {
-    name: Constant(1.0 if name == "contact_friction" else 0.0)
-    for name in UncertaintySection.__dataclass_fields__
-}
+NOTHING = {name: Constant(1.0 if name == "contact_friction" else 0.0) for name in spreads()}
 """A world that is as designed."""
 
 

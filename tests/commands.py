@@ -44,12 +44,15 @@ class Result:
 
 def run(*arguments, stdin=b""):
     """In this process, for a process of its own takes seconds to start."""
+    # A pipe would have unbroken lines.
+    width = {"COLUMNS": os.environ.get("COLUMNS", "80")}
     streams = [io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2)]
     given = io.TextIOWrapper(io.BytesIO(stdin), "utf-8")
     with (
         redirect_stdout(streams[0]),
         redirect_stderr(streams[1]),
         mock.patch.object(sys, "stdin", given),
+        mock.patch.dict(os.environ, width),
     ):
         code = errors.run(app, [str(argument) for argument in arguments])
     out, err = (stream.buffer.getvalue().decode() for stream in streams)

@@ -48,7 +48,7 @@ def balance(
     for k in range(round(until / period)):
         mujoco.mj_forward(model, data)
         rows.append((data.energy.sum() - work[0], work[1], data.subtree_com[0, 2]))
-        legs.write(k, control)
+        legs.write(k, control, np.zeros(1, dtype=bool))
         data.xfrc_applied[world.addresses.trunk, 3:] = push[k]
         for row in control[0]:
             data.ctrl[:] = row

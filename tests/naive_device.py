@@ -41,10 +41,12 @@ class Drive:
 
     def __init__(self, problem, motor, gear, points=3000):
         rotor = motor.rotor_inertia or 0.0
-        self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear)
+        self.thick = problem.foot_plate
+        self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear, self.thick)
         # Posts of a cage are shorter behind a taller rim: no integral is beyond the third power.
-        self.driving = [body_of(driving_parts(motor, gear, height)) for height in HEIGHTS]
-        self.height_max = tallest(motor, gear)
+        driving = (driving_parts(motor, gear, height, self.thick) for height in HEIGHTS)
+        self.driving = [body_of(parts) for parts in driving]
+        self.height_max = tallest(motor, gear, self.thick)
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
         self.chamfer, self.web_material = chamfer_of(problem), problem.web_material
         if problem.web:
@@ -57,11 +59,12 @@ class Drive:
             )
             # Its own figures are those of a hub in a solid web; holes where the widest has room.
             widest = np.array([problem.envelope.outer_radius_max - least_wall(problem)])
-            holed = replace(hub, lightening=problem.lightening)
+            holed = replace(hub, lightening=problem.lightenings[0])
             self.in_web = holed if spokes(widest, holed)[0] else hub
             # The lid is 2 mm off the rim, and 0.5 mm off the heads of the hub's screws.
             self.heads = hub.height + 2.0 * (hub.bolt_head - 1.5e-3) if hub.bolts else 0.0
-            self.hub, widest = hub_body(hub, 1.0), max(hub.radius, least_bore(motor, gear))
+            self.hub = hub_body(hub, 1.0)
+            widest = max(hub.radius, least_bore(motor, gear, self.thick))
             self.hub_radius = widest + LIGAMENT
         # The rotor turns at N W, the other way round if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
@@ -115,8 +118,8 @@ class Drive:
             body[:, None] * np.prod([(rims.height - o) / (own - o) for o in HEIGHTS if o != own], 0)
             for own, body in zip(HEIGHTS, self.driving, strict=True)
         )
-        shell = printed(rims.outer, rims.height, self.mount)
-        return drive + shell + screws_around(rims.outer, rims.height)
+        shell = printed(rims.outer, rims.height, self.mount, self.thick)
+        return drive + shell + screws_around(rims.outer, rims.height, self.thick)
 
     def wheel(self, rims):
         """Rim, web and hub: mass, inertia about the axis and across it, shape (3, n)."""

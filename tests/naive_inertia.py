@@ -25,7 +25,8 @@ def _tensor(problem, drive, rims, angle):
     module = round_thing(*drive.wheel(rims)) + drive.standing(rims)
     mass, along, up, across, axis, upright, aslant = module
     robot, place = problem.robot, problem.place
-    reach, standing = room_taken(rims.outer, rims.height, drive.motor, drive.gear)
+    size = rims.outer, rims.height, drive.motor, drive.gear, drive.thick
+    reach, standing = room_taken(*size)
     x, y, z = (o + d * reach for o, d in zip(place.origin, place.outward, strict=True))
     z = z + standing if place.upright else z
     sine, cosine = np.sin(angle), np.cos(angle)

@@ -15,7 +15,7 @@ from naive_outline import green
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.parts import motor_mount
-from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot
+from ocs_design.parts.foot import BASE_THICKNESS, Foot
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, PANEL, WALL, MountHoles
 
@@ -50,10 +50,10 @@ def round_thing(mass, axial, across):
     return np.stack([mass, zero, zero, axial / 2.0, across - axial / 2.0, axial / 2.0, zero])
 
 
-def printed(outer, height, mount):
-    """Drum, lid and foot of each size, shape (7, n)."""
+def printed(outer, height, mount, thick):
+    """Drum, lid and foot, its plate so thick, of each size, shape (7, n)."""
     half = height / 2.0 + DEEP
-    return drum_and_lid(outer, height, mount, half) + foot_of(outer, height, mount, half)
+    return drum_and_lid(outer, height, mount, half) + foot_of(outer, height, mount, half, thick)
 
 
 def drum_and_lid(outer, height, mount, half):
@@ -72,12 +72,12 @@ def drum_and_lid(outer, height, mount, half):
     return whole - layer(*_mount_outline(mount), -half, -half + PANEL, "y")
 
 
-def foot_of(outer, height, mount, half):
-    back = half + PLATE_THICKNESS
-    edge, tall = bases(outer, height, mount)
+def foot_of(outer, height, mount, half, thick):
+    back = half + thick
+    edge, tall = bases(outer, height, mount, thick)
     base = pi * edge**2, (pi * edge**4 / 4.0,) * 2
     body = layer(*base, 0.0, BASE_THICKNESS, "z")
-    slots, in_x, in_y = per_value(_slots, height)
+    slots, in_x, in_y = per_value(lambda h: _slots(h, thick), height)
     body = body - layer(slots, (in_x, in_y), 0.0, BASE_THICKNESS, "z")
     for count, length in MARKS:
         middle = edge - WALL - length / 2.0
@@ -88,16 +88,16 @@ def foot_of(outer, height, mount, half):
     least = np.maximum(outer, least_outer(mount) + 1e-9)
     area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), least)
     plate = layer(area, (in_x, in_z), -back, -half, "y")
-    plate[2] += DENSITY * PLATE_THICKNESS * first_z
-    plate[6] -= DENSITY * PLATE_THICKNESS * first_z * (back + half) / 2.0
+    plate[2] += DENSITY * thick * first_z
+    plate[6] -= DENSITY * thick * first_z * (back + half) / 2.0
     return body + plate - layer(*_mount_outline(mount), -back, -half, "y")
 
 
-def bases(outer, height, mount):
+def bases(outer, height, mount, thick):
     """Radius of each foot's base, and how high it holds the wheel; see `holds` for small ones."""
     outer = np.maximum(outer, least_outer(mount) + 1e-9)
     sizes, where = np.unique(np.stack([outer, height], axis=1), axis=0, return_inverse=True)
-    feet = [Foot(Housing(r, h, mount, LID_SCREW)) for r, h in sizes.tolist()]
+    feet = [Foot(Housing(r, h, mount, LID_SCREW), thick) for r, h in sizes.tolist()]
     return np.array([(foot.base_radius, foot.wheel_height) for foot in feet])[where.ravel()].T
 
 
@@ -116,8 +116,8 @@ def _housing_outline(outer):
 
 
 @lru_cache(maxsize=100_000)
-def _slots(height):
-    slot = Foot(Housing(1.0, height, MountHoles(), LID_SCREW)).slot.outline()
+def _slots(height, thick):
+    slot = Foot(Housing(1.0, height, MountHoles(), LID_SCREW), thick).slot.outline()
     found = [green(slot), green(slot.turned(pi))]
     second = sum(each[2] for each in found)
     return sum(each[0] for each in found), second[0, 0], second[1, 1]
@@ -141,18 +141,18 @@ def _mount_outline(mount):
     return sum(each[0] for each in found), (second[0, 0], second[1, 1])
 
 
-def mount_of(motor, gear):
+def mount_of(motor, gear, thick):
     """The holes of floor and plate."""
-    return motor_mount.mount_of(motor, gear.room).holes
+    return motor_mount.mount_of(motor, gear.room, thick).holes
 
 
-def screws_around(outer, height):
+def screws_around(outer, height, thick):
     """Four M2 x 6 on the lid, two M3 x 6 on the base, as points; one by one in `standing_parts`."""
     m2, m3, half = screw("M2"), screw("M3"), height / 2.0 + DEEP
     lid, trunk = 4.0 * m2.mass(6e-3), 2.0 * m3.mass(6e-3)
     along, up = half - m2.centre(6e-3), -(outer + GAP + CLEARANCE) - m3.centre(6e-3)
     ears = lid * (outer + GAP + m2.clearance_hole / 2.0) ** 2 / 2.0
-    slots = trunk * (half + PLATE_THICKNESS + m3.head_diameter / 2.0 + WALL) ** 2
+    slots = trunk * (half + thick + m3.head_diameter / 2.0 + WALL) ** 2
     one, zero = np.ones_like(outer), np.zeros_like(outer)
     on_lid = np.stack([lid * one, lid * along, zero, ears, lid * along**2, ears, zero])
     return on_lid + np.stack([trunk * one, zero, trunk * up, slots, slots, trunk * up**2, zero])
@@ -169,29 +169,29 @@ def body_of(pieces):
     return total
 
 
-def room_taken(outer, height, motor, gear):
+def room_taken(outer, height, motor, gear, thick):
     """Radius that housing, drive and base stay within, and the wheel's height on its foot."""
-    mount = motor_mount.mount_of(motor, gear.room)
+    mount = motor_mount.mount_of(motor, gear.room, thick)
     half, (depth, radius, least) = height / 2.0 + DEEP, mount.behind(motor)
-    back = np.maximum(half + PLATE_THICKNESS + depth, least)
+    back = np.maximum(half + thick + depth, least)
     swept = np.maximum(np.hypot(outer + GAP, half), np.hypot(back, radius))
-    edge, _ = bases(outer, height, mount_of(motor, gear))
+    edge, _ = bases(outer, height, mount_of(motor, gear, thick), thick)
     return np.maximum(swept, edge), outer + GAP + CLEARANCE + BASE_THICKNESS
 
 
-def least_bore(motor, gear):
+def least_bore(motor, gear, thick):
     """Beside the heads of the screws in the housing."""
-    mount = motor_mount.mount_of(motor, gear.room)
+    mount = motor_mount.mount_of(motor, gear.room, thick)
     circle = mount.holes.screws
     return 0.0 if circle is None else circle.radius + screw(circle.thread).head_diameter / 2.0
 
 
-def tallest(motor, gear):
+def tallest(motor, gear, thick):
     """Rim that leaves 6 mm of post between the plate and the motor's back."""
-    cage = motor_mount.mount_of(motor, gear.room).cage
+    cage = motor_mount.mount_of(motor, gear.room, thick).cage
     if cage is None:
         return np.inf
-    return 2.0 * (cage.front + motor.length - 0.006 - PLATE_THICKNESS - DEEP)
+    return 2.0 * (cage.front + motor.length - 0.006 - thick - DEEP)
 
 
 def least_outer(mount):

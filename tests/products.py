@@ -86,14 +86,14 @@ class Case:
 CASES = {
     "motor": Case(
         ("--ballistic",),
-        6,
+        5,
         ("24 V", "housing"),
         1e-5,
         ("flywheel",),
         ("housing", "foot", "cage", "plate"),
     ),
     "no motor": Case(
-        ("--motor", "none", "--ballistic"), 5, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)
+        ("--motor", "none", "--ballistic"), 4, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)
     ),
 }
 

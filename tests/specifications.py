@@ -1,6 +1,6 @@
 """Specifications to write and read back."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from math import pi, radians
 
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
@@ -14,7 +14,8 @@ from ocs_design.requirement.specification import (
     SupplySection,
     ValidationSection,
 )
-from ocs_design.requirement.uncertainty import UncertaintySection, Uniform
+from ocs_design.requirement.uncertainty import UncertaintySection, Uniform, spreads
+from ocs_design.requirement.words import Kick, Tilt
 
 MANEUVERS = (
     Disturbance(
@@ -40,14 +41,25 @@ FULL = Specification(
         weighed=2.7,
     ),
     requirement=RequirementSection(
-        rate_change=0.1, wheel_speed_max=31415.926, spin_inertia=7.11e-5, gravity=9.81
+        rate_change=0.1,
+        wheel_speed_max=31415.926,
+        spin_inertia=7.11e-5,
+        gravity=9.81,
+        reliability=0.95,
+        jump_height=(0.4, 0.55),
+        kick=(Kick(12.0, (0.1, 0.0, 1e-17), (0.0, 1.0, 0.0)), Kick(0.3, "hip")),
+        fall=(1.0,),
+        tilt=(Tilt(0.1, radians(20.0)),),
+        flip=(radians(-360.0),),
     ),
     ocs=OcsSection(
         alpha=radians(40.0),
         alpha_criterion="lightest",
         position=(0.1, 0.2, 1e-17),
         co_design=True,
+        guard="containing",
         mass_max=1.25,
+        lighter_by=0.09,
     ),
     flywheel=FlywheelSection(
         r_max=0.05,
@@ -84,10 +96,11 @@ FULL = Specification(
         seed=7,
         control_period=0.004,
         desaturate=True,
+        certify=True,
         video=True,
     ),
     reality=UncertaintySection(
-        **{item.name: Uniform(0.01, 1 / 30) for item in fields(UncertaintySection)}
+        file="own/reality.toml", **{name: Uniform(0.01, 1 / 30) for name in spreads()}
     ),
     maneuvers=MANEUVERS,
 )

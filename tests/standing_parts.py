@@ -20,19 +20,20 @@ UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """From the frame of the left wheel, its y axis down, to that of its module."""
 
 
-def made_foot(motor, gear, outer, height):
+def made_foot(motor, gear, outer, height, thick=PLATE_THICKNESS):
     """With the housing that it carries."""
-    return Foot(Housing(outer, height, mount_of(motor, gear.room).holes, LID_SCREW))
+    holes = mount_of(motor, gear.room, thick).holes
+    return Foot(Housing(outer, height, holes, LID_SCREW), thick)
 
 
-def standing_parts(motor, gear, outer, height):
+def standing_parts(motor, gear, outer, height, thick=PLATE_THICKNESS):
     """About the wheel's centre."""
-    foot = made_foot(motor, gear, outer, height)
+    foot = made_foot(motor, gear, outer, height, thick)
     for part in housing_parts(foot.housing):
         yield part.mass_properties().moved(UPRIGHT, np.zeros(3))
     yield foot_part(foot).mass_properties().moved(np.eye(3), [0.0, 0.0, -foot.wheel_height])
     yield from shell_screws(foot)
-    yield from driving_parts(motor, gear, height)
+    yield from driving_parts(motor, gear, height, thick)
 
 
 def shell_screws(foot):
@@ -52,12 +53,12 @@ def shell_screws(foot):
         yield point(each.mass(6e-3) / 2.0, x, y, up)
 
 
-def driving_parts(motor, gear, height):
-    """Motor, gear, cage and their screws."""
+def driving_parts(motor, gear, height, thick=PLATE_THICKNESS):
+    """Motor, gear, cage and their screws, behind a foot's plate of that thickness."""
     room, mounting = gear.room, motor.mounting
     floor = -(height / 2.0 + 0.002 + PANEL)
-    plate = floor - PLATE_THICKNESS
-    cage = mount_of(motor, room).around(height).cage
+    plate = floor - thick
+    cage = mount_of(motor, room, thick).around(height).cage
     up, gear_up, deep = (0.0, 0.0, 0.0) if room is None else (room.offset, room.center, room.depth)
     length, radius = motor.length or 0.0, (motor.diameter or 0.0) / 2.0
     across = motor.mass * (3.0 * radius**2 + length**2) / 12.0
@@ -73,12 +74,12 @@ def driving_parts(motor, gear, height):
     if on_rotor:
         yield from screws_on(mounting.rotor, 3e-3 + metric(mounting.rotor), 0.0015, -1.0)
     if mounting.stator_face is Face.OUTPUT and mounting.stator is not None:
-        through = PANEL + PLATE_THICKNESS + metric(mounting.stator)
+        through = PANEL + thick + metric(mounting.stator)
         yield from screws_on(mounting.stator, through, floor + PANEL, -1.0)
     if cage is not None:
         back = front - length - FLOOR
         yield cage_part(cage).mass_properties().moved(UPRIGHT, [0.0, back, 0.0])
-        yield from screws_on(cage.passage.screws, 10.2e-3, floor + PANEL, -1.0)
+        yield from screws_on(cage.passage.screws, thick + 5.2e-3, floor + PANEL, -1.0)
         yield from screws_on(mounting.stator, FLOOR + metric(mounting.stator), back, 1.0)
 
 

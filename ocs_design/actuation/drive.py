@@ -24,6 +24,11 @@ RESERVE = 0.95
 """Share of voltage, current and mechanical speed that a design may use; the rest is left to the
 feedback, and to a robot that is not quite the one in its file."""
 
+PLANNED = (1.0 + RESERVE) / 2.0
+"""Share of voltage, current, speed limit and power that a plan may use. A device is sized so that
+its hardest maneuver just takes `RESERVE` of them: half of the rest lets a plan be smoother than
+that, the other half is left to the feedback."""
+
 FIGURES_HINT = (
     "Choose another motor, or state its figures in a catalogue file of your own; "
     "see docs/catalogue.md#motors"

@@ -87,7 +87,7 @@ class Screw:
 
     @property
     def _pitch_diameter(self) -> float:
-        """Of the basic profile, ISO 724 [m]."""
+        """Pitch diameter of the basic profile, ISO 724 [m]."""
         return self.diameter - 0.6495 * self.pitch
 
     @property

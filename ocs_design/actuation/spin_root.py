@@ -11,7 +11,9 @@ Newton's method on it climbs from the least h that speed alone would need withou
 the smallest root. It is fenced in all the same, by the largest h below and the smallest above.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from math import prod
 from typing import NamedTuple
 
 import numpy as np
@@ -104,22 +106,29 @@ def newton_step(demand: SpinDemand, spin_inertia: FloatArray, can: Capability) -
         return np.where(ahead, spin_inertia / (1.0 - gain), np.inf)
 
 
-def smallest_root(demand: SpinDemand) -> FloatArray:
-    """The smallest spin inertia that meets each demand [kg m^2]; inf where none does."""
-    drive = vars(demand.drive)
-    own = {name: column for name, column in vars(demand).items() if name != "drive"}
-    shape = np.broadcast_shapes(*(np.shape(column) for column in (*own.values(), *drive.values())))
+def smallest_roots(demands: Sequence[SpinDemand]) -> list[FloatArray]:
+    """The smallest spin inertia that meets each demand [kg m^2]; inf where none does.
 
-    def flat(columns: dict[str, FloatArray]) -> dict[str, FloatArray]:
-        """Columns with one row per demand."""
-        return {name: np.broadcast_to(one, shape).reshape(-1) for name, one in columns.items()}
-
-    demands = SpinDemand(**flat(own), drive=UnitDrive(**flat(drive)))
-    answer = np.empty(demands.sweep.size)
+    All are looked for at once, as a call of numpy costs more than its work on few.
+    """
+    of_drive = [field.name for field in fields(UnitDrive)]
+    own = [field.name for field in fields(SpinDemand) if field.name != "drive"]
+    shapes, columns = [], []
+    for demand in demands:
+        drive = [getattr(demand.drive, name) for name in of_drive]
+        parts = np.broadcast_arrays(*(getattr(demand, name) for name in own), *drive)
+        shapes.append(parts[0].shape)
+        columns.append([part.reshape(-1) for part in parts])
+    flat = [np.concatenate(parts) for parts in zip(*columns, strict=True)]
+    drives = UnitDrive(**dict(zip(of_drive, flat[len(own) :], strict=True)))
+    whole = SpinDemand(**dict(zip(own, flat[: len(own)], strict=True)), drive=drives)
+    answer = np.empty(whole.sweep.size)
     for start in range(0, answer.size, _BLOCK):
         block = slice(start, start + _BLOCK)
-        answer[block] = _roots(demands.take(block))
-    return answer.reshape(shape)
+        answer[block] = _roots(whole.take(block))
+    ends = np.cumsum([prod(shape) for shape in shapes])[:-1]
+    each = zip(np.split(answer, ends), shapes, strict=True)
+    return [part.reshape(shape) for part, shape in each]
 
 
 def _roots(demand: SpinDemand) -> FloatArray:

@@ -25,5 +25,5 @@ class Supply:
 
     @property
     def told(self) -> "Supply":
-        """The same supply with both limits as figures, for records that have no infinity."""
+        """Supply with both limits as figures, for records that have no infinity."""
         return replace(self, current_max=self.power / self.voltage, power_max=self.power)

@@ -29,7 +29,8 @@ With A the largest angle within the time t, dA/dt = x: a little more time is a l
 the peak. So A is convex in t, and Newton's method finds the time for an angle from any start.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -121,19 +122,19 @@ class UnitDrive(Table):
         """Speed that no slew exceeds [w_0]."""
         return np.minimum(self.cap, 1.0)
 
-    @property
+    @cached_property
     def end_of_limit(self) -> FloatArray:
         """x_c, up to which the current limits the acceleration."""
         limited = self.power < self.knee
         by_power = np.where(limited, self.power, 0.0) / positive(self.knee) - self.knee
         return np.where(limited, by_power, 1.0 - self.knee)
 
-    @property
+    @cached_property
     def spare(self) -> FloatArray:
         """1 - x where the voltage line takes over."""
         return np.minimum(self.power, self.knee)
 
-    @property
+    @cached_property
     def regenerating(self) -> FloatArray:
         """Speed from which up the supply limits the braking [w_0]; inf: nowhere."""
         finite = np.isfinite(self.power)
@@ -141,12 +142,25 @@ class UnitDrive(Table):
         limited = np.where(finite, self.power, 0.0) / positive(current) + current
         return np.where(finite & (current > 0.0), limited, np.inf)
 
-    @property
+    @cached_property
     def feels_power(self) -> NDArray[np.bool_]:
         """Whether the supply limits anything."""
         return (self.power < self.knee) | (self.regenerating < 1.0)
 
-    @property
+    @cached_property
+    def entry(self) -> FloatArray:
+        """w + e^w, w = 2u, where the limit of power takes over; 1 where none is felt."""
+        first = np.arcsinh(self.end_of_limit / (2.0 * self.current))
+        return np.where(self.power < self.knee, np.exp(2.0 * first) + 2.0 * first, 1.0)
+
+    @cached_property
+    def to_line(self) -> FloatArray:
+        """Time from rest to where the voltage line takes over from the limit of power [T_0]."""
+        begin = self.end_of_limit
+        gain = np.maximum(1.0 - self.spare - begin, 0.0)
+        return rise_sweep(self, Rise(begin, gain, 0.0 * begin)).time
+
+    @cached_property
     def current(self) -> FloatArray:
         """c, whose heat takes all the power; 1 where no power is limited."""
         return np.sqrt(np.where(np.isfinite(self.power), self.power, 1.0))
@@ -180,6 +194,8 @@ _TIME_STEPS = 8
 _LINE_STEPS = 4
 _POWER_STEPS = 12
 _DIGITS = 1e-13
+# Of a last step of Newton's method, whose own error is its square.
+_LAST_STEP = 1e-8
 
 
 class Rise(NamedTuple):
@@ -242,10 +258,10 @@ def rise_sweep(drive: UnitDrive, rise: Rise) -> Sweep:
 
 
 def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense: float) -> Sweep:
-    """From u to another at the limit of power; `sense` is 1 up and -1 down."""
+    """Sweep at the limit of power from one u to another; `sense` is 1 up and -1 down."""
 
     def reached(u: FloatArray) -> Sweep:
-        """Since u = 0, but for a constant."""
+        """Sweep since u = 0, but for a constant."""
         grown = np.exp(u)
         return Sweep(grown**2 / 2.0 + sense * u, drive.current * (grown**3 / 3.0 + 1.0 / grown))
 
@@ -309,22 +325,19 @@ def rise_for(drive: UnitDrive, time: FloatArray) -> Rise:
     begin, knee = drive.end_of_limit, positive(drive.knee)
     ramp = np.minimum(time, begin)
     limited, c = drive.power < drive.knee, 2.0 * drive.current
-    whole = rise_sweep(drive, Rise(begin, np.maximum(1.0 - drive.spare - begin, 0.0), 0.0 * begin))
     # At the limit of power w + e^w = 2 t / l with w = 2u, from above.
-    first = np.arcsinh(begin / c)
-    asked = np.where(limited, np.exp(2.0 * first) + 2.0 * first, 1.0)
-    asked = asked + np.where(limited, 2.0 * (time - ramp) / knee, 0.0)
+    asked = drive.entry + np.where(limited, 2.0 * (time - ramp) / knee, 0.0)
     asked = np.minimum(asked, _UNLIMITED)
     w = np.where(asked > 1.0, np.log(np.maximum(asked, 1.0)), asked)
     for _ in range(_POWER_STEPS):
         grown = np.exp(w)
         step = (grown + w - asked) / (1.0 + grown)
         w = w - step
-        if (np.abs(step) <= _DIGITS * (1.0 + np.abs(w))).all():
+        if (np.abs(step) <= _LAST_STEP * (1.0 + np.abs(w))).all():
             break
     gain = np.clip(c * np.sinh(w / 2.0) - begin, 0.0, np.maximum(1.0 - drive.spare - begin, 0.0))
     gain = np.where(limited & (time > ramp), gain, 0.0)
-    left = np.maximum(time - np.where(limited, whole.time, ramp), 0.0)
+    left = np.maximum(time - np.where(limited, drive.to_line, ramp), 0.0)
     return Rise(ramp, gain, np.where(drive.knee > 0.0, left / knee, 0.0))
 
 
@@ -370,10 +383,10 @@ def _powered_rise(
     shape = felt.shape
 
     def lanes(values: FloatArray) -> FloatArray:
-        """Where the supply limits the slew."""
+        """Values of the drives whose slew the supply limits."""
         return np.broadcast_to(values, shape)[felt]
 
-    own = UnitDrive(**{name: lanes(values) for name, values in vars(drive).items()})
+    own = UnitDrive(*(lanes(getattr(drive, field.name)) for field in fields(drive)))
     whole, end = lanes(time), lanes(final)
     low, high = np.minimum(rise_sweep(own, rise_to(own, end)).time, whole), whole
     up = (low + high) / 2.0
@@ -385,7 +398,7 @@ def _powered_rise(
         outside = (following < low) | (following > high)
         step = np.where(outside, (low + high) / 2.0, following) - up
         up = up + step
-        if (np.abs(step) <= _DIGITS * whole).all():
+        if (np.abs(step) <= _LAST_STEP * whole).all():
             break
     found = rise_for(own, up)
     parts = []

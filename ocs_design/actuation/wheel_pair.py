@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_time
-from ocs_design.actuation.spin_root import SpinDemand, smallest_root
+from ocs_design.actuation.spin_root import SpinDemand, smallest_roots
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive, positive
 from ocs_design.common.arrays import FloatArray
@@ -206,7 +206,7 @@ def smallest_spin_inertia(
         armature: I_m - h [kg m^2], shape (...).
         least: smallest h to consider [kg m^2], shape (...).
     """
-    return smallest_root(spin_demand(task, line, armature, least))
+    return smallest_roots([spin_demand(task, line, armature, least)])[0]
 
 
 def spin_demand(

@@ -237,13 +237,16 @@ MOST_LISTED = 12
 
 
 def entry(known: Mapping[str, T], name: str, kind: str) -> T:
-    """The entry called `name`; `kind` says of what, for people.
+    """The entry called `name`, whatever its capitals, spaces and dashes; `kind` is for people.
 
     Raises:
         SpecificationError: there is none; the hint names the closest.
     """
     if name in known:
         return known[name]
+    alike = [each for each in known if _letters(each) == _letters(name)]
+    if len(alike) == 1:
+        return known[alike[0]]
     if close := _closest(known, name):
         hint = f"Did you mean {' or '.join(close)}?"
     elif len(known) <= MOST_LISTED:
@@ -253,16 +256,24 @@ def entry(known: Mapping[str, T], name: str, kind: str) -> T:
     raise SpecificationError(f"there is no {kind} {name!r}", hint=hint)
 
 
+def _letters(name: str) -> str:
+    """Letters and digits of a name, small."""
+    return "".join(filter(str.isalnum, name.casefold()))
+
+
 def _closest(known: Iterable[str], name: str) -> Sequence[str]:
     """Names that may be meant, three at most, the likeliest first.
 
-    A model without its winding is how people call a motor, misspelt or not.
+    A model without its winding, or with its maker, is how people call a motor, misspelt or not.
     """
+    words = [word for part in name.replace("-", " ").split() if (word := _letters(part))]
+    # A maker's name may stand beside the model's, which has a digit.
+    for some in (words, [word for word in words if any(map(str.isdigit, word))][:1]):
+        holding = [each for each in known if all(word in _letters(each) for word in some)]
+        if some and holding:
+            return holding[:MOST_SUGGESTED]
     folded = {candidate.casefold(): candidate for candidate in known}
     part = name.casefold()
-    longer = [match for match in folded if part and part in match][:MOST_SUGGESTED]
-    if longer:
-        return [folded[match] for match in longer]
     whole = get_close_matches(part, folded, n=MOST_SUGGESTED)
     begun = {match[: len(part)] for match in folded}
     models = get_close_matches(part, begun, n=MOST_SUGGESTED, cutoff=_SAME_MODEL)
@@ -326,7 +337,8 @@ def _read_cells(row: Row, where: str, sheet: type, faults: list[str]) -> dict[st
     columns, values = columns_of(sheet), {}
     for column, raw in row.cells.items():
         if column not in columns:
-            close = get_close_matches(column, columns, n=1)
+            close = [each for each in columns if each.startswith(f"{column}_")][:1]
+            close = close or get_close_matches(column, columns, n=1)
             hint = f"Did you mean {close[0]}?" if close else f"Known: {', '.join(columns)}."
             faults.append(f"{where}, {column}: unknown column. {hint}")
             continue

@@ -69,9 +69,11 @@ def _no_command(
 @with_options(opt.TASK_OPTIONS)
 def size(
     context: typer.Context,
+    lighter_by: opt.LighterBy = None,
     co_design: opt.CoDesign = False,
     no_validate: opt.NoValidate = False,
     ballistic: opt.Ballistic = False,
+    certify: opt.Certify = False,
     video: opt.Video = False,
     seed: opt.Seed = None,
     out: opt.Out = None,

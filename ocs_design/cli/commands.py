@@ -315,6 +315,7 @@ def pareto(
     from ocs_design.report.charts.front import write_front
     from ocs_design.report.text.console import Steps, make_console
     from ocs_design.report.text.front import print_front, print_written
+    from ocs_design.report.text.layout import warn
     from ocs_design.requirement.sweep import sweep_of
     from ocs_design.workflows.pareto import draw_front, front_values, lightest_device, read_task
 
@@ -334,8 +335,9 @@ def pareto(
     if output.as_json:
         sys.stdout.buffer.write(to_json(front))
     elif not output.quiet:
+        warn(aside, remarks)
         print_front(console, front)
-        print_written(console, front, out, remarks)
+        print_written(console, front, out)
     raise typer.Exit(front.exit_code)
 
 
@@ -387,10 +389,12 @@ def validate(
     samples: Samples = None,
     seed: opt.Seed = None,
     until_width: UntilWidth = None,
+    certify: opt.Certify = False,
     scheduler: Scheduler = None,
     sample: OneSample = None,
     replay: CaseFile = None,
     spec: opt.Spec = None,
+    reality: opt.Reality = None,
     ballistic: opt.Ballistic = False,
     desaturate: Desaturate = False,
     view: View = False,
@@ -404,8 +408,9 @@ def validate(
 
     With --samples also many times over with what reality adds: sensors, delay, friction, and a
     robot, device and motors that are not quite as designed, drawn from [reality] of the
-    specification. The same seed gives the same samples wherever they are flown. Exit code 1: a
-    scenario fails as designed.
+    specification. The same seed gives the same samples wherever they are flown. With --certify no
+    more of them than it takes to be sure of the reliability that was asked for. Exit code 1: a
+    scenario fails as designed, or the certificate falls short.
     """
     from ocs_design.report.text.console import Steps, make_console
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,10 +12,12 @@ import typer
 
 from ocs_design.common.errors import (
     INTERRUPTED,
+    Infeasible,
     OcsError,
     OutputError,
     SpecificationError,
 )
+from ocs_design.common.units import UNITS
 
 SCHEMA_VERSION = 2
 BROKEN_PIPE = 141
@@ -69,11 +72,17 @@ def _report_any(
     if isinstance(error, OcsError):
         return _report(error, as_json=as_json, color=color)
     context = getattr(error, "ctx", None)
+    message = error.format_message()
     hint = f"see `{context.command_path} --help`" if context else ""
+    extra = re.fullmatch(r"Got unexpected extra argument.* \((.*)\)", message)
+    if extra and any(extra[1] in units for units in UNITS.values()):
+        hint = f"write a number and its unit as one word, as in 50mm; {hint}"
+    elif re.fullmatch(r"No such option: -\w", message):
+        hint = f"an option of several letters has two dashes; {hint}"
     if as_json:
-        _print_json("usage", error.format_message(), hint, {})
+        _print_json("usage", message, hint, {})
     else:
-        _print_panel([error.format_message()], hint, color=color)
+        _print_panel([message], hint, color=color)
     return 2
 
 
@@ -112,6 +121,11 @@ def _report(error: OcsError, *, as_json: bool, color: bool) -> int:
         if isinstance(error, SpecificationError):
             lines += [f"  - {problem}" for problem in error.problems]
         _print_panel(lines, error.hint, color=color)
+        if isinstance(error, Infeasible):
+            from ocs_design.report.text.console import make_console
+            from ocs_design.report.text.summary import print_assumed
+
+            print_assumed(make_console(color=color, stderr=True), error.assumptions)
     return error.exit_code
 
 

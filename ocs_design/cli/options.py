@@ -119,6 +119,61 @@ RateChange: TypeAlias = Annotated[
         "--rate-change", metavar="RATE", help="Change of the trunk's rate to be able to make."
     ),
 ]
+Reliability: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--reliability",
+        metavar="SHARE",
+        help="Share of flights that shall pass as built; 0.99 by default, 0.5: nominal.",
+    ),
+]
+JumpHeight: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--jump-height",
+        metavar="LENGTH",
+        help="Stay level in a jump of this height, e.g. 0.4m; of kicks and flips too; repeatable.",
+    ),
+]
+KickOption: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--kick",
+        metavar="KICK",
+        help="Impulse on the trunk during a jump, e.g. '12 N s at 0.1,0,0.2' (base frame) or "
+        "'12 N s at LINK along left'; repeatable.",
+    ),
+]
+Fall: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--fall",
+        metavar="LENGTH",
+        help="Land level when the trunk is dropped from so high, e.g. 1m; repeatable.",
+    ),
+]
+TiltOption: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--tilt",
+        metavar="ANGLE",
+        help="Of the trunk when it is dropped: 20deg of pitch, or '20deg roll'; repeatable.",
+    ),
+]
+FlipOption: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--flip",
+        metavar="ANGLE",
+        help="Turn in pitch during a jump: back, forward, or an angle; repeatable.",
+    ),
+]
+Gravity: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--gravity", metavar="GRAVITY", help="earth (default), moon, mars, or e.g. 3.7m/s2."
+    ),
+]
 WheelSpeedMax: TypeAlias = Annotated[
     Text,
     typer.Option(
@@ -181,6 +236,14 @@ WebKind: TypeAlias = Annotated[
         metavar="disc|aluminium|none",
         help="What joins a rim to its motor: a thin disc with a hub in one piece (default), "
         "one of aluminium that it is shrunk on, or massless spokes.",
+    ),
+]
+GuardKind: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--guard",
+        metavar="fingers|containing",
+        help="Printed housings (default), or a steel ring in each that holds a wheel that bursts.",
     ),
 ]
 MaterialName: TypeAlias = Annotated[
@@ -260,6 +323,14 @@ WithCatalogue: TypeAlias = Annotated[
 GearsFile: TypeAlias = Annotated[
     Text, typer.Option("--gears", metavar="FILE", help="Gears of your own, CSV or TOML.")
 ]
+LighterBy: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--lighter-by",
+        metavar="MASS",
+        help="Also tell what would have to give for a device so much lighter, e.g. 90g.",
+    ),
+]
 CoDesign: TypeAlias = Annotated[
     bool,
     typer.Option("--co-design", help="Refine all dimensions together with the maneuvers, in 3-D."),
@@ -272,6 +343,19 @@ Ballistic: TypeAlias = Annotated[
 ]
 Video: TypeAlias = Annotated[
     bool, typer.Option("--video", help="Film the flights with and without the device: MP4 or GIF.")
+]
+Reality: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--reality", metavar="FILE", help="Draw samples from these distributions instead, TOML."
+    ),
+]
+Certify: TypeAlias = Annotated[
+    bool,
+    typer.Option(
+        "--certify",
+        help="Fly robots as they might be built, until it is sure whether enough of them pass.",
+    ),
 ]
 Seed: TypeAlias = Annotated[
     int | None, typer.Option("--seed", metavar="N", help="Seed of all random numbers.")
@@ -317,6 +401,13 @@ ROBOT_OPTIONS: Mapping[str, object] = {
 TASK_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
     "rate_change": RateChange,
+    "reliability": Reliability,
+    "jump_height": JumpHeight,
+    "kick": KickOption,
+    "fall": Fall,
+    "tilt": TiltOption,
+    "flip": FlipOption,
+    "gravity": Gravity,
     "wheel_speed_max": WheelSpeedMax,
     "torque_max": TorqueMax,
     "alpha": Alpha,
@@ -330,6 +421,7 @@ TASK_OPTIONS: Mapping[str, object] = {
     "wall_min": WallMin,
     "wheel_mass_max": WheelMassMax,
     "web": WebKind,
+    "guard": GuardKind,
     "material": MaterialName,
     "motor": MotorName,
     "bus_voltage": BusVoltage,
@@ -341,6 +433,7 @@ TASK_OPTIONS: Mapping[str, object] = {
     "motors": MotorsFile,
     "with_catalogue": WithCatalogue,
     "gears": GearsFile,
+    "reality": Reality,
 }
 """The same, and what the device must do and may be."""
 

@@ -93,6 +93,8 @@ class Infeasible(OcsError):
         required_spin_inertia: what was asked for [kg m^2]; None: no wheel would do, however large,
             or what is in the way is no matter of the wheel.
         relaxations: for each constraint that can mend it alone, the limit that would just do (SI).
+        assumptions, warnings: what was taken where nothing was stated, and doubts about the robot's
+            file, one sentence each, once they are known.
     """
 
     kind = "infeasible"
@@ -114,14 +116,18 @@ class Infeasible(OcsError):
         self.required_spin_inertia = required_spin_inertia
         self.largest_spin_inertia = largest_spin_inertia
         self.relaxations = dict(relaxations)
+        self.assumptions: tuple[str, ...] = ()
+        self.warnings: tuple[str, ...] = ()
 
     def data(self) -> Mapping[str, Any]:
-        """Binding constraints, inertias and relaxations, SI."""
+        """Binding constraints, inertias and relaxations, SI; what was assumed and is doubted."""
         return {
             "binding": list(self.binding),
             "required_spin_inertia": self.required_spin_inertia,
             "largest_spin_inertia": self.largest_spin_inertia,
             "relaxations": self.relaxations,
+            "assumptions": list(self.assumptions),
+            "warnings": list(self.warnings),
         }
 
 

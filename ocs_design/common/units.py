@@ -34,6 +34,7 @@ class Dimension(StrEnum):
     ANGULAR_SPEED = "angular speed"
     TORQUE = "torque"
     ANGULAR_MOMENTUM = "angular momentum"
+    IMPULSE = "impulse"
     DAMPING = "damping"
     INERTIA = "moment of inertia"
     VOLTAGE = "voltage"
@@ -78,6 +79,7 @@ UNITS: dict[Dimension, dict[str, Fraction]] = {
     },
     Dimension.TORQUE: {"N m": _ONE, "mN m": _MILLI, "N cm": _CENTI, "N mm": _MILLI},
     Dimension.ANGULAR_MOMENTUM: {"N m s": _ONE, "mN m s": _MILLI, "kg m2/s": _ONE},
+    Dimension.IMPULSE: {"N s": _ONE, "mN s": _MILLI, "kg m/s": _ONE},
     Dimension.DAMPING: {"N m s/rad": _ONE, "mN m s/rad": _MILLI, "uN m s/rad": _MICRO},
     Dimension.INERTIA: {
         "kg m2": _ONE,
@@ -173,7 +175,13 @@ def to_unit(value: float, unit: str) -> float:
 def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     """The SI `value` in `unit`, for people, as in `30 mm`; `parse_quantity` reads it back."""
     space = "" if unit in {"%", "°"} else " "
-    return f"{to_unit(value, unit):.{digits}g}{space}{unit}"
+    return f"{significant(to_unit(value, unit), digits)}{space}{unit}"
+
+
+def significant(value: float, digits: int) -> str:
+    """A number with so many digits as people write it: 1610, and not 1.61e+03."""
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e+0" in text else text
 
 
 def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:
@@ -210,12 +218,28 @@ def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
             nominal, full = (f"{count * volts:.4g} V" for volts in (CELL_NOMINAL, CELL_FULL))
             cells = f"{count}S is {nominal} nominal, {full} full: state the voltage under load."
             hint = f"{cells} {hint}"
-        raise QuantityError(f"{where}: {text.strip()!r} has the unknown unit {unit!r}", hint=hint)
+        elif meant := _likely_texts(text, dimension):
+            hint = f"Did you mean {' or '.join(meant)}? {hint}"
+        what = "holds a comma" if "," in unit else f"has the unknown unit {unit!r}"
+        raise QuantityError(f"{where}: {text.strip()!r} {what}", hint=hint)
     if found[0] is not dimension:
         raise QuantityError(
             f"{where}: {text.strip()!r} has a unit of {found[0]}, not of {dimension}", hint=hint
         )
     return UNITS[dimension][found[1]]
+
+
+def _likely_texts(text: str, dimension: Dimension) -> list[str]:
+    """The text with a decimal point or nothing for its comma, and the unit's usual capitals."""
+    bare, known = text.strip(" ,;."), {name.casefold(): name for name in UNITS[dimension]}
+    meant = []
+    # A comma before three digits may part thousands.
+    for comma in (".", "") if re.search(r"[0-9],[0-9]{3}(?![0-9])", bare) else (".",):
+        match = _QUANTITY.fullmatch(re.sub(r"(?<=[0-9]),(?=[0-9])", comma, bare, count=1))
+        unit = _normalised(match[2]).casefold() if match else ""
+        if match and (not unit or unit in known):
+            meant.append(f"{match[1]}{known.get(unit, '')}")
+    return meant
 
 
 def _normalised(unit: str) -> str:

@@ -23,8 +23,8 @@ BELL_SHARE = 0.45
 """Straight part of a bell over its motor's length: 11 of the 25 mm of an MN5006."""
 
 EPOXY_STRENGTH = 15e6
-"""Shear strength of a bond of epoxy [Pa]: half of what makers state on bare metal, about 31 MPa
-(3M DP460, technical data sheet, overlap shear at 23 deg C)."""
+"""Shear strength of a bond of epoxy [Pa]: an assumption, half of the 30 MPa or so of overlap shear
+that toughened epoxies such as 3M DP460 are sold with."""
 
 BELL_DENSITY, BELL_MODULUS = 7850.0, 207e9
 """Of bells, which are of steel [kg/m^3, Pa]."""

@@ -62,6 +62,10 @@ def check_device(device: Device) -> None:
     ]
     if device.plate is not None:
         faults += _plate_faults(device.plate)
+    if not 0.0 <= device.guard_wall <= LARGEST_LENGTH:
+        faults.append(f"ocs.guard_wall is {device.guard_wall}")
+    if not 0.0 < device.foot_plate <= LARGEST_LENGTH:
+        faults.append(f"ocs.foot_plate is {device.foot_plate}")
     if not isfinite(device.incidence):
         faults.append(f"ocs.incidence is {device.incidence}")
     for module in device.modules:

@@ -10,6 +10,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
+from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, WebHoles
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
@@ -109,6 +110,8 @@ class Device:
             (`device.layout.module_frames`).
         supply: of all motors; None: not known.
         plate: that the feet stand on; None: they stand on the trunk.
+        guard_wall: of the ring of mild steel in each housing [m]; 0: none.
+        foot_plate: thickness of the feet's plates [m].
     """
 
     incidence: float
@@ -118,6 +121,8 @@ class Device:
     carrier: Carrier = NO_CARRIER
     supply: Supply | None = None
     plate: CarrierPlate | None = None
+    guard_wall: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
 
     @property
     def mass(self) -> float:

@@ -2,13 +2,16 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import inf
+from math import inf, pi
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.solids import foot_of
+from ocs_design.parts.foot import BASE_THICKNESS, stem_frequency
+from ocs_design.parts.guard import Containment, containment, fragment_of
 from ocs_design.parts.joints import (
     COLDEST,
     FRICTION,
@@ -42,6 +45,21 @@ RUN_OUT = 0.01e-3
 def top_speed(device: Device) -> float:
     """Highest speed that the drive can bring a wheel to, nothing held back [rad/s]."""
     return min(device.motor.no_load_speed, device.motor.speed_max or inf)
+
+
+def burst_of(device: Device) -> Containment:
+    """What would hold a wheel that bursts at its top speed."""
+    wheel = device.flywheel
+    web = 0.0 if wheel.web is None else wheel.web.mass
+    piece = fragment_of(
+        inner_radius=wheel.inner_radius,
+        outer_radius=wheel.outer_radius,
+        height=wheel.height,
+        rim_mass=wheel.rim_mass,
+        web_mass=web,
+        wheel_speed=top_speed(device),
+    )
+    return containment(piece, wheel.outer_radius, wheel.height)
 
 
 def joints_of(device: Device) -> tuple[Joint, ...]:
@@ -207,8 +225,9 @@ def _shaft_joints(device: Device) -> Iterator[Joint]:
             torque,
             carried,
             "N m",
-            f"bonded with a retaining compound on {across} of shaft over {long}, half of 25 MPa, "
-            f"against {SERVICE:g} x peak torque; the fit alone carries nothing",
+            f"bonded with a retaining compound on the {across} shaft, over {long} of its length, "
+            f"counted at half of its 25 MPa, against {SERVICE:g} x peak torque; the fit alone "
+            "carries nothing",
         )
     else:
         unknown = "the shaft and the rotor's threads are not in the catalogue"
@@ -249,6 +268,63 @@ class Balance:
     @property
     def _mass(self) -> float:
         return self.unbalance / self.eccentricity
+
+
+DAMPING = 0.01
+"""Share of critical damping of feet and plates, assumed: bolted steelwork has 0.008 (EN 1991-1-4,
+table F.2, logarithmic decrement 0.05), and prints more."""
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """A mode of what carries a module, which its wheel's speed may pass.
+
+    Attributes:
+        name: what bends. frequency: [Hz].
+        force: of the unbalance that its grade leaves, at this frequency [N].
+        amplitude: of the module where the wheel stays at this frequency, `DAMPING` alone holding
+            it [m].
+    """
+
+    name: str
+    frequency: float
+    force: float
+    amplitude: float
+
+    @property
+    def acceleration(self) -> float:
+        """Of the module at that amplitude [m/s^2]."""
+        return (2.0 * pi * self.frequency) ** 2 * self.amplitude
+
+
+def resonances_of(device: Device) -> tuple[Resonance, ...]:
+    """First bending modes of plate and foot that a wheel passes on its way to top speed.
+
+    A force U w^2 shakes a mass m on a spring by U / (2 zeta m) at resonance, however stiff it is.
+    The plate is shaken by all of the unbalance, the stem only by its moment about it: at the end of
+    a cantilever of length L a moment M works as the force 3 M / 2 L. Gyroscopic moments of the
+    turning wheel are left out.
+    """
+    if device.carrier.mass == 0.0:
+        return ()
+    wheel, foot = device.flywheel, foot_of(device)
+    mass = wheel.mass + device.carrier.mass
+    inertia = wheel.transverse_inertia + float(device.carrier.inertia[0, 0])
+    lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - BASE_THICKNESS)
+    modes = [("foot", stem_frequency(foot, mass, inertia), lever)]
+    if device.plate is not None:
+        modes.insert(0, ("plate", device.plate.frequency(mass), 1.0))
+    unbalance = balance_of(device).unbalance
+    return tuple(
+        Resonance(
+            name,
+            frequency,
+            share * unbalance * (2.0 * pi * frequency) ** 2,
+            share * unbalance / (2.0 * DAMPING * mass),
+        )
+        for name, frequency, share in modes
+        if 2.0 * pi * frequency < top_speed(device)
+    )
 
 
 def balance_of(device: Device) -> Balance:

@@ -20,6 +20,7 @@ from ocs_design.common.files import read_plain_file
 from ocs_design.device.device import NO_CARRIER, Flywheel
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
+from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.robot.robot import Mount, Robot
 
 Record = TypeVar("Record")
@@ -189,6 +190,66 @@ class PriceRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class KeptRecord:
+    """What is kept for a maneuver.
+
+    Attributes:
+        maneuver: its name. demand: factor on what is asked of the wheels, at least 1.
+        needed: factor that the asked share of robots needs of this device; below 1, one that is
+            designed for the mean has enough to spare.
+        roll_rate, pitch_rate: that the trunk may begin with [rad/s].
+        lost: share of robots that drift off level about an axis out of the wheels' reach.
+    """
+
+    maneuver: str
+    demand: float
+    needed: float
+    roll_rate: float
+    pitch_rate: float
+    lost: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class UncertaintyCost:
+    """What one uncertain quantity costs.
+
+    Attributes:
+        key: of `[reality]`. share: of the variance of what robots need.
+        mass: that the device would be lighter by if the quantity were known [kg].
+    """
+
+    key: str
+    share: float
+    mass: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReserveRecord:
+    """What is kept for what is drawn, and what it costs.
+
+    Attributes:
+        reliability: share of samples that shall pass. predicted: that do by the closed forms.
+        scale: factor on every deviation; above 1 where flights showed more.
+        nominal: mass of the lightest device without a reserve [kg].
+        maneuvers: see `KeptRecord`. costs: the largest share first.
+        curve: reliability and mass of the device of the same parts [kg], where there is one.
+    """
+
+    reliability: float
+    predicted: float
+    scale: float
+    nominal: float
+    maneuvers: tuple[KeptRecord, ...]
+    costs: tuple[UncertaintyCost, ...]
+    curve: tuple[tuple[float, float], ...]
+
+    @property
+    def demands(self) -> Mapping[str, float]:
+        """Factor on what each maneuver asks, by its name."""
+        return {each.maneuver: each.demand for each in self.maneuvers}
+
+
+@dataclass(frozen=True, kw_only=True)
 class SelectionRecord:
     """The choice of motor, gear, material and incidence.
 
@@ -199,6 +260,7 @@ class SelectionRecord:
         tasks: of the chosen drive. ranking: lightest first. rejections: by motor.
         co_design: None if it was not asked for.
         prices: of the limits, before any co-design; empty where an older version wrote the file.
+        kept: for what is drawn; None likewise, or without maneuvers.
     """
 
     bus_voltage: float
@@ -211,6 +273,7 @@ class SelectionRecord:
     rejections: tuple[RejectionRecord, ...]
     co_design: CoDesignRecord | None
     prices: tuple[PriceRecord, ...] = ()
+    kept: ReserveRecord | None = None
 
 
 SCHEMA_VERSION = 2
@@ -322,6 +385,7 @@ class MountingRecord:
 class OcsRecord:
     """The device. `mass_total` is of both modules; `total_...` of robot and braked device.
 
+    `center_of_mass` is of the device alone, in B; None in files of older versions.
     `fitting` is what is left to do by hand: see `export.fitting`. `layout` is how the axes lie: of
     a pair at plus and minus the incidence.
     """
@@ -342,6 +406,9 @@ class OcsRecord:
     motor: Drive
     carrier: Carrier = NO_CARRIER
     plate: CarrierPlate | None = None
+    guard_wall: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
+    center_of_mass: Vector | None = None
     warnings: tuple[str, ...] = ()
     fitting: tuple[str, ...] = ()
     mounting: MountingRecord | None = None
@@ -406,6 +473,36 @@ class ValidationRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ReliabilityRecord:
+    """What flights of robots as they might be built say of the reliability that was asked for.
+
+    Attributes:
+        asked: share of robots that do all of their maneuvers.
+        worse: share that the test tells it from: of a device that must not be certified.
+        verdict: of the sequential test.
+        samples: robots that it took. whole: of them, those that do all maneuvers.
+        whole_interval: of their share, exact, at 95 %.
+        passed, interval: the same of each scenario alone.
+        seed, first: of the samples, and the index of the first.
+        round: number of the round, 1 and more; 0 where no design could learn from it.
+        rounds: what was learnt in the rounds before, one sentence each.
+    """
+
+    asked: float
+    worse: float
+    verdict: Literal["certified", "falls short", "undecided"]
+    samples: int
+    whole: int
+    whole_interval: tuple[float, float]
+    passed: Mapping[str, int]
+    interval: Mapping[str, tuple[float, float]]
+    seed: int
+    first: int = 0
+    round: int = 0
+    rounds: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class ControlRecord:
     """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s].
 
@@ -435,6 +532,32 @@ class Alternative:
     mass_total: float | None
     motor: str
     note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Owed:
+    """The maneuver that the mass is owed to.
+
+    Attributes:
+        maneuver: its name; empty: no single one, without any of them it weighs the same.
+        mass_without: of both modules that do all else [kg]; None: nothing else is asked.
+    """
+
+    maneuver: str
+    mass_without: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lighter:
+    """What would have to give for a lighter device.
+
+    Attributes:
+        by: mass that both modules are to lose [kg].
+        changes: each of which does it; empty: none that was looked for.
+    """
+
+    by: float
+    changes: tuple[Alternative, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -468,8 +591,11 @@ class OcsDesign:
     margins: tuple[MarginRecord, ...]
     supply: Supply | None = None
     alternatives: tuple[Alternative, ...] = ()
+    owed: Owed | None = None
+    lighter: Lighter | None = None
     buildable: Buildable = field(default_factory=lambda: Buildable(yes=None))
     validation: tuple[ValidationRecord, ...]
+    reliability: ReliabilityRecord | None = None
     control: ControlRecord | None = None
     reality: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, str]
@@ -494,7 +620,10 @@ def read_design(path: Path) -> OcsDesign:
             f"{path}: {error.strerror}", hint="give the path of a design.json"
         ) from error
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise OcsError(f"{path}: not a design.json: {error}") from error
+        hint = "give a design.json, which `ocs-design size` writes"
+        if content.lstrip().startswith(b"<"):
+            raise OcsError(f"{path}: is a robot or other XML, not a design", hint=hint) from error
+        raise OcsError(f"{path}: not a design.json: {error}", hint=hint) from error
     if not OLDEST_VERSION <= version <= SCHEMA_VERSION:
         raise OcsError(
             f"{path}: schema_version {version}, but this version reads {OLDEST_VERSION} to "

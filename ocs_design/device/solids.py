@@ -20,15 +20,17 @@ _UP = np.array([0.0, 0.0, 1.0])
 
 def motor_mount(device: Device) -> MotorMount:
     """How the motor is held, as far as that is known and fits the housing's floor."""
-    mount = mount_of(device.motor, device.motor.gear_room).around(device.flywheel.height)
+    motor = device.motor
+    mount = mount_of(motor, motor.gear_room, device.foot_plate).around(device.flywheel.height)
     floor = housing_outer_radius(device.flywheel.outer_radius) - 2.0 * WALL
-    return mount if mount.holes.reach <= floor else MotorMount()
+    return mount if mount.holes.reach <= floor else MotorMount(foot_plate=device.foot_plate)
 
 
 def foot_of(device: Device) -> Foot:
     """Foot of one module, around the housing that it carries."""
     wheel, mount = device.flywheel, motor_mount(device).holes
-    return Foot(Housing(wheel.outer_radius, wheel.height, mount))
+    housing = Housing(wheel.outer_radius, wheel.height, mount, guard_wall=device.guard_wall)
+    return Foot(housing, device.foot_plate)
 
 
 def drive_solids(device: Device) -> tuple[DriveSolid, ...]:

@@ -8,12 +8,17 @@ from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
+from ocs_design.device.joints import DAMPING, resonances_of
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import printed_foot, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
-from ocs_design.parts.carrier_plate import SHOCK
-from ocs_design.parts.foot import TRUNK_SCREW, Foot, stem_shock
+from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
+from ocs_design.parts.carrier_plate import MODULUS as PLATE_MODULUS
+from ocs_design.parts.carrier_plate import YIELD_STRENGTH
+from ocs_design.parts.foot import TRUNK_SCREW, Foot, foot_part, stem_shock
+from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
+from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH_ACROSS
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 
 _UNDRILLED = "drill floor and plate for it"
@@ -132,15 +137,30 @@ def _apart(device: Device, foot: Foot) -> Iterator[str]:
 
 
 def _shaken(device: Device, foot: Foot) -> Iterator[str]:
-    """Landings that the feet do not bear."""
-    module = device.flywheel.mass + device.carrier.mass
-    bears = stem_shock(foot, module)
+    """Landings that the feet do not bear, and speeds at which they or the plate shake."""
+    module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
+    bears, own = stem_shock(foot, module), foot_part(foot).mass_properties().mass
     if bears < SHOCK:
-        yield (
-            f"printed of PETG the feet bear {bears / STANDARD_GRAVITY:.0f} g of {module:.2g} kg "
-            "along the wheel's axis: print them of a stronger material, such as PA-CF, where "
-            "landings are harder"
+        stronger, heavier = YIELD_STRENGTH / STRENGTH_ACROSS, own * (PLATE_DENSITY / DENSITY - 1.0)
+        sway = "".join(
+            f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
         )
+        yield (
+            f"printed of PETG the feet bear {bears / STANDARD_GRAVITY:.2g} g of {module:.2g} kg "
+            f"along the wheel's axis, across their layers, and not {SHOCK / STANDARD_GRAVITY:.0f}"
+            f"{sway}: where landings are harder, mill them of 6061-T6 to the same file, "
+            f"{stronger:.0f} times as strong, "
+            f"{sqrt(PLATE_MODULUS / MODULUS):.0f} times as high a frequency and "
+            f"{1e3 * heavier:.0f} g heavier each"
+        )
+    for mode in modes:
+        if mode.acceleration > STANDARD_GRAVITY:
+            yield (
+                f"let no wheel stay at {60.0 * mode.frequency:,.0f} rpm: there the {mode.name}'s "
+                f"first mode shakes the module with "
+                f"{mode.acceleration / STANDARD_GRAVITY:.1f} times its weight "
+                f"({mode.frequency:.0f} Hz, unbalance of grade G {GRADE:g}, damping {DAMPING:.0%})"
+            )
 
 
 def _overlap(parts: str, beyond: float) -> str:

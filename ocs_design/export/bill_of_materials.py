@@ -6,19 +6,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL
+from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
 from ocs_design.device.joints import joints_of
 from ocs_design.device.records import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.device_parts import printed_foot, printed_parts
+from ocs_design.export.device_parts import foot_screws, printed_foot, printed_parts
 from ocs_design.export.electrics import electrics
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import SLEEVE_WALL, CarrierPlate, plate_part, sleeve_part
-from ocs_design.parts.foot import TRUNK_SCREWS
-from ocs_design.parts.housing import LID_SCREWS
+from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 
 COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
@@ -73,7 +72,9 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
     motor, count = device.motor, len(device.modules)
     rows = list(_wheel(device.flywheel, count))
     if motor.mass > 0.0:
-        supply = () if motor.bus_voltage is None else (f"on {motor.bus_voltage:g} V",)
+        supply = [] if motor.bus_voltage is None else [f"on {motor.bus_voltage:g} V"]
+        if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
+            supply.append(f"rated for {motor.rated_voltage:g} V: ask its maker before you buy")
         source = "; ".join([*supply, motor.source, *drive_notes(device)])
         rows.append(BillRow(f"motor {motor.name}", count, "", "", motor.mass, source))
     if motor.gear != DIRECT.name:
@@ -96,20 +97,18 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
             size = f"{_mm(2.0 * mount.cage.reach)} x {_mm(mount.cage.length)}"
             made = "3-D print, holds the motor by its back"
             rows.append(BillRow("cage", count, "PETG", size, caged[0], made))
+        if device.guard_wall:
+            ring = guard_ring(foot.housing)
+            inside = foot.housing.inner_radius - device.guard_wall
+            tall = device.flywheel.height + 2.0 * CLEARANCE
+            size = f"ring {_mm(2.0 * inside)} inside x {_mm(device.guard_wall)} wall x {_mm(tall)}"
+            made = "bent and welded or turned from tube, bonded into the drum; holds a burst rim"
+            rows.append(BillRow("guard ring", count, "mild steel (S235)", size, ring.mass(), made))
         # The screws of wheel and motor only where the catalogue has their threads.
         screwed = (each.fastening for each in mount.screwed)
         counted = f"mass: steel of {STEEL:g} kg/m^3 of its ISO 4762 dimensions"
-        rows += [
-            BillRow(
-                part=f"screw {each.screw.designation(each.length)}",
-                quantity=count * each.count,
-                material="steel",
-                stock="",
-                mass=each.screw.mass(each.length),
-                source=f"{each.purpose}; {counted}",
-            )
-            for each in (*screwed, LID_SCREWS, TRUNK_SCREWS)
-        ]
+        held = (*screwed, LID_SCREWS, foot_screws(device))
+        rows += [_screws(each, count, f"{each.purpose}; {counted}") for each in held]
     plate = () if device.plate is None else _plate_rows(device.plate)
     return [*rows, *plate, *_electrics(device, margins), *_used_up(device)]
 
@@ -118,7 +117,8 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
     """The plate under the feet, its sleeves and the screws that hold it on the trunk."""
     size = f"{_mm(2.0 * plate.radius)} x {_mm(2.0 * plate.half_length)} x {_mm(plate.thickness)}"
     made = (
-        f"milled or cut by water jet to plate.dxf, neck {_mm(2.0 * plate.neck)}; "
+        f"milled or cut by water jet to plate.dxf (`export --formats dxf` writes it), "
+        f"neck {_mm(2.0 * plate.neck)}; "
         f"{len(plate.feet)} threads {plate.foot_thread} for the feet"
     )
     yield BillRow("plate under the feet", 1, plate.material, size, plate_part(plate).mass(), made)
@@ -127,15 +127,14 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
         made = f"cut to {_mm(length)}, between plate and trunk"
         count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
         yield BillRow("sleeve under the plate", count, plate.material, stock, mass, made)
-    for length in sorted(set(plate.screw_lengths)):
-        yield BillRow(
-            part=f"screw {plate.screw.designation(length)}",
-            quantity=plate.screw_lengths.count(length),
-            material="steel",
-            stock="",
-            mass=plate.screw.mass(length),
-            source="plate on trunk; longer if its thread begins deeper",
-        )
+    for held in plate.fastenings:
+        yield _screws(held, 1, held.purpose)
+
+
+def _screws(held: Fastening, modules: int, source: str) -> BillRow:
+    """Equal screws of that many modules."""
+    name = f"screw {held.screw.designation(held.length)}"
+    return BillRow(name, modules * held.count, "steel", "", held.screw.mass(held.length), source)
 
 
 def _electrics(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:

@@ -1,13 +1,15 @@
 """Parts of a device as they are manufactured: the wheel's pieces, and what is printed around it."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
+from ocs_design.actuation.fasteners import Fastening
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.solids import motor_mount
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import plate_part
-from ocs_design.parts.foot import Foot, foot_part
-from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.foot import TRUNK_SCREWS, Foot, foot_part
+from ocs_design.parts.housing import Housing, guard_ring, housing_parts
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import LID_SCREW
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
@@ -68,7 +70,20 @@ def plate_pieces(device: Device) -> Mapping[str, Part]:
 def printed_foot(device: Device) -> Foot:
     """Foot of one module, with the housing that it carries."""
     wheel, mount = device.flywheel, motor_mount(device).holes
-    return Foot(Housing(wheel.outer_radius, wheel.height, mount, LID_SCREW))
+    housing = Housing(wheel.outer_radius, wheel.height, mount, LID_SCREW, device.guard_wall)
+    return Foot(housing, device.foot_plate)
+
+
+def metal_pieces(device: Device) -> Mapping[str, Part]:
+    """Plate under the feet and guard ring by the names of their files, where there are any."""
+    if not device.guard_wall:
+        return plate_pieces(device)
+    return {**plate_pieces(device), "guard_ring": guard_ring(printed_foot(device).housing)}
+
+
+def foot_screws(device: Device) -> Fastening:
+    """Screws of each foot, into the plate where there is one, else into the trunk."""
+    return TRUNK_SCREWS if device.plate is None else replace(TRUNK_SCREWS, purpose="foot on plate")
 
 
 def printed_parts(device: Device) -> tuple[Part, ...]:

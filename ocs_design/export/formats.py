@@ -17,6 +17,7 @@ from ocs_design.common.errors import MissingToolError, UsageError
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
     from ocs_design.device.records import MarginRecord, OcsDesign
+    from ocs_design.export.assembly.content import Assembly
     from ocs_design.export.robot_model import RobotModel
     from ocs_design.robot.robot import Mount, Robot
 
@@ -74,6 +75,13 @@ class Subject:
             margins=design.margins,
             fitting=design.ocs.fitting,
         )
+
+    @cached_property
+    def assembly(self) -> "Assembly":
+        """How it is built, for paper and for the report."""
+        from ocs_design.export.assembly.content import Assembly  # noqa: PLC0415  its booklet's
+
+        return Assembly(self.name, self.device, self.margins, self.fitting)
 
     @cached_property
     def model(self) -> "RobotModel":

@@ -49,6 +49,10 @@ class Mesh:
         """Corners of the triangles [m], shape (m, 3, 3)."""
         return np.asarray(self.vertices[self.triangles])
 
+    def moved(self, offset: FloatArray) -> "Mesh":
+        """The mesh elsewhere."""
+        return Mesh(self.vertices + offset, self.triangles)
+
 
 def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
     """Part as one closed mesh.

@@ -34,7 +34,7 @@ from OCP.TopoDS import TopoDS_Compound, TopoDS_Edge, TopoDS_Face, TopoDS_Shape
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
-from ocs_design.export.device_parts import plate_pieces, printed_parts, wheel_pieces
+from ocs_design.export.device_parts import metal_pieces, printed_parts, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.part import Part
@@ -64,7 +64,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     """
     device = subject.device
     printed = {f"housing_{part.name}": part for part in printed_parts(device)}
-    metal = {**wheel_pieces(device.flywheel), **plate_pieces(device)}
+    metal = {**wheel_pieces(device.flywheel), **metal_pieces(device)}
     for name, part in {**metal, **printed}.items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
     (folder / "module.step").write_bytes(module_bytes(device))

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.device.device import Flywheel
-from ocs_design.export.device_parts import plate_pieces, wheel_pieces
+from ocs_design.export.device_parts import metal_pieces, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh, merged, part_mesh
 
@@ -22,10 +22,10 @@ _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write `flywheel.stl`, or one file for each of its pieces, and `plate.stl`, in mm."""
+    """Write the wheel, or each of its pieces, plate and guard ring, in mm."""
     for name, mesh in wheel_meshes(subject.device.flywheel).items():
         (folder / f"{name}.stl").write_bytes(stl_bytes(mesh, name, units_per_metre=MILLIMETRES))
-    for name, part in plate_pieces(subject.device).items():
+    for name, part in metal_pieces(subject.device).items():
         content = stl_bytes(part_mesh(part), name, units_per_metre=MILLIMETRES)
         (folder / f"{name}.stl").write_bytes(content)
     return ()

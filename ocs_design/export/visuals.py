@@ -19,8 +19,8 @@ from ocs_design.export.module_bodies import carrier_placement
 from ocs_design.export.stl import METRES, stl_bytes, wheel_stl
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.carrier_plate import CarrierPlate, plate_part, sleeve_part
-from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
-from ocs_design.parts.housing import housing_parts
+from ocs_design.parts.foot import BASE_THICKNESS, Foot, foot_part
+from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
 from ocs_design.robot.tree import Placement, ShapeKind
 
@@ -137,7 +137,11 @@ def _meshes(foot: Foot, cage: Cage | None) -> Mapping[Path, Mesh]:
     parts = {HOUSING_MESH: housing, FOOT_MESH: foot_part(foot)}
     if cage is not None:
         parts[CAGE_MESH] = cage_part(cage)
-    return {path: part_mesh(part, _SECTIONS) for path, part in parts.items()}
+    meshes = {path: part_mesh(part, _SECTIONS) for path, part in parts.items()}
+    if foot.housing.guard_wall:
+        ring = part_mesh(guard_ring(foot.housing), _SECTIONS)
+        meshes[HOUSING_MESH] = merged([meshes[HOUSING_MESH], ring])
+    return meshes
 
 
 def carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
@@ -159,7 +163,7 @@ def plain_carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
     if device.carrier.mass == 0.0:
         return ()
     foot, turn = printed_foot(device), carrier_placement(module)
-    half_base, half_plate = BASE_THICKNESS / 2.0, PLATE_THICKNESS / 2.0
+    half_base, half_plate = BASE_THICKNESS / 2.0, device.foot_plate / 2.0
     half_height, behind = (foot.wheel_height - BASE_THICKNESS) / 2.0, half_plate - foot.back
     base = turn @ foot.placement @ _shifted(0.0, 0.0, half_base)
     plate, top = turn @ _shifted(0.0, half_height, behind), turn @ _shifted(0.0, 0.0, behind)

@@ -23,8 +23,8 @@ from ocs_design.monte_carlo.uncertainty import NAMES
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
 
-BLOCK = 64
-"""Samples of a block: enough for the processors, few enough for the memory."""
+BLOCK = 32
+"""Samples of a block: enough for the processors, few enough to stop soon after enough is known."""
 
 
 @dataclass(frozen=True)
@@ -40,10 +40,10 @@ class Block:
         return range(self.start, self.stop)
 
 
-def blocks_of(samples: int, size: int = BLOCK) -> tuple[Block, ...]:
-    """All samples in blocks; the last may be smaller."""
-    starts = range(0, samples, size)
-    return tuple(Block(start, min(start + size, samples)) for start in starts)
+def blocks_of(samples: int, size: int = BLOCK, *, first: int = 0) -> tuple[Block, ...]:
+    """So many samples from index `first` on in blocks; the last may be smaller."""
+    stop = first + samples
+    return tuple(Block(start, min(start + size, stop)) for start in range(first, stop, size))
 
 
 METRICS = tuple(field.name for field in fields(Metrics))
@@ -73,6 +73,11 @@ class Outcomes(Table):
     def passed(self) -> NDArray[np.bool_]:
         """Shape (n, s)."""
         return np.asarray(self.codes == 0)
+
+    @property
+    def all_passed(self) -> NDArray[np.bool_]:
+        """Whether a sample passes all of its scenarios, shape (n,)."""
+        return np.asarray(self.passed.all(axis=1))
 
     def metric(self, name: str) -> FloatArray:
         """One figure of every flight, shape (n, s)."""

@@ -6,9 +6,10 @@ difference. A worker that is lost costs the blocks that it was at, which others 
 
 import pickle
 from abc import ABC, abstractmethod
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
 from importlib import import_module
+from typing import TypeAlias
 
 from ocs_design.common.errors import MissingToolError, OcsError
 from ocs_design.monte_carlo.campaign import Campaign, fly_samples
@@ -17,6 +18,14 @@ from ocs_design.monte_carlo.summary import shares
 from ocs_design.simulation.engine import Progress, scaled
 
 Arrivals = Generator[tuple[Block, Outcomes], None, None]
+
+Enough: TypeAlias = Callable[[Outcomes], bool]
+"""Rule that stops a campaign: whether what was flown so far will do."""
+
+
+def narrow(width: float) -> Enough:
+    """Stop as soon as the interval of each scenario is no wider than this."""
+    return lambda outcomes: all(share.width <= width for share in shares(outcomes))
 
 
 class Workers(ABC):
@@ -53,10 +62,10 @@ def run_campaign(
     *,
     workers: Workers,
     storage: Storage | None = None,
-    until_width: float | None = None,
+    enough: Enough | None = None,
     progress: Progress | None = None,
 ) -> Outcomes:
-    """Fly blocks until all are flown, or the intervals are narrow enough.
+    """Fly blocks until all are flown, or enough is known.
 
     The rule is asked after each block in the order of the samples, so that what is counted does not
     depend on who was faster.
@@ -66,24 +75,24 @@ def run_campaign(
         blocks: of samples, in order.
         workers: who fly them.
         storage: where blocks are kept as they come, and found if they have been flown already.
-        until_width: stop as soon as the interval of each scenario is no wider than this.
+        enough: whether the samples flown so far will do; None: all are flown.
         progress: told the part of the work that is done, 0..1.
     """
     flown = {} if storage is None else dict(storage.found(blocks))
     missing = [block for block in blocks if block not in flown]
     tell = scaled(progress or _ignore, len(flown) / len(blocks), 1.0)
-    outcomes = _enough(blocks, flown, until_width)
+    outcomes = _counted(blocks, flown, enough)
     with closing(workers.fly(campaign, missing, tell)) as arrivals:
         while outcomes is None:
             block, flown[block] = next(arrivals)
             if storage is not None:
                 storage.keep(block, flown[block])
-            outcomes = _enough(blocks, flown, until_width)
+            outcomes = _counted(blocks, flown, enough)
     return outcomes
 
 
-def _enough(
-    blocks: Sequence[Block], flown: Mapping[Block, Outcomes], until_width: float | None
+def _counted(
+    blocks: Sequence[Block], flown: Mapping[Block, Outcomes], enough: Enough | None
 ) -> Outcomes | None:
     """What is counted; None as long as more must be flown."""
     counted: list[Outcomes] = []
@@ -91,9 +100,9 @@ def _enough(
         if block not in flown:
             return None
         counted.append(flown[block])
-        if until_width is not None:
+        if enough is not None:
             so_far = Outcomes.joined(counted)
-            if all(share.width <= until_width for share in shares(so_far)):
+            if enough(so_far):
                 return so_far
     return Outcomes.joined(counted)
 

@@ -1,18 +1,23 @@
 """What many samples say together: shares with their intervals, causes of failures, advice."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from math import cos, sin
+import copy
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import cos, sin, sqrt
+from types import MappingProxyType
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.records import ValidationRecord
+from ocs_design.device.records import ReliabilityRecord, ValidationRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
 from ocs_design.monte_carlo.uncertainty import NAMES, Sample
-from ocs_design.requirement.maneuver import Flip, Maneuver
+from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.verdict import LANDING_TOLERANCE, Fault
+from ocs_design.simulation.world import World
 
 CONFIDENCE = 0.95
 
@@ -58,7 +63,7 @@ def share(passed: int, flown: int, confidence: float = CONFIDENCE) -> Share:
 
 
 SIGNIFICANT = 4.0
-"""Standard deviations of a rank correlation of independent numbers; 56 are looked at at a time."""
+"""Standard deviations of a rank correlation of independent numbers; 60 are looked at at a time."""
 
 MOST_CAUSES = 4
 
@@ -169,6 +174,73 @@ def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
     )
 
 
+TRIED = 8
+"""Level landings that fall and are flown again, of each scenario."""
+
+
+def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
+    """What keeps up the robots that land level and then fall: the same flights, changed, tell.
+
+    Args:
+        campaign: that was flown. outcomes: of it. number: of the scenario.
+
+    Returns:
+        One sentence; empty if none falls.
+    """
+    falls = outcomes.codes[:, number] == 1 + FAULTS.index(Fault.STANDING)
+    if not falls.any():
+        return ""
+    fell = outcomes.index[falls]
+    worlds = [campaign.worlds(campaign.sample(index))[number] for index in fell[:TRIED].tolist()]
+    stand = {}
+    for words, change in REMEDIES.items():
+        changed = [change(world) for world in worlds]
+        recording = simulate(changed, hold=campaign.hold)
+        found = (measure(recording, index, world) for index, world in enumerate(changed))
+        stand[words] = [campaign.judged(metrics, number).passed for metrics in found].count(True)
+    best = sorted(stand, key=lambda words: -stand[words])
+    told = ", ".join(f"{stand[words]} with {words}" for words in best)
+    roll, pitch = (
+        np.abs(outcomes.metric(f"final_{axis}")[falls, number]) for axis in ("roll", "pitch")
+    )
+    sideways = 2 * np.count_nonzero(roll > pitch) > len(fell)
+    way, stance = ("sideways", "wider") if sideways else ("lengthwise", "longer")
+    of = "these" if len(worlds) == len(fell) else f"{len(worlds)} of these"
+    return (
+        f"{len(fell)} land level and then fall {way}, where a {stance} stance would help; of "
+        f"{of}, flown again, {told} stand"
+    )
+
+
+def _with_legs(world: World, factor: float) -> World:
+    """The flight with leg drives so many times as stiff, damped alike."""
+    model = copy.copy(world.model)
+    drives = np.setdiff1d(np.arange(model.nu), world.addresses.motors)
+    model.actuator_gainprm[drives, 0] *= factor
+    model.actuator_biasprm[drives, 1] *= factor
+    model.actuator_biasprm[drives, 2] *= sqrt(factor)
+    return replace(world, model=model, support=world.support / factor)
+
+
+def _with_law(world: World, **changes: FloatArray) -> World:
+    """The flight with other gains while the robot stands."""
+    return replace(world, law=replace(world.law, **changes))
+
+
+REMEDIES: Mapping[str, Callable[[World], World]] = MappingProxyType(
+    {
+        "legs twice as stiff": lambda world: _with_legs(world, 2.0),
+        "wheels that damp twice as hard": lambda world: _with_law(
+            world, standing_damping=2.0 * world.law.damping
+        ),
+        "wheels that also hold the attitude": lambda world: _with_law(
+            world, standing_stiffness=world.law.stiffness
+        ),
+    }
+)
+"""Changes that may keep a robot on its feet."""
+
+
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 BINS = 12
 WORST = 3
@@ -199,6 +271,8 @@ class ScenarioSummary:
         peak_wheel_speed, peak_wheel_torque: in flight [rad/s], [N m].
         causes: what bad outcomes go with. worst: samples, the worst first.
         advice: how to mend what fails, where that is known; one sentence or empty.
+        level: how many touch down level; None: there is no touchdown.
+        stands: how many are upright at the end, whatever their legs bear; None: there are none.
     """
 
     scenario: str
@@ -210,6 +284,8 @@ class ScenarioSummary:
     causes: tuple[Cause, ...]
     worst: tuple[int, ...]
     advice: str = ""
+    level: int | None = None
+    stands: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,11 +293,12 @@ class MonteCarloRecord:
     """A campaign.
 
     Attributes:
-        seed: of all samples. samples: that were flown, from 0 on. asked: for at most.
+        seed: of all samples. samples: that were flown. asked: for at most.
         confidence: of the intervals.
         reality: the distribution of each key of `[reality]`, SI.
         success: how often one robot passes all scenarios.
         scenarios: one by one.
+        certificate: where one was asked for, see `certificate`.
     """
 
     seed: int
@@ -231,11 +308,12 @@ class MonteCarloRecord:
     reality: Mapping[str, str]
     success: Share
     scenarios: tuple[ScenarioSummary, ...]
+    certificate: ReliabilityRecord | None = None
 
 
 def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarloRecord:
     """The record of these outcomes."""
-    flown, whole = len(outcomes.index), outcomes.passed.all(axis=1)
+    flown, whole = len(outcomes.index), outcomes.all_passed
     scenarios = []
     for number, (flight, success) in enumerate(
         zip(campaign.flights, shares(outcomes), strict=True)
@@ -256,7 +334,14 @@ def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarlo
                 peak_wheel_torque=_spread(outcomes.metric("peak_wheel_torque")[:, number]),
                 causes=causes(outcomes, ranking),
                 worst=tuple(outcomes.index[ranking[::-1][:WORST]].tolist()),
-                advice=advice(outcomes, maneuver, number),
+                advice=advice(outcomes, maneuver, number)
+                or standing_advice(campaign, outcomes, number),
+                level=None
+                if isinstance(maneuver, Shove)
+                else int(np.isin(codes, [0, 1 + FAULTS.index(Fault.STANDING)]).sum()),
+                stands=None
+                if flight.can_stand is None
+                else int((outcomes.metric("upright_at_end")[:, number] == 1.0).sum()),
             )
         )
     return MonteCarloRecord(
@@ -319,5 +404,7 @@ class Validated:
 
     @property
     def exit_code(self) -> int:
-        """0, or 1 if a scenario does not pass with the device."""
-        return 1 if any(run.ocs and run.passed is not True for run in self.validation) else 0
+        """0, or 1 if a scenario does not pass with the device, or what was asked is not met."""
+        failed = any(run.ocs and run.passed is not True for run in self.validation)
+        certified = None if self.monte_carlo is None else self.monte_carlo.certificate
+        return 1 if failed or (certified is not None and certified.verdict == "falls short") else 0

@@ -2,14 +2,12 @@
 
 import copy
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
-from math import inf, isfinite
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import mujoco
 import numpy as np
 
-from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import SIDES, Device
 from ocs_design.device.naming import PREFIX
@@ -17,14 +15,16 @@ from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.uncertainty import (
     Distribution,
     UncertaintySection,
-    Uniform,
-    default_uncertainty,
+    complete_uncertainty,
+    spreads,
 )
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
+from ocs_design.simulation.launch import Push
 from ocs_design.simulation.scene import FLYWHEELS
+from ocs_design.simulation.schedule import SURE
 from ocs_design.simulation.world import World
 
 PARTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -38,16 +38,14 @@ PARTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "viscous_friction": SIDES,
         "attitude_bias": ("roll", "pitch"),
         "gyro_bias": ("x", "y", "z"),
+        "takeoff_rate": ("roll", "pitch"),
     }
 )
 """Keys of `[reality]` that are drawn more than once."""
 
-KEYS = tuple(field.name for field in fields(UncertaintySection))
+KEYS = tuple(spreads())
 NAMES = tuple(f"{key}.{part}" if part else key for key in KEYS for part in PARTS.get(key, ("",)))
 """Every number that is drawn for a sample, in order."""
-
-FRICTION_SHARE = 0.01
-"""No-load torque over the torque limit of a motor whose maker does not state its current."""
 
 
 @dataclass(frozen=True)
@@ -59,13 +57,8 @@ class Uncertainty:
     @classmethod
     def of(cls, stated: UncertaintySection, robot: Robot, device: Device) -> "Uncertainty":
         """What is stated, and the defaults in place of the rest."""
-        coulomb, viscous = _friction(device.motor)
-        default = replace(
-            default_uncertainty(standing_height(robot)),
-            coulomb_friction=coulomb,
-            viscous_friction=viscous,
-        )
-        return cls({key: getattr(stated, key) or getattr(default, key) for key in KEYS})
+        complete = complete_uncertainty(stated, standing_height(robot), device.motor)
+        return cls({key: getattr(complete, key) for key in KEYS})
 
     @property
     def by_name(self) -> Mapping[str, Distribution]:
@@ -80,25 +73,6 @@ class Uncertainty:
 def key_of(name: str) -> str:
     """The key of `[reality]` that one of `NAMES` is drawn from."""
     return name.partition(".")[0]
-
-
-def no_load_torque(motor: Drive) -> float:
-    """What a motor gives to turn freely, at its wheel [N m]; 0 where nothing is known of it."""
-    if motor.no_load_current is not None and motor.torque_constant is not None:
-        return motor.gear_ratio * motor.torque_constant * motor.no_load_current
-    return FRICTION_SHARE * (motor.torque_limit or 0.0)
-
-
-def _friction(motor: Drive) -> tuple[Distribution, Distribution]:
-    """Coulomb and viscous: half of the no-load torque each, at the speed that it is stated for.
-
-    How it divides is not in any data sheet; half to one and a half times that is drawn of each.
-    """
-    half = 0.5 * no_load_torque(motor)
-    speed = motor.no_load_speed if isfinite(motor.no_load_speed) else inf
-    if motor.rated_voltage and motor.bus_voltage:
-        speed *= motor.rated_voltage / motor.bus_voltage
-    return Uniform(0.5 * half, 1.5 * half), Uniform(0.5 * half / speed, 1.5 * half / speed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,11 +120,14 @@ _PLACES = {
 }
 
 
+PUSH_OFF_END = 5e-3
+"""Time in which a sample's rate at take-off comes about, once it is known to fly [s]."""
+
 _TURNS_WITH_INCIDENCE = np.array([-1.0, 1.0])
 """About z of B: a larger incidence turns the left axis clockwise as seen from above."""
 
 
-def built(world: World, sample: Sample, flight: int, air: AirDrag) -> World:
+def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float) -> World:
     """Flight of one robot as it was built.
 
     Args:
@@ -158,6 +135,7 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag) -> World:
         sample: see `Sample`.
         flight: its number, for the noise.
         air: drag of a wheel, the same for all.
+        period: of the wheel law [s].
     """
     model = copy.copy(world.model)
     # The robot's masses; the device is made and weighed with more care.
@@ -199,7 +177,11 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag) -> World:
         air_factor=sample.only("air_drag"),
         delay=round(sample.only("torque_delay") / world.model.opt.timestep),
     )
-    return replace(world, model=model, imperfections=imperfections)
+    pushes = world.pushes
+    if world.takes_off:
+        impulse = world.body.actuated_inertia[:, :2] @ sample.of("takeoff_rate")
+        pushes = (*pushes, Push(impulse / PUSH_OFF_END, max(SURE, period), PUSH_OFF_END))
+    return replace(world, model=model, imperfections=imperfections, pushes=pushes)
 
 
 def _alter_trunk(model: mujoco.MjModel, trunk: int, base: FloatArray, sample: Sample) -> None:

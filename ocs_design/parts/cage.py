@@ -16,7 +16,7 @@ from math import pi
 from typing import Generic
 
 from ocs_design.actuation.motor import BoltCircle
-from ocs_design.parts.foot import PLATE_THICKNESS, plate_back
+from ocs_design.parts.foot import plate_back
 from ocs_design.parts.housing import half_height
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.part import Part
@@ -24,6 +24,7 @@ from ocs_design.parts.printed import (
     CLEARANCE,
     DENSITY,
     LID_SCREW,
+    PLATE_THICKNESS,
     UPRIGHT,
     WALL,
     MountHoles,
@@ -57,15 +58,17 @@ class Posts(Generic[Real]):
         area: of all four less the holes in their ears [m^2]; 0: there is no cage.
         gyration: radius of gyration of that area about the axis [m].
         seat: from the wheel's middle to the motor's back, where the posts begin [m].
+        foot_plate: thickness of the foot's plate, where they end [m].
     """
 
     area: Real | float = 0.0
     gyration: Real | float = 0.0
     seat: Real | float = 0.0
+    foot_plate: Real | float = PLATE_THICKNESS
 
     def length(self, height: Real) -> Real:
         """Length up to the foot's plate, with a rim of that height [m]."""
-        return self.seat - plate_back(half_height(height))
+        return self.seat - plate_back(half_height(height), self.foot_plate)
 
     def mass(self, height: Real) -> Real:
         """Mass [kg]."""
@@ -96,6 +99,7 @@ class Cage:
         holes: in its floor, for the motor's screws and for what stands out of its back.
         front: from the wheel's middle to the motor's turning front [m].
         rim_height: of the wheel that its motor turns [m].
+        foot_plate: thickness of the foot's plate [m].
     """
 
     motor_radius: float
@@ -103,6 +107,7 @@ class Cage:
     holes: MountHoles
     front: float
     rim_height: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
 
     @property
     def bore(self) -> float:
@@ -132,7 +137,7 @@ class Cage:
     @property
     def rim_height_max(self) -> float:
         """Height of a rim that leaves the shortest posts [m]."""
-        room = self.seat - PLATE_THICKNESS - LEAST_POST - half_height(0.0)
+        room = self.seat - self.foot_plate - LEAST_POST - half_height(0.0)
         return 2.0 * room
 
     @property
@@ -159,7 +164,8 @@ class Cage:
         """Its posts, for a rim of any height."""
         unit = _posts(self, 0.0, 1.0)
         whole = Part("posts", 1.0, (unit[0],), (unit[1],)).moments()
-        return Posts(whole.mass, ((whole.xx + whole.yy) / whole.mass) ** 0.5, self.seat)
+        gyration = ((whole.xx + whole.yy) / whole.mass) ** 0.5
+        return Posts(whole.mass, gyration, self.seat, self.foot_plate)
 
     def floor_moments(self) -> MassMoments[float]:
         """Moments of its floor in the module's frame."""

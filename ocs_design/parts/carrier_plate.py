@@ -13,11 +13,12 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Screw, screw
+from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.moments import MassMoments
 from ocs_design.parts.outline import Outline
 from ocs_design.parts.part import Part
+from ocs_design.parts.printed import SHOCK
 from ocs_design.parts.shapes import Disc, flat
 from ocs_design.parts.solids import Prism, hollow_cylinder
 from ocs_design.robot.mass import MassProperties, combine
@@ -26,11 +27,11 @@ MATERIAL, DENSITY, YIELD_STRENGTH = "aluminium-6061-t6", 2710.0, 255e6
 """Name in the catalogue of materials, density [kg/m^3], yield strength [Pa]: Hibbeler, Mechanics
 of Materials, Appendix C."""
 
+MODULUS = 69e9
+"""Of 6061 [Pa], as in the catalogue of materials."""
+
 STOCK = (3.0e-3, 4.0e-3, 5.0e-3, 6.0e-3, 8.0e-3, 10.0e-3, 12.0e-3, 15.0e-3, 20.0e-3)
 """Thicknesses of rolled plate, EN 485-4 sizes that are kept in stock [m]."""
-
-SHOCK = 20.0 * 9.80665
-"""Acceleration that the plate bears, as the foot's own plate does: 20 g [m/s^2]."""
 
 SAFETY = 2.0
 """Least ratio of yield strength to bending stress."""
@@ -120,7 +121,7 @@ class DogBone:
 
     @property
     def meets(self) -> tuple[float, float]:
-        """Where a rounding meets its disc, x and y [m]."""
+        """Point where a rounding meets its disc, x and y [m]."""
         share = self.radius / (self.radius + self.fillet)
         out = self.neck + self.fillet
         return share * out, self.across - share * (self.across - self.straight)
@@ -188,17 +189,17 @@ class _Circle:
 
     @property
     def one(self) -> float:
-        """Of q: (s q + r^2 asin(s/r)) / 2 [m^2]."""
+        """Integral of q: (s q + r^2 asin(s/r)) / 2 [m^2]."""
         return self._between(lambda s, q: (s * q + self.radius**2 * asin(s / self.radius)) / 2.0)
 
     @property
     def cube(self) -> float:
-        """Of q^3: s q^3 / 4 + 3/4 r^2 times that of q [m^4]."""
+        """Integral of q^3: s q^3 / 4 + 3/4 r^2 times that of q [m^4]."""
         own = self._between(lambda s, q: s * q**3 / 4.0)
         return own + 0.75 * self.radius**2 * self.one
 
     def about(self, offset: float) -> float:
-        """Of (s + offset)^2 q [m^4].
+        """Integral of (s + offset)^2 q [m^4].
 
         That of s q is -q^3 / 3, that of s^2 q is -s q^3 / 4 and r^2 / 4 times that of q.
         """
@@ -270,6 +271,21 @@ class CarrierPlate:
         """Length of each of the trunk's screws under its head [m]."""
         return tuple(self.screw.length_through(self.thickness + each) for each in self.sleeves)
 
+    @property
+    def fastenings(self) -> tuple[Fastening, ...]:
+        """The trunk's screws, those of one length together; each through its longest sleeve."""
+        longest = dict(sorted(zip(self.screw_lengths, self.sleeves, strict=True)))
+        return tuple(
+            Fastening(
+                self.screw,
+                self.screw_lengths.count(length),
+                self.thickness + sleeve,
+                f"plate on trunk{f', {1e3 * length:.0f} mm long' if len(longest) > 1 else ''}; "
+                "longer if its thread begins deeper",
+            )
+            for length, sleeve in longest.items()
+        )
+
     def net_width(self, across: FloatArray) -> FloatArray:
         """Width of its sections at some y less the trunk's screw holes and its windows [m]."""
         whole = 2.0 * self.shape.half_width(across)
@@ -303,10 +319,26 @@ class CarrierPlate:
         forward = twisting_stress(mass, height, narrow, self.thickness)
         return max(down, sideways, sqrt(3.0) * forward)
 
+    def frequency(self, mass: float) -> float:
+        """First mode of a module up and down on its plate, the trunk's screws held [Hz].
+
+        Mohr's integral of the cantilever from the outermost screws to the middle of the foot, whose
+        sections are those of `net_width`; the module is a point, the plate weighs nothing.
+
+        Args:
+            mass: of a module [kg].
+        """
+        start = max(y for _, y in self.trunk)
+        across = np.linspace(start, self.across, _SECTIONS)
+        second = self.net_width(across) * self.thickness**3 / 12.0
+        arms = self.across - across
+        compliance = np.trapezoid(arms**2 / (MODULUS * second), across)
+        return float(1.0 / np.sqrt(compliance * mass) / (2.0 * pi))
+
     @property
     def mass(self) -> float:
         """Mass of plate, sleeves and the trunk's screws [kg]."""
-        return self.mass_properties().mass
+        return sum(body.mass for body in self._bodies())
 
     def mass_properties(self) -> MassProperties:
         """Mass properties of plate, sleeves and the trunk's screws in B."""

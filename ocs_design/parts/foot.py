@@ -10,7 +10,7 @@ arrays that broadcast, or CasADi's symbols.
 """
 
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import ceil, pi, sqrt
 from typing import Any, Generic
 
 import numpy as np
@@ -19,17 +19,23 @@ from ocs_design.actuation.fasteners import Fastening, screw
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import CLEARANCE, DENSITY, STRENGTH, UPRIGHT, WALL, MountHoles
+from ocs_design.parts.printed import (
+    CLEARANCE,
+    DENSITY,
+    MODULUS,
+    PLATE_THICKNESS,
+    SHOCK,
+    STRENGTH_ACROSS,
+    UPRIGHT,
+    WALL,
+    MountHoles,
+)
 from ocs_design.parts.shapes import ArcSlot, Disc, Keyhole, Rectangle
 from ocs_design.parts.solids import Prism
 from ocs_design.robot.tree import Placement
 
 BASE_THICKNESS = 3.0e-3
 """[m]: the trunk's screws press on it."""
-
-PLATE_THICKNESS = 5.0e-3
-"""[m]: 20 g on a module of 0.3 kg, 45 mm above the base, bend a stem 40 mm wide with 16 MPa, on one
-of 1.2 kg, 80 mm above it, one 75 mm wide with 60 MPa: that one bears 15 g."""
 
 PLATE_MARGIN = 3.0e-3
 """Margin of the plate around the mount's holes [m]."""
@@ -80,15 +86,20 @@ def wheel_height(outer_radius: Real) -> Real:
     return housing_outer_radius(outer_radius) + (BASE_THICKNESS + CLEARANCE)
 
 
-def plate_back(half: Real) -> Real:
+def plate_back(half: Real, thickness: Real | float) -> Real:
     """Distance of the plate's back from the middle of a housing of that half height [m]."""
-    return half + PLATE_THICKNESS
+    return half + thickness
 
 
-def base_radius(outer_radius: Real, height: Real, mount_reach: Real | float) -> Real:
-    """Radius of the base of a foot for that rim and that reach of the mount's holes [m]."""
+def base_radius(
+    outer_radius: Real,
+    height: Real,
+    mount_reach: Real | float,
+    thickness: Real | float = PLATE_THICKNESS,
+) -> Real:
+    """Radius of the base of a foot for that rim, that reach of the mount's holes and plate [m]."""
     reach: Any = mount_reach
-    return Foot(Housing(outer_radius, height, MountHoles(reach))).base_radius
+    return Foot(Housing(outer_radius, height, MountHoles(reach)), thickness).base_radius
 
 
 def _rounded(one: Real, other: Real | float) -> Real:
@@ -108,14 +119,16 @@ class Foot(Generic[Real]):
 
     Attributes:
         housing: that it carries, with the holes that its plate shares.
+        thickness: of its plate, stem and disc [m].
     """
 
     housing: Housing[Real]
+    thickness: Real | float = PLATE_THICKNESS
 
     @property
     def wheel_height(self) -> Real:
         """Height of the wheel's centre above the underside [m]."""
-        return wheel_height(self.housing.rim_radius)
+        return wheel_height(self.housing.rim_radius + self.housing.guard_wall)
 
     @property
     def half_width(self) -> Real:
@@ -131,7 +144,7 @@ class Foot(Generic[Real]):
     @property
     def back(self) -> Real:
         """Distance of the plate's back from the wheel's middle [m]."""
-        return plate_back(self.housing.half_height)
+        return plate_back(self.housing.half_height, self.thickness)
 
     @property
     def slot_radius(self) -> Real:
@@ -167,7 +180,9 @@ class Foot(Generic[Real]):
 
 
 def stem_shock(foot: Foot[float], mass: float) -> float:
-    """Acceleration along the wheel's axis at which a stem of PETG yields at the base [m/s^2].
+    """Acceleration along the wheel's axis at which a stem of PETG breaks at the base [m/s^2].
+
+    Feet are printed upright, so that the stem is bent across its layers.
 
     M = m a H and sigma = 6 M / (w t^2): Roark's Formulas for Stress and Strain, 7th edition, table
     8.1, case 1a, with the section modulus of a rectangle.
@@ -176,8 +191,43 @@ def stem_shock(foot: Foot[float], mass: float) -> float:
         foot: with its stem, 2 `stem` wide and as thick as the plate.
         mass: of the module above it [kg].
     """
+    return SHOCK * float(foot.thickness / _thickness_at_shock(foot, mass)) ** 2
+
+
+def plate_thickness(foot: Foot[float], mass: float) -> float:
+    """Thickness of a plate whose stem bears `SHOCK`, to the next 0.1 mm [m].
+
+    It is never less than `PLATE_THICKNESS`, and never more than half the stem's width, a solid
+    block.
+
+    Args:
+        foot: whose plate may have another thickness. mass: of the module above it [kg].
+    """
+    needed = ceil(1e4 * _thickness_at_shock(foot, mass)) / 1e4
+    return max(PLATE_THICKNESS, min(needed, foot.stem))
+
+
+def _thickness_at_shock(foot: Foot[float], mass: float) -> float:
+    """Thickness at which the stem breaks under `SHOCK`, t = sqrt(6 m a H / (w sigma)) [m]."""
     arm, width = foot.wheel_height - BASE_THICKNESS, 2.0 * foot.stem
-    return STRENGTH * width * PLATE_THICKNESS**2 / (6.0 * mass * arm)
+    return sqrt(6.0 * mass * SHOCK * arm / (width * STRENGTH_ACROSS))
+
+
+def stem_frequency(foot: Foot[float], mass: float, inertia: float) -> float:
+    """First bending mode of the stem along the wheel's axis, its base held [Hz].
+
+    Rayleigh's quotient with the shape of a cantilever under a force at its end, v = y^2 (3 L - y) /
+    2 L^3: 3 E I / L^3 over m + 33/140 m_stem + J (3 / 2 L)^2.
+
+    Args:
+        foot: see `stem_shock`.
+        mass: at the wheel's middle [kg]. inertia: of it about the forward axis there [kg m^2].
+    """
+    arm, width = foot.wheel_height - BASE_THICKNESS, 2.0 * foot.stem
+    thickness = float(foot.thickness)
+    stiffness = MODULUS * width * thickness**3 / (4.0 * arm**3)
+    stem = DENSITY * width * thickness * arm
+    return sqrt(stiffness / (mass + 33.0 / 140.0 * stem + 2.25 * inertia / arm**2)) / (2.0 * pi)
 
 
 def foot_part(foot: Foot[float]) -> Part[float]:

@@ -16,10 +16,11 @@ outside of that, so a band of this wall is a good guess to be tested, and no lic
 """
 
 from dataclasses import dataclass
-from math import pi, sin, sqrt
+from math import ceil, pi, sin, sqrt
 
+from ocs_design.actuation.fasteners import STEEL
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
+from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.solids import hollow_cylinder
 
 PIECES = 3
@@ -31,11 +32,11 @@ FOOT, INCH, POUND_FORCE = 0.3048, 0.0254, 4.4482216152605
 BRL = 672.0
 """Of the formula above, with ft lbf and in."""
 
+STEP = 1e-4
+"""Of the walls of rings that are built [m]."""
+
 BUILT = 1.25
 """Thickness that is built over the one that is just perforated (BC-TOP-9A)."""
-
-STEEL_DENSITY = 7850.0
-"""Of mild steel [kg/m^3], EN 1991-1-1."""
 
 STEEL_STRENGTH, ALUMINIUM_STRENGTH = 360e6, 310e6
 """Tensile strengths [Pa]: least of S235 (EN 10025-2), typical of 6061-T6 (ASM)."""
@@ -117,7 +118,7 @@ def aluminium_wall(energy: float, diameter: float) -> float:
 
 @dataclass(frozen=True)
 class Band:
-    """A closed ring around a housing's band.
+    """A closed ring around a rim.
 
     Attributes:
         inner_radius, wall, height: [m]. density: [kg/m^3].
@@ -148,20 +149,25 @@ class Containment:
 
     Attributes:
         fragment: that must be held.
-        steel, aluminium: bands around the housing between its floor and its lid.
+        steel, aluminium: rings in the housing, from its floor to its lid.
     """
 
     fragment: Fragment
     steel: Band
     aluminium: Band
 
+    @property
+    def built_wall(self) -> float:
+        """Wall of the steel ring, up to the next tenth of a millimetre [m]."""
+        return ceil(self.steel.wall / STEP - 1e-9) * STEP
+
 
 def containment(fragment: Fragment, outer_radius: float, height: float) -> Containment:
-    """Bands around the housing of a rim of that outer radius and height [m]."""
-    inside, tall = outer_radius + CLEARANCE + WALL, height + 2.0 * (CLEARANCE + PANEL)
+    """Rings around a rim of that outer radius and height [m]."""
+    inside, tall = outer_radius + CLEARANCE, height + 2.0 * CLEARANCE
     energy, across = fragment.energy, fragment.diameter
     return Containment(
         fragment,
-        Band(inside, steel_wall(energy, across), tall, STEEL_DENSITY),
+        Band(inside, steel_wall(energy, across), tall, STEEL),
         Band(inside, aluminium_wall(energy, across), tall, ALUMINIUM_DENSITY),
     )

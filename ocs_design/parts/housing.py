@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import Generic
 
-from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening, Screw
+from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening, Screw
 from ocs_design.common.errors import PartError
 from ocs_design.parts.moments import MassMoments, Real, ring
 from ocs_design.parts.part import Part
@@ -56,17 +56,19 @@ class Housing(Generic[Real]):
         rim_radius, rim_height: outer ones of the rim [m].
         mount: holes in the floor.
         lid_screw: of the ears outside the band, cut into the drum's; None: no ears.
+        guard_wall: of the steel ring in the band that holds a rim that bursts [m]; 0: none.
     """
 
     rim_radius: Real
     rim_height: Real
     mount: MountHoles = field(default_factory=MountHoles)
     lid_screw: Screw | None = None
+    guard_wall: float = 0.0
 
     @property
     def radius(self) -> Real:
         """Radius of the band, outside [m]."""
-        return housing_outer_radius(self.rim_radius)
+        return housing_outer_radius(self.rim_radius) + self.guard_wall
 
     @property
     def inner_radius(self) -> Real:
@@ -92,7 +94,7 @@ def housing_parts(housing: Housing[float]) -> tuple[Part[float], Part[float]]:
     Raises:
         PartError: the mount's holes do not fit the floor.
     """
-    mount, room = housing.mount, housing.inner_radius
+    mount, room = housing.mount, housing.inner_radius - housing.guard_wall
     if mount.reach > room - WALL:
         raise PartError(
             f"holes up to {1e3 * mount.reach:.4g} mm from the axis do not fit the "
@@ -120,17 +122,28 @@ def undrilled(housing: Housing[Real]) -> tuple[Part[Real], Part[Real]]:
     )
 
 
+def guard_ring(housing: Housing[Real]) -> Part[Real]:
+    """The ring of mild steel in the drum, from its floor to the lid, in the wheel's frame."""
+    half, inside = housing.rim_height / 2.0 + CLEARANCE, housing.rim_radius + CLEARANCE
+    room: Prism[Real] = Prism(Disc(inside), -half, half)
+    return Part("guard", STEEL, (Prism(Disc(inside + housing.guard_wall), -half, half),), (room,))
+
+
 def housing_moments(housing: Housing[Real]) -> MassMoments[Real]:
-    """Moments of drum and lid in the module's frame, without the mount's holes."""
+    """Moments of drum, lid and guard ring in the module's frame, without the mount's holes."""
     drum, lid = undrilled(housing)
-    return (drum.moments() + lid.moments()).turned(UPRIGHT)
+    printed = drum.moments() + lid.moments()
+    whole = printed + guard_ring(housing).moments() if housing.guard_wall else printed
+    return whole.turned(UPRIGHT)
 
 
-def housing_mass_per_height(outer_radius: Real) -> Real:
-    """Change of the mass of band and ears with the rim's height [kg/m]."""
-    across = housing_outer_radius(outer_radius)
+def housing_mass_per_height(outer_radius: Real, guard_wall: float = 0.0) -> Real:
+    """Change of the mass of band, ears and guard ring with the rim's height [kg/m]."""
+    across = housing_outer_radius(outer_radius) + guard_wall
     room, thread = Disc(across - WALL), pi / 4.0 * LID_SCREW.tapping_drill**2
-    return DENSITY * (eared(across, LID_SCREW, FIRST_EAR).area - room.area - EAR_COUNT * thread)
+    printed = eared(across, LID_SCREW, FIRST_EAR).area - room.area - EAR_COUNT * thread
+    steel: Real = (outer_radius + (CLEARANCE + guard_wall / 2.0)) * (2.0 * pi * guard_wall)
+    return DENSITY * printed + STEEL * steel
 
 
 def lid_screw_moments(housing: Housing[Real]) -> MassMoments[Real]:

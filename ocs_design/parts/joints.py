@@ -301,8 +301,8 @@ def shear_torque(held: Screw, count: int, radius: float) -> float:
 # --- shafts -----------------------------------------------------------------------------------
 
 BOND_STRENGTH = 25e6
-"""Shear strength of a retaining compound on steel [Pa]: Loctite 638, technical data sheet, ISO
-10123, at least."""
+"""Shear strength of a retaining compound on steel [Pa]: an assumption; what Loctite 638, which is
+made for such joints, is sold with for pins and collars of ISO 10123, at least."""
 
 BOND_SHARE = 0.5
 """Of that: half is left at 80 deg C, on stainless steel and in wide gaps."""

@@ -15,7 +15,6 @@ from ocs_design.parts.foot import (
     Foot,
     foot_mass_per_height,
     foot_moments,
-    plate_back,
     trunk_screw_moments,
 )
 from ocs_design.parts.housing import (
@@ -28,7 +27,7 @@ from ocs_design.parts.housing import (
 )
 from ocs_design.parts.moments import Carrier, MassMoments, Real, point, round_body
 from ocs_design.parts.motor_mount import MotorMount, mount_of
-from ocs_design.parts.printed import LID_SCREW, MountHoles
+from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles
 
 SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
 """Mass of the screws of lid and foot [kg]."""
@@ -52,35 +51,55 @@ class Printed:
         mount_reach: of the holes in floor and plate, which the foot's plate is as wide as [m]; a
             scalar, or an array that broadcasts. The holes themselves are not in any mass.
         posts: of the motor's cage, whose floor is not in any mass either.
+        guard_wall: of the steel ring in the housing [m]; 0: none.
+        foot_plate: thickness of the foot's plate [m].
     """
 
     mount_reach: float | FloatArray
     posts: Posts[Any] = NO_POSTS
+    guard_wall: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
 
     def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
         """Mass of all of it [kg]."""
-        foot = _foot(outer_radius, height, np.asarray(self.mount_reach))
-        parts = (*housings.undrilled(foot.housing), feet.undrilled(foot))
-        return sum((part.mass() for part in parts), SHELL_SCREWS + self.posts.mass(height))
+        foot = self._foot(outer_radius, height)
+        ring = (housings.guard_ring(foot.housing),) if self.guard_wall else ()
+        parts = (*housings.undrilled(foot.housing), *ring, feet.undrilled(foot))
+        bought: FloatArray = SHELL_SCREWS + self.posts.mass(height)
+        return sum((part.mass() for part in parts), bought)
 
     def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
         """Change of its mass with the rim's height, R held [kg/m]."""
-        foot = _foot(outer_radius, height, np.asarray(self.mount_reach))
-        around = housing_mass_per_height(outer_radius) + foot_mass_per_height(foot)
+        foot = self._foot(outer_radius, height)
+        around: FloatArray = housing_mass_per_height(outer_radius, self.guard_wall)
+        around = around + foot_mass_per_height(foot)
         return around + self.posts.mass_per_height()
 
+    def _foot(self, outer_radius: FloatArray, height: FloatArray) -> Foot[FloatArray]:
+        reach = np.asarray(self.mount_reach)
+        return _foot(outer_radius, height, reach, self.guard_wall, self.foot_plate)
 
-def shell_moments(outer_radius: Real, height: Real, mount_reach: Real) -> MassMoments[Real]:
-    """Moments of drum, lid and foot about the wheel's centre, with screws, no mount's holes."""
-    foot = _foot(outer_radius, height, mount_reach)
+
+def shell_moments(
+    outer_radius: Real,
+    height: Real,
+    mount_reach: Real,
+    guard_wall: float = 0.0,
+    foot_plate: float = PLATE_THICKNESS,
+) -> MassMoments[Real]:
+    """Moments of housing and foot about the wheel's centre, with screws, no mount's holes."""
+    foot = _foot(outer_radius, height, mount_reach, guard_wall, foot_plate)
     housing = housing_moments(foot.housing) + lid_screw_moments(foot.housing)
     return housing + foot_moments(foot) + trunk_screw_moments(foot)
 
 
-def _foot(outer_radius: Real, height: Real, mount_reach: Real) -> Foot[Real]:
+def _foot(
+    outer_radius: Real, height: Real, mount_reach: Real, guard_wall: float, thickness: float
+) -> Foot[Real]:
     """The foot under a housing whose mount's holes stay within some radius."""
     reach: Any = mount_reach
-    return Foot(Housing(outer_radius, height, MountHoles(reach), LID_SCREW))
+    housing = Housing(outer_radius, height, MountHoles(reach), LID_SCREW, guard_wall)
+    return Foot(housing, thickness)
 
 
 def drive_moments(motor: Motor) -> MassMoments[float]:
@@ -95,10 +114,10 @@ def drive_moments(motor: Motor) -> MassMoments[float]:
     return round_body(mass, mass * radius**2 / 2.0, across) + point(motor.controller_mass)
 
 
-def gear_moments(gear: Gear) -> MassMoments[float]:
+def gear_moments(gear: Gear, foot_plate: float) -> MassMoments[float]:
     """Moments of a gear as a point, about the middle of the outside of the housing's floor."""
     room = gear.room or GearRoom()
-    return point(gear.mass).shifted(-(plate_back(0.0) + room.depth / 2.0), room.center)
+    return point(gear.mass).shifted(-(foot_plate + room.depth / 2.0), room.center)
 
 
 def by_floor(motor: Motor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
@@ -106,10 +125,10 @@ def by_floor(motor: Motor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
 
     Screws and gear, less the mount's holes through floor and plate, and a motor behind the plate.
     """
-    held = gear_moments(gear) + mount.by_floor()
+    held = gear_moments(gear, mount.foot_plate) + mount.by_floor()
     if mount.cage is not None:
         return held
-    middle = plate_back(0.0) + mount.gap + (motor.length or 0.0) / 2.0
+    middle = mount.foot_plate + mount.gap + (motor.length or 0.0) / 2.0
     return held + drive_moments(motor).shifted(-middle, mount.up)
 
 
@@ -124,9 +143,17 @@ def by_wheel(motor: Motor, mount: MotorMount) -> MassMoments[float]:
     return mount.by_wheel() + drive_moments(motor).shifted(-middle, 0.0)
 
 
-def standing(motor: Motor, gear: Gear, outer_radius: float, height: float) -> Carrier:
+def standing(
+    motor: Motor,
+    gear: Gear,
+    outer_radius: float,
+    height: float,
+    guard_wall: float = 0.0,
+    *,
+    foot_plate: float = PLATE_THICKNESS,
+) -> Carrier:
     """All that stands still around a wheel of that outer radius and height [m]."""
-    mount = mount_of(motor, gear.room)
+    mount = mount_of(motor, gear.room, foot_plate)
     held = by_floor(motor, gear, mount).shifted(-half_height(height), 0.0) + by_wheel(motor, mount)
-    shell = shell_moments(outer_radius, height, mount.holes.reach)
+    shell = shell_moments(outer_radius, height, mount.holes.reach, guard_wall, foot_plate)
     return Carrier.of(held + mount.posts.moments(height) + shell)

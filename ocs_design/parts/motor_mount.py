@@ -15,10 +15,10 @@ from typing import Generic, NamedTuple, Protocol
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.parts.cage import FLOOR, HALF_POST, NO_POSTS, Cage, Posts
-from ocs_design.parts.foot import PLATE_THICKNESS, plate_back
+from ocs_design.parts.foot import plate_back
 from ocs_design.parts.housing import half_height
 from ocs_design.parts.moments import MassMoments, Real, nothing, ring
-from ocs_design.parts.printed import LID_SCREW, PANEL, WALL, MountHoles, ear_radius
+from ocs_design.parts.printed import LID_SCREW, PANEL, PLATE_THICKNESS, WALL, MountHoles, ear_radius
 from ocs_design.parts.rim import BOLTED_HUB_HEIGHT, HUB_WALL, hub_height
 
 SHAFT_ROOM = 1.0e-3
@@ -104,6 +104,7 @@ class MotorMount:
         cage: around the motor; None: it stands on the plate.
         screwed: that hold it.
         gap: between plate and motor [m]. up: of its axis from the wheel's [m].
+        foot_plate: thickness of the foot's plate [m].
     """
 
     holes: MountHoles = field(default_factory=MountHoles)
@@ -111,6 +112,7 @@ class MotorMount:
     screwed: tuple[Screwed, ...] = ()
     gap: float = 0.0
     up: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
 
     def around(self, rim_height: float) -> "MotorMount":
         """The mount behind a rim of that height [m]."""
@@ -143,8 +145,8 @@ class MotorMount:
 
     def by_floor(self) -> MassMoments[float]:
         """Moments of screws less the holes, about the middle of the outside of the floor."""
-        walls = self.holes.cut_out(PANEL + PLATE_THICKNESS)
-        total = walls.shifted((PANEL - PLATE_THICKNESS) / 2.0, 0.0)
+        walls = self.holes.cut_out(PANEL + self.foot_plate)
+        total = walls.shifted((PANEL - self.foot_plate) / 2.0, 0.0)
         return reduce(add, (each.moments() for each in self.screwed if not each.by_wheel), total)
 
     def by_wheel(self) -> MassMoments[float]:
@@ -153,13 +155,21 @@ class MotorMount:
         return reduce(add, (each.moments() for each in self.screwed if each.by_wheel), total)
 
 
-def mount_of(motor: HeldMotor, room: GearRoom | None) -> MotorMount:
-    """Mount of a motor behind a gear of that room; None: its wheel is on its shaft or rotor."""
+def mount_of(
+    motor: HeldMotor, room: GearRoom | None, foot_plate: float = PLATE_THICKNESS
+) -> MotorMount:
+    """Mount of a motor on a foot's plate.
+
+    Args:
+        motor: with its mounting and size.
+        room: of the gear between motor and wheel; None: its wheel is on its shaft or rotor.
+        foot_plate: thickness of the foot's plate [m].
+    """
     mounting = motor.mounting
     if room is not None:
-        return MotorMount(gap=room.depth, up=room.offset)
+        return MotorMount(gap=room.depth, up=room.offset, foot_plate=foot_plate)
     if mounting is None:
-        return MotorMount()
+        return MotorMount(foot_plate=foot_plate)
     stator, rotor = mounting.stator, mounting.rotor
     wheel: tuple[Screwed, ...] = ()
     if rotor is not None:
@@ -168,20 +178,22 @@ def mount_of(motor: HeldMotor, room: GearRoom | None) -> MotorMount:
         fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, f"wheel on rotor; {_DEPTH}", 1.0)
         wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, by_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
-        held = _through_walls(stator, f"motor on housing and foot; {_DEPTH}", 1.0)
-        return MotorMount(screwed_by_face(mounting, stator), None, (*wheel, held))
+        held = _through_walls(stator, foot_plate, f"motor on housing and foot; {_DEPTH}", 1.0)
+        holes = screwed_by_face(mounting, stator)
+        return MotorMount(holes, None, (*wheel, held), foot_plate=foot_plate)
     pilot = for_what_turns(mounting)
     cage = None
     if mounting.stator_face is Face.BACK:
-        cage = cage_of(mounting, motor.diameter, motor.length)
+        cage = cage_of(mounting, motor.diameter, motor.length, foot_plate)
     if cage is None or stator is None:
-        return MotorMount(MountHoles(pilot), None, wheel)
+        return MotorMount(MountHoles(pilot), None, wheel, foot_plate=foot_plate)
     passage = cage.passage
     assert passage.screws is not None
-    on_plate = _through_walls(passage.screws, "cage on housing and foot, it is tapped", IN_PLASTIC)
+    purpose = "cage on housing and foot, it is tapped"
+    on_plate = _through_walls(passage.screws, foot_plate, purpose, IN_PLASTIC)
     fastening = _fastening(stator, FLOOR, f"motor in its cage; {_DEPTH}", 1.0)
     held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)
-    return MotorMount(passage, cage, (*wheel, held, on_plate))
+    return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
 
 
 def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
@@ -196,19 +208,25 @@ def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
     return mount_of(motor, room).holes.screws is not None
 
 
-def cage_of(mounting: Mounting, diameter: float | None, length: float | None) -> Cage | None:
+def cage_of(
+    mounting: Mounting,
+    diameter: float | None,
+    length: float | None,
+    foot_plate: float = PLATE_THICKNESS,
+) -> Cage | None:
     """The cage of a motor with threads at its back; None where its size is unknown or does not do.
 
     Args:
         mounting: of the motor.
-        diameter, length: of its body [m].
+        diameter, length: of its body [m]. foot_plate: thickness of the foot's plate [m].
     """
     stator = mounting.stator
     if stator is None or diameter is None or length is None:
         return None
     # Behind its rotor's threads, or clear of a hub on its shaft.
     front = hub_height(mounting) / 2.0 + (SHAFT_ROOM if mounting.rotor is None else 0.0)
-    cage = Cage(diameter / 2.0, length, screwed_by_face(mounting, stator), front)
+    holes = screwed_by_face(mounting, stator)
+    cage = Cage(diameter / 2.0, length, holes, front, foot_plate=foot_plate)
     room_for_ears = sin(HALF_POST - _LEAST_EDGE) * cage.across > ear_radius(LID_SCREW)
     fits = stator.reach + WALL <= cage.bore and cage.rim_height_max >= LEAST_RIM
     return cage if room_for_ears and fits else None
@@ -232,9 +250,9 @@ def for_what_turns(mounting: Mounting) -> float:
     return 0.0
 
 
-def _through_walls(circle: BoltCircle, purpose: str, depth: float) -> Screwed:
+def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: float) -> Screwed:
     """Screws through floor and plate, with their heads inside the housing."""
-    thickness = PANEL + PLATE_THICKNESS
+    thickness = PANEL + foot_plate
     return Screwed(_fastening(circle, thickness, purpose, depth), circle, PANEL, -1.0)
 
 
@@ -268,7 +286,7 @@ def motor_front(mount: MotorMount, height: float) -> float:
     """
     if mount.cage is not None:
         return -mount.cage.front
-    return -(plate_back(half_height(height)) + mount.gap)
+    return -(plate_back(half_height(height), mount.foot_plate) + mount.gap)
 
 
 def drive_cylinders(
@@ -279,7 +297,7 @@ def drive_cylinders(
     A gear is what turns with the wheel, and beside it what turns with the motor. The cage has the
     heads of the motor's screws behind it.
     """
-    back = -plate_back(half_height(height))
+    back = -plate_back(half_height(height), mount.foot_plate)
     if room is not None and room.depth > 0.0:
         yield DriveSolid("gear", room.wheel_radius, back - room.depth, back)
         if room.offset > 0.0:

@@ -37,8 +37,20 @@ DENSITY = 1270.0
 """[kg/m^3], of PETG: tougher than PLA, prints without a heated chamber. Prusament PETG, technical
 data sheet, Prusa Polymers, 2020: 1.27 g/cm^3."""
 
-STRENGTH = 47e6
-"""Tensile yield strength of PETG [Pa]: Prusament PETG, technical data sheet, 47 +- 2 MPa."""
+PLATE_THICKNESS = 5.0e-3
+"""Least thickness of the plate of a foot [m]: 20 g on a module of 0.3 kg, 45 mm above the base,
+bend a stem 40 mm wide with 16 MPa. Under heavier ones it is thicker, see `foot.plate_thickness`."""
+
+SHOCK = 20.0 * 9.80665
+"""Acceleration that feet, and plates under them, bear: 20 g [m/s^2]."""
+
+STRENGTH, STRENGTH_ACROSS = 47e6, 25e6
+"""Tensile yield strength of PETG along its layers [Pa]: Prusament PETG, technical data sheet, 47 +-
+2 MPa; and across them, the least of 25 to 38 MPa (additive.tools/materials/petg)."""
+
+MODULUS = 1.8e9
+"""Of PETG [Pa]: the least measured of its sister PCTG, printed any way (Essentium PCTG, technical
+data sheet, ISO 527-2: 1.7 to 1.9 GPa); additive.tools/materials/petg has 2 to 3 GPa."""
 
 LID_SCREW = screw("M2")
 

@@ -265,7 +265,7 @@ class WebHoles:
 
     @classmethod
     def of(cls, count: int, hub_radius: float, bore: float) -> "WebHoles":
-        """Those that take their share of the web between a hub and a rim's bore, radii [m]."""
+        """Holes that take their share of the web between a hub and a rim's bore, radii [m]."""
         square = LIGHTENED[count] * (bore**2 - hub_radius**2) / count
         circle = LIGHTENING_PLACE * (bore**2 + hub_radius**2) - square / 2.0
         return cls(count, sqrt(circle), sqrt(square))

@@ -1,6 +1,6 @@
 """Facts about the robot and its device: what was read, what is to be built, where it sits."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT
@@ -15,7 +15,8 @@ from ocs_design.report.quantities import (
     signed,
     tenths,
 )
-from ocs_design.report.table import Rows, Table, columns
+from ocs_design.report.table import Rows, Table, columns, listed
+from ocs_design.requirement.uncertainty import Entry, spreads, uncertainty_of_texts
 
 ROUNDING = 1e-9
 """Products of inertia below this part of the largest moment are what rounding leaves of zero."""
@@ -59,6 +60,16 @@ def joint_table(robot: RobotRecord) -> Table:
         tuple(
             (name, f"{value:.4f}", degrees_number(value)) for name, value in robot.posture.items()
         ),
+    )
+
+
+def drawn_facts(reality: Mapping[str, str]) -> Rows:
+    """Distributions that samples are drawn from, in units that people think in."""
+    drawn = uncertainty_of_texts(reality, "reality")
+    return tuple(
+        (name.replace("_", " "), Entry(getattr(drawn, name)).words(spread))
+        for name, spread in spreads().items()
+        if name in reality
     )
 
 
@@ -109,7 +120,7 @@ def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
             sizes += f", {web.holes.count} holes of {across} mm"
         yield "web", f"{sizes}, {web.material}"
     rotor = ocs.motor.rotor_inertia
-    share = f", of which its rotor {rotor:.2e}" if rotor else ""
+    share = f", of which its rotor {inertia(rotor)}" if rotor else ""
     yield "spin inertia", f"{inertia(ocs.spin_inertia)} each{share}"
     yield "transverse inertia", f"{inertia(wheel.transverse_inertia)} each"
 
@@ -127,8 +138,13 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
         - ocs.motor.gear_mass
         - ocs.motor.controller_mass,
     }
-    named = (f"{name} {grams(mass)}" for name, mass in parts.items() if mass > _NO_MASS)
-    yield "mass of a module", " + ".join(named)
+    factor, unit = (1e3, "g") if max(parts.values()) < 1.0 else (1.0, "kg")
+    shown = (
+        f"{name} {factor * mass:.{1 if unit == 'g' else 2}f}"
+        for name, mass in parts.items()
+        if mass > _NO_MASS
+    )
+    yield "mass of a module", f"{', '.join(shown)} {unit}"
     plate = ocs.plate
     if plate is not None:
         sizes = 2.0 * plate.radius, 2.0 * plate.half_length, plate.thickness
@@ -143,18 +159,19 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
 
 
 def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
-    yield "motor", f"{motor.name}: {motor.source}"
+    yield "motor", motor.name
     if motor.bus_voltage is None:
         return
     if motor.gear != DIRECT.name:
         loss = f"efficiency {motor.gear_efficiency:.0%}"
         yield "gear", f"{motor.gear}, ratio {motor.gear_ratio:.3g}, {loss}"
-    limits = [f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"]
+    limits = []
     if motor.torque_limit is not None:
-        limits.append(f"{motor.torque_limit:.3g} N m at the current limit")
+        limits.append(f"{motor.torque_limit:.3g} N m")
     if motor.speed_max is not None:
-        limits.append(f"speed limit {rpm(motor.speed_max)}")
-    yield "drive at the wheel", ", ".join(limits)
+        limits.append(rpm(motor.speed_max))
+    free = f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
+    yield "drive at the wheel", f"{free}, at most {listed(limits)}" if limits else free
 
 
 def _place(ocs: OcsRecord) -> Iterator[tuple[str, str]]:

@@ -109,14 +109,26 @@ def flight_remarks(design: OcsDesign) -> Iterator[str]:
     """Flights that do not pass or are not judged, poor landings, and what was changed."""
     carrying = [run for run in design.validation if run.ocs]
     for run in carrying:
-        if run.passed is not True or run.can_stand is False:
+        if run.passed is not True or (run.can_stand is False and run.stands is not False):
             yield run_sentence(run, with_note=False)
+    yield from filter(None, [falls(carrying)])
     yield from landing_remarks(design)
     about: dict[str, list[str]] = {}
     for run in carrying:
         if run.note:
             about.setdefault(run.note, []).append(run.scenario)
     yield from (f"{', '.join(names)}: {note}" for note, names in about.items())
+
+
+def falls(runs: Sequence[ValidationRecord]) -> str:
+    """Sentence on the flights that end on legs which do not bear them; empty: there is none."""
+    fallen = [run.scenario for run in runs if run.passed and run.stands is False]
+    if not fallen:
+        return ""
+    return (
+        f"{', '.join(fallen)}: the robot lands level and then falls; its legs do not bear such a "
+        "landing by themselves, however level it is"
+    )
 
 
 def landing_remarks(design: OcsDesign) -> Iterator[str]:
@@ -146,7 +158,7 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
     if spent:
         yield (
             f"{', '.join(spent)}: a wheel ends at {rpm(max(speeds.values()))}, near its top speed, "
-            "and cannot help again until it is braked: see --desaturate"
+            "and cannot help again until it is braked (try `validate --desaturate`)"
         )
 
 

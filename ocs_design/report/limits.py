@@ -1,21 +1,14 @@
 """Facts about demand and capacity: what is asked, the margins, and which limits set the mass."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from ocs_design.common.units import ceiled, floored
-from ocs_design.device.records import OcsDesign, PriceRecord, SelectionRecord
-from ocs_design.report.quantities import degrees_number, grams, quantity, rpm
+from ocs_design.common.units import ceiled, floored, significant
+from ocs_design.device.records import OcsDesign, PriceRecord, ReserveRecord
+from ocs_design.report.quantities import degrees_number, grams, inertia_number, quantity, rpm
 from ocs_design.report.selection import best_drives, drive_name
-from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
+from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, listed
 from ocs_design.sizing.limits import LIMITS, TIME
-from ocs_design.sizing.margins import (
-    BUS_CURRENT,
-    BUS_POWER,
-    FED_BACK,
-    MOTOR_TORQUE,
-    WHEEL_SPEED,
-    Margin,
-)
+from ocs_design.sizing.margins import Margin
 from ocs_design.sizing.selection.device import (
     HOLED_STRESS,
     HOUSING,
@@ -25,8 +18,8 @@ from ocs_design.sizing.selection.device import (
     WEB,
 )
 
-TIGHT = 1.05
-"""A factor of capacity over demand below this is reported in the summary."""
+_SHARE = 0.005
+"""Least share of a variance that is shown."""
 
 _NOTHING = 5e-6
 """Less mass than is shown [kg]."""
@@ -41,14 +34,17 @@ _MEANING = {
 }
 """Explanation of limits that stand in no specification."""
 
+_ROUNDED = 105
+"""Per cent of a capacity above which it is exceeded by more than its figures are good for."""
+
 _ROOM = {"outer radius": "r_max", "height": "h_max", "rim mass": "wheel_mass_max"}
 """Margins of the rim's room, and the limits that they are margins to."""
 
-_FIRST = (
-    *(WHEEL_SPEED, MOTOR_TORQUE),
-    *(BUS_CURRENT, BUS_POWER, BUS_CURRENT + FED_BACK, BUS_POWER + FED_BACK),
+_LEFT_TO_US = (
+    *("Maneuvers", "Incidence", "Reserve", "Rim mass", "Stress"),
+    *("Wheel", "Web", "Edges", "Housing", "Controllers", "Gear"),
 )
-"""Margins that the first screen shows, whatever is left of them."""
+"""Names of assumptions that few would change."""
 
 MARGIN_NOTE = (
     "The worst over all maneuvers, as planned and as flown from push-off to the end, landing "
@@ -85,16 +81,16 @@ def demand_table(design: OcsDesign) -> Table:
             degrees_number(demand.incidence),
             f"{1e3 * demand.roll_momentum:.1f}",
             f"{1e3 * demand.pitch_momentum:.1f}",
-            f"{demand.spin_inertia:.3e}",
+            inertia_number(demand.spin_inertia),
             f"{demand.torque:.3f}" if demand.torque else "-",
         )
         for demand in design.requirement.demands
     ]
     specified = design.requirement.spin_inertia_by_hand
     if specified is not None:
-        rows.append(("specified", "", "", "", f"{specified:.3e}", "-"))
+        rows.append(("specified", "", "", "", inertia_number(specified), "-"))
     heads = columns(
-        "<asked by", "alpha [deg]", "roll [mN m s]", "pitch [mN m s]", "spin inertia [kg m2]",
+        "<asked by", "alpha [deg]", "roll [mN m s]", "pitch [mN m s]", "spin inertia [kg mm2]",
         "least torque [N m]",
     )  # fmt: skip
     return Table(heads, tuple(rows))
@@ -143,28 +139,52 @@ def margin_notes(margins: tuple[Margin, ...]) -> tuple[str, ...]:
     return tuple(f"{margin.name}: {margin.note}" for margin in margins if margin.note)
 
 
-def used_up(design: OcsDesign) -> str:
-    """Limits that set the mass, and capacities that are used up or nearly so, in one line."""
-    active = listed(design.sizing.binding)
-    tight = [
-        f"{margin.name}, {ceiled(100.0 / margin.factor, 0)}%"
-        + (f" ({margin.scenario})" if margin.scenario else "")
-        for margin in recorded_margins(design)
-        if margin.factor is not None and margin.factor < TIGHT and margin.name not in _FIRST
+def tightest(design: OcsDesign) -> Rows:
+    """What is used of each limit, the most first: per cent, and which they are."""
+    used: dict[tuple[int, str], list[Margin]] = {}
+    for margin in recorded_margins(design):
+        if margin.factor is not None:
+            percent = int(ceiled(100.0 / margin.factor, 0))
+            used.setdefault((percent, margin.scenario), []).append(margin)
+    return tuple(
+        (f"{percent:>3}%", f"{listed([each.name for each in found])}{_told(found, percent)}")
+        for (percent, scenario), found in sorted(used.items(), key=lambda item: -item[0][0])
+    )
+
+
+def _told(margins: Sequence[Margin], percent: int) -> str:
+    """Where it is so, and what helps where it is too much."""
+    notes = [each.note for each in margins] if percent > _ROUNDED else []
+    told = "; ".join(filter(None, [margins[0].scenario, *notes]))
+    return f" ({told})" if told else ""
+
+
+def assumed(sentences: Sequence[str]) -> Rows:
+    """What was assumed that an engineer would change, by its name."""
+    named = (sentence.partition(": ") for sentence in sentences)
+    return tuple(
+        (name[0].lower() + name[1:], value.rstrip("."))
+        for name, colon, value in named
+        if colon and name not in _LEFT_TO_US
+    )
+
+
+def lighter(design: OcsDesign) -> Rows:
+    """Changes of the question that save mass, the most first: how much, and what else changes."""
+    now, motor = design.ocs.mass_total, design.ocs.motor.name
+    found = [
+        (each.mass_total - now, each)
+        for each in design.alternatives
+        if each.mass_total is not None and each.mass_total < now - _NOTHING
     ]
-    parts = [f"mass set by {active}"] if active else []
-    if tight:
-        parts.append(f"used: {'; '.join(tight)}")
-    return "; ".join(parts) or "none is reached"
-
-
-def first_margins(design: OcsDesign) -> str:
-    """What is used of speed, torque and supply, in one line; empty where no limits are known."""
-    shown = {margin.name: margin for margin in recorded_margins(design) if margin.factor}
-    return ", ".join(
-        f"{name} {ceiled(100.0 / margin.factor, 0)}%"
-        for name in _FIRST
-        if (margin := shown.get(name)) is not None and margin.factor
+    return tuple(
+        (
+            f"-{grams(-change)}",
+            "; ".join(
+                filter(None, [each.change, each.motor if each.motor != motor else "", each.note])
+            ),
+        )
+        for change, each in sorted(found, key=lambda item: item[0])
     )
 
 
@@ -182,6 +202,25 @@ def alternatives_table(design: OcsDesign) -> Table:
             for each in design.alternatives
         ),
     )
+
+
+def lighter_table(design: OcsDesign) -> Table:
+    """What would have to give for a device that is lighter by what was asked."""
+    changes = () if design.lighter is None else design.lighter.changes
+    rows = tuple((each.change, grams(each.mass_total or 0.0), each.motor) for each in changes)
+    return Table(columns("<any one of these does it", "mass", "<motor"), rows)
+
+
+def owed_to(design: OcsDesign) -> str:
+    """The maneuver that the mass is owed to, after these words; empty: none is known."""
+    owed = design.owed
+    if owed is None:
+        return ""
+    if not owed.maneuver:
+        return "no single maneuver; without any one of them it weighs the same"
+    if owed.mass_without is None:
+        return f"{owed.maneuver}, the only maneuver asked for"
+    return f"{owed.maneuver} (without it {grams(owed.mass_without)})"
 
 
 def open_points(design: OcsDesign) -> Table:
@@ -230,11 +269,37 @@ def saving_notes(design: OcsDesign) -> str:
     return note
 
 
-def what_saves(selection: SelectionRecord) -> str:
-    """Every change that makes the device lighter, in one line; empty where none was tried."""
-    worth = sorted(filter(_is_worth, selection.prices), key=lambda price: price.mass_change)
-    savings = "; ".join(f"{_changed(each)} saves {_saved(each)}" for each in worth)
-    return savings or ("none alone saves mass" if selection.prices else "")
+def reserve_table(kept: ReserveRecord) -> Table:
+    """Share of each uncertain quantity in what robots need, and what knowing it would save."""
+    return Table(
+        columns("<key of [reality]", "share of the variance", "known exactly, it saves"),
+        tuple(
+            (cost.key, f"{100.0 * cost.share:.0f} %", grams(max(cost.mass, 0.0)))
+            for cost in kept.costs
+            if cost.share >= _SHARE
+        ),
+    )
+
+
+def reserve_note(kept: ReserveRecord, mass: float) -> str:
+    """What the reserve is, what it costs, and how the mass goes with the reliability."""
+    factors = ", ".join(f"{each.maneuver} {each.needed:.2f}" for each in kept.maneuvers)
+    return (
+        f"{100.0 * kept.reliability:g} % of robots need these factors on what maneuvers ask: "
+        f"{factors}; up to 1 the nominal device has it to spare. By the closed forms "
+        f"{100.0 * kept.predicted:.1f} % pass; the reserve costs "
+        f"{grams(max(mass - kept.nominal, 0.0))}. "
+        f"{_curve(kept)}"
+    )
+
+
+def _curve(kept: ReserveRecord) -> str:
+    """How the mass goes with the reliability; one sentence where it does not."""
+    masses = [mass for _, mass in kept.curve]
+    if masses and max(masses) - min(masses) < _NOTHING:
+        return f"The nominal device already has it: nothing up to {100.0 * kept.curve[-1][0]:g} %."
+    curve = ", ".join(f"{grams(mass)} for {100.0 * level:g} %" for level, mass in kept.curve)
+    return f"The same motor and material weigh {curve}."
 
 
 def _is_worth(price: PriceRecord) -> bool:
@@ -243,7 +308,7 @@ def _is_worth(price: PriceRecord) -> bool:
 
 def _values(price: PriceRecord) -> tuple[str, str]:
     limit = LIMITS[price.limit]
-    before, after = (f"{value * limit.per_si:.4g}" for value in (price.value, price.changed))
+    before, after = (significant(value * limit.per_si, 4) for value in (price.value, price.changed))
     return before, f"{after} {limit.unit}".rstrip()
 
 
@@ -251,14 +316,6 @@ def _change(price: PriceRecord) -> str:
     if LIMITS[price.limit] is TIME:
         return f"{price.changed - price.value:+.0%}"
     return " to ".join(_values(price))
-
-
-def _changed(price: PriceRecord) -> str:
-    limit = LIMITS[price.limit]
-    if limit is TIME:
-        return f"{price.changed - price.value:.0%} more {limit.label}"
-    before, after = _values(price)
-    return f"{limit.label} of {after} instead of {before}"
 
 
 def _saved(price: PriceRecord) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ocs_design.common.units import ceiled, floored
+from ocs_design.device.records import ReliabilityRecord
 from ocs_design.monte_carlo.summary import (
     MonteCarloRecord,
     Share,
@@ -25,7 +26,8 @@ def campaign_title(record: MonteCarloRecord) -> str:
     """How many robots were flown, and from which seed they were drawn."""
     flown = f"{record.samples:,} robots as they might be built"
     if record.samples != record.asked:
-        flown += f" of {record.asked:,}, enough for the interval asked for"
+        what = "interval asked for" if record.certificate is None else "certificate"
+        flown += f" of {record.asked:,}, enough for the {what}"
     return f"{flown}, seed {record.seed}"
 
 
@@ -46,6 +48,31 @@ def success_table(record: MonteCarloRecord) -> Table:
             "<scenario", "passes", "of all", f"{record.confidence:.0%} interval", "<the others"
         ),
         tuple(rows),
+    )
+
+
+def certificate_line(found: ReliabilityRecord) -> str:
+    """What was asked for and what is sure, short enough for the first line."""
+    low, high = found.whole_interval
+    return (
+        f"{100.0 * found.asked:.4g} % asked: {found.verdict}, {found.whole:,} of "
+        f"{found.samples:,} pass, {floored(100.0 * low, 1)} .. {ceiled(100.0 * high, 1)} %"
+    )
+
+
+def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:
+    """What each round taught, how sure the verdict is, and which samples it rests on."""
+    yield from found.rounds
+    asked, worse = (f"{100.0 * value:.3g} %" for value in (found.asked, found.worse))
+    yield (
+        f"Robots as they might be built flew all maneuvers, one after the other, until it was "
+        f"clear on which side they are: one of {worse} or worse would be certified in at most 5 of "
+        f"100 cases, one of {asked} or better found to fall short in as many (Wald 1945)"
+    )
+    last = found.first + found.samples - 1
+    yield (
+        f"Samples {found.first} to {last} of seed {found.seed}; none of them was used to size "
+        f"the device"
     )
 
 
@@ -90,6 +117,11 @@ def campaign_remarks(record: MonteCarloRecord) -> Iterator[str]:
         )
         if found:
             yield f"{scenario.scenario}: off level with {found}"
+        known = {"level": scenario.level, "stands": scenario.stands}
+        counts = {word: count for word, count in known.items() if count is not None}
+        if min(counts.values(), default=record.samples) < record.samples:
+            told = (f"{word} {count:,} of {record.samples:,}" for word, count in counts.items())
+            yield f"{scenario.scenario}: {', '.join(told)}"
         if scenario.advice:
             yield f"{scenario.scenario}: {scenario.advice}"
         worst = ", ".join(map(str, scenario.worst))

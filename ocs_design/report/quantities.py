@@ -5,7 +5,7 @@ from typing import TypeVar
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.units import to_unit
+from ocs_design.common.units import significant, to_unit
 
 BOUND_NOTE = (
     "The paper prints I_r d / (d + gamma); from its own momentum follows I_r d / (gamma - d). "
@@ -15,6 +15,10 @@ BOUND_NOTE = (
 """Said wherever the paper's lower bound is shown."""
 
 Amount = TypeVar("Amount", float, FloatArray)
+
+
+_OF_WHEELS = 0.01
+"""Moment of inertia [kg m^2] below which it is counted in kg mm^2."""
 
 
 def in_unit(values: Amount, unit: str) -> Amount:
@@ -62,9 +66,16 @@ def signed(ratio: float) -> str:
     return f"{_rounded(ratio, 3):+.3f}"
 
 
-def inertia(value: float) -> str:
-    """Moment of inertia [kg m^2] with four digits."""
-    return f"{value:.3e} kg m2"
+def inertia(value: float, digits: int = 4) -> str:
+    """Moment of inertia [kg m^2]: that of a wheel in kg mm^2."""
+    if value < _OF_WHEELS:
+        return f"{inertia_number(value, digits)} kg mm2"
+    return f"{significant(value, digits)} kg m2"
+
+
+def inertia_number(value: float, digits: int = 4) -> str:
+    """Moment of inertia [kg m^2] in kg mm^2, without its unit."""
+    return significant(1e6 * value, digits)
 
 
 def megapascals(stress: float) -> str:

@@ -4,7 +4,7 @@ from collections import Counter
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.records import RankedRecord, SelectionRecord
-from ocs_design.report.quantities import degrees_number, grams, rpm_number
+from ocs_design.report.quantities import degrees_number, grams, inertia_number, rpm_number
 from ocs_design.report.table import Rows, Table, columns, counted, listed
 
 SHOWN = 5
@@ -22,7 +22,8 @@ def choice_title(selection: SelectionRecord) -> str:
 def task_table(selection: SelectionRecord) -> Table:
     """What each maneuver asks of the chosen drive."""
     heads = columns(
-        "<asked by", "alpha [deg]", "spin inertia [kg m2]", "needed [s]", "given [s]", "peak [rpm]",
+        "<asked by", "alpha [deg]", "spin inertia [kg mm2]", "needed [s]", "given [s]",
+        "peak [rpm]",
     )  # fmt: skip
     return Table(
         heads,
@@ -30,7 +31,7 @@ def task_table(selection: SelectionRecord) -> Table:
             (
                 task.source,
                 degrees_number(task.incidence),
-                f"{task.spin_inertia:.3e}",
+                inertia_number(task.spin_inertia),
                 "-" if task.time_needed is None else f"{task.time_needed:.3f}",
                 "-" if task.time_given is None else f"{task.time_given:.3f}",
                 rpm_number(task.peak_speed),

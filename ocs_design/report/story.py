@@ -14,6 +14,7 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name
 from ocs_design.device.answers import PostureLine
 from ocs_design.device.records import OcsDesign, ValidationRecord
+from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.time_series import series_file
 from ocs_design.monte_carlo.outcomes import RESULT_FILE
 from ocs_design.monte_carlo.summary import MonteCarloRecord
@@ -121,6 +122,7 @@ class Story:
         postures: alpha* in other postures; empty where the robot was not read.
         monte_carlo: many flights, where some were flown.
         command: that made the report; empty: none, a program did.
+        assembly: how the device is built; None: as the design records it.
     """
 
     design: OcsDesign
@@ -129,6 +131,7 @@ class Story:
     postures: tuple[PostureLine, ...] = ()
     monte_carlo: MonteCarloRecord | None = None
     command: str = ""
+    assembly: Assembly | None = None
 
 
 def story_in(
@@ -138,6 +141,7 @@ def story_in(
     flights: Sequence[Flight] = (),
     postures: tuple[PostureLine, ...] = (),
     command: str = "",
+    assembly: Assembly | None = None,
 ) -> Story:
     """Story of a design from its output folders: flights from their CSV files, bodies from the GLB.
 
@@ -145,7 +149,7 @@ def story_in(
         folders: that were written or are being written; the first that has a file is asked for it.
         design: that they are of.
         flights: as they were simulated; empty: they are read.
-        postures, command: see `Story`.
+        postures, command, assembly: see `Story`.
     """
     recorded = flights or [
         flight
@@ -154,7 +158,8 @@ def story_in(
     ]
     picture = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
     bodies = () if picture is None else read_bodies(picture.read_bytes())
-    return Story(design, tuple(recorded), bodies, postures, read_campaign(folders), command=command)
+    campaign = read_campaign(folders)
+    return Story(design, tuple(recorded), bodies, postures, campaign, command, assembly)
 
 
 def _recorded_flight(folders: Sequence[Path], record: ValidationRecord) -> Flight | None:

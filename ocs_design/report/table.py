@@ -77,3 +77,13 @@ def counted(count: int, noun: str, plural: str = "") -> str:
 def listed(texts: Sequence[str]) -> str:
     """Texts in one sentence, as in `a, b and c`."""
     return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
+
+
+_UNITS = "mm|um|m|kg|g|N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"
+_TIED = re.compile(rf"(?<=\d) (?=(?:{_UNITS})\b)|(?<=\bN) (?=m\b)|(?<=\bkg) (?=m+2\b)")
+"""Spaces between a number and its unit, and within a unit."""
+
+
+def tied(text: str) -> str:
+    """Text in which no line ends between a number and its unit."""
+    return _TIED.sub("\N{NO-BREAK SPACE}", text)

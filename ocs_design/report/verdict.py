@@ -3,7 +3,9 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ocs_design.device.records import Buildable, OcsDesign, ValidationRecord
+from ocs_design.device.records import Buildable, OcsDesign, ReliabilityRecord, ValidationRecord
+from ocs_design.report.flights import falls
+from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned
 from ocs_design.report.warnings import turned_by_hand
 
@@ -39,17 +41,33 @@ def headline(design: OcsDesign) -> Headline:
     """Verdict on a design and its flights."""
     runs = [run for run in design.validation if run.ocs]
     first = _buildable(design)
+    flights = (*_flights(runs), *_certified(design.reliability))
     if design.buildable.yes is False and design.buildable.open:
         point = design.buildable.open[0]
-        return Headline((first, *_flights(runs)), f"{point.what}; {point.cure}")
+        return Headline((first, *flights), f"{point.what}; {point.cure}")
     by_hand = next(iter(turned_by_hand(design)), "")
-    return Headline((first, *_flights(runs)), _of_flights(runs) or by_hand)
+    matter = _of_flights(runs) or by_hand or _sure(design.reliability)
+    return Headline((first, *flights), matter)
 
 
-def flights_headline(runs: Sequence[ValidationRecord]) -> Headline:
-    """Verdict on flights alone, of which those with the device count."""
+def flights_headline(
+    runs: Sequence[ValidationRecord], reliability: ReliabilityRecord | None = None
+) -> Headline:
+    """Verdict on flights alone, of which those with the device count, and their certificate."""
     carrying = [run for run in runs if run.ocs]
-    return Headline(tuple(_flights(carrying)), _of_flights(carrying))
+    parts = (*_flights(carrying), *_certified(reliability))
+    return Headline(parts, _of_flights(carrying) or _sure(reliability))
+
+
+def _sure(found: ReliabilityRecord | None) -> str:
+    return "" if found is None else certificate_line(found)
+
+
+def _certified(found: ReliabilityRecord | None) -> Iterator[Toned]:
+    """Certificate; nothing where none was flown."""
+    if found is not None:
+        tones = {"certified": Tone.PASS, "falls short": Tone.FAIL, "undecided": Tone.OPEN}
+        yield Toned(f"{100.0 * found.asked:.4g} % {found.verdict}", tones[found.verdict])
 
 
 def _buildable(design: OcsDesign) -> Toned:
@@ -96,10 +114,4 @@ def _of_flights(runs: Sequence[ValidationRecord]) -> str:
     for run in sorted(runs, key=lambda run: run.passed is None):
         if run.passed is not True:
             return f"{run.scenario}: {run.reason}"
-    fallen = [run.scenario for run in runs if run.stands is False]
-    if fallen:
-        return (
-            f"{', '.join(fallen)}: the robot lands level and then falls; its legs do not bear such "
-            "a landing by themselves, however level it is"
-        )
-    return ""
+    return falls(runs)

@@ -10,7 +10,7 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.device.records import DemandRecord, ManeuverRecord, OcsDesign, OcsRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.flights import flight_remarks
-from ocs_design.report.quantities import degrees
+from ocs_design.report.quantities import degrees, inertia
 from ocs_design.report.table import counted
 from ocs_design.requirement.bound import AXES, authority
 from ocs_design.sizing.margins import MOTOR_TORQUE
@@ -33,26 +33,30 @@ _NOT_DESIGNED = "not designed"
 
 
 def all_warnings(design: OcsDesign) -> Iterator[str]:
-    """Warnings for the summary: about the robot's file, the device, its motor and its flights."""
+    """Everything to mind, what matters most first: the device, its flights, the robot's file."""
     ocs = design.ocs
-    yield from (*design.robot.warnings, *ocs.warnings)
     yield from shortfalls(design)
-    yield from _overvoltage(ocs.motor)
-    yield from _motor_notes(design)
     # A robot by hand has no shape, and nobody thinks that it was looked at.
     if ocs.clearance is None and design.robot.sha256:
         yield (
             "clearance NOT checked: no geometry of the robot could be read, so its parts may be "
             "where the device is; make sure that its meshes are found (--package-path NAME=DIR)"
         )
-    found = () if ocs.mounting is None else ocs.mounting.reachable
-    if found:
-        names = ", ".join(dict.fromkeys(reach.part for reach in found))
-        yield f"links that can hit a module within their joints' limits: {names}"
-    yield from (note for note in ocs.fitting if _NOT_DESIGNED in note)
+    # What is odd in the robot's file may make all else wrong, but shall not hide it.
+    yield from design.robot.warnings[:1]
     if ocs.flywheel.stress_margin is None:
         yield unchecked_stress(ocs)
     yield from flight_remarks(design)
+    yield from ocs.warnings
+    yield from _overvoltage(ocs.motor)
+    yield from design.robot.warnings[1:]
+    found = () if ocs.mounting is None else ocs.mounting.reachable
+    if found:
+        first, *others = dict.fromkeys(reach.part for reach in found)
+        links = f"{first} and {counted(len(others), 'more link')}" if others else first
+        yield f"{links} can hit a module within the joints' limits"
+    yield from _motor_notes(design)
+    yield from (note for note in ocs.fitting if _NOT_DESIGNED in note)
 
 
 def unchecked_stress(ocs: OcsRecord) -> str:
@@ -68,7 +72,21 @@ def device_warnings(design: OcsDesign) -> tuple[str, ...]:
         *ocs.fitting,
         *_overvoltage(ocs.motor),
         *_motor_notes(design),
+        *_drifting(design),
     )
+
+
+def _drifting(design: OcsDesign) -> Iterator[str]:
+    """Maneuvers that end off level about an axis that their incidence leaves out of reach."""
+    kept = None if design.selection is None else design.selection.kept
+    if kept is None:
+        return
+    for each in kept.maneuvers:
+        if each.lost > 1.0 - kept.reliability:
+            yield (
+                f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
+                "axis that the wheels do not reach at its incidence: state a larger one, or none"
+            )
 
 
 def _reachable(ocs: OcsRecord) -> Iterator[str]:
@@ -111,8 +129,7 @@ def _motor_notes(design: OcsDesign) -> Iterator[str]:
         )
     if BY_CONVENTION in motor.confidence:
         yield (
-            f"threads of {motor.name} are those that makers use for its size: compare them with "
-            "its drawing before you order parts"
+            f"threads of {motor.name} are usual for its size: compare its drawing before you order"
         )
     if motor.rotor_inertia_source:
         yield f"rotor inertia is an {motor.rotor_inertia_source}"
@@ -137,7 +154,7 @@ def shortfalls(design: OcsDesign) -> Iterator[str]:
                 f"{limit:.3g} N m allowed: no wheel, however large, makes this turn in time"
             )
         if specified is not None and demand.spin_inertia > specified:
-            yield f"{demand.source}: asks for more than the {specified:.3e} kg m2 specified"
+            yield f"{demand.source}: asks for more than the {inertia(specified)} specified"
         yield from _turned_by_hand(demand, design)
 
 

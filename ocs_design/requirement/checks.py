@@ -6,7 +6,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
-from ocs_design.requirement.choices import unknown_names
+from ocs_design.requirement.choices import highest_rated_voltage, unknown_names
 from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
 from ocs_design.requirement.maneuver import (
     Disturbance,
@@ -112,6 +112,10 @@ def without_motor(specification: Specification) -> Iterator[str]:
             yield f"flywheel.{key}: says nothing where motor.name is {NO_MOTOR!r}"
     if specification.ocs.alpha_criterion == LIGHTEST:
         yield f"ocs.alpha_criterion: {LIGHTEST!r} needs a motor: motor.name is {NO_MOTOR!r}"
+    if specification.ocs.guard is not None:
+        yield f"ocs.guard: says nothing where motor.name is {NO_MOTOR!r}"
+    if specification.ocs.lighter_by is not None:
+        yield f"ocs.lighter_by: needs a motor: motor.name is {NO_MOTOR!r}"
     if specification.ocs.co_design:
         yield f"ocs.co_design: needs a motor: motor.name is {NO_MOTOR!r}"
 
@@ -136,6 +140,7 @@ def unfit_for_robot(
         )
     yield from _empty_room(specification.flywheel, envelope)
     yield from _impossible(requirement, robot)
+    yield from _overfed(specification)
     try:
         if name not in {None, STEEL, AUTO}:
             material(name)
@@ -160,12 +165,45 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
                 f"ocs.position: {axis} = {coordinate:g} m is off the robot ({size:.2g} m): "
                 f"did you mean {coordinate:g}mm?"
             )
-    mass = specification.flywheel.wheel_mass_max
-    if mass is not None and mass > robot.mass:
+    less = specification.ocs.lighter_by
+    if less is not None and less > robot.mass:
         yield (
-            f"flywheel.wheel_mass_max: {mass:g} kg is more than the robot ({robot.mass:.3g} kg): "
-            f"did you mean {mass:g}g?"
+            f"ocs.lighter_by: {less:g} kg is more than the robot ({robot.mass:.3g} kg): did you "
+            f"mean {less:g}g?"
         )
+    for kick in specification.requirement.kick or ():
+        if not isinstance(kick.point, str) and max(map(abs, kick.point)) > size:
+            yield (
+                f"requirement.kick: '{kick}' is off the robot ({size:.2g} m): a point without a "
+                "unit is in metres"
+            )
+    masses = {
+        "flywheel.wheel_mass_max": specification.flywheel.wheel_mass_max,
+        "ocs.mass_max": specification.ocs.mass_max,
+        "ocs.lighter_by": specification.ocs.lighter_by,
+    }
+    for path, mass in masses.items():
+        if mass is not None and mass > robot.mass:
+            yield (
+                f"{path}: {mass:g} kg is more than the robot ({robot.mass:.3g} kg): "
+                f"did you mean {mass:g}g?"
+            )
+
+
+OVERFED = 2.0
+"""Times the highest voltage of any motor on offer: more was meant with its point elsewhere."""
+
+
+def _overfed(specification: Specification) -> Iterator[str]:
+    """A voltage that no motor on offer comes near."""
+    voltage, rated = specification.supply.voltage, highest_rated_voltage(specification)
+    if voltage is None or rated is None or voltage <= OVERFED * rated:
+        return
+    meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= rated)
+    yield (
+        f"supply.voltage: {voltage:g} V, and no motor on offer is rated for more than {rated:g} V: "
+        f"did you mean {meant:g}V?"
+    )
 
 
 def _empty_room(specified: FlywheelSection, envelope: Envelope) -> Iterator[str]:

@@ -136,6 +136,12 @@ def any_motors(specification: Specification) -> tuple[Motor, ...]:
     return _motors(replace(specification, motor=replace(specification.motor, any=True)))
 
 
+def highest_rated_voltage(specification: Specification) -> float | None:
+    """Highest voltage that any known motor is rated for [V]; None: no source says."""
+    known = known_motors(_path(specification.motor.motors)).values()
+    return max((each.rated_voltage for each in known if each.rated_voltage), default=None)
+
+
 MOST_NAMED = 3
 """Motors whose gaps a message names."""
 

@@ -6,12 +6,26 @@ and a torque that turns both alike with I / T^2.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, pi, radians, sqrt
 from types import MappingProxyType
 
+import numpy as np
+
 from ocs_design.actuation.supply import Supply
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Disturbance, Drop, Flip, Shove
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.units import format_quantity
+from ocs_design.requirement.maneuver import (
+    STANDARD_GRAVITY,
+    Disturbance,
+    Drop,
+    Flip,
+    Maneuver,
+    Shove,
+)
+from ocs_design.requirement.specification import RequirementSection
+from ocs_design.requirement.values import did_you_mean
+from ocs_design.requirement.words import Kick, Tilt, Vector3
 from ocs_design.robot.robot import Robot
 
 
@@ -60,8 +74,8 @@ BUS_VOLTAGES: Mapping[float, float] = MappingProxyType({20.0: 24.0, 60.0: 48.0, 
 """[V] by the mass of the heaviest robot that has it [kg].
 
 24 V, six cells of lithium polymer: Solo12, A1, Go2. 48 V: ANYmal; Unitree's B2, 60 kg, has 50.4 V
-(docs.westonrobot.com/robot_user_guide/unitree/b2.html). 72 V: twenty cells, as heavier humanoids
-such as Talos, 95 kg."""
+(docs.westonrobot.com/robot_user_guide/unitree/b2.html). 72 V, twenty cells, for what is heavier:
+an assumption."""
 
 POWER_PER_MASS = 400.0
 """Power of the supply over the robot's mass [W/kg]: a pack of 4 kW/kg, as lithium polymer is sold
@@ -192,6 +206,148 @@ def default_maneuvers(
         duration=2.0 * sqrt(scale.length),
     )
     return _disturbance(scale, gravity), drop, back_flip
+
+
+@dataclass(frozen=True, eq=False)
+class Worded:
+    """Maneuvers that were asked for in words, and what was filled in, a sentence for each."""
+
+    maneuvers: tuple[Maneuver, ...]
+    notes: tuple[str, ...]
+
+
+def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
+    """Jumps, kicks, falls and flips that are asked for by keys of their own.
+
+    Each kick is during each jump, each flip in each jump, each fall from each tilt; what is not
+    stated is as in the paper's tests, scaled to the robot.
+
+    Raises:
+        SpecificationError: a kick hits no link of the robot, or a point off it.
+    """
+    gravity = asked.gravity or STANDARD_GRAVITY
+    disturbance, drop, back_flip = default_maneuvers(robot, gravity)
+    maneuvers: list[Maneuver] = []
+    notes: list[str] = []
+
+    def add(maneuver: Maneuver, note: str, told: str = "") -> None:
+        """Keeps it with its summary, or what is told in its place; a second one is numbered."""
+        same = sum(each.name.split()[0] == maneuver.name for each in maneuvers)
+        name = f"{maneuver.name} {same + 1}" if same else maneuver.name
+        maneuvers.append(replace(maneuver, name=name))
+        notes.append(f"{name}: {told or maneuver.summary}{note}.")
+
+    upward = disturbance.takeoff_velocity[1]
+    for height in asked.jump_height or (upward**2 / (2.0 * gravity),):
+        jump = _jump(disturbance, height)
+        of_jump = f", in a vertical jump of {height:.3g} m"
+        if asked.jump_height is None:
+            of_jump += " (the paper's, scaled)"
+        for kick in asked.kick or ():
+            kicked, told = _kicked(kick, jump, robot)
+            add(kicked, of_jump, told)
+        if asked.jump_height and asked.kick is None and asked.flip is None:
+            add(jump, f"{of_jump}; the torque is that of the paper's first test, scaled")
+    for height in asked.jump_height or (back_flip.jump_height,):
+        for angle in asked.flip or ():
+            flip = replace(back_flip, name="flip", gravity=gravity, jump_height=height, angle=angle)
+            share = back_flip.duration / back_flip.flight_time
+            note = f", {share:.0%} of the flight as in the paper"
+            if asked.jump_height is None:
+                note += "; the jump's height is the paper's, scaled"
+            add(replace(flip, duration=share * flip.flight_time), note)
+    if asked.fall or asked.tilt:
+        for height in asked.fall or (drop.height,):
+            for tilt in asked.tilt or (Tilt(drop.roll, drop.pitch),):
+                fall = replace(drop, name="fall", height=height, roll=tilt.roll, pitch=tilt.pitch)
+                feet = format_quantity(height - standing_height(robot), "mm", 3)
+                note = f", the feet of the level robot {feet} above the ground"
+                if asked.tilt is None:
+                    note += "; the tilt is the paper's"
+                if asked.fall is None:
+                    note += "; the height is the paper's, scaled"
+                add(fall, note)
+    return Worded(tuple(maneuvers), tuple(notes))
+
+
+def _jump(like: Disturbance, height: float) -> Disturbance:
+    """A vertical jump of this height [m] with the torque of another, at the same share of it."""
+    upward = sqrt(2.0 * like.gravity * height)
+    share = upward / like.takeoff_velocity[1]
+    roll, pitch, yaw = like.torque
+    return replace(
+        like,
+        name="jump",
+        takeoff_velocity=(0.0, upward),
+        torque=(roll / share, pitch / share, yaw / share),
+        onset=share * like.onset,
+        duration=share * like.duration,
+    )
+
+
+def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, str]:
+    """A kick during this jump, and how it was understood.
+
+    A force on a free robot turns it about its centre of mass with the angular impulse r x p, and
+    moves that by p / m. Both are those of the robot without the device, whose joints hold.
+    """
+    point = np.array(_point(kick.point, robot))
+    sideways = np.array([0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0])
+    along = sideways if kick.along is None else np.array(kick.along)
+    impulse = kick.impulse * along / np.linalg.norm(along)
+    # Without the rounding errors of zeros.
+    turned = np.round(np.cross(point - robot.com, impulse), 12) + 0.0
+    moved = impulse / robot.mass
+    kicked = replace(
+        jump,
+        name="kick",
+        torque=tuple((turned / jump.duration).tolist()),
+        velocity_change=tuple(moved.tolist()),
+    )
+    where = ", ".join(f"{1e3 * each:.3g}" for each in point)
+    direction = ", ".join(f"{each:.3g}" for each in along)
+    default = " (from the side: no direction is stated)" if kick.along is None else ""
+    named = f"{kick.point}, " if isinstance(kick.point, str) else ""
+    roll, pitch, yaw = (f"{each:.3g}" for each in turned)
+    spin = abs(np.linalg.solve(robot.inertia, turned)[2])
+    rate = format_quantity(spin, "deg/s", 2)
+    heading = f", whose part about z turns it by {rate}: no wheel stops that"
+    return kicked, (
+        f"{kick.impulse:.3g} N s at {named}({where}) mm along ({direction}){default}, as angular "
+        f"impulse ({roll}, {pitch}, {yaw}) N m s about the centre of mass"
+        f"{heading if spin > _TURNS else ''}, and {np.linalg.norm(moved):.3g} m/s; "
+        f"{jump.onset:.3g} s after lift-off, for {jump.duration:.3g} s"
+    )
+
+
+def _point(point: Vector3 | str, robot: Robot) -> Vector3:
+    """Where a kick hits, in B [m].
+
+    Raises:
+        SpecificationError: no link has this name.
+    """
+    if not isinstance(point, str):
+        return point
+    index = robot.tree.body_of_link.get(point)
+    if index is None:
+        links = tuple(robot.tree.body_of_link)
+        raise SpecificationError(
+            f"requirement.kick: the robot has no link {point!r}",
+            hint=did_you_mean(point, links) or f"Links: {', '.join(links[:_MOST_LINKS])}",
+        )
+    placed = robot.tree.placements_from(robot.trunk, robot.posture)[index]
+    x, y, z = (placed @ robot.tree.bodies[index].links[point]).position.tolist()
+    return x, y, z
+
+
+_MIDDLE = 1e-3
+"""Distance from the trunk's middle plane within which a point has no side [m]."""
+
+_TURNS = 0.1
+"""Rate about z above which a kick is said to turn the robot [rad/s]."""
+
+_MOST_LINKS = 20
+"""That a message names."""
 
 
 def example_shove(robot: Robot, gravity: float = STANDARD_GRAVITY) -> Shove:

@@ -5,7 +5,8 @@ They are the `[[maneuver]]` tables of a specification.
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, dataclass, field, fields
+from math import sqrt
 from types import MappingProxyType
 from typing import Any
 
@@ -16,6 +17,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import Dimension, format_quantity
 from ocs_design.requirement.values import (
+    HEIGHT,
     INCIDENCE,
     TILT,
     TURN,
@@ -162,12 +164,15 @@ class Disturbance(Unforeseen):
         torque: on the trunk in B [N m], shape (3,).
         onset: time from lift-off to the torque [s].
         duration: of the torque [s].
+        velocity_change: of the centre of mass by a force of the same duration, in B [m/s], shape
+            (3,); the torque is then the one about the centre of mass.
     """
 
     takeoff_velocity: tuple[float, float]
     torque: tuple[float, float, float]
     onset: float
     duration: float
+    velocity_change: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @property
     def time_left(self) -> float:
@@ -176,18 +181,28 @@ class Disturbance(Unforeseen):
 
     @property
     def flight_time(self) -> float:
-        """Until a rigid robot lands where it took off [s]."""
-        return 2.0 * self.takeoff_velocity[1] / self.gravity
+        """Until a rigid robot lands as high as it took off [s].
+
+        An upward change of velocity w in the middle of the push, at t', shifts the parabola:
+        v t - g t^2 / 2 + w (t - t') = 0.
+        """
+        upward, gained = self.takeoff_velocity[1], self.velocity_change[2]
+        later = upward + gained
+        lost = 2.0 * self.gravity * gained * (self.onset + 0.5 * self.duration)
+        return (later + sqrt(max(later**2 - lost, 0.0))) / self.gravity
 
     @property
     def summary(self) -> str:
         """Lift-off and torque."""
         forward, upward = self.takeoff_velocity
-        return (
+        told = (
             f"lift-off at {forward:.3g} m/s forward and {upward:.3g} m/s up, "
             f"{_torque(self.torque)} on the trunk for {self.duration:.3g} s, {self.onset:.3g} s "
             f"after it"
         )
+        if any(self.velocity_change):
+            told += f", which changes its velocity by {_row(self.velocity_change)} m/s"
+        return told
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -224,7 +239,11 @@ class Shove(Unforeseen):
 
 
 def _torque(torque: tuple[float, float, float]) -> str:
-    return f"({', '.join(f'{value:.3g}' for value in torque)}) N m"
+    return f"{_row(torque)} N m"
+
+
+def _row(values: tuple[float, float, float]) -> str:
+    return f"({', '.join(f'{value:.3g}' for value in values)})"
 
 
 class Reorientation(Maneuver):
@@ -329,8 +348,23 @@ class Flip(Reorientation):
         """Turn, time, jump and gravity."""
         return (
             f"turns {format_quantity(self.angle, 'deg')} of pitch in {self.duration:.3g} s, "
-            f"in a vertical jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
+            f"in a jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
         )
+
+
+@dataclass(frozen=True)
+class ManeuverReserve:
+    """What a device keeps for a maneuver that is not quite as designed.
+
+    Attributes:
+        demand: factor on what is asked of the wheels, at least 1.
+        rate: of roll and pitch that the trunk may begin with [rad/s].
+        begun: factor on what is asked with that rate; below 1 where there is enough to spare.
+    """
+
+    demand: float = 1.0
+    rate: tuple[float, float] = (0.0, 0.0)
+    begun: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -343,6 +377,8 @@ class Requirement:
         wheel_speed_max: of a wheel relative to the trunk [rad/s].
         spin_inertia: of one wheel, asked for in place of all else [kg m^2]; None: solved for.
         standing_height: of the trunk over the ground, for maneuvers that end there [m].
+        reserves: kept for maneuvers by their names; none for those that are not in it.
+        free: whether the incidence is still to be chosen.
     """
 
     maneuvers: tuple[Maneuver, ...]
@@ -350,6 +386,25 @@ class Requirement:
     wheel_speed_max: float
     spin_inertia: float | None
     standing_height: float
+    reserves: Mapping[str, ManeuverReserve] = field(default_factory=dict)
+    free: bool = False
+
+    def slew(self, maneuver: Maneuver, inertia: TiltInertia, *, begun: bool = False) -> Slew:
+        """What a motor must do for a maneuver with its reserve (`Maneuver.slew`).
+
+        Args:
+            maneuver: of this requirement. inertia: see there.
+            begun: whether the trunk begins with the rate of the reserve: momentum that the wheels
+                hold till the end, with the sense of what they hold anyway.
+        """
+        slew, kept = maneuver.slew(inertia, self.standing_height), self.reserves.get(maneuver.name)
+        if kept is None:
+            return slew
+        factor, momentum = kept.demand, slew.momentum
+        if begun:
+            factor = kept.begun
+            momentum = momentum + np.copysign(inertia.diagonal * np.array(kept.rate), momentum)
+        return Slew(factor * slew.swept, factor * momentum, slew.duration)
 
 
 @dataclass(frozen=True)
@@ -389,6 +444,7 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
                 "torque": Quantities(Dimension.TORQUE, (3,)),
                 "onset": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE),
                 "duration": _TIME,
+                "velocity_change": Quantities(Dimension.SPEED, (3,)),
             },
         ),
         "shove": ManeuverKind(
@@ -403,13 +459,13 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
         ),
         "drop": ManeuverKind(
             Drop,
-            {**_COMMON, "height": Quantity(Dimension.LENGTH), "roll": TILT, "pitch": TILT},
+            {**_COMMON, "height": HEIGHT, "roll": TILT, "pitch": TILT},
         ),
         "flip": ManeuverKind(
             Flip,
             {
                 **_COMMON,
-                "jump_height": Quantity(Dimension.LENGTH),
+                "jump_height": HEIGHT,
                 "angle": TURN,
                 "duration": _TIME,
             },

@@ -29,12 +29,19 @@ def read_specification(path: Path) -> Specification:
     Raises:
         SpecificationError: it cannot be read, is not TOML, or has faults, all of which are listed.
     """
-    specification = parse_specification(_FILE.read(path), str(path))
-    robot, motor = specification.robot, specification.motor
+    content = _FILE.read(path)
+    if content.lstrip().startswith("<"):
+        raise SpecificationError(
+            f"{path} is a robot or other XML, no specification",
+            hint=f"give the robot without --spec: ocs-design size {path} --spec mine.toml",
+        )
+    specification = parse_specification(content, str(path))
+    robot, motor, reality = specification.robot, specification.motor, specification.reality
     return replace(
         specification,
         robot=replace(robot, file=_beside(path, robot.file)),
         motor=replace(motor, motors=_beside(path, motor.motors), gears=_beside(path, motor.gears)),
+        reality=replace(reality, file=_beside(path, reality.file)),
     )
 
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.actuation.controllers import BASE_MASS, MASS_PER_CURRENT
-from ocs_design.actuation.drive import RESERVE, missing_figures
+from ocs_design.actuation.drive import RESERVE
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import format_quantity, to_unit
 from ocs_design.requirement.checks import unfit_for_robot
 from ocs_design.requirement.choices import MotorChoice, motor_choice
 from ocs_design.requirement.froude import (
@@ -21,10 +21,12 @@ from ocs_design.requirement.froude import (
     WHEEL_SPEED_MAX,
     Envelope,
     Scale,
+    Worded,
     default_envelope,
     default_maneuvers,
     default_supply,
     standing_height,
+    worded_maneuvers,
 )
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Requirement
 from ocs_design.requirement.specification import (
@@ -36,9 +38,11 @@ from ocs_design.requirement.specification import (
     CONTROL_PERIOD,
     DISC,
     EQUAL_RATE,
+    FINGERS,
     LIGHTENING,
     NO_WEB,
     PROJECTIONS,
+    RELIABILITY,
     STEEL,
     FlywheelSection,
     MotorSection,
@@ -51,6 +55,7 @@ from ocs_design.requirement.specification import (
 )
 from ocs_design.requirement.uncertainty import default_uncertainty
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
 
@@ -70,8 +75,10 @@ def default_specification(
     envelope, supply = default_envelope(robot), default_supply(robot)
     return Specification(
         robot=RobotSection(posture=robot.posture_name),
-        requirement=RequirementSection(gravity=STANDARD_GRAVITY, maneuvers="paper"),
-        ocs=OcsSection(alpha_criterion=EQUAL_RATE, co_design=False),
+        requirement=RequirementSection(
+            gravity=STANDARD_GRAVITY, maneuvers="paper", reliability=RELIABILITY
+        ),
+        ocs=OcsSection(alpha_criterion=EQUAL_RATE, co_design=False, guard=FINGERS),
         flywheel=FlywheelSection(
             material=STEEL,
             web=DISC,
@@ -94,6 +101,7 @@ def default_specification(
             control_period=CONTROL_PERIOD,
             desaturate=False,
             video=False,
+            certify=False,
         ),
         reality=default_uncertainty(standing_height(robot)),
         maneuvers=default_maneuvers(robot, gravity),
@@ -136,6 +144,13 @@ def read_specified_robot(
             joints=stated.joints or {},
             package_paths=package_paths,
         )
+        impossible = impossible_size(robot.mass_properties) if sure else None
+        if impossible is not None:
+            raise RobotError(
+                f"{stated.file}: {impossible}",
+                hint="a robot file is in kg, m and kg m^2: are its masses in grams, or its lengths "
+                f"in millimetres? See `ocs-design inspect {stated.file}`",
+            )
         if sure and robot.recognition is not None and not robot.recognition.sure:
             question = robot.recognition.question()
             raise RobotError(f"{stated.file}: {question.message}", hint=question.hint)
@@ -153,6 +168,12 @@ def read_specified_robot(
             "see docs/tutorial.md",
         )
     weighed = stated.weighed
+    if weighed is not None and not 1e-2 < weighed / robot.mass < 1e2:
+        unit = "g" if weighed > robot.mass else "kg"
+        raise UsageError(
+            f"the robot weighs {weighed:.6g} kg by the scales and {robot.mass:.4g} kg by its file",
+            hint=f"did you mean {to_unit(weighed, 'kg' if unit == 'g' else 'g'):g}{unit}?",
+        )
     if weighed is not None and abs(robot.mass - weighed) > SCALES * weighed:
         wrong = "something is missing" if robot.mass < weighed else "something is too heavy"
         warning = (
@@ -173,6 +194,7 @@ def _assumptions(
     *,
     materials: tuple[Material, ...],
     choice: MotorChoice | None,
+    worded: Worded,
 ) -> Iterator[str]:
     """One sentence for everything that was not specified; the rest has its defaults filled in."""
     flywheel, motor, scale = specification.flywheel, specification.motor, Scale.of(robot)
@@ -183,17 +205,19 @@ def _assumptions(
     if specification.takes_default_maneuvers:
         ratio = f"lengths x {scale.length:.3g}"
         yield f"Maneuvers: the paper's three, scaled from {SOLO12.name} ({ratio})."
-        yield from (f"{item.name}: {item.summary}." for item in requirement.maneuvers)
+        paper = requirement.maneuvers[: -len(worded.maneuvers) or None]
+        yield from (f"{item.name}: {item.summary}." for item in paper)
+    yield from worded.notes
     if specification.ocs.alpha is None and specification.ocs.alpha_criterion is None:
         yield "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate)."
 
     lengths = [
-        f"{key} {format_quantity(getattr(envelope, LIMIT_OF_KEY[key]), 'mm', 3)}"
+        f"{key} {to_unit(getattr(envelope, LIMIT_OF_KEY[key]), 'mm'):.3g}"
         for key in ("r_max", "r_min", "h_max", "h_min", "wall_min")
         if getattr(flywheel, key) is None
     ]
     if lengths:
-        yield f"Rim: {', '.join(lengths)} ({SOLO12.name}'s x {scale.rim:.3g})."
+        yield f"Rim: {', '.join(lengths)} mm ({SOLO12.name} x {scale.rim:.3g})."
     if flywheel.wheel_mass_max is None:
         mass = format_quantity(envelope.mass_max, "g" if envelope.mass_max < 1.0 else "kg", 3)
         yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
@@ -201,10 +225,8 @@ def _assumptions(
     if choice is not None:
         yield from _assumed_supply(specification.supply, choice.supply)
         if motor.name in {None, AUTO}:
-            # Those whose figures suffice; a gear asks for more of them, never for less.
-            known = sum(not missing_figures(found, DIRECT) for found in choice.motors)
             which = "with enough figures" if motor.any else "that can be built with"
-            yield f"Motor: the lightest device of {known} motors {which}."
+            yield f"Motor: the lightest device of all motors {which}."
         if motor.gear in {None, AUTO}:
             stages = len(choice.gears) - 1
             yield (
@@ -219,6 +241,11 @@ def _assumptions(
             f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
             "the rest is the feedback's."
         )
+        if specification.requirement.reliability is None:
+            yield (
+                f"Reliability: {RELIABILITY:.0%} of flights shall pass with what is drawn "
+                "(`[reality]`)."
+            )
         return
     if specification.requirement.wheel_speed_max is None:
         speed = format_quantity(requirement.wheel_speed_max, "rpm")
@@ -288,6 +315,7 @@ class Resolved:
         material: of a rim.
         torque_max: of a wheel [N m]; None: not limited.
         choice: of motors, gears and materials; None: no motor is wanted, and `material` holds.
+        reliability: share of flights that shall pass as built; None: no motor is wanted.
         assumptions: what was not stated and what holds in its place, one sentence each.
     """
 
@@ -297,6 +325,7 @@ class Resolved:
     torque_max: float | None
     choice: MotorChoice | None
     assumptions: tuple[str, ...]
+    reliability: float | None = None
 
 
 def resolve(specification: Specification, robot: Robot, robot_size: float) -> Resolved:
@@ -316,9 +345,10 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         specified = getattr(flywheel, key)
         if specified is not None:
             envelope = replace(envelope, **{limit: specified})
-    maneuvers = specification.maneuvers
+    maneuvers, worded = specification.maneuvers, worded_maneuvers(asked, robot)
     if specification.takes_default_maneuvers:
         maneuvers = default_maneuvers(robot, asked.gravity or STANDARD_GRAVITY)
+    maneuvers = (*maneuvers, *worded.maneuvers)
     requirement = Requirement(
         maneuvers=maneuvers,
         rate_change=asked.rate_change,
@@ -329,6 +359,8 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
     faults = tuple(unfit_for_robot(specification, robot, robot_size, requirement, envelope))
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)
+    # What is wrong with a file of distributions is told before anything is sized.
+    default_uncertainty(requirement.standing_height, file=specification.reality.file)
     choice = motor_choice(specification, robot)
     # Without a motor only the rim has a mass, and one material is as good as chosen.
     name = flywheel.material
@@ -342,7 +374,14 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         choice=choice,
         assumptions=tuple(
             _assumptions(
-                specification, robot, requirement, envelope, materials=materials, choice=choice
+                specification,
+                robot,
+                requirement,
+                envelope,
+                materials=materials,
+                choice=choice,
+                worded=worded,
             )
         ),
+        reliability=None if choice is None else asked.reliability or RELIABILITY,
     )

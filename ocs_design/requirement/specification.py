@@ -14,10 +14,12 @@ from ocs_design.common.units import Dimension
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.uncertainty import UncertaintySection
 from ocs_design.requirement.values import (
+    HEIGHT,
     INCIDENCE,
     SUPPLY,
     TRUNK_RATE,
     WHEEL_SPEED,
+    Chance,
     Choice,
     Count,
     Faults,
@@ -28,11 +30,13 @@ from ocs_design.requirement.values import (
     Number,
     Quantities,
     Quantity,
+    Several,
     Sign,
     Switch,
     Text,
     WordOr,
 )
+from ocs_design.requirement.words import FLIP, GRAVITY, Kick, KickText, Tilt, TiltText
 
 Section = TypeVar("Section")
 
@@ -66,6 +70,9 @@ ALUMINIUM_WEB = "aluminium"
 NO_WEB = "none"
 """In place of a web: massless spokes, as in the paper."""
 
+FINGERS, CONTAINING = GUARDS = "fingers", "containing"
+"""Guards: the printed housing alone, or a ring of mild steel in it."""
+
 WEBS = (DISC, ALUMINIUM_WEB, NO_WEB)
 
 LIGHTENING, LIGHTENINGS = 6, (0, 5, 6, 7, 8)
@@ -77,6 +84,9 @@ and what hubs stand."""
 
 BALANCING_DIAMETER, BALANCING_DEPTH = 1.6e-3, 1.0e-3
 """Of balancing holes, where nothing is stated [m]: the core hole of M2, and shallow, for glue."""
+
+RELIABILITY = 0.99
+"""Share of flights that shall pass, where nothing is stated."""
 
 CONTROL_PERIOD = 0.005
 """From one torque of the wheels to the next, where nothing is stated [s]."""
@@ -117,6 +127,10 @@ class RobotSection:
     ] = None
 
 
+WORDS = ("jump_height", "kick", "fall", "tilt", "flip")
+"""Keys of `[requirement]` that ask for a maneuver (`froude.worded_maneuvers`)."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class RequirementSection:
     """`[requirement]`: what the wheels must do [rad/s, rad/s, kg m^2, m/s^2]."""
@@ -126,13 +140,40 @@ class RequirementSection:
     spin_inertia: Annotated[
         float | None, Key(Quantity(Dimension.INERTIA), "spin inertia of one wheel, asked directly")
     ] = None
-    gravity: Annotated[
-        float | None, Key(Quantity(Dimension.ACCELERATION), "where maneuvers state none")
+    gravity: Annotated[float | None, Key(GRAVITY, "where maneuvers state none")] = None
+    jump_height: Annotated[
+        tuple[float, ...] | None,
+        Key(Several(HEIGHT), "height of a jump, of the centre of mass"),
     ] = None
+    kick: Annotated[
+        tuple[Kick, ...] | None, Key(Several(KickText()), "impulse on the trunk during a jump")
+    ] = None
+    fall: Annotated[
+        tuple[float, ...] | None,
+        Key(Several(HEIGHT), "height of the trunk that a fall starts at"),
+    ] = None
+    tilt: Annotated[
+        tuple[Tilt, ...] | None, Key(Several(TiltText()), "of the trunk when a fall starts")
+    ] = None
+    flip: Annotated[tuple[float, ...] | None, Key(Several(FLIP), "turn in pitch during a jump")] = (
+        None
+    )
     maneuvers: Annotated[
         str | None,
         Key(Choice(("paper", "none")), "the paper's three beside what else is asked, or none"),
     ] = None
+    reliability: Annotated[
+        float | None, Key(Chance(), "share of flights that shall pass as built (`[reality]`)")
+    ] = None
+
+    @property
+    def is_worded(self) -> bool:
+        """Whether a maneuver is asked for by a key of its own, such as `fall`."""
+        return any(getattr(self, word) is not None for word in WORDS)
+
+    def without_words(self) -> "RequirementSection":
+        """All else that is asked."""
+        return replace(self, **dict.fromkeys(WORDS))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,8 +191,16 @@ class OcsSection:
     mass_max: Annotated[
         float | None, Key(Quantity(Dimension.MASS), "largest mass of the device, both modules")
     ] = None
+    lighter_by: Annotated[
+        float | None,
+        Key(Quantity(Dimension.MASS), "to be told what must give for a device so much lighter"),
+    ] = None
     co_design: Annotated[
         bool | None, Key(Switch(), "whether to refine all dimensions by optimal control in 3-D")
+    ] = None
+    guard: Annotated[
+        str | None,
+        Key(Choice(GUARDS), "what the housings hold: fingers out, or also a wheel that bursts"),
     ] = None
 
 
@@ -168,7 +217,8 @@ class FlywheelSection:
         float | None, Key(Quantity(Dimension.MASS), "largest mass of a rim")
     ] = None
     material: Annotated[
-        str | None, Key(Text(), "material of a rim, from the catalogue; steel or auto: of many")
+        str | None,
+        Key(Text((STEEL, AUTO)), "material of a rim, from the catalogue; steel or auto: of many"),
     ] = None
     web: Annotated[
         str | None,
@@ -209,7 +259,9 @@ class MotorSection:
         str | None,
         Key(Names(), "motors to choose from, of the catalogue; auto, or none", option="motor"),
     ] = None
-    gear: Annotated[str | None, Key(Text(), "gear from the catalogue, direct, or auto")] = None
+    gear: Annotated[
+        str | None, Key(Text((AUTO, "direct")), "gear from the catalogue, direct, or auto")
+    ] = None
     any: Annotated[
         bool | None,
         Key(Switch(), "whether motors may lack what a builder needs", option="motors-any"),
@@ -275,6 +327,9 @@ class ValidationSection:
     ] = None
     seed: Annotated[int | None, Key(Count(), "seed of all random numbers")] = None
     video: Annotated[bool | None, Key(Switch(), "whether to film the flights")] = None
+    certify: Annotated[
+        bool | None, Key(Switch(), "whether to fly robots as they might be built, until it is sure")
+    ] = None
     control_period: Annotated[
         float | None,
         Key(Quantity(Dimension.TIME, most=0.1), "from one torque to the next, whole milliseconds"),
@@ -309,8 +364,13 @@ class Specification:
         if self.maneuvers or asked.maneuvers == "none":
             return False
         # What is stated is the requirement: nothing is added to it unasked.
-        nothing = asked.rate_change is None and asked.spin_inertia is None
+        nothing = asked.rate_change is None and asked.spin_inertia is None and not asked.is_worded
         return nothing or asked.maneuvers is not None
+
+    @property
+    def asks_nothing(self) -> bool:
+        """Whether the paper's three hold though nobody asked for them."""
+        return self.takes_default_maneuvers and self.requirement.maneuvers is None
 
 
 SECTIONS: Mapping[str, type] = {
@@ -339,12 +399,16 @@ def all_keys() -> Mapping[str, Key]:
 def merge(base: Specification, override: Specification) -> Specification:
     """`base`, with everything that `override` states in its place; joints are merged one by one.
 
-    A robot by file replaces one by hand, and the other way round.
+    A robot by file replaces one by hand, and the other way round. Maneuvers that are asked for in
+    words replace all that `base` asks for: they are the requirement.
     """
     if override.robot.file is not None:
         base = replace(base, robot=replace(base.robot, mass=None, inertia=None))
     elif override.robot.mass is not None or override.robot.inertia is not None:
         base = replace(base, robot=replace(base.robot, file=None))
+    if override.requirement.is_worded:
+        asked = replace(base.requirement.without_words(), maneuvers=None)
+        base = replace(base, requirement=asked, maneuvers=())
     sections = {
         name: merge_section(getattr(base, name), getattr(override, name)) for name in SECTIONS
     }

@@ -38,7 +38,11 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
         case Disturbance():
             longer = maneuver.flight_time + (factor - 1.0) * maneuver.time_left
             forward, _ = maneuver.takeoff_velocity
-            return replace(maneuver, takeoff_velocity=(forward, longer * maneuver.gravity / 2.0))
+            # The lift-off speed of `flight_time`, solved for.
+            left = longer - maneuver.onset - 0.5 * maneuver.duration
+            gained = maneuver.velocity_change[2] * left / longer
+            upward = longer * maneuver.gravity / 2.0 - gained
+            return replace(maneuver, takeoff_velocity=(forward, upward))
         case Shove():
             return replace(maneuver, settling=maneuver.settling * factor)
         case _:
@@ -211,8 +215,8 @@ class ManeuverSweep(Sweep):
             else maneuver
             for maneuver in task.maneuvers
         )
-        # The paper's three are written out, and then no longer asked for by name.
-        requirement = replace(task.specification.requirement, maneuvers=None)
+        # All are written out, and then no longer asked for by name or in words.
+        requirement = replace(task.specification.requirement.without_words(), maneuvers=None)
         return replace(task.specification, requirement=requirement, maneuvers=maneuvers)
 
     def remarks(self, task: Task) -> tuple[str, ...]:

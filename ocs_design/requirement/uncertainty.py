@@ -1,7 +1,8 @@
 """The section `[reality]`: how what is built and met differs from what was designed, key by key.
 
 Drawn by the inverse of its distribution function from one number between 0 and 1: then another
-distribution of one quantity leaves what is drawn of the others as it was.
+distribution of one quantity leaves what is drawn of the others as it was. What holds where nothing
+is stated, and what it rests on, is data: `reality.toml`.
 """
 
 import math
@@ -10,14 +11,18 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cache
-from math import pi
+from math import inf, isfinite, pi, sqrt
+from pathlib import Path
 from statistics import NormalDist
 from types import MappingProxyType
-from typing import Annotated, get_args, get_type_hints
+from typing import Annotated, Any, get_args, get_type_hints
 
+from ocs_design.actuation.drive import Drive
 from ocs_design.common.errors import QuantityError, SpecificationError
+from ocs_design.common.files import TextKind
 from ocs_design.common.units import Dimension, format_quantity, parse_quantity
-from ocs_design.requirement.values import Faults, Key, Quantity, Value
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.requirement.values import Faults, Key, Quantity, Text, Value
 
 CUT = 3.0
 """Standard deviations at which a normal distribution ends: no part is off by ten."""
@@ -32,6 +37,10 @@ class Distribution(ABC):
     @abstractmethod
     def at(self, part: float) -> float:
         """The value that a `part` of all, 0..1, lie below."""
+
+    @abstractmethod
+    def times(self, factor: float) -> "Distribution":
+        """The distribution of `factor` > 0 times the quantity."""
 
     @abstractmethod
     def written(self, quantity: Callable[[float], str] = repr) -> str:
@@ -49,6 +58,10 @@ class Constant(Distribution):
         del part
         return self.value
 
+    def times(self, factor: float) -> "Constant":
+        """The product (`Distribution.times`)."""
+        return Constant(factor * self.value)
+
     def written(self, quantity: Callable[[float], str] = repr) -> str:
         """The bare quantity."""
         return quantity(self.value)
@@ -65,6 +78,10 @@ class Uniform(Distribution):
         """Linear."""
         return self.low + part * (self.high - self.low)
 
+    def times(self, factor: float) -> "Uniform":
+        """Both ends scaled (`Distribution.times`)."""
+        return Uniform(factor * self.low, factor * self.high)
+
     def written(self, quantity: Callable[[float], str] = repr) -> str:
         """Text of the distribution (`Distribution.written`)."""
         return f"uniform({quantity(self.low)}, {quantity(self.high)})"
@@ -80,6 +97,10 @@ class Normal(Distribution):
     def at(self, part: float) -> float:
         """The inverse of the cut normal distribution function."""
         return self.mean + self.deviation * _STANDARD.inv_cdf(_TAIL + part * (1.0 - 2.0 * _TAIL))
+
+    def times(self, factor: float) -> "Normal":
+        """Mean and deviation scaled (`Distribution.times`)."""
+        return Normal(factor * self.mean, factor * self.deviation)
 
     def written(self, quantity: Callable[[float], str] = repr) -> str:
         """Text of the distribution (`Distribution.written`)."""
@@ -159,6 +180,10 @@ _RATE_SPREAD = Spread(Dimension.ANGULAR_SPEED, "deg/s", 0.0)
 class UncertaintySection:
     """`[reality]`: distributions that `validate --samples` draws from; None: the default."""
 
+    file: Annotated[
+        str | None,
+        Key(Text(), "file of distributions in place of the defaults, TOML", option="reality"),
+    ] = None
     mass_error: Annotated[
         Distribution | None, Key(_RELATIVE, "relative, of all of the robot's masses alike")
     ] = None
@@ -218,44 +243,143 @@ class UncertaintySection:
         Distribution | None,
         Key(Spread(Dimension.RATIO, "%", 0.01), "coefficient between feet and floor"),
     ] = None
+    takeoff_rate: Annotated[
+        Distribution | None,
+        Key(_RATE, "that a push-off leaves about roll and pitch beyond what it was planned to"),
+    ] = None
 
 
-_COM_SHARE = 0.01
-"""Standard deviation of the trunk's centre of mass over the standing height."""
+DEFAULTS = Path(__file__).with_name("reality.toml")
+"""What holds where nothing is stated."""
 
-
-_DEFAULTS: Mapping[str, str] = MappingProxyType(
-    {
-        "mass_error": "normal(0, 2%)",
-        "inertia_error": "normal(0, 5%)",
-        "incidence_error": "normal(0, 0.5deg)",
-        "torque_constant_error": "normal(0, 3%)",
-        "resistance_error": "normal(0, 5%)",
-        "bus_voltage_error": "uniform(-5%, 10%)",
-        "air_drag": "uniform(80%, 120%)",
-        "torque_delay": "uniform(1ms, 3ms)",
-        "attitude_noise": "0.1deg",
-        "attitude_bias": "normal(0, 0.4deg)",
-        "gyro_noise": "0.05deg/s",
-        "gyro_bias": "normal(0, 0.04deg/s)",
-        "contact_friction": "uniform(0.5, 1)",
-    }
+_FILE = TextKind(
+    "file of distributions", 1 << 16, 1000, "check --reality", 'mass_error = "normal(0, 2%)"'
 )
-"""Those that depend on neither robot nor motor (docs/monte_carlo.md, What is drawn)."""
+
+FRICTION_SHARE = 0.01
+"""No-load torque over the torque limit of a motor whose maker does not state its current."""
 
 
-def default_uncertainty(standing_height: float) -> UncertaintySection:
-    """What holds where nothing is stated; friction is left open, for it is the motor's.
+@dataclass(frozen=True)
+class Entry:
+    """One distribution of a file.
+
+    Attributes:
+        value: the distribution, of a share where `of` says what it is a share of.
+        of: one of `_SCALES`, or empty. drawn: how often. source: what it rests on.
+    """
+
+    value: Distribution
+    of: str = ""
+    drawn: str = ""
+    source: str = ""
+
+    def words(self, spread: Spread) -> str:
+        """Text such as `normal(0%, 1%) of standing height`."""
+        unit = "%" if self.of else spread.unit
+        told = self.value.written(lambda number: format_quantity(number, unit))
+        return f"{told} of {self.of}" if self.of else told
+
+
+@cache
+def entries(file: Path = DEFAULTS) -> Mapping[str, Entry]:
+    """Every key's entry: of `file`, and of the package's own where that has none.
+
+    Raises:
+        SpecificationError: the file cannot be read, or has faults, all of which are listed.
+    """
+    content = _FILE.parse_toml(_FILE.read(file), str(file))
+    faults, found = Faults(), {}
+    for name in sorted(content.keys() - {"reality"}):
+        faults.unknown(name, name, ("reality",))
+    for name, raw in faults.table(content.get("reality", {}), "reality").items():
+        where, spread = f"reality.{name}", spreads().get(name)
+        stated = raw if isinstance(raw, dict) else {"value": raw, "source": str(file)}
+        if spread is None:
+            faults.unknown(where, name, tuple(spreads()))
+            continue
+        for key in sorted(stated.keys() - _ENTRY_KEYS):
+            faults.unknown(f"{where}.{key}", key, _ENTRY_KEYS)
+        texts = {key: str(stated.get(key, "")) for key in _ENTRY_KEYS[1:]}
+        if texts["of"] and texts["of"] not in _SCALES:
+            faults.unknown(f"{where}.of", texts["of"], _SCALES)
+        how = Spread(Dimension.RATIO, "%") if texts["of"] else spread
+        value = faults.read(how, stated.get("value"), where)
+        if value is not None:
+            found[name] = Entry(value, **texts)
+    if faults:
+        raise SpecificationError(f"{file} has faults:", problems=faults)
+    if file == DEFAULTS:
+        return MappingProxyType(found)
+    return MappingProxyType({**entries(), **found})
+
+
+_ENTRY_KEYS = ("value", "of", "drawn", "source")
+_SCALES = ("standing height", "pendulum rate", "no-load torque", "no-load friction")
+
+
+def no_load_torque(motor: Drive) -> float:
+    """What a motor gives to turn freely, at its wheel [N m]; 0 where nothing is known of it."""
+    if motor.no_load_current is not None and motor.torque_constant is not None:
+        return motor.gear_ratio * motor.torque_constant * motor.no_load_current
+    return FRICTION_SHARE * (motor.torque_limit or 0.0)
+
+
+def default_uncertainty(
+    standing_height: float, motor: Drive | None = None, file: str | None = None
+) -> UncertaintySection:
+    """What holds where nothing is stated.
 
     Args:
         standing_height: of the robot [m].
+        motor: that turns the wheels; None: its friction is left open.
+        file: in place of the package's own; None: that.
+
+    Raises:
+        SpecificationError: see `entries`; or a distribution goes beyond what there can be.
     """
-    given = uncertainty_of_texts(_DEFAULTS, "default")
-    return replace(given, com_error=Normal(0.0, _COM_SHARE * standing_height))
+    scales = {
+        "standing height": standing_height,
+        "pendulum rate": sqrt(STANDARD_GRAVITY / standing_height) if standing_height else 0.0,
+    }
+    if motor is not None:
+        speed = motor.no_load_speed if isfinite(motor.no_load_speed) else inf
+        if motor.rated_voltage and motor.bus_voltage:
+            speed *= motor.rated_voltage / motor.bus_voltage
+        torque = no_load_torque(motor)
+        scales |= {"no-load torque": torque, "no-load friction": torque / speed}
+    faults = Faults()
+    found: dict[str, Any] = {}
+    for name, entry in entries(DEFAULTS if file is None else Path(file)).items():
+        if not entry.of:
+            found[name] = entry.value
+        elif entry.of in scales:
+            text = entry.value.times(scales[entry.of]).written()
+            found[name] = faults.read(spreads()[name], text, f"reality.{name}")
+    if faults:
+        raise SpecificationError(f"{file or DEFAULTS} has faults:", problems=faults)
+    return UncertaintySection(**found)
+
+
+def complete_uncertainty(
+    stated: UncertaintySection, standing_height: float, motor: Drive
+) -> UncertaintySection:
+    """What is stated, and in place of the rest what its file or the package has.
+
+    Args:
+        stated: by a user. standing_height: of the robot [m]. motor: that turns the wheels.
+
+    Raises:
+        SpecificationError: see `default_uncertainty`.
+    """
+    default = default_uncertainty(standing_height, motor, stated.file)
+    return replace(
+        default, **{name: getattr(stated, name) or getattr(default, name) for name in spreads()}
+    )
 
 
 def uncertainty_texts(section: UncertaintySection) -> Mapping[str, str]:
-    """What is stated, by key, as `design.json` keeps it: SI, to the last bit."""
+    """Every distribution that is stated, by key, as `design.json` keeps it: SI, to the last bit."""
     stated = {name: getattr(section, name) for name in spreads()}
     return {name: spread.written() for name, spread in stated.items() if spread is not None}
 
@@ -269,7 +393,7 @@ def uncertainty_of_texts(texts: Mapping[str, str], where: str) -> UncertaintySec
     known, faults = spreads(), Faults()
     for name in sorted(texts.keys() - known.keys()):
         faults.unknown(f"{where}: reality.{name}", name, tuple(known))
-    read = {
+    read: dict[str, Any] = {
         name: faults.read(known[name], text, f"{where}: reality.{name}")
         for name, text in texts.items()
         if name in known
@@ -281,6 +405,7 @@ def uncertainty_of_texts(texts: Mapping[str, str], where: str) -> UncertaintySec
 
 @cache
 def spreads() -> Mapping[str, Spread]:
-    """How each key is read."""
+    """How each distribution is read, by its key."""
     hints = get_type_hints(UncertaintySection, include_extras=True)
-    return {item.name: get_args(hints[item.name])[1].value for item in fields(UncertaintySection)}
+    how = {item.name: get_args(hints[item.name])[1].value for item in fields(UncertaintySection)}
+    return {name: value for name, value in how.items() if isinstance(value, Spread)}

@@ -4,9 +4,10 @@ One class per kind of value; each reads or raises an `OcsError` that names the p
 """
 
 import math
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from enum import Enum
 from math import pi
@@ -121,9 +122,39 @@ def _is_bare(raw: object) -> bool:
     return str(raw).strip()[-1] in "0123456789."
 
 
+@dataclass(frozen=True)
+class NamedQuantity(Quantity):
+    """A quantity, or a word that stands for one, in capitals or not.
+
+    Attributes:
+        words: value of each word [SI].
+    """
+
+    words: Mapping[str, float] = field(default_factory=dict, hash=False)
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return f"{', '.join(self.words)}, or {super().takes}"
+
+    def read(self, raw: object, where: str) -> float:
+        """Value that `raw` stands for (`Value.read`)."""
+        word = raw.strip().casefold() if isinstance(raw, str) else ""
+        if word.isalpha() and word not in self.words:
+            raise QuantityError(
+                f"{where}: {shortened(raw)} is none of {', '.join(self.words)}, and no number",
+                hint=did_you_mean(word, tuple(self.words)),
+            )
+        return self.words[word] if word in self.words else super().read(raw, where)
+
+
 def angle(sign: Sign, most: float, most_bare: float = math.inf) -> Quantity:
     """An angle of at most that size [rad], which is soon given in degrees without saying so."""
     return Quantity(Dimension.ANGLE, sign, most, most_bare, "deg")
+
+
+_DECIMAL_COMMA = re.compile(r",0[0-9]")
+"""Nobody begins a number with a zero and a digit, unless they are its decimals."""
 
 
 @dataclass(frozen=True)
@@ -147,13 +178,40 @@ class Quantities(Value[tuple[float, ...]]):
     def read(self, raw: object, where: str) -> tuple[float, ...]:
         """Value that `raw` stands for (`Value.read`)."""
         entries = raw.split(",") if isinstance(raw, str) else raw
+        if isinstance(raw, str) and _DECIMAL_COMMA.search(raw):
+            raise QuantityError(
+                f"{where}: in {raw} commas stand between values",
+                hint="Write decimals with a point, as in 0.03,0.05,0.07.",
+            )
         if not isinstance(entries, (list, tuple)) or len(entries) not in self.counts:
             wanted = " or ".join(map(str, self.counts))
-            raise QuantityError(f"{where}: needs {wanted} values, as in [0.1, 0, 0]")
+            count = f", not {len(entries)}" if isinstance(entries, (list, tuple)) else ""
+            raise QuantityError(f"{where}: needs {wanted} values{count}, as in 0.1,0,0")
         return tuple(
             parse_quantity(entry, self.dimension, f"{where}[{index}]")
             for index, entry in enumerate(entries)
         )
+
+
+@dataclass(frozen=True)
+class Several(Value[tuple[Any, ...]]):
+    """One value, or a list of such.
+
+    Attributes:
+        each: how one is read.
+    """
+
+    each: Value[Any]
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return f"one or several of {self.each.takes}"
+
+    def read(self, raw: object, where: str) -> tuple[Any, ...]:
+        """Value that `raw` stands for (`Value.read`); each once."""
+        entries = raw if isinstance(raw, list) else [raw]
+        return tuple(dict.fromkeys(self.each.read(entry, where) for entry in entries))
 
 
 @dataclass(frozen=True)
@@ -168,6 +226,27 @@ class Number(Value[float]):
     def read(self, raw: object, where: str) -> float:
         """Value that `raw` stands for (`Value.read`)."""
         return Quantity(Dimension.RATIO).read(raw, where)
+
+
+class Chance(Value[float]):
+    """A share of all flights, from an even chance to all but certain: 0.99 or 99%."""
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return "number from 0.5 to below 1, or 50% to below 100%"
+
+    def read(self, raw: object, where: str) -> float:
+        """Value that `raw` stands for (`Value.read`)."""
+        share = parse_quantity(raw, Dimension.RATIO, where)
+        if not 0.5 <= share < 1.0:
+            meant = f"Did you mean {raw}%? " if 50.0 <= share < 100.0 else ""
+            raise QuantityError(
+                f"{where}: {raw} must be at least 0.5 and below 1",
+                hint=f"{meant}0.5 is the design for a robot just as its file says; "
+                "nothing is certain.",
+            )
+        return share
 
 
 @dataclass(frozen=True)
@@ -189,9 +268,20 @@ class Count(Value[int]):
         return int(text)
 
 
+def _as_written(raw: str, words: Sequence[str]) -> str:
+    """The word that this is, whatever its capitals; empty if it is none."""
+    return next((word for word in words if word.casefold() == raw.strip().casefold()), "")
+
+
 @dataclass(frozen=True)
 class Text(Value[str]):
-    """Any text but an empty one."""
+    """Any text but an empty one.
+
+    Attributes:
+        words: that stand for something else than a name, taken with any capitals.
+    """
+
+    words: tuple[str, ...] = ()
 
     @property
     def takes(self) -> str:
@@ -202,8 +292,9 @@ class Text(Value[str]):
         """Value that `raw` stands for (`Value.read`)."""
         # A zero character ends a path for the operating system.
         if not isinstance(raw, str) or not raw.strip() or "\0" in raw:
-            raise SpecificationError(f"{where}: {shortened(raw)} is not a text in quotes")
-        return raw
+            what = "is empty" if raw == "" else f"{shortened(raw)} is not a text in quotes"
+            raise SpecificationError(f"{where}: {what}")
+        return _as_written(raw, self.words) or raw
 
 
 @dataclass(frozen=True)
@@ -217,7 +308,10 @@ class Names(Value[str]):
 
     def read(self, raw: object, where: str) -> str:
         """Value that `raw` stands for (`Value.read`), as one text."""
-        texts = [Text().read(each, where) for each in (raw if isinstance(raw, list) else [raw])]
+        texts = [
+            Text(("auto", "none")).read(each, where)
+            for each in (raw if isinstance(raw, list) else [raw])
+        ]
         named = dict.fromkeys(name for text in texts for name in names_in(text))
         return NAME_SEPARATOR.join(named)
 
@@ -265,8 +359,8 @@ class Choice(Value[str]):
 
     def read(self, raw: object, where: str) -> str:
         """Value that `raw` stands for (`Value.read`)."""
-        if isinstance(raw, str) and raw in self.words:
-            return raw
+        if isinstance(raw, str) and (word := _as_written(raw, self.words)):
+            return word
         raise SpecificationError(
             f"{where}: {shortened(raw)} is none of {', '.join(self.words)}",
             hint=did_you_mean(raw, self.words),
@@ -355,8 +449,9 @@ _BARE_JOINT = angle(Sign.ANY, math.inf, ONE_TURN)
 
 def did_you_mean(word: object, known: tuple[str, ...]) -> str:
     """A question that offers the closest of `known`; empty if none is close."""
-    close = get_close_matches(word, known, n=1) if isinstance(word, str) else ()
-    return f"Did you mean {close[0]!r}?" if close else ""
+    folded = {each.casefold(): each for each in known}
+    close = get_close_matches(word.casefold(), folded, n=1) if isinstance(word, str) else ()
+    return f"Did you mean {folded[close[0]]!r}?" if close else ""
 
 
 FASTEST_BARE = 4000.0
@@ -370,6 +465,9 @@ HIGHEST_VOLTAGE = 1000.0
 
 MOST_TURNS = 10
 """Of a flip; no animal and no machine comes near."""
+
+HEIGHT = Quantity(Dimension.LENGTH, most_bare=20.0, likely="mm")
+"""Of a jump or a fall: from higher than a house nothing with legs lands."""
 
 WHEEL_SPEED = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
 TRUNK_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s")

@@ -24,7 +24,16 @@ from ocs_design.common.units import (
 from ocs_design.requirement.maneuver import Maneuver, kind_of
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, keys_of
 from ocs_design.requirement.uncertainty import Distribution, Spread
-from ocs_design.requirement.values import ONE_TURN, Key, Quantities, Quantity, Value, WordOr
+from ocs_design.requirement.values import (
+    ONE_TURN,
+    Key,
+    Quantities,
+    Quantity,
+    Several,
+    Value,
+    WordOr,
+)
+from ocs_design.requirement.words import Kick, Tilt
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
@@ -83,11 +92,12 @@ def _with_files(specification: Specification, renamed: Callable[[str], str]) -> 
         """Under its new name."""
         return file if file is None or file == "-" else renamed(file)
 
-    robot, motor = specification.robot, specification.motor
+    robot, motor, reality = specification.robot, specification.motor, specification.reality
     return replace(
         specification,
         robot=replace(robot, file=path(robot.file)),
         motor=replace(motor, motors=path(motor.motors), gears=path(motor.gears)),
+        reality=replace(reality, file=path(reality.file)),
     )
 
 
@@ -99,7 +109,9 @@ def _fields(specified: object, values: Mapping[str, Value[Any]]) -> Iterator[str
             yield f"{name} = {written(value, how)}"
 
 
-def written(value: object, how: Value[Any], figures: Figures = Figures.SI) -> str:
+def written(  # noqa: PLR0911
+    value: object, how: Value[Any], figures: Figures = Figures.SI
+) -> str:
     """Value as TOML, a quantity with its unit: some are not believed without one."""
     match how, value:
         case WordOr(quantity=quantity), float() | int():
@@ -109,9 +121,10 @@ def written(value: object, how: Value[Any], figures: Figures = Figures.SI) -> st
         case Spread(dimension=dimension), Distribution():
             told = partial(_told, dimension=dimension, unit=how.unit, figures=figures)
             return _text(value.written(told))
+        case Several(each=each), Sequence():
+            return f"[{', '.join(written(entry, each, figures) for entry in value)}]"
         case Quantities(dimension=dimension), Sequence():
-            entries = (_text(_quantity(entry, dimension, figures)) for entry in value)
-            return f"[{', '.join(entries)}]"
+            return written(value, Several(Quantity(dimension)), figures)
         case _, float() if figures is Figures.ROUNDED:
             return f"{value:.4g}"
         case _:
@@ -141,8 +154,8 @@ def _plain(value: object) -> str:
     match value:
         case bool():
             return str(value).lower()
-        case str():
-            return _text(value)
+        case str() | Kick() | Tilt():
+            return _text(str(value))
         case tuple():
             return f"[{', '.join(map(_plain, value))}]"
         case float():
@@ -228,9 +241,33 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "found",
             '"7.11e-5 kg m2"',
         ),
-        "requirement.gravity": KeyNote("1.62 m/s2 is the Moon's."),
+        "requirement.gravity": KeyNote(
+            "1.62 m/s2 is the Moon's; the paper's back-flip stays there."
+        ),
+        "requirement.jump_height": KeyNote(
+            "Alone: disturbed as in the paper's first test; else the jump of each kick and flip.",
+            "not asked",
+            '"0.4 m"',
+        ),
+        "requirement.kick": KeyNote(
+            "On the trunk during a jump; one without `along` comes from the side.",
+            "not asked",
+            '"12 N s at 0.1,0,0.2 along 0,1,0"',
+        ),
+        "requirement.fall": KeyNote(
+            "The trunk is released at rest so high over the ground, tilted.",
+            "not asked",
+            '"1 m"',
+        ),
+        "requirement.tilt": KeyNote(
+            "Of each fall, nose down; roll: to the right.", "not asked", '"20 deg"'
+        ),
+        "requirement.flip": KeyNote("A whole turn, or an angle of pitch.", "not asked", '"back"'),
         "requirement.maneuvers": KeyNote(
             "paper: beside a rate_change or a spin_inertia; leave it out where you state your own."
+        ),
+        "requirement.reliability": KeyNote(
+            "0.5: sized for a robot just as its file says; more keeps a reserve for [reality]."
         ),
         "ocs.alpha": KeyNote(
             "Where mounts for one angle exist already.", "by the criterion below", '"40 deg"'
@@ -248,8 +285,15 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "not limited",
             '"1 kg"',
         ),
+        "ocs.lighter_by": KeyNote(
+            "Each answer is sized as a whole: it takes a minute.", "not asked", '"90 g"'
+        ),
         "ocs.co_design": KeyNote(
             "0 to 0.8 % lighter on the robots tried, and seconds slower to find."
+        ),
+        "ocs.guard": KeyNote(
+            "containing: a ring of mild steel in each housing that holds a third of the rim at top "
+            "speed, by a formula that nobody has tested on such rings."
         ),
         "flywheel.r_max": KeyNote(
             "Of the rim: its housing adds 3.6 mm all around. The wider the rim, the lighter."
@@ -310,7 +354,15 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "validation.seed": KeyNote("The same seed gives the same figures."),
         "validation.video": KeyNote("true: each maneuver as a film, with the device and without."),
         "validation.control_period": KeyNote("That of your controller; longer ones fly worse."),
+        "validation.certify": KeyNote(
+            "true: fly robots as they might be built until it is sure; it takes minutes."
+        ),
         "validation.desaturate": KeyNote("true: wheels let go of their momentum after landing."),
+        "reality.file": KeyNote(
+            "Your own distributions; docs/monte_carlo.md has the package's, with their sources.",
+            "the package's",
+            '"my_reality.toml"',
+        ),
         "reality.mass_error": KeyNote("After weighing the robot: the balance's error."),
         "reality.inertia_error": KeyNote("From CAD 5 % is common, from a pendulum 1 %."),
         "reality.com_error": KeyNote("Batteries and cables are seldom where CAD has them."),
@@ -331,6 +383,7 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "reality.gyro_noise": KeyNote("Noise density times the root of the bandwidth."),
         "reality.gyro_bias": KeyNote("What is left after it was calibrated."),
         "reality.contact_friction": KeyNote("Of your feet on your floor."),
+        "reality.takeoff_rate": KeyNote("Film jumps without the device; 0: legs as planned."),
     }
 )
 """By the path of the key, as in `flywheel.r_max`."""
@@ -356,6 +409,7 @@ FIELD_NOTES: Mapping[str, str] = MappingProxyType(
         "duration": "of the torque",
         "flip.duration": "of the turn, from lift-off",
         "settling": "from the end of the torque to rest",
+        "velocity_change": "of the centre of mass, by a force beside the torque",
         "stride": "of a trot on the spot; 0: the robot stands",
         "height": "of the trunk over the ground",
         "roll": "at release",

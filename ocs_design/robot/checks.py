@@ -17,7 +17,12 @@ from ocs_design.robot.chain import neutral_posture
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.legs import is_wheel, leg_chain
 from ocs_design.robot.links import Warnings
-from ocs_design.robot.mass import MassProperties, physical_defect
+from ocs_design.robot.mass import (
+    MassProperties,
+    ball_density,
+    gyration_radius,
+    physical_defect,
+)
 from ocs_design.robot.meshes import half_extents, quick_mesh_bounds
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Body, Joint, JointKind, ShapeKind, Tree
@@ -60,9 +65,7 @@ Public robots lie between 5 and 484; in grams or millimetres they are off by a t
 
 def _judge_robot(weighed: MassProperties, warnings: Warnings) -> None:
     """Compare a robot's mass with the length that its inertia implies."""
-    radius = np.sqrt(np.trace(weighed.inertia) / weighed.mass)
-    # A homogeneous ball of radius R has trace(I) / m = 6 R^2 / 5.
-    density = weighed.mass / (4.0 / 3.0 * np.pi * (5.0 / 6.0) ** 1.5 * radius**3)
+    radius, density = gyration_radius(weighed), ball_density(weighed)
     stated = f"the robot weighs {weighed.mass:.3g} kg with a radius of gyration of {radius:.3g} m"
     if density > DENSEST_ROBOT:
         warnings.add(f"{stated}, as dense as solid metal: masses in grams, or lengths too small?")

@@ -1,23 +1,19 @@
 """A robot known only by its mass and inertia, given by hand."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import permutations
 
 import numpy as np
 
 from ocs_design.common.errors import RobotError, UsageError
-from ocs_design.robot.mass import MassProperties, solid_defect
+from ocs_design.common.units import UNITS, Dimension
+from ocs_design.robot.mass import MassProperties, ball_density, impossible_size, solid_defect
 from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.tree import Body, Placement, Shape, ShapeKind, Tree
 
 TRUNK = "base"
 """The only link of a robot given by hand."""
-
-LARGEST = 10.0
-"""Largest radius of gyration [m]; beyond it the inertia is in another unit."""
-
-_DENSEST = 4.0 / 3.0 * np.pi * (5.0 / 6.0) ** 1.5 * 19_300.0
-"""Mass of a ball of tungsten over the cube of its `sqrt(trace(I) / m)` [kg/m^3]."""
 
 
 def robot_by_hand(
@@ -92,17 +88,24 @@ def _check_physical(weighed: MassProperties) -> None:
     defect = solid_defect(weighed)
     if defect is not None:
         raise RobotError(f"the robot given by hand {defect}", hint=hint)
-    radius = float(np.sqrt(np.trace(weighed.inertia) / weighed.mass))
-    if radius > LARGEST:
-        raise RobotError(
-            f"the robot given by hand, {weighed.mass:.3g} kg with a radius of gyration of "
-            f"{radius:.3g} m, is larger than any robot",
-            hint=f"is the inertia in kg mm2? Write the unit, as in "
-            f"{weighed.inertia[0, 0]:.6g}kgmm2; a bare number is in kg m2",
-        )
-    if weighed.mass > _DENSEST * radius**3:
-        raise RobotError(
-            f"the robot given by hand, {weighed.mass:.3g} kg with a radius of gyration of "
-            f"{1e3 * radius:.3g} mm, is denser than a ball of tungsten",
-            hint=hint,
-        )
+    impossible = impossible_size(weighed)
+    if impossible is not None:
+        raise RobotError(f"the robot given by hand: {impossible}", hint=_likely_unit(weighed))
+
+
+USUAL_DENSITY = 50.0
+"""Of the ball with Solo12's mass and inertia [kg/m^3]."""
+
+
+def _likely_unit(weighed: MassProperties) -> str:
+    """The unit of inertia or mass that makes the robot most like Solo12, as a question."""
+    options = {f"a mass of {weighed.mass:.4g}g": replace(weighed, mass=1e-3 * weighed.mass)}
+    for unit, factor in UNITS[Dimension.INERTIA].items():
+        written = (f"{moment:.6g}{unit.replace(' ', '')}" for moment in np.diag(weighed.inertia))
+        turned = replace(weighed, inertia=float(factor) * weighed.inertia)
+        options[f"an inertia of {','.join(written)}"] = turned
+    unlikely = {
+        text: abs(np.log(ball_density(body) / USUAL_DENSITY)) for text, body in options.items()
+    }
+    meant = min(unlikely, key=unlikely.__getitem__)
+    return f"did you mean {meant}? Bare numbers are in kg and kg m^2"

@@ -106,3 +106,31 @@ def solid_defect(body: MassProperties) -> str | None:
             "kg m^2)"
         )
     return None
+
+
+DENSEST, THINNEST = 19_300.0, 0.012
+"""Densities of tungsten and of a hundredth of air [kg/m^3], for the ball with a robot's mass and
+radius of gyration. Public robots lie between 5 and 484, a double pendulum of rods at 0.02; a unit
+that is off by a thousand takes them beyond."""
+
+
+def gyration_radius(body: MassProperties) -> float:
+    """Radius of gyration about an axis through the centre of mass, mean of all axes [m]."""
+    return float(np.sqrt(np.trace(body.inertia) / 3.0 / body.mass))
+
+
+def ball_density(body: MassProperties) -> float:
+    """Density of the homogeneous ball of the same mass and inertia, `2 m R^2 / 5` [kg/m^3]."""
+    radius = np.sqrt(2.5) * gyration_radius(body)
+    return float(body.mass / (4.0 / 3.0 * np.pi * radius**3))
+
+
+def impossible_size(body: MassProperties) -> str | None:
+    """Why a robot's mass and inertia are in different units, or None if they can be meant."""
+    density = ball_density(body)
+    if THINNEST <= density <= DENSEST:
+        return None
+    radius = gyration_radius(body)
+    size = f"{radius:.3g} m" if radius >= 1.0 else f"{1e3 * radius:.3g} mm"
+    than = "thinner than air" if density < THINNEST else "denser than a ball of tungsten"
+    return f"{body.mass:.4g} kg with a radius of gyration of {size} is {than}"

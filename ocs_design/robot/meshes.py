@@ -216,6 +216,14 @@ def solid_shapes(body: Body) -> tuple[Shape, ...]:
     return ()
 
 
+def unmeasured(body: Body) -> bool:
+    """Whether a shape that counts for the body's extent has no mesh that can be read."""
+    known = solid_shapes(body)
+    if not known:
+        return bool(body.shapes)
+    return len(known) < sum(shape.collides is known[0].collides for shape in body.shapes)
+
+
 def reach_of_body(body: Body, direction: FloatArray) -> float:
     """Farthest point of a body along `direction` of its frame [m].
 

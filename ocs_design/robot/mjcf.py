@@ -23,7 +23,7 @@ from ocs_design.robot.links import (
     make_tree,
 )
 from ocs_design.robot.mass import MassProperties
-from ocs_design.robot.mjcf_spec import mujoco_refusal, mujoco_warnings_to, parse_mjcf
+from ocs_design.robot.mjcf_spec import Lost, mujoco_refusal, mujoco_warnings_to, parse_mjcf
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.tree import (
     LARGEST_NUMBER,
@@ -234,9 +234,10 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
         folder: that includes and meshes are relative to; None for the current folder.
     """
     warnings = Warnings()
+    lost: Lost = []
     try:
         with mujoco_warnings_to(warnings):
-            spec = parse_mjcf(content, folder or Path.cwd(), warnings)
+            spec = parse_mjcf(content, folder or Path.cwd(), warnings, lost)
             model = spec.compile()
     except ValueError as error:
         raise mujoco_refusal(error) from error
@@ -250,7 +251,9 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
     links: dict[str, Link] = {}
     children: dict[str, list[Connection]] = {}
     for body in bodies_of(model, base):
-        link = _link(model, body)
+        name = model.body(body).name
+        unseen = [_unseen(name, hit) for each, hit in lost if each.name == name]
+        link = _link(model, body, unseen)
         links[link.name] = link
         for connection in connections_to(model, body, warnings) if body != base else ():
             children.setdefault(connection.parent, []).append(connection)
@@ -301,7 +304,12 @@ def _check_numbers(model: mujoco.MjModel) -> None:
             )
 
 
-def _link(model: mujoco.MjModel, body: int) -> Link:
+def _unseen(link: str, collides: bool) -> Shape:
+    """A mesh that is not there."""
+    return Shape(ShapeKind.MESH, (1.0, 1.0, 1.0), np.zeros(3), np.eye(3), link, collides)
+
+
+def _link(model: mujoco.MjModel, body: int, unseen: Sequence[Shape]) -> Link:
     principal = MassProperties(
         float(model.body_mass[body]), np.zeros(3), np.diag(model.body_inertia[body])
     )
@@ -309,5 +317,5 @@ def _link(model: mujoco.MjModel, body: int) -> Link:
     return Link(
         model.body(body).name,
         principal.moved(axes, model.body_ipos[body]),
-        tuple(shapes_of(model, body)),
+        (*shapes_of(model, body), *unseen),
     )

@@ -70,7 +70,13 @@ LARGEST_ASSET = 128 << 20
 """Largest file that a model may refer to [bytes]."""
 
 
-def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> None:
+Lost: TypeAlias = list[tuple[mujoco.MjsBody, bool]]
+"""Bodies whose geoms are left out for want of a mesh, and whether that geom collides."""
+
+
+def embed_assets(
+    spec: mujoco.MjSpec, folder: Path, warnings: Warnings, lost: Lost | None = None
+) -> None:
     """Read every file that the model refers to, so that it compiles anywhere.
 
     Files then have names without folders in the model.
@@ -79,6 +85,7 @@ def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> None:
         spec: parsed, not compiled yet.
         folder: of the model's file.
         warnings: takes the names of files that are not there.
+        lost: takes what that leaves out.
     """
     # Assets of each kind, the folder that they lie in, and what to do without one.
     kinds: tuple[tuple[list[Asset], str, Callable[[mujoco.MjSpec, Asset], None]], ...] = (
@@ -93,6 +100,12 @@ def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> None:
             missing = _embed(spec, asset, folder / subfolder, names)
             if missing is not None:
                 warnings.add("files not found, what needs them is left out", missing)
+                if lost is not None and drop is _drop_mesh:
+                    lost += [
+                        (geom.parent, bool(geom.contype or geom.conaffinity))
+                        for geom in spec.geoms
+                        if geom.meshname == asset.name
+                    ]
                 drop(spec, asset)
     spec.meshdir = spec.texturedir = ""
     spec.strippath = False
@@ -153,13 +166,16 @@ def delete_geom(spec: mujoco.MjSpec, geom: mujoco.MjsGeom) -> None:
     spec.delete(geom)
 
 
-def parse_mjcf(content: bytes, folder: Path, warnings: Warnings) -> mujoco.MjSpec:
+def parse_mjcf(
+    content: bytes, folder: Path, warnings: Warnings, lost: Lost | None = None
+) -> mujoco.MjSpec:
     """The model of an MJCF file; its bodies, joints and actuators all have names.
 
     Args:
         content: the file, unzipped, in any encoding that XML knows.
         folder: that its includes and assets are relative to.
         warnings: takes the names of missing files; what needs them is left out.
+        lost: takes what that leaves out.
     """
     root = parse_xml(content, warnings)
     _expand_includes(root, folder, seen=set())
@@ -170,7 +186,7 @@ def parse_mjcf(content: bytes, folder: Path, warnings: Warnings) -> mujoco.MjSpe
         raise mujoco_refusal(error) from error
     # Bodies that are fused lose their names, and the trunk may be one of them.
     spec.compiler.fusestatic = False
-    embed_assets(spec, folder, warnings)
+    embed_assets(spec, folder, warnings, lost)
     _name(spec.bodies, "body")
     _name(spec.joints, "joint")
     _name(spec.actuators, "actuator")

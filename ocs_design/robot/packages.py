@@ -1,10 +1,19 @@
 """Folders that a robot file may take other files from, and the mesh files that it names."""
 
 import os
+import shlex
+import sysconfig
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
+
+UPWARDS, DOWNWARDS, MOST_FOLDERS = 4, 2, 3000
+"""Levels above the robot file and below each of those, and folders in all, where missing meshes are
+looked for: 50 ms."""
+
+MOST_PACKAGES = 3
+"""Of which the folders are looked for."""
 
 
 def roots_of(file: Path) -> tuple[Path, ...]:
@@ -36,12 +45,16 @@ def is_below(path: Path, roots: Iterable[Path]) -> bool:
     return any(target.is_relative_to(root.resolve()) for root in roots)
 
 
+_PACKAGED = ("package", "model")
+"""Schemes of a mesh's address that begin with a package."""
+
+
 class MeshFinder:
     """Finds the file on disk that a mesh's name in a robot file stands for.
 
-    A package is looked for in `package_paths`, then where ROS looks (ROS_PACKAGE_PATH and
-    AMENT_PREFIX_PATH), then beside each folder above the robot file. What is not found is noted
-    in `missing`: sizing needs no meshes.
+    A package is looked for in `package_paths`, then where ROS looks (ROS_PACKAGE_PATH,
+    AMENT_PREFIX_PATH and CMAKE_PREFIX_PATH), then beside each folder above the robot file. What is
+    not found is noted in `missing`, and `cure` says where it may be.
     """
 
     def __init__(self, folder: Path, package_paths: Mapping[str, Path]) -> None:
@@ -64,6 +77,44 @@ class MeshFinder:
         """The package's folder, or None if it is nowhere."""
         return next(filter(Path.is_dir, self._package_folders(package)), None)
 
+    def cure(self) -> str:
+        """How the missing meshes would be found, with the folders near the file that hold them.
+
+        A file may be there by another package's name, so it is offered and not taken.
+        """
+        first: dict[str, str] = {}
+        for name in self.missing:
+            scheme, _, rest = name.strip().rpartition("://")
+            package, _, inside = rest.partition("/") if scheme in _PACKAGED else ("", "", rest)
+            first.setdefault(package, unquote(inside))
+        cures = []
+        for package, inside in islice(first.items(), MOST_PACKAGES):
+            found = self._searched(inside)
+            if package:
+                folder = "DIR" if found is None else shlex.quote(str(found))
+                cures.append(f"give --package-path {package}={folder}")
+            elif found is None:
+                cures.append(f"put them where the file names them, below {self.folder}")
+            else:
+                cures.append(f"put the robot's file into {found}, where they are")
+        return "; ".join(cures)
+
+    def _searched(self, inside: str) -> Path | None:
+        """The nearest folder that has this file in it, of a bounded number."""
+        levels = islice((self.folder, *self.folder.parents), UPWARDS + 1)
+        near = (_below(above, DOWNWARDS) for above in levels if above.name)
+        site = Path(sysconfig.get_path("purelib"), "cmeel.prefix", "share")
+        ros = (*_environment_paths("ROS_PACKAGE_PATH"), *_shares(), site)
+        installed = (_below(folder, 1) for folder in ros)
+        for folders in (near, installed):
+            for folder in islice(chain.from_iterable(folders), MOST_FOLDERS):
+                try:
+                    if (folder / PurePosixPath(inside)).is_file():
+                        return folder
+                except (OSError, ValueError):
+                    continue
+        return None
+
     def _package_folders(self, package: str) -> Iterator[Path]:
         """Folders that may be the package, best first."""
         if package in self.package_paths:
@@ -72,8 +123,8 @@ class MeshFinder:
             yield entry / package
             if entry.name == package:
                 yield entry
-        for entry in _environment_paths("AMENT_PREFIX_PATH"):
-            yield entry / "share" / package
+        for share in _shares():
+            yield share / package
         for above in (self.folder, *self.folder.parents):
             yield above / package
             if above.name == package:
@@ -85,7 +136,7 @@ class MeshFinder:
             yield self.folder / name
         elif scheme == "file":
             yield self.folder / unquote(rest)
-        elif scheme in {"package", "model"}:
+        elif scheme in _PACKAGED:
             package, _, inside = unquote(rest).partition("/")
             for folder in self._package_folders(package):
                 yield folder / PurePosixPath(inside)
@@ -93,3 +144,23 @@ class MeshFinder:
 
 def _environment_paths(variable: str) -> list[Path]:
     return [Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry]
+
+
+def _shares() -> list[Path]:
+    """Folders that hold the packages that ROS or a CMake prefix has installed."""
+    variables = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH")
+    return [entry / "share" for each in variables for entry in _environment_paths(each)]
+
+
+def _below(folder: Path, levels: int) -> Iterator[Path]:
+    """A folder and those in it, so many levels down; hidden ones are left out."""
+    yield folder
+    if levels == 0:
+        return
+    try:
+        inner = sorted(Path(each) for each in os.scandir(folder) if each.is_dir())
+    except OSError:
+        return
+    for each in inner:
+        if not each.name.startswith("."):
+            yield from _below(each, levels - 1)

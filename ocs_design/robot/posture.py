@@ -90,11 +90,14 @@ def resolve_posture(
 
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
     """The error for a name that the robot does not have, with what it has, closest first."""
-    every = sorted(known)
-    close = get_close_matches(name, every, n=len(every) or 1, cutoff=0.5)
-    ordered = [*close, *(each for each in every if each not in close)]
-    available = listed(ordered, most=12) if ordered else "none"
-    return RobotError(f"the robot has no {kind} '{name}'", hint=f"available: {available}")
+    folded: dict[str, list[str]] = {}
+    for each in sorted(known):
+        folded.setdefault(each.casefold(), []).append(each)
+    close = get_close_matches(name.casefold(), folded, n=len(folded) or 1, cutoff=0.5)
+    ordered = [each for key in dict.fromkeys([*close, *folded]) for each in folded[key]]
+    available = f"available: {listed(ordered, most=12) if ordered else 'none'}"
+    likely = f"did you mean '{ordered[0]}'? " if close else ""
+    return RobotError(f"the robot has no {kind} '{name}'", hint=likely + available)
 
 
 def _named(tree: Tree, trunk: str, legs: Sequence[Leg], name: str) -> Posture:

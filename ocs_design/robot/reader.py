@@ -3,20 +3,23 @@
 Named postures come from the SRDF beside a URDF: https://wiki.ros.org/srdf/review, `<group_state>`.
 """
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.common.errors import MissingToolError, RobotError
+from ocs_design.common.units import format_quantity
 from ocs_design.robot.checks import plausibility_warnings
 from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
-from ocs_design.robot.links import Warnings, check_whole
+from ocs_design.robot.links import Warnings, check_whole, listed
+from ocs_design.robot.meshes import MESHES, trunk_top, unmeasured
 from ocs_design.robot.packages import MeshFinder
 from ocs_design.robot.posture import resolve_posture, unknown_name
 from ocs_design.robot.recognition import recognise
-from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.robot import Format, Leg, Robot
 from ocs_design.robot.source import Source, read_source
-from ocs_design.robot.tree import Tree
+from ocs_design.robot.tree import ShapeKind, Tree
 from ocs_design.robot.urdf import is_xacro, read_urdf
 from ocs_design.robot.xacro import expand_xacro
 from ocs_design.robot.xml import number, parse_xml, text
@@ -95,6 +98,7 @@ class Loaded:
         content: the file's text, unzipped and expanded.
         sha256: of the bytes as they were read.
         source: as the user wrote it.
+        mesh_cure: how the meshes that were not found would be; empty: none is missing.
     """
 
     tree: Tree
@@ -102,6 +106,33 @@ class Loaded:
     content: bytes
     sha256: str
     source: str
+    mesh_cure: str = ""
+
+
+_NO_ROBOTS: Mapping[str, tuple[str, str]] = {
+    **dict.fromkeys(
+        MESHES,
+        ("a mesh, which has no joints and no mass", "give the URDF or MJCF file that names it"),
+    ),
+    **dict.fromkeys(
+        (".step", ".stp", ".iges", ".igs", ".f3d", ".sldasm", ".sldprt", ".dxf"),
+        ("a drawing, which has no joints", "export the robot as URDF or MJCF from CAD"),
+    ),
+    **dict.fromkeys(
+        (".zip", ".tar", ".tgz", ".7z", ".rar"),
+        ("an archive", "unpack it and give the URDF or MJCF file in it"),
+    ),
+    ".toml": ("a specification, no robot", "give it with --spec, behind the robot's file"),
+    ".json": (
+        "no robot",
+        "a design.json is read by `ocs-design validate` and `ocs-design export`; "
+        "`ocs-design size` takes a URDF or MJCF file",
+    ),
+    ".srdf": ("a list of postures, no robot", "give the URDF: the SRDF beside it is found"),
+}
+"""What files of other kinds are and what to give instead, by suffix."""
+
+_ROBOT = re.compile(rb"<(link|mujoco)\b")
 
 
 def load(source: str | Path, *, package_paths: Mapping[str, Path] | None = None) -> Loaded:
@@ -121,24 +152,35 @@ def load(source: str | Path, *, package_paths: Mapping[str, Path] | None = None)
 def _load(read: Source, package_paths: Mapping[str, Path]) -> Loaded:
     folder = read.folder or Path.cwd()
     content = read.content
+    other = _NO_ROBOTS.get(Path(read.path_text).suffix.lower())
+    # Whatever it is called, a robot is one.
+    if other is not None and not _ROBOT.search(content):
+        raise RobotError(f"the file is {other[0]}", hint=other[1])
     root = parse_xml(content)
     if root.tag == "mujoco":
         from ocs_design.robot.mjcf import read_mjcf  # noqa: PLC0415 - MuJoCo takes 0.3 s
 
         tree = read_mjcf(content, folder)
-        return Loaded(tree, Format.MJCF, content, read.sha256, read.path_text)
+        unseen = any(
+            shape.kind is ShapeKind.MESH and shape.mesh is None
+            for body in tree.bodies
+            for shape in body.shapes
+        )
+        cure = f"put them where the model names them, below {folder}" if unseen else ""
+        return Loaded(tree, Format.MJCF, content, read.sha256, read.path_text, cure)
     if root.tag == "robot" and is_xacro(root):
         content = expand_xacro(content, folder / Path(read.path_text).name, package_paths)
     finder = MeshFinder(folder, package_paths)
     tree = read_urdf(content, find_mesh=finder)
-    warnings = Warnings()
+    warnings, cure = Warnings(), ""
     if finder.missing:
         first = next(iter(finder.missing))
-        warnings.add(f"{len(finder.missing)} meshes were not found, the first is {first}")
+        cure = finder.cure()
+        warnings.add(f"{len(finder.missing)} meshes were not found, the first is {first}: {cure}")
     postures = postures_beside(read, tree, warnings)
     every = (*tree.warnings, *warnings.sentences())
     tree = replace(tree, named_postures=postures, warnings=every)
-    return Loaded(tree, Format.URDF, content, read.sha256, read.path_text)
+    return Loaded(tree, Format.URDF, content, read.sha256, read.path_text, cure)
 
 
 def read_robot(
@@ -179,7 +221,8 @@ def read_robot(
     check_whole(weighed, tree)
     unlikely = plausibility_warnings(tree, base, found, chosen.values, weighed)
     liberties = recognition.reading.liberties
-    warnings = (*tree.warnings, *liberties, *of_frame, *chosen.warnings, *unlikely)
+    assumed = _assumed_heights(tree, base, found, chosen.standing_height)
+    warnings = (*tree.warnings, *liberties, *of_frame, *chosen.warnings, *assumed, *unlikely)
     return Robot(
         name=tree.name,
         source=loaded.source,
@@ -197,4 +240,24 @@ def read_robot(
         warnings=tuple(dict.fromkeys(warnings)),
         mount=mount,
         recognition=recognition,
+        mesh_cure=loaded.mesh_cure,
     )
+
+
+def _assumed_heights(
+    tree: Tree, trunk: str, legs: Sequence[Leg], standing_height: float | None
+) -> Iterator[str]:
+    """What is taken for heights that only missing meshes would tell."""
+    if unmeasured(tree.bodies[tree.body_of_link[trunk]]):
+        top = format_quantity(trunk_top(tree, trunk), "mm")
+        yield (
+            f"the trunk's top is not known without its meshes: it is taken at z = {top}; "
+            "give the modules' place with --position X,Y,Z"
+        )
+    feet = [leg.name for leg in legs if unmeasured(tree.bodies[leg.body])]
+    if feet and standing_height is not None:
+        height = format_quantity(standing_height, "mm")
+        yield (
+            f"how far feet reach is not known without the meshes of {listed(feet)}: by their links "
+            f"the trunk stands at {height}"
+        )

@@ -323,7 +323,7 @@ class _Readings(Anatomy):
         return Reading(name, (), signs, doubts)
 
     def on_trunk(self, reading: Reading, trunk: str, body: int) -> Reading:
-        """The same legs on a trunk that the user named."""
+        """Legs as found, on a trunk that the user named."""
         doubts = tuple(each for each in reading.doubts if each.what != SPINE)
         if any(
             body
@@ -402,7 +402,7 @@ class _Readings(Anatomy):
         return -1
 
     def _spine_trunk(self, bases: Sequence[int]) -> int:
-        """Of the bodies that the legs branch from and those between them, the heaviest."""
+        """Heaviest of the bodies that the legs branch from and of those between them."""
         paths = [list(ancestors(self.tree, base)) for base in set(bases)]
         joint = max(set.intersection(*map(set, paths)))
         between = {body for path in paths for body in path if body >= joint}

@@ -85,6 +85,7 @@ class Robot:
         warnings: one sentence each, naming the link or joint.
         mount: how B is fixed to the file's own link; None if `trunk` is a link of the file.
         recognition: how sure trunk and legs are, and what else they may be; None by hand.
+        mesh_cure: how the meshes that were not found would be; empty: none is missing.
     """
 
     name: str
@@ -103,6 +104,7 @@ class Robot:
     warnings: tuple[str, ...]
     mount: Mount | None = None
     recognition: "Recognition | None" = None
+    mesh_cure: str = ""
 
     @property
     def mass(self) -> float:

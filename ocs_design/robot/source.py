@@ -52,21 +52,27 @@ def read_source(source: str | Path) -> Source:
         folder, raw = None, _read_bounded(sys.stdin.buffer, STANDARD_INPUT)
     else:
         path = Path(source)
-        folder, raw = path.absolute().parent, _read_file(path)
+        folder, raw = path.absolute().parent, _read_file(path, path_text)
     content = _unzipped(raw, path_text) if raw.startswith(_GZIP_MAGIC) else raw
     if not content.strip():
         raise RobotError(f"{_shown(path_text)} is empty", hint="give a URDF or MJCF file")
     return Source(path_text, folder, content, hashlib.sha256(raw).hexdigest())
 
 
-def _read_file(path: Path) -> bytes:
+def _read_file(path: Path, name: str) -> bytes:
     try:
         with path.open("rb") as stream:
             return _read_bounded(stream, str(path))
     except FileNotFoundError as error:
         hint = "check the path"
+        if "://" in name:
+            hint = "it is an address on the web: download the file, and its meshes, first"
+            raise RobotError(f"{name} is no file", hint=hint) from error
         try:
-            name_of_stem = {each.stem: each.name for each in path.absolute().parent.iterdir()}
+            beside = sorted(
+                path.absolute().parent.iterdir(), key=lambda each: each.suffix == path.suffix
+            )
+            name_of_stem = {each.stem: each.name for each in beside}
         except OSError:
             hint = f"the folder {path.parent} does not exist either"
         else:

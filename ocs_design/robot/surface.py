@@ -26,8 +26,8 @@ MOST_STEPS = 800
 MOST_BYTES = 16 << 20
 """Sum of the meshes that are read to look at a trunk: a .dae takes 0.1 s a MB."""
 
-_CHUNK = 1 << 21
-"""Pairs of triangles and places that are looked at at once."""
+_CHUNK = 1 << 16
+"""Pairs of triangles and places at once: few enough for the cache."""
 
 _ROUND = 96
 """Corners of a circle."""
@@ -59,7 +59,7 @@ class Surface:
 
     @property
     def x_range(self) -> tuple[float, float]:
-        """From where to where it goes forward [m]."""
+        """First and last x of the surface [m]."""
         return self.x, self.x + self.step * (len(self.heights) - 1)
 
 

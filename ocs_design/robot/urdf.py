@@ -379,5 +379,8 @@ def is_xacro(root: ET.Element) -> bool:
         return True
     parts = [*root.findall("link"), *root.findall("joint")]
     return any(
-        "${" in value for part in parts for each in part.iter() for value in each.attrib.values()
+        "${" in value or "$(" in value
+        for part in parts
+        for each in part.iter()
+        for value in each.attrib.values()
     )

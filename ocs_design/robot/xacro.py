@@ -22,6 +22,10 @@ _START = (
 )
 
 
+_MISSING_ARGUMENT = ("Undefined substitution argument", "xacro:arg: missing attribute 'default'")
+"""What xacro says of an `<xacro:arg>` that is only set on its command line."""
+
+
 def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) -> bytes:
     """The URDF that a xacro file stands for.
 
@@ -59,6 +63,12 @@ def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) 
         endless = f"it takes more than {SECONDS:.0f} s or 1 GiB: is there an endless expression?"
         answer = {"error": endless}
     if "error" in answer:
+        if any(word in answer["error"] for word in _MISSING_ARGUMENT):
+            raise RobotError(
+                f"xacro cannot expand the file, an argument has no value: {answer['error']}",
+                hint="state it: xacro robot.urdf.xacro NAME:=VALUE > robot.urdf, "
+                "and give robot.urdf",
+            )
         raise RobotError(
             f"xacro cannot expand the file: {answer['error']}",
             hint="expand it where its packages are installed: "

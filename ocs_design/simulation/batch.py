@@ -190,6 +190,7 @@ class Batch:
         self._control = _held(ctrl, hold)
         self._pushed_control = _held(np.hstack([ctrl, np.zeros((n, 6 * first.nbody))]), hold)
         self._push_address = first.nu + 6 * self._addresses.trunk + 3
+        self._body_mass = np.stack([world.model.body_mass for world in worlds])
 
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
         """Run all worlds to their ends, once.
@@ -276,14 +277,17 @@ class Batch:
         control, specification = self._control, _CONTROL
         push, gained = self._pushes.at(self._clock.steps(k, n)), None
         if push is not None:
-            in_world = np.einsum("nij,nj->ni", quaternions.matrix(record.attitude[k, :n]), push)
-            gained = in_world * self._period
+            to_world = quaternions.matrix(record.attitude[k, :n])
+            torque_on, acceleration = np.einsum("nij,npj->pni", to_world, push)
+            gained = torque_on * self._period
             control, specification = self._pushed_control, _PUSHED
             first = self._push_address
-            control[:n, :, first : first + 3] = in_world[:, None]
+            control[:n, :, first : first + 3] = torque_on[:, None]
+            wrenches = control[:n, :, self._models[0].nu :].reshape(n, self._hold, -1, 6)
+            wrenches[..., :3] = (self._body_mass[:n, :, None] * acceleration[:, None])[:, None]
         if k + 1 < len(record.time):
             record.impulse[k + 1, :n] = record.impulse[k, :n] + (0.0 if gained is None else gained)
-        self._legs.write(k, control[:n])
+        self._legs.write(k, control[:n], self._clock.bears(k, record.contact[k - 1, :n]))
         control[:n, :, self._motors] = torque
         pool.rollout(
             self._models[:n],

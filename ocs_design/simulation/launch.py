@@ -1,6 +1,6 @@
 """The start of a maneuver: where the robot is put, its turn, and what hits it on the way."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import mujoco
 import numpy as np
@@ -19,11 +19,17 @@ ROLL, PITCH = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, eq=False)
 class Push:
-    """A torque on the trunk in B [N m], shape (3,), from `onset` for `duration` [s]."""
+    """A torque on the trunk in B [N m], shape (3,), from `onset` for `duration` [s].
+
+    Attributes:
+        acceleration: of all of the robot by a force beside it, in B [m/s^2], shape (3,): on each
+            body in proportion to its mass, so that it turns nothing.
+    """
 
     torque: FloatArray
     onset: float
     duration: float
+    acceleration: FloatArray = field(default_factory=lambda: np.zeros(3))
 
     def share(self, starts: FloatArray, period: float) -> FloatArray:
         """Part of each control step, from `starts`, in which it acts: its impulse is exact."""
@@ -66,7 +72,12 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
     match maneuver:
         case Disturbance():
             forward, up = maneuver.takeoff_velocity
-            push = Push(np.array(maneuver.torque), maneuver.onset, maneuver.duration)
+            push = Push(
+                np.array(maneuver.torque),
+                maneuver.onset,
+                maneuver.duration,
+                np.array(maneuver.velocity_change) / maneuver.duration,
+            )
             return Launch(np.eye(3), None, np.array([forward, 0.0, up]), LEVEL, push)
         case Shove():
             push = Push(np.array(maneuver.torque), 0.0, maneuver.duration)
@@ -107,7 +118,9 @@ def on_the_ground(start: Launch, standing_height: float) -> Launch:
 def flight_time(start: Launch, standing_height: float, gravity: float) -> float:
     """Until the feet of the levelled robot meet the ground [s]."""
     drop = 0.0 if start.height is None else start.height - standing_height
-    up = start.velocity[2]
+    # Longer by what the push adds, were it at lift-off: a little too long.
+    gained = start.push.acceleration[2] * start.push.duration
+    up = start.velocity[2] + max(gained, 0.0)
     return float((up + np.sqrt(up**2 + 2.0 * gravity * drop)) / gravity)
 
 

@@ -193,6 +193,35 @@ def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
     model.dof_damping[_dofs(model, names)] = gains.friction
 
 
+def standing_torques(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> FloatArray:
+    """What the drives give while the robot stands level as it is in `data` [N m], shape (nu,).
+
+    Gravity's generalised forces `g(q) = tau + sum_i J_i^T f_i`: the rows of the floating base give
+    the smallest vertical forces f_i on the feet, those of the joints the torques.
+    """
+    torque = np.zeros(model.nu)
+    if not robot.legs:
+        return torque
+    mujoco.mj_forward(model, data)
+    pull, floats = data.qfrc_bias, model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)
+    first = int(model.jnt_dofadr[floats][0])
+    free = slice(first, first + 6)
+    columns = []
+    for leg in robot.legs:
+        body = model.body(robot.tree.bodies[leg.body].name).id
+        sole = data.xpos[body] + data.xmat[body].reshape(3, 3) @ leg.foot
+        sole[2] -= leg.foot_radius
+        jacobian = np.empty((3, model.nv))
+        mujoco.mj_jac(model, data, jacobian, None, sole, body)
+        columns.append(jacobian[2])
+    lifts = np.stack(columns, axis=1)
+    forces = np.linalg.lstsq(lifts[free], pull[free], rcond=None)[0]
+    names = leg_joints(robot)
+    actuators = [model.actuator(DRIVE + name).id for name in names]
+    torque[actuators] = (pull - lifts @ np.maximum(forces, 0.0))[_dofs(model, names)]
+    return torque
+
+
 def drive_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> DriveGains:
     """Gains from physics, lowered where the explicit step could not follow them.
 

@@ -21,7 +21,7 @@ from ocs_design.simulation.world import World
 _EARLIEST = 0.5
 """Share of the push-off before which feet that let go of the ground do not count."""
 
-_SURE = 5e-3
+SURE = 5e-3
 """How long nothing may touch the ground before a robot is taken to fly [s]."""
 
 NEVER = -1
@@ -37,7 +37,7 @@ class FlightClock:
     def __init__(self, worlds: Sequence[World], period: float) -> None:
         planned = np.array([0.0 if w.legs is None else w.legs.lift_off for w in worlds])
         self._earliest = np.ceil(_EARLIEST * planned / period)
-        self._sure = max(1, round(_SURE / period))
+        self._sure = max(1, round(SURE / period))
         self._in_air = np.zeros(len(worlds), dtype=np.int64)
         standing = np.array([world.stands or 0.0 for world in worlds])
         settled = np.round(standing / period).astype(np.int64)
@@ -61,6 +61,11 @@ class FlightClock:
         flies = (left == NEVER) & (in_air == self._sure)
         left[flies] = k + 1 - self._sure
 
+    def bears(self, k: int, contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Which worlds touch the ground and do not push off from it, whose plan has torques."""
+        n = len(contact)
+        return np.asarray(contact & ((self.steps(k, n) >= 0) | (self._earliest[:n] == 0.0)))
+
 
 class LegReferences:
     """Commands of the joint drives of all worlds, those of equal worlds held once."""
@@ -81,16 +86,24 @@ class LegReferences:
         length = max(map(len, tables)) + hold
         self._hold, self._last = hold, length - hold
         self._row = np.array([rows[key] for key in keys])
+        self._support = np.stack([world.support for world in worlds])
         # The last command holds on.
         self._commands = np.stack(
             [np.pad(table, ((0, length - len(table)), (0, 0)), mode="edge") for table in tables]
         )
 
-    def write(self, k: int, control: FloatArray) -> None:
-        """Put the commands of control step `k` into `control`, shape (n, hold, nu and more)."""
+    def write(self, k: int, control: FloatArray, bears: NDArray[np.bool_]) -> None:
+        """Put the commands of control step `k` into `control`, shape (n, hold, nu and more).
+
+        Args:
+            k: control step.
+            control: of the first n worlds.
+            bears: whether the legs of each are to bear its weight, shape (n,).
+        """
         first = min(k * self._hold, self._last)
         now = self._commands[self._row[: len(control)], first : first + self._hold]
         control[:, :, : now.shape[2]] = now
+        control[:, :, : now.shape[2]] += (bears[:, None] * self._support[: len(now)])[:, None]
 
 
 def _commands(world: World) -> FloatArray:
@@ -150,19 +163,21 @@ class References:
 
 
 class Pushes:
-    """Outer torques on the trunks in B [N m], by control steps since lift-off."""
+    """Outer torques on the trunks [N m] and accelerations [m/s^2] in B, by control steps."""
 
     def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
-        self._shares = np.stack([world.push.share(times, period) for world in worlds], axis=1)
-        self._torques = np.stack([world.push.torque for world in worlds])
-        acting = np.flatnonzero(self._shares.any(axis=1))
+        self._pushed = np.zeros((len(times), len(worlds), 2, 3))
+        for index, world in enumerate(worlds):
+            for push in world.pushes:
+                share = push.share(times, period)[:, None, None]
+                self._pushed[:, index] += share * np.stack([push.torque, push.acceleration])
+        acting = np.flatnonzero(self._pushed.any(axis=(1, 2, 3)))
         self._first = int(acting[0]) if acting.size else 1
         self._last = int(acting[-1]) if acting.size else 0
 
     def at(self, steps: Steps) -> FloatArray | None:
-        """Outer torque on the first worlds [N m], shape (n, 3); None: on none of them."""
+        """Torque and acceleration of the first worlds, shape (n, 2, 3); None: of none of them."""
         if not ((steps >= self._first) & (steps <= self._last)).any():
             return None
         rows = np.maximum(steps, 0), np.arange(len(steps))
-        share = np.where(steps < 0, 0.0, self._shares[rows])
-        return share[:, None] * self._torques[: len(steps)]
+        return np.where(steps[:, None, None] < 0, 0.0, self._pushed[rows])

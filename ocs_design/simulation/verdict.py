@@ -2,11 +2,13 @@
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from math import remainder, tau
 
 import numpy as np
 
 from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
 from ocs_design.simulation.metrics import UPRIGHT_TILT, Metrics
+from ocs_design.simulation.world import STEADY_LEGS
 
 LANDING_TOLERANCE = np.radians(5.0)
 """Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
@@ -26,7 +28,7 @@ class Fault(StrEnum):
     """What kept a run from passing."""
 
     UNSOUND = "not judged"
-    TURN = "not turned far enough"
+    TURN = "turned too little or too far"
     LANDING = "not level at touchdown"
     STANDING = "fell after a level touchdown"
 
@@ -51,7 +53,12 @@ class Verdict:
 
 
 def judge(
-    metrics: Metrics | None, maneuver: Maneuver, *, can_stand: bool | None, objection: str = ""
+    metrics: Metrics | None,
+    maneuver: Maneuver,
+    *,
+    can_stand: bool | None,
+    objection: str = "",
+    legs: int = STEADY_LEGS,
 ) -> Verdict:
     """The pass rule: a sound flight, the turn done, a level touchdown, upright at the end.
 
@@ -62,12 +69,13 @@ def judge(
             flight; None for a robot without legs. Where it does not, "upright at the end" says
             nothing about the device and is not judged.
         objection: to the run whatever its figures are, see `soundness`; empty if there is none.
+        legs: how many it has.
     """
     unsound = objection or _unsound(metrics)
     if metrics is None or unsound:
         return Verdict(None, unsound, Fault.UNSOUND)
     shoved = isinstance(maneuver, Shove)
-    verdict = _shoved(metrics, can_stand) if shoved else _flown(metrics, maneuver, can_stand)
+    verdict = _shoved(metrics, can_stand) if shoved else _flown(metrics, maneuver, can_stand, legs)
     if verdict.passed is None:
         return verdict
     return replace(
@@ -77,7 +85,7 @@ def judge(
     )
 
 
-def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Verdict:
+def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None, legs: int) -> Verdict:
     """Verdict on a robot that comes down from the air; see `judge`."""
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
@@ -86,8 +94,13 @@ def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Verd
     if can_stand is None:
         ending = "; without legs there is nothing to stand on"
     elif not can_stand:
+        why = (
+            ", for it takes steps to stay up on fewer than three feet, and none are simulated"
+            if legs < STEADY_LEGS
+            else ""
+        )
         ending = (
-            f"; standing is not judged: the legs do not bear this landing even when level; "
+            f"; standing is not judged: the legs do not bear this landing even when level{why}; "
             f"ends at {final}"
         )
     elif metrics.upright_at_end:
@@ -178,6 +191,9 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
         failure = f"turns {_degrees(turned)} of {asked:.0f} deg before touchdown"
         return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics):
+        if isinstance(maneuver, Flip) and abs(remainder(maneuver.angle, tau)) > LANDING_TOLERANCE:
+            asked = _degrees(float(np.degrees(maneuver.angle)))
+            failure += f": a turn of {asked} deg does not end level, one of 360deg does"
         return Verdict(False, failure, Fault.LANDING)
     return None
 

@@ -250,7 +250,7 @@ class WheelLaw(Table):
         torque_map: from roll and pitch acceleration and the gyroscopic torque to motor torques,
             shape (n, 2, 5).
         stiffness, damping: `Gains`, shape (n,).
-        standing_stiffness: in place of `stiffness` on the ground, shape (n,).
+        standing_stiffness, standing_damping: in their place on the ground, shape (n,).
         no_load_speed, line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
         copper, efficiency: likewise. power_max: that the law uses [W], shape (n,).
         wheel_response: see `Gyrostat`, shape (n,).
@@ -269,6 +269,7 @@ class WheelLaw(Table):
     power_max: FloatArray
     wheel_response: FloatArray
     standing_stiffness: FloatArray
+    standing_damping: FloatArray
 
     @classmethod
     def of(
@@ -305,6 +306,7 @@ class WheelLaw(Table):
             np.array([SUPPLY_USED * limits.power_max]),
             np.array([body.wheel_response]),
             np.array([gains.stiffness if balances else 0.0]),
+            np.array([gains.damping]),
         )
 
     @classmethod
@@ -312,7 +314,7 @@ class WheelLaw(Table):
         """No torque, in one world."""
         one, none = np.ones(1), np.zeros(1)
         maps = np.zeros((1, 3, 5)), np.zeros((1, 2, 5))
-        return cls(*maps, none, none, one, one, none, one, none, one, np.inf * one, one, none)
+        return cls(*maps, none, none, one, one, none, one, none, one, np.inf * one, one, none, none)
 
     @property
     def is_off(self) -> bool:
@@ -339,7 +341,8 @@ class WheelLaw(Table):
         error = tilt_error(vertical, target.vertical)
         slip = target.rate - rate[:, :2]
         stiffness = np.where(target.stands, self.standing_stiffness, self.stiffness)
-        wanted = stiffness[:, None] * error + self.damping[:, None] * slip + target.acceleration
+        damping = np.where(target.stands, self.standing_damping, self.damping)
+        wanted = stiffness[:, None] * error + damping[:, None] * slip + target.acceleration
         gyroscopic = self.gyroscopic(rate, wheel_speed)
         torque = np.einsum(
             "nij,nj->ni", self.torque_map, np.concatenate([wanted, gyroscopic], axis=1)

@@ -41,6 +41,7 @@ from ocs_design.simulation.scene import (
     locked_inertia,
     robot_scene,
     set_gains,
+    standing_torques,
 )
 from ocs_design.simulation.trotting import waiting
 from ocs_design.simulation.wheel_law import (
@@ -174,14 +175,17 @@ class World:
         model: compiled.
         qpos, qvel: at the start, shapes (nq,) and (nv,).
         ctrl: of the joint drives, which hold the nominal posture, shape (nu,).
+        support: added to it while the feet bear the weight, so that the legs do not give way under
+            it, shape (nu,); zero where a trot has torques of its own.
         addresses: see `Addresses`. chain: see `TrunkChain`.
         body: what the law believes in, measured on the model at the start.
-        law: of the wheels. turn: what the trunk should do. push: what hits it.
+        law: of the wheels. turn: what the trunk should do. pushes: what hits it.
         limits: of the motors; None where the wheels are not driven, or by no limited torque.
         trajectory: what it should do in place of the turn, with its feed-forward torque.
         legs: how they push the robot off the ground, or trot; None: they hold their posture.
         standing_height: of the trunk frame's origin when level with the feet on the ground [m].
         stands: or trots, for how long before the maneuver [s]; None: it flies or jumps.
+        takes_off: whether its legs send it up, in the run or right before it.
         flight_time: expected [s]. duration: of the run, push-off included [s].
         note: why it starts in flight where a jump was asked for; how the turn was changed to suit
             the wheels, or what is to be said of the trajectory; empty if nothing.
@@ -193,6 +197,7 @@ class World:
     qpos: FloatArray
     qvel: FloatArray
     ctrl: FloatArray
+    support: FloatArray
     addresses: Addresses
     chain: TrunkChain
     body: Gyrostat
@@ -201,9 +206,10 @@ class World:
     turn: Turn
     trajectory: Trajectory | None
     legs: LegTrajectory | None
-    push: Push
+    pushes: tuple[Push, ...]
     standing_height: float
     stands: float | None
+    takes_off: bool
     flight_time: float
     duration: float
     note: str
@@ -271,6 +277,11 @@ class WorldBuilder:
         data = mujoco.MjData(model)
         standing = stand(self._robot, model, data)
         set_gains(model, data, self._robot)
+        drives = [model.actuator(DRIVE + name).id for name in leg_joints(self._robot)]
+        support = np.zeros(model.nu)
+        support[drives] = (
+            standing_torques(model, data, self._robot)[drives] / model.actuator_gainprm[drives, 0]
+        )
         if legs is not None:
             # Only now: in every flight the drives are the same.
             model.opt.timestep = JUMP_STEP
@@ -308,6 +319,7 @@ class WorldBuilder:
         ctrl = np.zeros(model.nu)
         for name in leg_joints(self._robot):
             ctrl[model.actuator(DRIVE + name).id] = self._robot.posture[name]
+        takes_off = bool(start.velocity.any())
         if legs is not None:
             start = on_the_ground(start, standing)
         place(self._robot, model, data, start, standing)
@@ -316,6 +328,7 @@ class WorldBuilder:
             qpos=data.qpos.copy(),
             qvel=data.qvel.copy(),
             ctrl=ctrl,
+            support=support if waits.legs is None else np.zeros(model.nu),
             addresses=addresses(model),
             chain=TrunkChain.of(self._robot, model),
             body=body,
@@ -324,9 +337,10 @@ class WorldBuilder:
             turn=fitted.turn,
             trajectory=trajectory,
             legs=waits.legs or legs,
-            push=start.push,
+            pushes=(start.push,),
             standing_height=standing,
             stands=waits.duration,
+            takes_off=takes_off,
             flight_time=flight,
             duration=(waits.duration or 0.0)
             + (0.0 if legs is None else legs.lift_off)

@@ -63,7 +63,12 @@ def assemble_selected(candidate: Candidate, supply: Supply) -> Device:
     device = assemble_driven(
         wheel, candidate.carrier, candidate.incidence, candidate.centers, candidate.line
     )
-    return replace(device, supply=supply.told)
+    return replace(
+        device,
+        supply=supply.told,
+        guard_wall=candidate.guard_wall,
+        foot_plate=candidate.foot_plate,
+    )
 
 
 def assemble_driven(

@@ -98,7 +98,7 @@ class FootContact:
 
 @dataclass(frozen=True)
 class Feet:
-    """Both feet, one beside the other, symmetric to the sagittal plane.
+    """Feet of a device, one beside the other, symmetric to the sagittal plane.
 
     Attributes:
         x, y: middle of the left one's base in B [m].
@@ -127,7 +127,7 @@ class Feet:
 
 @dataclass(frozen=True, eq=False)
 class Footing:
-    """Where modules stand before they are chosen.
+    """Place and plate of modules before they are chosen.
 
     Attributes:
         place: of the modules by their size.
@@ -197,7 +197,7 @@ def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
 
 
 def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | None:
-    """Where a chosen device stands; see `stand_on_trunk`. None: where it is, on nothing known."""
+    """Footing of a chosen device; see `stand_on_trunk`. None: where it is, on nothing known."""
     surface = trunk_surface(robot)
     if surface is None or device.carrier.mass == 0.0:
         return None

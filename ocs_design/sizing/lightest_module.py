@@ -44,13 +44,13 @@ from ocs_design.parts.module import Shell
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.module_radii import largest_radius, smallest_radius
 
-# Together nine digits of the interval of radii: the mass tells no more of them.
+# A round leaves a sixth of the interval of radii.
 _PARTS = 12
-_ROUNDS = 12
+_PER_DIGIT = 4.0 / 3.0
 # Of C, which moves by less than a fifth of what the height does.
 _BORE_ROUNDS = 5
-# Of what is cut off a rim besides: nine digits also where that is much.
-_CUT_ROUNDS = 9
+# Of what is cut off a rim besides, which moves by more.
+_DIGITS = 9
 # Of e, which is small where there is a bore to speak of.
 _MOST_BENT = 0.5
 # Limits that meet in one point stay compatible when their figures are rounded.
@@ -81,17 +81,24 @@ class ModuleShape(Table):
         return self.rim_mass + self.web_mass + self.shell_mass
 
 
-def lightest_module(spin_inertia: ArrayLike, limits: RimLimits, shell: Shell) -> ModuleShape:
-    """The lightest wheel of each spin inertia [kg m^2] with its shell; see the module's text."""
+def lightest_module(
+    spin_inertia: ArrayLike, limits: RimLimits, shell: Shell, digits: int = _DIGITS
+) -> ModuleShape:
+    """The lightest wheel of each spin inertia [kg m^2] with its shell; see the module's text.
+
+    Args:
+        spin_inertia, limits, shell: see `lightest_module_at`.
+        digits: to which its radius and its bore are found.
+    """
     inertia = np.asarray(spin_inertia, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         low, high = _radii(inertia, limits)
         low, high = np.broadcast_arrays(low, high)
         # Several radii at once, as a call of numpy costs more than its work on few modules.
         parts = np.linspace(0.0, 1.0, _PARTS + 1).reshape(-1, *(1,) * low.ndim)
-        for _ in range(_ROUNDS):
+        for _ in range(round(_PER_DIGIT * digits)):
             radii = low + parts * (high - low)
-            mass = _shape(inertia, radii, limits, shell).mass
+            mass = _shape(inertia, radii, limits, shell, digits).mass
             # On an edge of the interval rounding may leave no rim.
             best = np.where(mass > 0.0, mass, np.inf).argmin(axis=0)[None]
             low, high = (
@@ -132,10 +139,11 @@ def _shape(
     outer_radius: FloatArray,
     limits: RimLimits,
     shell: Shell,
+    digits: int = _DIGITS,
 ) -> ModuleShape:
     """Lightest modules of given outer radii."""
     square, per_height = outer_radius**2, np.pi * limits.density
-    bore = _best_bore(inertia, outer_radius, limits, shell)
+    bore = _best_bore(inertia, outer_radius, limits, shell, digits)
     of_rim, height = _rim_height(inertia, outer_radius, bore, limits)
     inner_radius = np.sqrt(bore)
     return ModuleShape(
@@ -165,19 +173,24 @@ def _best_bore(
     outer_radius: FloatArray,
     limits: RimLimits,
     shell: Shell,
+    digits: int,
 ) -> FloatArray:
     """b = r^2 of the lightest module at R [m^2]."""
     square = outer_radius**2
     height = np.asarray(limits.height_min) + np.zeros_like(outer_radius)
-    lower, upper = _bounds(inertia, outer_radius, limits, None)
+    fixed = _fixed_bounds(outer_radius, limits)
+    lower, upper = _bounds(inertia, outer_radius, limits, fixed, None)
     bent: float | FloatArray = 0.0
     holed = bool(np.any(np.asarray(limits.web_weight) < 1.0))
-    for _ in range(_CUT_ROUNDS if limits.cuts.any or holed else _BORE_ROUNDS):
+    rounds = digits if limits.cuts.any or holed else min(digits, _BORE_ROUNDS)
+    for left in range(rounds - 1, -1, -1):
         per_height = shell.mass_per_height(outer_radius, height)
         ratio = per_height / (np.pi * limits.density)
         pull = ratio / (1.0 - bent)
         free = square + pull - np.sqrt(pull * (2.0 * square + pull))
         bore = np.clip(free, lower, upper)
+        if not left:
+            break
         of_rim, height = _rim_height(inertia, outer_radius, bore, limits)
         both = square + bore
         over = both**2 / (of_rim + limits.web * (bore**2 - square**2))
@@ -189,43 +202,45 @@ def _best_bore(
             spread = spread * (1.0 + ratio / (square - bore)) / both
             more = (spread - limits.cuts.area_slope()) / (2.0 * inner)
             bent = np.clip(more * over, -_MOST_BENT, _MOST_BENT)
-            lower, upper = _bounds(inertia, outer_radius, limits, bore)
+            lower, upper = _bounds(inertia, outer_radius, limits, fixed, inner)
         if holed:
             bent = bent + np.minimum((limits.heavy_web - limits.web) * over, 0.0)
     return bore
 
 
-def _bounds(
-    inertia: FloatArray, outer: FloatArray, limits: RimLimits, bore: FloatArray | None
-) -> tuple[FloatArray, FloatArray]:
-    """Bounds of r^2 at R [m^2], with what is cut off a rim of about that r^2; None: nothing."""
-    full, mass = (
-        2.0 * inertia / (np.pi * limits.density),
-        limits.mass_max / (np.pi * limits.density),
-    )
-    if bore is not None:
-        inner = np.sqrt(bore)
-        full = full + limits.cuts.spread(inner, outer)
-        mass = mass + limits.cuts.area(inner, outer)
+def _fixed_bounds(outer: FloatArray, limits: RimLimits) -> tuple[FloatArray, FloatArray]:
+    """Bounds of r^2 at R [m^2] that a rim's height and mass have no say in."""
     weight, bore_weight = limits.hoop_weights
-    # At the largest mass t b^2 + m b = k - m a, m per pi rho.
-    over, web = full / mass - outer**2, limits.web / mass
-    by_mass = 2.0 * over / (1.0 + np.sqrt(np.maximum(1.0 + 4.0 * web * over, 1e-300)))
-    lower = (
-        _bore_at_height(full, outer, limits, limits.height_min),
-        np.asarray(limits.inner_radius_min) ** 2,
-        (BORE_SHARE * outer) ** 2,
-        by_mass,
-    )
-    upper = (
-        _bore_at_height(full, outer, limits, limits.height_max),
-        (outer - limits.wall_min) ** 2,
-        (limits.stretch_max - weight * outer**2) / bore_weight,
-    )
     return (
-        np.maximum.reduce(np.broadcast_arrays(*lower)),
-        np.minimum.reduce(np.broadcast_arrays(*upper)),
+        np.maximum(np.asarray(limits.inner_radius_min) ** 2, (BORE_SHARE * outer) ** 2),
+        np.minimum(
+            (outer - limits.wall_min) ** 2, (limits.stretch_max - weight * outer**2) / bore_weight
+        ),
     )
+
+
+def _bounds(
+    inertia: FloatArray,
+    outer: FloatArray,
+    limits: RimLimits,
+    fixed: tuple[FloatArray, FloatArray],
+    inner: FloatArray | None,
+) -> tuple[FloatArray, FloatArray]:
+    """Bounds of r^2 at R [m^2], with what is cut off a rim of about that r; None: nothing."""
+    full = 2.0 * inertia / (np.pi * limits.density)
+    if inner is not None:
+        full = full + limits.cuts.spread(inner, outer)
+    lower = np.maximum(_bore_at_height(full, outer, limits, limits.height_min), fixed[0])
+    upper = np.minimum(_bore_at_height(full, outer, limits, limits.height_max), fixed[1])
+    if not np.all(np.isinf(limits.mass_max)):
+        mass = limits.mass_max / (np.pi * limits.density)
+        if inner is not None:
+            mass = mass + limits.cuts.area(inner, outer)
+        # At the largest mass t b^2 + m b = k - m a, m per pi rho.
+        over, web = full / mass - outer**2, limits.web / mass
+        by_mass = 2.0 * over / (1.0 + np.sqrt(np.maximum(1.0 + 4.0 * web * over, 1e-300)))
+        lower = np.maximum(lower, by_mass)
+    return lower, upper
 
 
 def _bore_at_height(

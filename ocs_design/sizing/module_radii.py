@@ -28,6 +28,8 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, flat_wall
 _NEWTON_STEPS = 12
 # Relative, of a last step that no digit is left to gain by: the one after it would be nothing.
 _LAST_STEP = 1e-9
+# Relative, of two radii that are one: limits that meet in a point must still leave a rim there.
+_SAME = 1e-13
 # Of what is cut off a rim, at least a digit each: it is at most an eighth of its cross-section.
 _CUT_ROUNDS = 7
 
@@ -57,10 +59,9 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     crossings = [_tall_and_narrow, _tall_and_closed]
     if not np.all(np.isinf(limits.mass_max)):
         crossings += [_tall_and_heavy, _thin_and_heavy]
-    found = [_crossing_radius(crossing, inertia, limits) for crossing in crossings]
-    radius: FloatArray = np.maximum.reduce(
-        np.broadcast_arrays(by_wall, np.asarray(limits.outer_radius_min), *found)
-    )
+    radius: FloatArray = np.maximum(by_wall, np.asarray(limits.outer_radius_min))
+    for crossing in crossings:
+        radius = np.maximum(radius, _crossing_radius(crossing, inertia, limits))
     return radius
 
 
@@ -70,13 +71,14 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     by_bore = (stretch - inner * np.asarray(limits.inner_radius_min) ** 2) / outer
     by_share = stretch / (outer + inner * BORE_SHARE**2)
     square = np.minimum(by_bore, by_share)
-    crossings = (_stretched_and_heavy, _stretched_and_flat, _thin_and_flat)
-    found = [_crossing_radius(crossing, inertia, limits) for crossing in crossings]
-    radius: FloatArray = np.minimum.reduce(
-        np.broadcast_arrays(
-            np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0)), *found
-        )
+    crossings = [_stretched_and_flat, _thin_and_flat]
+    if not np.all(np.isinf(limits.mass_max)):
+        crossings.append(_stretched_and_heavy)
+    radius: FloatArray = np.minimum(
+        np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0))
     )
+    for crossing in crossings:
+        radius = np.minimum(radius, _crossing_radius(crossing, inertia, limits))
     return radius
 
 
@@ -91,7 +93,9 @@ def _crossing_radius(
         # Where they do not meet nothing is cut.
         both = cuts.spread(*found), cuts.area(*found)
         spread, area = (np.where(np.isfinite(cut), cut, 0.0) for cut in both)
-        found = crossing(_Asked(full + spread, mass + area), limits)
+        last, found = found, crossing(_Asked(full + spread, mass + area), limits)
+        if not np.any(np.abs(found.outer - last.outer) > _SAME * found.outer):
+            break
     return found.outer
 
 

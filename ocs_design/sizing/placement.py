@@ -14,6 +14,7 @@ from ocs_design.device.solids import motor_mount
 from ocs_design.parts.foot import base_radius, larger, plate_back, wheel_height
 from ocs_design.parts.housing import half_height, housing_outer_radius
 from ocs_design.parts.motor_mount import Behind, HeldMotor, mount_of
+from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
 from ocs_design.robot.collision import CollisionModel, Nearest, Part, collision_model
@@ -50,26 +51,39 @@ def module_size(
     height: Real,
     behind: Behind[Real] | Behind[float],
     mount_reach: Real | float,
+    guard_wall: float = 0.0,
+    *,
+    foot_plate: Real | float = PLATE_THICKNESS,
 ) -> Size[Real]:
     """Size of a housing on its foot, around a wheel of this radius and height, with its motor.
 
-    All in metres. What stands behind the foot's plate, motor, gear and cage, goes so far back and
-    so far to both sides: how high it stands is no matter to a turn about the vertical.
+    All in metres; a guard ring in the housing makes that as much wider. What stands behind the
+    foot's plate, motor, gear and cage, goes so far back and so far to both sides: how high it
+    stands is no matter to a turn about the vertical.
     """
+    outer_radius = outer_radius + guard_wall
     half = half_height(height)
     housing = (housing_outer_radius(outer_radius) ** 2 + half**2) ** 0.5
-    depth = larger(plate_back(half) + behind.depth, behind.from_wheel)
+    depth = larger(plate_back(half, foot_plate) + behind.depth, behind.from_wheel)
     motor = (depth**2 + behind.radius**2) ** 0.5
-    base = base_radius(outer_radius, height, mount_reach)
+    base = base_radius(outer_radius, height, mount_reach, foot_plate)
     return Size(larger(larger(housing, motor), base), wheel_height(outer_radius))
 
 
 def motor_size(
-    motor: HeldMotor, room: GearRoom | None, outer_radius: Real, height: Real
+    motor: HeldMotor,
+    room: GearRoom | None,
+    outer_radius: Real,
+    height: Real,
+    guard_wall: float = 0.0,
+    *,
+    foot_plate: float = PLATE_THICKNESS,
 ) -> Size[Real]:
     """Size of a motor behind a gear of this room, as far as it is known."""
-    mount = mount_of(motor, room)
-    return module_size(outer_radius, height, mount.behind(motor), mount.holes.reach)
+    mount = mount_of(motor, room, foot_plate)
+    behind = mount.behind(motor)
+    reach = mount.holes.reach
+    return module_size(outer_radius, height, behind, reach, guard_wall, foot_plate=foot_plate)
 
 
 @dataclass(frozen=True)
@@ -85,6 +99,11 @@ class Place:
     origin: tuple[float, float, float]
     outward: tuple[float, float, float]
     upright: bool = False
+
+    @property
+    def stated(self) -> bool:
+        """Whether it is the same for modules of any size, as a stated one is (`place_at`)."""
+        return not (any(self.outward) or self.upright)
 
     def __call__(self, outer_radius: float, height: float) -> FloatArray:
         """Centres of bare wheels in B for R and h [m], left first, shape (2, 3)."""
@@ -108,7 +127,14 @@ def device_size(device: Device) -> Size[float]:
     if device.carrier.mass == 0.0:
         return wheel_size(wheel.outer_radius, wheel.height)
     behind = mount.behind(device.motor)
-    return module_size(wheel.outer_radius, wheel.height, behind, mount.holes.reach)
+    return module_size(
+        wheel.outer_radius,
+        wheel.height,
+        behind,
+        mount.holes.reach,
+        device.guard_wall,
+        foot_plate=device.foot_plate,
+    )
 
 
 def sphere_radius(outer_radius: Real, height: Real) -> Real:
@@ -273,7 +299,7 @@ class Sizes:
 
     def all(self) -> Iterator[Size[float]]:
         """Radii from the largest down, so close that balls at them cover all between."""
-        for share in np.linspace(1.0, 0.0, _SIZES).tolist():
+        for share in np.linspace(1.0, 0.0, 1 if self.smallest == self.largest else _SIZES).tolist():
             pairs = zip(self.smallest, self.largest, strict=True)
             yield Size(*((1.0 - share) * small + share * large for small, large in pairs))
 

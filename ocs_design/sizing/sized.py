@@ -146,8 +146,8 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     rim_inertia = chosen.spin_inertia - chosen.rotor_share - chosen.hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
     limits = chosen.limits(problem.envelope)
-    mount = mount_of(chosen.motor, chosen.gear.room)
-    shell = Printed(mount.holes.reach, mount.posts)
+    mount = mount_of(chosen.motor, chosen.gear.room, chosen.foot_plate)
+    shell = Printed(mount.holes.reach, mount.posts, chosen.guard_wall, chosen.foot_plate)
     prices = {}
     for name in chosen.binding:
         field = _LIMIT_OF_NAME.get(name)
@@ -159,6 +159,8 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
         masses = np.array([float(lightest_module(rim_inertia, c, shell).mass) for c in changed])
         known = np.isfinite(masses)
         masses, steps = masses[known], steps[known]
+        if steps.size < 2:  # The smallest wheel there is, on the edge of what closes.
+            continue
         slope = float((masses[-1] - masses[0]) / (steps[-1] - steps[0]))
         stress = name == "hoop_stress"
         prices[name] = slope * (rim.stretch_max / rim.hoop_stress_max if stress else 1.0)

@@ -3,10 +3,11 @@
 import numpy as np
 
 from ocs_design.common.errors import UsageError
-from ocs_design.common.units import Dimension, parse_positive, parse_quantity
+from ocs_design.common.units import Dimension
 from ocs_design.device.answers import BoundAnswer
 from ocs_design.device.records import SCHEMA_VERSION
 from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
+from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_SPEED, Quantity
 
 CURVE_POINTS = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Rate changes and wheel speeds of the curve, over those asked for."""
@@ -22,12 +23,10 @@ def bound_by_hand(
     """
     if axis not in AXES:
         raise UsageError(f"--axis {axis}: is neither pitch nor roll")
-    moment = parse_positive(inertia, Dimension.INERTIA, "--inertia")
-    rate = parse_positive(rate_change, Dimension.ANGULAR_SPEED, "--rate-change")
-    speed = parse_positive(wheel_speed_max, Dimension.ANGULAR_SPEED, "--wheel-speed-max")
-    incidence = parse_quantity(alpha, Dimension.ANGLE, "--alpha")
-    if not 0.0 <= incidence <= np.pi / 2.0:
-        raise UsageError(f"--alpha {alpha}: lies outside 0 to 90 deg")
+    moment = Quantity(Dimension.INERTIA).read(inertia, "--inertia")
+    rate = TRUNK_RATE.read(rate_change, "--rate-change")
+    speed = WHEEL_SPEED.read(wheel_speed_max, "--wheel-speed-max")
+    incidence = INCIDENCE.read(alpha, "--alpha")
     found = spin_bound(moment, rate, speed, float(authority(incidence)[AXES.index(axis)]))
     if not np.isfinite(found.spin_inertia):
         raise UsageError(

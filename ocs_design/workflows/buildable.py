@@ -8,6 +8,9 @@ from ocs_design.device.records import Buildable, MarginRecord, OpenPoint
 from ocs_design.parts.joints import Joint
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import listed
+from ocs_design.robot.links import listed as some_of
+from ocs_design.robot.meshes import unmeasured
+from ocs_design.robot.robot import Robot
 from ocs_design.sizing.margins import (
     BUS_CURRENT,
     BUS_POWER,
@@ -55,6 +58,7 @@ def buildable(
     mounting: Mounting | None,
     margins: Sequence[MarginRecord],
     joints: Sequence[Joint] = (),
+    robot: Robot | None = None,
 ) -> Buildable:
     """Whether a device can be built as it stands, and what is open.
 
@@ -63,18 +67,29 @@ def buildable(
         mounting: on the robot; where the robot's shapes are not known, nothing can be told either.
         margins: of the device.
         joints: of a module.
+        robot: that the device stands on; None: it has no meshes to miss.
     """
     if motor is None:
         return Buildable(yes=None)
+    missing = () if robot is None else tuple(_missing_meshes(robot))
     points = (
+        *missing,
         *_motor_points(motor),
         *_joint_points(joints),
         *(() if mounting is None else mounting_open_points(mounting)),
         *_exceeded(margins),
     )
-    if mounting is None or not mounting.known:
+    if not missing and (mounting is None or not mounting.known):
         return Buildable(yes=None, open=points)
     return Buildable(yes=not points, open=points)
+
+
+def _missing_meshes(robot: Robot) -> Iterator[OpenPoint]:
+    """Bodies whose shapes, and with them what the device stands on and hits, are not known."""
+    bodies = [body.name for body in robot.tree.bodies if unmeasured(body)]
+    if bodies and robot.mesh_cure:
+        what = f"meshes are missing: the shape of {some_of(bodies)} is not known"
+        yield OpenPoint(what=what, cure=robot.mesh_cure)
 
 
 def _motor_points(motor: Motor) -> Iterator[OpenPoint]:

@@ -1,10 +1,13 @@
 """Everything that flights need besides the device: wheel law, references, plans of the legs."""
 
+import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device
@@ -169,7 +172,9 @@ def read_task(
         # A plan is a few hundred numbers that follow from the design: they are planned once more.
         # CasADi takes a third of a second to import, and wheels without a motor do without.
         planning = import_module("ocs_design.sizing.trajectory.plans")
-        plans = planning.plan(robot.mass_properties, device, maneuvers, standing_height(robot))
+        kept, standing = design.selection.kept, standing_height(robot)
+        demands = None if kept is None else kept.demands
+        plans = planning.plan(robot.mass_properties, device, maneuvers, standing, demands)
         references = trajectories(plans)
     return Task(
         path=path,
@@ -178,8 +183,17 @@ def read_task(
         device=device,
         maneuvers=maneuvers,
         control=control,
-        uncertainty=merge_section(uncertainty_of_texts(design.reality, str(path)), stated.reality),
+        # A file takes the place of everything that the design was sized with.
+        uncertainty=stated.reality
+        if stated.reality.file is not None
+        else merge_section(uncertainty_of_texts(design.reality, str(path)), stated.reality),
         references=references,
         jumps=jump_plans(control, robot, device, maneuvers),
         warnings=warnings,
     )
+
+
+def flown_hash(design: OcsDesign, control: ControlRecord) -> str:
+    """SHA-256 of what of a design is flown: device, maneuvers and wheel law."""
+    flown = (design.ocs, design.requirement.maneuvers, control)
+    return hashlib.sha256(msgspec.json.encode(flown, order="deterministic")).hexdigest()

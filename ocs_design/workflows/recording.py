@@ -22,17 +22,20 @@ from ocs_design.device.records import (
     CoDesignRecord,
     ControlRecord,
     DemandRecord,
+    Lighter,
     ManeuverRecord,
     MarginRecord,
     ModuleRecord,
     MountingRecord,
     OcsDesign,
     OcsRecord,
+    Owed,
     PriceRecord,
     RankedRecord,
     ReachRecord,
     RejectionRecord,
     RequirementRecord,
+    ReserveRecord,
     RobotRecord,
     SelectionRecord,
     SizingRecord,
@@ -174,7 +177,7 @@ def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) 
         yield Margin(HOOP_STRESS, wheel.hoop_stress, strength, "Pa")
 
 
-def record_selection(choice: Choice) -> SelectionRecord:
+def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> SelectionRecord:
     """How the device came to be."""
     problem, chosen, selection, refined = (
         choice.problem,
@@ -221,6 +224,7 @@ def record_selection(choice: Choice) -> SelectionRecord:
             recorded(PriceRecord, price, limit=price.limit.name)
             for price in mass_prices(problem, selection.best)
         ),
+        kept=kept,
     )
 
 
@@ -261,6 +265,8 @@ def record_design(
     mounting: Mounting | None,
     warnings: tuple[str, ...] = (),
     alternatives: tuple[Alternative, ...] = (),
+    owed: Owed | None = None,
+    lighter: Lighter | None = None,
     seed: int,
     files: Mapping[str, str],
     package_paths: Mapping[str, Path] | None = None,
@@ -277,15 +283,20 @@ def record_design(
         sizing=recorded(
             SizingRecord, designed.sized, shadow_prices=dict(designed.sized.shadow_prices)
         ),
-        selection=None if designed.choice is None else record_selection(designed.choice),
+        selection=None
+        if designed.choice is None
+        else record_selection(designed.choice, designed.kept),
         margins=margins,
         supply=designed.device.supply,
         alternatives=alternatives,
+        owed=owed,
+        lighter=lighter,
         buildable=buildable(
             None if choice is None else choice.chosen.motor,
             mounting,
             margins,
             joints_of(designed.device),
+            robot,
         ),
         validation=tuple(map(record_run, runs)),
         control=control,
@@ -325,6 +336,7 @@ def _requirement(resolved: Resolved, sized: Sized) -> RequirementRecord:
             for demand in sized.demands
         ),
         assumptions=(*resolved.assumptions, *housing),
+        reliability=resolved.reliability,
     )
 
 
@@ -358,6 +370,12 @@ def _ocs(
         motor=device.motor,
         carrier=device.carrier,
         plate=device.plate,
+        guard_wall=device.guard_wall,
+        foot_plate=device.foot_plate,
+        center_of_mass=vector(
+            (sized.total.mass * sized.total.com - robot.mass_properties.mass * robot.com)
+            / device.mass
+        ),
         warnings=(*device_warnings(device, robot.mass_properties), *warnings),
         fitting=(*device_notes(device), *trunk_notes(device)),
         mounting=None

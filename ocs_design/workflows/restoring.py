@@ -56,6 +56,8 @@ def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
         record.carrier,
         supply,
         plate=record.plate,
+        guard_wall=record.guard_wall,
+        foot_plate=record.foot_plate,
     )
     check_device(device)
     return device

@@ -6,11 +6,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.common.files import safe_name
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.device import Device
 from ocs_design.device.naming import require_no_device
-from ocs_design.device.records import OcsDesign, design_to_json
+from ocs_design.device.records import Lighter, OcsDesign, Owed, design_to_json
 from ocs_design.export.folder import (
     DESIGN_FILE,
     check_target,
@@ -19,29 +20,54 @@ from ocs_design.export.folder import (
 )
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.jumping.jump import JumpPlans
+from ocs_design.monte_carlo.campaign import Campaign, make_campaign
+from ocs_design.monte_carlo.certificate import (
+    ROUND,
+    ROUNDS,
+    SequentialTest,
+    certificate,
+    lesson,
+)
+from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
+from ocs_design.monte_carlo.results import write_results
+from ocs_design.monte_carlo.running import ThisMachine, run_campaign
+from ocs_design.monte_carlo.summary import MonteCarloRecord, summarised
+from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.charts.figures import FOLDER, all_charts
 from ocs_design.report.charts.files import write_svgs
 from ocs_design.report.html.page import write_report
 from ocs_design.report.story import flights_of, story_in
 from ocs_design.report.text.console import Steps
 from ocs_design.report.video.film import film_or_tell
+from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.resolving import Resolved, read_specified_robot, resolve
-from ocs_design.requirement.specification import NO_MOTOR, Specification, ValidationSection
-from ocs_design.requirement.uncertainty import uncertainty_texts
+from ocs_design.requirement.specification import (
+    NO_MOTOR,
+    RELIABILITY,
+    Specification,
+    ValidationSection,
+)
+from ocs_design.requirement.sweep import Task
+from ocs_design.requirement.uncertainty import complete_uncertainty, uncertainty_texts
 from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.scenario import Run, run_scenarios
 from ocs_design.simulation.trotting import require_trot
-from ocs_design.sizing.alternatives import alternatives
+from ocs_design.sizing.alternatives import alternatives, owed_to
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import Designed, design_device
+from ocs_design.sizing.lighter import lighter_by
 from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
-from ocs_design.sizing.selection.advice import Refused
-from ocs_design.workflows.flying import control_of, flight_options, trajectories
+from ocs_design.sizing.reserve import Reserve
+from ocs_design.sizing.selection.advice import Refused, unasked
+from ocs_design.workflows.flying import control_of, flight_options, flown_hash, trajectories
 from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.recording import record_design, write_runs
+
+CERTIFICATE_FOLDER = "certificate"
+"""Of the many flights of `--certify`."""
 
 if TYPE_CHECKING:
     from ocs_design.jumping.planning import JumpPlanning
@@ -66,8 +92,10 @@ class Outcome:
 
     @property
     def exit_code(self) -> int:
-        """0, or 1 if it cannot be built or a scenario does not pass with the device."""
+        """0, or 1 if it cannot be built, or does not pass as designed or as it might be built."""
+        certified = self.design.reliability
         failed = any(run.ocs and run.passed is not True for run in self.runs)
+        failed |= certified is not None and certified.verdict == "falls short"
         return 1 if failed or self.design.buildable.yes is False else 0
 
 
@@ -95,43 +123,74 @@ def design_ocs(
     Raises:
         OcsError: see `exceptions`; nothing is written then.
     """
+    stated = specification.validation
+    flying = {"--video films the": stated.video, "--certify repeats the": stated.certify}
+    for what, wanted in flying.items():
+        if wanted and stated.enabled is False:
+            raise UsageError(
+                f"{what} flights, and --no-validate flies none", hint="leave one of them out"
+            )
     steps = steps or Steps.silent()
+    if out is not None:
+        check_target(out, force=force)
     with steps.step("read the robot") as step:
         robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
         folder = out or Path(f"{safe_name(robot.name)}-ocs")
         check_target(folder, force=force)
         require_no_device(robot.tree.joints)
         step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
+    steps.doubt(robot.warnings)
     sized = _sized_or_advised(specification, robot, steps, strict=strict)
-    device = sized.designed.device
-    with steps.step("plan the maneuvers"):
-        plans = _plan(sized)
+    proof = _prove(sized, stated, steps)
+    if proof.runs and stated.certify:
+        sized, proof = _certify(sized, proof, specification, steps, strict=strict)
+    device, runs = sized.designed.device, proof.runs
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
             remarks = _write_formats(robot, device, staging)
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
-        runs, unfilmed = _prove(sized, specification.validation, plans, staging, steps)
+        unfilmed = _write_flights(sized, proof, stated, staging, steps)
         with steps.step("look for what would be lighter otherwise"):
-            lighter = alternatives(specification, sized.designed, sized.robot)
-            forget_collision_model()
+            lighter = alternatives(specification, sized.resolved, sized.designed, sized.robot)
+            owed = owed_to(sized.designed, sized.robot)
+        conceded = _what_must_give(specification, sized, owed, steps)
+        forget_collision_model()
+        control = control_of(stated, robot)
         design = record_design(
             robot,
             sized.resolved,
             sized.designed,
             runs,
-            plans=plans,
-            control=control_of(specification.validation, robot),
-            uncertainty=uncertainty_texts(specification.reality),
+            plans=proof.plans,
+            control=control,
+            uncertainty=uncertainty_texts(
+                complete_uncertainty(specification.reality, standing_height(robot), device.motor)
+            ),
             mounting=sized.mounting,
             warnings=(*sized.remarks, *unfilmed),
             alternatives=lighter,
-            seed=specification.validation.seed or 0,
+            owed=owed,
+            lighter=conceded,
+            seed=stated.seed or 0,
             files={},
             package_paths=package_paths,
         )
+        if proof.certificate is not None:
+            flown = proof.certificate
+            design = replace(design, reliability=flown.record.certificate)
+            (staging / CERTIFICATE_FOLDER).mkdir()
+            write_results(
+                flown.campaign,
+                flown.outcomes,
+                flown.record,
+                staging / CERTIFICATE_FOLDER,
+                design=flown_hash(design, control),
+            )
         with steps.step("write the report"):
-            _write_instructions(robot, device, design, staging)
-            design = _write_report(design, robot, runs, staging, command)
+            # What tells of the flights too: the bill of materials and the assembly.
+            told = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
+            export_formats(told, [each for each in USUAL_FORMATS if each.needs_margins], staging)
+            design = _write_report(design, told, runs, staging, command)
         (staging / DESIGN_FILE).write_bytes(design_to_json(design))
     return Outcome(design, folder, robot, device, runs)
 
@@ -161,20 +220,20 @@ def _sized_or_advised(
             step.note = _what_was_sized(sized.designed)
             return sized
     with steps.step("look for the smallest changes that would do") as step:
-        advised = refused.advised(step.update)
-    if robot.warnings:
-        odd = "`ocs-design inspect` warns of what is odd in the robot's file, which may be why."
-        advised.hint = f"{odd} {advised.hint}"
+        advised = refused.advised(step.update, default=specification.asks_nothing)
+    advised.assumptions, advised.warnings = refused.assumptions, refused.warnings
     raise advised
 
 
-def _size(specification: Specification, robot: Robot, *, strict: bool) -> _Sized:
+def _size(
+    specification: Specification, robot: Robot, *, strict: bool, reserve: Reserve | None = None
+) -> _Sized:
     """What was asked for, the device that does it, and its place on the robot."""
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
     require_trot(resolved.requirement.maneuvers, robot)
     jumping = _begin_jumps(specification.validation, robot, resolved)
     try:
-        designed = design_device(specification, robot, resolved, advise=False)
+        designed = design_device(specification, robot, resolved, advise=False, reserve=reserve)
         device = designed.device
         if jumping is not None:
             jumping.carry(device)
@@ -188,12 +247,32 @@ def _size(specification: Specification, robot: Robot, *, strict: bool) -> _Sized
             stated=specification.ocs.position is not None,
             strict=strict,
         )
-    except BaseException:
+    except BaseException as error:
         if jumping is not None:
             jumping.cancel()
+        if isinstance(error, Infeasible):
+            error.assumptions, error.warnings = resolved.assumptions, robot.warnings
+            if specification.asks_nothing and not isinstance(error, Refused):
+                error.hint = f"{unasked(resolved.requirement.maneuvers)} {error.hint}"
         raise
     forget_collision_model()
     return _Sized(robot, resolved, designed, mounting, remarks, jumping)
+
+
+def _what_must_give(
+    specification: Specification, sized: _Sized, owed: Owed | None, steps: Steps
+) -> Lighter | None:
+    """What would have to give for a lighter device, where that was asked."""
+    by, choice, robot = specification.ocs.lighter_by, sized.designed.choice, sized.robot
+    if by is None or choice is None:
+        return None
+    extent = size(robot.tree, robot.posture, robot.trunk)
+    task = Task(specification, sized.resolved, robot, extent)
+    with steps.step("look for what would have to give") as step:
+        return Lighter(
+            by=by,
+            changes=lighter_by(by, task, choice, owed.maneuver if owed else "", step.update),
+        )
 
 
 def _begin_jumps(
@@ -208,37 +287,121 @@ def _begin_jumps(
     return JumpPlanning(robot, resolved.requirement.maneuvers)
 
 
-def _prove(
-    sized: _Sized,
-    stated: ValidationSection,
-    plans: Mapping[str, "Reference"],
-    folder: Path,
-    steps: Steps,
-) -> tuple[tuple[Run, ...], tuple[str, ...]]:
-    """The flights, written and filmed as asked for, and why a film is missing."""
+@dataclass(frozen=True, eq=False)
+class _Certificate:
+    """Many flights of a device, and what they say."""
+
+    campaign: Campaign
+    outcomes: Outcomes
+    record: MonteCarloRecord
+
+
+@dataclass(frozen=True, eq=False)
+class _Proof:
+    """How a device is to fly, how it does as designed, and its certificate."""
+
+    plans: Mapping[str, "Reference"]
+    jumps: Mapping[str, JumpPlans]
+    runs: tuple[Run, ...]
+    certificate: _Certificate | None = None
+
+
+def _prove(sized: _Sized, stated: ValidationSection, steps: Steps) -> _Proof:
+    """Plan the maneuvers and fly them, if that is wanted."""
+    with steps.step("plan the maneuvers"):
+        plans = _plan(sized)
     if stated.enabled is False:
-        return (), ()
-    robot, device = sized.robot, sized.designed.device
-    maneuvers = sized.resolved.requirement.maneuvers
-    control = control_of(stated, robot)
+        return _Proof(plans, {}, ())
     with steps.step("plan the jumps") as step:
         jumps = {} if sized.jumping is None else sized.jumping.plans()
         step.note = _who_flies(jumps)
     with steps.step("fly the maneuvers with and without the device") as step:
         runs = run_scenarios(
-            robot,
-            device,
-            maneuvers,
-            options=replace(flight_options(control), pose_rate=POSE_RATE),
+            sized.robot,
+            sized.designed.device,
+            sized.resolved.requirement.maneuvers,
+            options=replace(flight_options(control_of(stated, sized.robot)), pose_rate=POSE_RATE),
             references=trajectories(plans),
             jumps=jumps,
             progress=step.update,
         )
-        write_runs(runs, folder)
+    return _Proof(plans, jumps, runs)
+
+
+def _certify(
+    sized: _Sized, proof: _Proof, specification: Specification, steps: Steps, *, strict: bool
+) -> tuple[_Sized, _Proof]:
+    """Fly robots as they might be built; what falls short is sized anew with more in reserve.
+
+    Returns:
+        Device of the last round and its flights.
+    """
+    robot, stated = sized.robot, specification.validation
+    test = SequentialTest(sized.resolved.reliability or RELIABILITY)
+    told: list[str] = []
+    for number in range(1, ROUNDS + 1):
+        device, maneuvers = sized.designed.device, sized.resolved.requirement.maneuvers
+        campaign = make_campaign(
+            robot,
+            device,
+            maneuvers,
+            options=flight_options(control_of(stated, robot)),
+            references=trajectories(proof.plans),
+            jumps=proof.jumps,
+            can_stand=[run.can_stand for run in proof.runs if run.ocs],
+            uncertainty=Uncertainty.of(specification.reality, robot, device),
+            seed=stated.seed or 0,
+        )
+        with steps.step(f"fly the certificate, round {number}") as step:
+            flown = run_campaign(
+                campaign,
+                blocks_of(test.most, first=number * ROUND),
+                workers=ThisMachine(),
+                enough=test.decided,
+                progress=step.update,
+            )
+            found = certificate(test, campaign, flown, number=number)
+            step.note = f"{found.verdict}, {found.whole:,} of {found.samples:,} pass"
+        reserve, learnt = sized.designed.reserve, None
+        if found.verdict == "falls short" and number < ROUNDS and reserve is not None:
+            learnt = lesson(test, campaign, flown)
+            told.append(f"round {number}: {step.note}; {learnt.told}")
+        outcomes = flown.take(slice(found.samples))
+        found = replace(found, rounds=tuple(told))
+        record = replace(summarised(campaign, outcomes, test.most), certificate=found)
+        proof = replace(proof, certificate=_Certificate(campaign, outcomes, record))
+        if reserve is None or learnt is None or learnt.factor == 1.0:
+            break
+        with steps.step("size the device with more in reserve") as step:
+            try:
+                again = _size(
+                    specification, robot, strict=strict, reserve=reserve.raised(learnt.factor)
+                )
+            except Refused:
+                step.note = "nothing has that reserve"
+                break
+            step.note = _what_was_sized(again.designed)
+        sized, proof = again, _prove(again, stated, steps)
+    return sized, proof
+
+
+def _write_flights(
+    sized: _Sized, proof: _Proof, stated: ValidationSection, folder: Path, steps: Steps
+) -> tuple[str, ...]:
+    """Write the flights as designed, film them if asked for; why a film is missing."""
+    if not proof.runs:
+        return ()
+    write_runs(proof.runs, folder)
     if not stated.video:
-        return runs, ()
+        return ()
     with steps.step("film the flights"):
-        return runs, film_or_tell(robot, device, maneuvers, runs, folder / "validation")
+        return film_or_tell(
+            sized.robot,
+            sized.designed.device,
+            sized.resolved.requirement.maneuvers,
+            proof.runs,
+            folder / "validation",
+        )
 
 
 def load_solvers(specification: Specification) -> None:
@@ -257,16 +420,6 @@ def _write_formats(robot: Robot, device: Device, folder: Path) -> tuple[str, ...
     )
 
 
-def _write_instructions(robot: Robot, device: Device, design: OcsDesign, folder: Path) -> None:
-    """What tells of the flights too: the bill of materials and the assembly."""
-    subject = Subject.of(robot, device, safe_name(robot.name))
-    export_formats(
-        subject.recorded(design),
-        [each for each in USUAL_FORMATS if each.needs_margins],
-        folder,
-    )
-
-
 def _what_was_sized(designed: Designed) -> str:
     if designed.choice is None:
         return ""
@@ -280,12 +433,13 @@ def _plan(sized: _Sized) -> Mapping[str, "Reference"]:
     # CasADi takes a third of a second to import, and wheels without a motor do without.
     from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
 
-    requirement = sized.resolved.requirement
+    requirement, kept = sized.resolved.requirement, sized.designed.kept
     return plan(
         sized.robot.mass_properties,
         sized.designed.device,
         requirement.maneuvers,
         requirement.standing_height,
+        None if kept is None else kept.demands,
     )
 
 
@@ -296,11 +450,16 @@ def _who_flies(jumps: Mapping[str, JumpPlans]) -> str:
 
 
 def _write_report(
-    design: OcsDesign, robot: Robot, runs: Sequence[Run], folder: Path, command: str
+    design: OcsDesign, subject: Subject, runs: Sequence[Run], folder: Path, command: str
 ) -> OcsDesign:
     """Figures and report; the design with the hashes of all files but the report, which has it."""
     story = story_in(
-        [folder], design, flights=flights_of(runs), postures=posture_lines(robot), command=command
+        [folder],
+        design,
+        flights=flights_of(runs),
+        postures=posture_lines(subject.carrier),
+        command=command,
+        assembly=subject.assembly,
     )
     write_svgs(tuple(all_charts(story)), folder / FOLDER)
     whole = replace(design, files=recorded_hashes(folder))

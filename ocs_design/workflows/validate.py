@@ -1,13 +1,10 @@
 """`ocs-design validate` on one page: read, fly as designed, fly as it might be built."""
 
-import hashlib
 from collections.abc import Mapping
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
-
-import msgspec
 
 from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
@@ -16,16 +13,17 @@ from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes
 from ocs_design.monte_carlo.campaign import Campaign, Case, make_campaign, read_case, replayed
+from ocs_design.monte_carlo.certificate import ROUND, SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
 from ocs_design.monte_carlo.results import write_results
-from ocs_design.monte_carlo.running import Cluster, ThisMachine, run_campaign
+from ocs_design.monte_carlo.running import Cluster, ThisMachine, narrow, run_campaign
 from ocs_design.monte_carlo.summary import SampleRecord, Validated, summarised
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.text.console import Steps
-from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.specification import RELIABILITY, Specification
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.scenario import Run, refusal, run_scenarios
-from ocs_design.workflows.flying import Task, flight_options, read_task
+from ocs_design.workflows.flying import Task, flight_options, flown_hash, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 
 SAMPLES_VERSION = 1
@@ -39,7 +37,7 @@ class Request:
     Attributes:
         design: `design.json` or its folder. stated: `[validation]` and `[reality]`.
         robot_file, package_paths, strict: see `read_task`.
-        samples: to fly at most; None: the flights as designed alone.
+        samples: to fly at most; None: the flights as designed alone, or until it is certified.
         until_width: of the intervals, that fewer samples will do for; None: all are flown.
         scheduler: address of a Dask cluster; None: this machine.
         sample: to fly alone. replay: file of a case to fly alone.
@@ -74,16 +72,26 @@ class Request:
         given = [name for name, value in wanted.items() if value is not None]
         if len(given) > 1:
             raise UsageError(f"{' and '.join(given)} exclude each other", hint="give one")
-        if self.samples is None and (self.until_width is not None or self.scheduler is not None):
+        certifies = self.stated.validation.certify is True
+        if certifies and self.until_width is not None:
+            raise UsageError("--certify and --until-width exclude each other", hint="give one")
+        if not self.many and (self.until_width is not None or self.scheduler is not None):
             raise UsageError(
                 "--until-width and --scheduler are about samples", hint="add --samples N"
             )
-        if self.samples is not None and self.samples < 1:
-            raise UsageError(f"--samples {self.samples}: must be 1 or more")
+        if self.samples is not None and not 1 <= self.samples <= ROUND:
+            raise UsageError(f"--samples {self.samples}: must be from 1 to {ROUND:,}")
         if self.until_width is not None and not 0.0 < self.until_width < 1.0:
             raise UsageError(f"--until-width {self.until_width:.4g}: must be between 0 and 100 %")
         if self.view:
             check_display()
+
+    @property
+    def many(self) -> bool:
+        """Whether samples are flown, not the flights as designed alone."""
+        alone = self.sample is not None or self.replay is not None
+        certifies = self.stated.validation.certify is True and not alone
+        return self.samples is not None or certifies
 
     @property
     def pose_rate(self) -> float | None:
@@ -119,7 +127,7 @@ def validate_design(request: Request, steps: Steps) -> Answer:
         OcsError: see `exceptions`.
     """
     request.check()
-    if request.out is not None and request.samples is None:
+    if request.out is not None and not request.many:
         check_target(request.out, force=request.force)
     with steps.step("read the design, plan its flights") as step:
         task = read_task(
@@ -140,10 +148,10 @@ def validate_design(request: Request, steps: Steps) -> Answer:
             jumps=task.jumps,
             progress=step.update,
         )
-    if request.samples is not None:
+    if request.many:
         return _many(request, task, runs, steps)
     if request.sample is not None or request.replay is not None:
-        campaign = _campaign(request, task, runs)
+        campaign = campaign_of(request, task, runs)
         if request.replay is not None:
             sample = case_for(task, request.replay).drawn()
         else:
@@ -173,8 +181,12 @@ def watch(answer: Answer) -> None:
 
 def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Answer:
     """Fly samples of the design as it might be built, keep them, and say what they show."""
-    asked, folder = request.samples or 0, request.out
-    campaign = _campaign(request, task, runs)
+    test = None
+    if request.stated.validation.certify:
+        test = SequentialTest(task.design.requirement.reliability or RELIABILITY)
+    asked, folder = request.samples or (0 if test is None else test.most), request.out
+    campaign = campaign_of(request, task, runs)
+    enough = None if request.until_width is None else narrow(request.until_width)
     storage = None
     if folder is not None:
         # What the numbers of a campaign follow from.
@@ -182,7 +194,7 @@ def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> 
             schema_version=SAMPLES_VERSION,
             tool=__version__,
             simulator=version("mujoco"),
-            design=design_hash(task),
+            design=flown_hash(task.design, task.control),
             robot=task.robot.sha256,
             reality=campaign.uncertainty.written(),
             seed=campaign.seed,
@@ -198,20 +210,25 @@ def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> 
             blocks_of(asked),
             workers=cluster or ThisMachine(),
             storage=storage,
-            until_width=request.until_width,
+            enough=enough if test is None else test.decided,
             progress=step.update,
         )
-        record = summarised(campaign, outcomes, asked)
+        certified = None if test is None else certificate(test, campaign, outcomes)
+        if certified is not None:
+            outcomes = outcomes.take(slice(certified.samples))
+        record = replace(summarised(campaign, outcomes, asked), certificate=certified)
         step.note = f"{record.samples:,} flown"
     found = replace(_validated(task, runs), monte_carlo=record)
     if folder is None:
         return Answer(found, None, (), task, runs)
-    files = write_results(campaign, outcomes, record, folder, design=design_hash(task))
+    files = write_results(
+        campaign, outcomes, record, folder, design=flown_hash(task.design, task.control)
+    )
     names = tuple(str(file.relative_to(folder)) for file in files)
     return Answer(found, folder, names, task, runs)
 
 
-def _campaign(request: Request, task: Task, runs: tuple[Run, ...]) -> Campaign:
+def campaign_of(request: Request, task: Task, runs: tuple[Run, ...]) -> Campaign:
     """Everything that samples of this design follow from; `runs` show what its legs bear.
 
     Raises:
@@ -233,12 +250,6 @@ def _campaign(request: Request, task: Task, runs: tuple[Run, ...]) -> Campaign:
     )
 
 
-def design_hash(task: Task) -> str:
-    """SHA-256 of what of a design is flown: device, maneuvers and wheel law."""
-    flown = (task.design.ocs, task.design.requirement.maneuvers, task.control)
-    return hashlib.sha256(msgspec.json.encode(flown, order="deterministic")).hexdigest()
-
-
 def case_for(task: Task, path: Path) -> Case:
     """Case that was kept of this design.
 
@@ -246,7 +257,7 @@ def case_for(task: Task, path: Path) -> Case:
         OcsError: it cannot be read, or is of another design.
     """
     case = read_case(path)
-    if case.design != design_hash(task):
+    if case.design != flown_hash(task.design, task.control):
         raise OcsError(
             f"{path}: is a case of another design than {task.path}",
             hint="give the design that it was kept for, flown under the same law",

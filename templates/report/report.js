@@ -177,4 +177,3 @@ painted.then(start).catch((error) => {
   const note = find("viewer-note");
   if (note) note.textContent = `No view to turn here (${error.message}); the picture shows the same.`;
 });
-addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((each) => { each.open = true; }));

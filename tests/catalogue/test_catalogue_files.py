@@ -77,6 +77,7 @@ def test_a_users_motor_replaces_the_catalogues(tmp_path):
 
 
 FAULTS = {
+    "column without its unit": (toml(kv=400.0), r"motor\[1\] \(M\), kv: .*mean kv_rpm_per_v"),
     "unknown column": (toml(mas_kg=1.0), r"motor\[1\] \(M\), mas_kg: unknown .*mean mass_kg"),
     "no number": (toml(mass_kg="heavy"), "mass_kg: 'heavy' is not a number"),
     "negative": (toml(mass_kg=-1.0), "mass_kg: -1.0 is not positive"),

@@ -89,8 +89,12 @@ def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
 
 def test_an_unknown_gear_gets_the_closest():
     with pytest.raises(SpecificationError) as caught:
-        gear("GT3 2mm x 6mm")
+        gear("GT3 2mm x 66mm")
     assert "GT3 2 mm x 6 mm" in caught.value.hint
+
+
+def test_capitals_spaces_and_dashes_of_a_name_do_not_matter():
+    assert gear("gt3-2mm x 6MM").name == "GT3 2 mm x 6 mm"
 
 
 def test_json_has_no_infinity():

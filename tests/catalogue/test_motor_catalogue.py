@@ -114,12 +114,21 @@ def test_motor_constant_per_mass_is_that_of_outrunners():
 
 @pytest.mark.parametrize(
     ("asked", "offered"),
-    [("EC 45 flat 70 W 41181", "EC 45 flat 70 W 411812"), ("r80 kv110", "R80 KV110")],
+    [
+        ("EC 45 flat 70 W 41181", "EC 45 flat 70 W 411812"),
+        ("r80 kv11", "R80 KV110"),
+        ("mn5006 kv450", "Antigravity MN5006 KV450"),
+        ("T-Motor MN5006", "Antigravity MN5006 KV450"),
+    ],
 )
 def test_an_unknown_name_gets_the_closest(asked, offered):
     with pytest.raises(SpecificationError) as caught:
         motor(asked)
     assert offered in caught.value.hint
+
+
+def test_capitals_spaces_and_dashes_of_a_name_do_not_matter():
+    assert motor("r80-kv110").name == "R80 KV110"
 
 
 def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():

@@ -102,7 +102,7 @@ def test_no_spelling_means_two_things():
 def test_counts_in_a_unit():
     assert to_unit(0.03, "mm") == 30.0
     assert format_quantity(0.0300004, "mm") == "30 mm"
-    assert format_quantity(754.0, "rpm", 3) == "7.2e+03 rpm"
+    assert format_quantity(754.0, "rpm", 3) == "7200 rpm"
     assert format_quantity(0.25, "%") == "25%"
     assert format_quantity(math.inf, "mm") == "inf mm"
 

@@ -4,13 +4,21 @@ from dataclasses import replace
 from math import pi
 
 import pytest
+from built import DEVICES
 from wheels import EC45, PAPER_WHEEL, driven_device
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle, Mounting
 from ocs_design.catalogue.materials import material
 from ocs_design.device.device import Web
-from ocs_design.device.joints import balance_of, joints_of, rim_fit, top_speed, wheel_rings
+from ocs_design.device.joints import (
+    balance_of,
+    joints_of,
+    resonances_of,
+    rim_fit,
+    top_speed,
+    wheel_rings,
+)
 from ocs_design.parts.joints import TurningRings, friction_torque
 from ocs_design.parts.rim import WEB_THICKNESS, Hub
 
@@ -114,3 +122,18 @@ def test_what_centres_a_wheel_says_how_far_off_it_may_be():
     assert on_shaft.enough
     assert balance_of(device(None)).found is None
     assert not balance_of(device(None)).enough
+
+
+def test_resonances_are_those_below_top_speed_and_follow_the_unbalance():
+    """U w^2 at the mode, and Q = 1 / (2 x 1 %) times U / m, whatever the stiffness."""
+    device = DEVICES["on a plate"]
+    device = replace(device, motor=replace(device.motor, no_load_speed=3e3, speed_max=None))
+    plate, foot = resonances_of(device)
+    mass, unbalance = device.flywheel.mass + device.carrier.mass, balance_of(device).unbalance
+    assert plate.frequency == device.plate.frequency(mass)
+    assert plate.force == pytest.approx(unbalance * (2.0 * pi * plate.frequency) ** 2)
+    assert plate.amplitude == pytest.approx(50.0 * unbalance / mass)
+    assert foot.frequency < plate.frequency
+    assert foot.amplitude < plate.amplitude
+    slow = replace(device, motor=replace(device.motor, no_load_speed=6.0 * foot.frequency))
+    assert resonances_of(slow) == ()

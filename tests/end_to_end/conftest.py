@@ -24,7 +24,9 @@ def product(request, tmp_path_factory, worker_id):
     with (shared / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not said.exists():
-            result = run_process("size", SOLO12, *case.options, cwd=parent, env=environment())
+            result = run_process(
+                "size", SOLO12, *case.options, cwd=parent, env=environment(COLUMNS="80")
+            )
             said.write_text(json.dumps(asdict(result)))
     return Product(case, Result(**json.loads(said.read_text())), parent / "solo12-ocs")
 

@@ -175,11 +175,20 @@ def test_a_voltage_without_a_unit_is_in_volt(folder):
         assert result.document["selection"]["bus_voltage"] == 24.0
 
 
-def test_a_refusal_points_to_what_is_odd_in_the_robots_file(folder):
+def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_for(folder):
     """Here limits of a joint that leave it no room."""
     text = re.sub('upper="[^"]*"', 'upper="-99"', Path(SOLO12).read_text(), count=1)
     (folder / "odd.urdf").write_text(text)
-    weak = ("--motor", TOO_WEAK, *ONE_KIND, "--json")
-    hint = run("size", "odd.urdf", *weak).document["error"]["hint"]
-    assert hint.startswith("`ocs-design inspect` warns of what is odd")
-    assert "odd" not in run("size", SOLO12, *weak).document["error"]["hint"]
+    weak = ("--motor", TOO_WEAK, *ONE_KIND)
+    said = run("size", "odd.urdf", *weak)
+    doubt, search = said.stderr.index("doubt"), said.stderr.index("size the device")
+    assert doubt < search < said.stderr.index("Assumed") < said.stderr.index("falls from 1 m")
+    assert said.stdout == ""
+    error = run("size", "odd.urdf", *weak, "--json").document["error"]
+    assert error["warnings"]
+    assert "drop: falls from 1 m at roll 0 deg and pitch 30 deg." in error["assumptions"]
+    assert error["hint"].startswith("Nobody asked for disturbance, drop, back-flip: they are the d")
+    assert re.search(r"All can be done with .*drop \(falls from \d\.\d+ m at roll 0", error["hint"])
+    stated = run("size", SOLO12, *weak, "--fall", "1m", "--tilt", "30deg", "--json")
+    assert stated.document["error"]["warnings"] == []
+    assert "Nobody asked" not in stated.document["error"]["hint"]

@@ -55,20 +55,13 @@ def test_the_report_fits_its_terminal(request, width, which, product):
     assert lines[0] in last
 
 
-def test_everything_that_was_assumed_is_told(product):
-    assumed = read_design(product.folder / "design.json").requirement.assumptions
-    assert len(assumed) > 10
-    for sentence in assumed:
-        assert sentence in product.said.said
-
-
-def test_the_story_takes_two_screens_at_most(product, wide):
-    """Of 45 lines each, on a terminal of 80 columns."""
+def test_the_story_takes_little_more_than_one_screen(product, wide):
+    """Of 45 lines, on a terminal of 80 columns."""
     for said in (product.said, wide.said):
-        assert len(said.stdout.splitlines()) <= 90
+        assert len(said.stdout.splitlines()) <= 58
 
 
-@pytest.mark.parametrize("width", [80, 120])
+@pytest.mark.parametrize("width", [60, 80, 120])
 def test_the_whole_report_fits_its_terminal(width, product):
     console = Console(file=StringIO(), width=width)
     design = read_design(product.folder / "design.json")
@@ -81,12 +74,13 @@ def test_the_whole_report_fits_its_terminal(width, product):
         assert word in text
     assert "Written to" in text
     assert ("ruled out" in text) == (design.selection is not None)
-    for note in design.ocs.fitting:
-        assert note in " ".join(text.split())
+    assert len(design.requirement.assumptions) > 10
+    for note in (*design.ocs.fitting, *design.requirement.assumptions):
+        assert note in " ".join(text.split()).replace(" - ", " ")
 
 
-def test_a_wider_terminal_breaks_fewer_lines(product, wide):
-    assert len(wide.said.stdout.splitlines()) < len(product.said.stdout.splitlines())
+def test_a_wider_terminal_breaks_no_more_lines(product, wide):
+    assert len(wide.said.stdout.splitlines()) <= len(product.said.stdout.splitlines())
 
 
 @pytest.mark.parametrize(

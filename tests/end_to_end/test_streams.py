@@ -1,13 +1,23 @@
 """Streams that are closed or full, and names that are no text."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from commands import BOUND, BY_HAND, PROGRAM, SOLO12, everything_in, run
+from commands import (
+    BOUND,
+    BY_HAND,
+    PROGRAM,
+    SOLO12,
+    environment,
+    everything_in,
+    run,
+    run_process,
+)
 
 import ocs_design.__main__ as program
 
@@ -76,3 +86,45 @@ def test_signals_that_are_ignored_stay_so(monkeypatch):
     program._on_signals(program._Interrupts())
     assert handlers[signal.SIGHUP] is signal.SIG_IGN
     assert set(handlers) == {signal.SIGHUP, signal.SIGINT, signal.SIGTERM}
+
+
+SLOW = pytest.mark.slow
+ANSWERS = [
+    (("inspect", SOLO12), "locked inertia"),
+    (("bound", "--inertia", "0.0515", "--rate-change", "2rad/s"), "one wheel, required"),
+    (("catalogue", "materials"), "brass-c360"),
+    (("init", "-y", "-o", "task.toml", "--force"), "next"),
+    ((*UNSIZED, "--force"), "no flight was simulated"),
+    (("export", "DESIGN", "-o", "again", "--force", "--formats", "snippets"), "snippets/"),
+    (("validate", "DESIGN"), "level 3 of 3"),
+    pytest.param(("pareto", SOLO12, "--points", "2"), "mass", marks=SLOW),
+    pytest.param(("doctor",), "numpy", marks=SLOW),
+]
+PROGRESS = re.compile(r" *[\d.]+ s  \S.*|warning: .*")
+FRAMES = re.compile(r"[\u2500-\u259f\u2800-\u28ff\x1b]")
+
+
+@pytest.mark.parametrize("product", ["no motor"], indirect=True)
+@pytest.mark.parametrize(("arguments", "word"), ANSWERS)
+def test_answers_go_to_standard_output_and_all_else_beside_it(folder, product, arguments, word):
+    """In a pipe without frames, colours or broken lines; one document with --json."""
+    typed = [str(product.folder) if each == "DESIGN" else each for each in arguments]
+    piped = run_process(*typed, env=environment())
+    assert piped.code == 0, piped.said
+    assert word in piped.stdout
+    assert not FRAMES.search(piped.stdout + piped.stderr)
+    assert not [line for line in piped.stdout.splitlines() if line != line.rstrip()]
+    assert all(PROGRESS.fullmatch(line) for line in piped.stderr.splitlines())
+    as_json = run(*typed, "--json")
+    assert (as_json.code, as_json.stderr) == (0, "")
+    assert as_json.document
+    if arguments[0] not in {"inspect", "bound", "catalogue", "doctor"}:
+        quiet = run(*typed, "-q")
+        assert (quiet.code, quiet.stdout, quiet.stderr) == (0, "", "")
+
+
+def test_an_error_in_a_pipe_is_plain_lines(folder):
+    said = run_process("inspect", "nowhere.urdf", env=environment())
+    assert (said.code, said.stdout) == (3, "")
+    assert re.match(r"error: .*nowhere\.urdf", said.stderr)
+    assert not FRAMES.search(said.stderr)

@@ -108,9 +108,10 @@ CERTAIN = (
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--samples", "0"), "must be 1 or more"),
+        (("--samples", "0"), "must be from 1 to"),
         (("--samples", "2", "--sample", "1"), "exclude each other"),
         (("--until-width", "5%"), "add --samples"),
+        (("--certify", "--until-width", "5%"), "exclude each other"),
         (("--samples", "2", "--until-width", "2"), "between 0 and 100 %"),
         (("--samples", "2", "--until-width", "5deg"), "unit of angle"),
         (("--replay", "nothing.json"), "cannot read the case"),
@@ -141,3 +142,17 @@ def test_a_design_without_maneuvers_has_nothing_to_fly(folder):
     result = run("validate", "ocs")
     assert result.code == 3
     assert "nothing to fly" in result.said
+
+
+def test_it_is_certified_with_as_few_flights_as_it_takes(by_hand):
+    """152 of 152: see `test_certificate`."""
+    result = run("validate", by_hand, "--certify", "--json")
+    assert result.code == 0
+    record = result.document["monte_carlo"]
+    found = record["certificate"]
+    assert (found["verdict"], found["whole"], found["samples"]) == ("certified", 152, 152)
+    assert found["passed"] == {"drop": 152}
+    assert found["interval"]["drop"] == pytest.approx([0.025 ** (1 / 152), 1.0])
+    assert (record["samples"], record["asked"]) == (152, 1000)
+    few = run("validate", by_hand, "--certify", "--samples", "40", "--json").document
+    assert few["monte_carlo"]["certificate"]["verdict"] == "undecided"

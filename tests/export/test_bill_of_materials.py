@@ -168,3 +168,13 @@ def test_a_wheel_that_is_bonded_on_a_shaft_has_its_compound_in_the_bill():
         rows = {row.part: row for row in bill_rows(DEVICES[name])}
         assert rows[used].mass == 0.0
     assert "retaining compound" not in {row.part for row in bill_rows(DEVICES["caged"])}
+
+
+@pytest.mark.parametrize(("rated", "told"), [(16.8, True), (24.0, False), (None, False)])
+def test_a_motor_on_more_volts_than_it_is_rated_for_is_told_where_it_is_bought(rated, told):
+    device = whole_device()
+    motor = replace(device.motor, bus_voltage=24.0, rated_voltage=rated)
+    bought = next(
+        row for row in bill_rows(replace(device, motor=motor)) if row.part.startswith("motor")
+    )
+    assert ("rated for 16.8 V: ask its maker before you buy" in bought.source) is told

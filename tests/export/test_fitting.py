@@ -10,9 +10,11 @@ from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting
 from ocs_design.device.device import Device, Web
+from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import device_notes, drive_notes
 from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import carrier_visuals
+from ocs_design.parts.foot import plate_thickness, stem_shock
 from ocs_design.parts.rim import Hub, RimCuts
 
 M3 = BoltCircle(0.02, 4, "M3")
@@ -50,6 +52,21 @@ def test_broken_edges_that_are_sized_with_take_nothing():
     device = paper_device()
     cut = replace(device.flywheel, cuts=RimCuts(chamfer=0.2e-3))
     assert device_notes(replace(device, flywheel=cut)) == ()
+
+
+@given(st.floats(0.05, 20.0), st.floats(0.0, 1.0))
+def test_feet_bear_the_shock_or_it_is_told(mass, share):
+    """Notes are for what the plate does not bear, and for no other."""
+    device = device_on(replace(FLAT, shaft_length=0.05))
+    device = replace(device, carrier=replace(device.carrier, mass=mass))
+    thick = plate_thickness(foot_of(device), mass + device.flywheel.mass)
+    device = replace(device, foot_plate=0.005 + share * (thick - 0.005))
+    bears = stem_shock(foot_of(device), mass + device.flywheel.mass) / 9.80665
+    told = "printed of PETG the feet bear" in said(device)
+    assert told == (bears < 20.0)
+    assert "mill them of 6061-T6" in said(device) or not told
+    if share == 1.0 and thick < foot_of(device).stem:
+        assert not told
 
 
 def test_a_shaft_that_is_too_short_or_not_known():

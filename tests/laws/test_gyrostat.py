@@ -125,8 +125,10 @@ def test_a_saturated_motor_follows_its_voltage_line():
 
 def test_an_outer_torque_changes_momentum_by_its_impulse():
     world = floating()
-    push = replace(world.push, torque=np.array([0.2, 0.8, -0.1]), onset=0.1003, duration=0.0501)
-    recording = simulate([replace(world, push=push)])
+    push = replace(
+        world.pushes[0], torque=np.array([0.2, 0.8, -0.1]), onset=0.1003, duration=0.0501
+    )
+    recording = simulate([replace(world, pushes=(push,))])
     gained = recording.momentum[-1, 0] - recording.momentum[0, 0]
     np.testing.assert_allclose(gained, recording.impulse[-1, 0], rtol=1e-9)
     assert np.linalg.norm(gained) == pytest.approx(np.linalg.norm(push.torque) * 0.0501, rel=1e-3)

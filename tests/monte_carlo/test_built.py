@@ -12,6 +12,7 @@ from ocs_design.monte_carlo.uncertainty import built
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
+from ocs_design.simulation.wheel_law import WheelLaw
 
 
 def drawn(robot, device=None, **stated):
@@ -19,7 +20,7 @@ def drawn(robot, device=None, **stated):
     given = {**NOTHING, **{name: Constant(value) for name, value in stated.items()}}
     campaign = short_campaign(robot, UncertaintySection(**given), device=device, drop_only=True)
     world = campaign.flights[0].world
-    return world, built(world, campaign.sample(0), 0, campaign.air)
+    return world, built(world, campaign.sample(0), 0, campaign.air, 5e-3)
 
 
 def accelerations(model):
@@ -104,7 +105,7 @@ def test_an_inertia_stays_physical_however_far_it_is_off(solo12):
         sample = campaign.sample(0)
         values = sample.values.copy()
         values[1:4] = errors
-        own = built(world, replace(sample, values=values), 0, campaign.air).model
+        own = built(world, replace(sample, values=values), 0, campaign.air, 5e-3).model
         low, middle, high = np.sort(own.body_inertia[world.addresses.trunk])
         assert low > 0.0
         assert high <= (low + middle) * (1.0 + 1e-12)
@@ -116,3 +117,18 @@ def test_a_world_without_errors_flies_to_the_last_bit_as_designed(solo12):
     for name in ("attitude", "rate", "wheel_speed", "wheel_torque", "com", "momentum"):
         np.testing.assert_array_equal(getattr(designed, name), getattr(flown, name))
     assert designed.wheel_torque.any()
+
+
+@pytest.mark.parametrize("period", [1e-3, 5e-3, 2e-2])
+def test_a_push_off_leaves_the_rate_that_is_drawn(solo12, period):
+    """By an impulse that the momentum balance knows; a drop has no push-off."""
+    given = UncertaintySection(**{**NOTHING, "takeoff_rate": Constant(0.1)})
+    campaign = replace(short_campaign(solo12, given, until=0.09), hold=round(period / 1e-3))
+    jump, drop = campaign.worlds(campaign.sample(0))
+    assert len(drop.pushes) == 1
+    flown = simulate([replace(jump, law=WheelLaw.off())], hold=campaign.hold)
+    np.testing.assert_allclose(flown.rate[-1, 0, :2], 0.1, rtol=0.03)
+    expected = jump.body.actuated_inertia[:, :2] @ [0.1, 0.1]
+    np.testing.assert_allclose(flown.impulse[-1, 0], expected, rtol=1e-3, atol=1e-6)
+    gained = flown.momentum[-1, 0] - flown.momentum[0, 0]
+    np.testing.assert_allclose(gained, flown.impulse[-1, 0], atol=1e-9)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from campaigns import short_campaign
 
+import ocs_design.monte_carlo.campaign
 from ocs_design.monte_carlo.campaign import (
     case_of,
     fly_samples,
@@ -14,9 +15,9 @@ from ocs_design.monte_carlo.campaign import (
     replayed,
     write_case,
 )
-from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
-from ocs_design.monte_carlo.summary import summarised
-from ocs_design.simulation.verdict import MOMENTUM_GATE
+from ocs_design.monte_carlo.outcomes import FAULTS, METRICS, Outcomes
+from ocs_design.monte_carlo.summary import REMEDIES, standing_advice, summarised
+from ocs_design.simulation.verdict import MOMENTUM_GATE, Fault
 
 
 @pytest.fixture(scope="module")
@@ -38,6 +39,14 @@ def test_numbers_do_not_depend_on_company_or_threads(campaign, outcomes):
     assert_same(fly_samples(campaign, [4], threads=1), outcomes.take(slice(4, 5)))
     pair = fly_samples(campaign, [5, 2], threads=1)
     assert_same(pair.take(slice(1, 2)), outcomes.take(slice(2, 3)))
+
+
+def test_numbers_do_not_depend_on_how_many_fit_into_memory(campaign, outcomes, monkeypatch):
+    monkeypatch.setattr(ocs_design.monte_carlo.campaign, "MEMORY", 1)
+    told = []
+    assert_same(fly_samples(campaign, range(3), progress=told.append), outcomes.take(slice(3)))
+    assert told == sorted(told)
+    assert told[-1] == 1.0
 
 
 def test_another_seed_gives_other_numbers(campaign, outcomes):
@@ -86,3 +95,16 @@ def test_the_record_counts_what_was_flown(campaign, outcomes):
         assert scenario.peak_wheel_speed.quantiles[2] == np.median(speeds)
         assert sum(scenario.peak_wheel_speed.counts) == 6
         assert len(set(scenario.worst)) == 3
+        verdicts = [campaign.judged(metrics_of(outcomes, k, number), number) for k in range(6)]
+        assert scenario.level == [verdict.level for verdict in verdicts].count(True)
+        assert scenario.stands == [verdict.stands for verdict in verdicts].count(True)
+
+
+def test_level_landings_that_fall_are_flown_again(campaign, outcomes):
+    """Two that stand are said to fall: changed a little, they still stand."""
+    codes = np.zeros_like(outcomes.codes)
+    codes[[2, 3], 1] = 1 + FAULTS.index(Fault.STANDING)
+    said = standing_advice(campaign, replace(outcomes, codes=codes), 1)
+    assert said.startswith("2 land level and then fall")
+    assert all(f"2 with {words}" in said for words in REMEDIES)
+    assert standing_advice(campaign, replace(outcomes, codes=codes), 0) == ""

@@ -8,7 +8,7 @@ from made_outcomes import made_outcomes
 
 from ocs_design.common.errors import OutputError
 from ocs_design.monte_carlo.outcomes import Identity, Outcomes, Storage, blocks_of
-from ocs_design.monte_carlo.running import Workers, run_campaign
+from ocs_design.monte_carlo.running import Workers, narrow, run_campaign
 
 BLOCKS = blocks_of(100, 8)
 IDENTITY = Identity(
@@ -56,9 +56,9 @@ def test_the_order_of_arrival_does_not_matter():
 
 def test_it_stops_when_enough_is_known_at_the_same_sample_whoever_was_faster():
     forward, backward = Made(), Made(-1)
-    found = run_campaign(None, BLOCKS, workers=forward, until_width=0.3)
+    found = run_campaign(None, BLOCKS, workers=forward, enough=narrow(0.3))
     assert len(found.index) == 8 * len(forward.flown) < 100
-    assert_same(found, run_campaign(None, BLOCKS, workers=backward, until_width=0.3))
+    assert_same(found, run_campaign(None, BLOCKS, workers=backward, enough=narrow(0.3)))
 
 
 def test_a_run_that_was_cut_short_goes_on(tmp_path):

@@ -66,32 +66,35 @@ def test_a_disc_without_its_length_and_a_point_without_its_diameter():
     st.floats(0.002, 0.06),
     st.sampled_from(MOUNTINGS),
     st.sampled_from((DIRECT, BELT, GEARBOX)),
+    st.sampled_from((0.005, 0.0084)),
 )
-def test_it_is_all_that_is_made_and_bought(outer_radius, height, mounting, gear):
+def test_it_is_all_that_is_made_and_bought(outer_radius, height, mounting, gear, thick):
     motor = replace(MOTOR, mounting=mounting)
-    height = min(height, mount_of(motor, gear.room).rim_height_max)
-    expected = combine(standing_parts(motor, gear, outer_radius, height))
-    found = standing(motor, gear, outer_radius, height).mass_properties()
+    height = min(height, mount_of(motor, gear.room, thick).rim_height_max)
+    expected = combine(standing_parts(motor, gear, outer_radius, height, thick))
+    found = standing(motor, gear, outer_radius, height, foot_plate=thick).mass_properties()
     assert found.mass == pytest.approx(expected.mass, rel=1e-12)
     np.testing.assert_allclose(found.com, expected.com, rtol=1e-12, atol=1e-15)
     scale = expected.inertia.max()
     np.testing.assert_allclose(found.inertia, expected.inertia, rtol=1e-9, atol=1e-12 * scale)
 
 
+@pytest.mark.parametrize("thick", [0.005, 0.0084])
 @pytest.mark.parametrize("mounting", [MOUNTINGS[0], MOUNTINGS[1], AT_THE_BACK])
-def test_it_is_what_the_meshes_weigh(mounting):
+def test_it_is_what_the_meshes_weigh(mounting, thick):
     """Meshes have exact masses, and inertias that are out by what polygons are off circles."""
     weightless = replace(MOTOR, mass=0.0, mounting=mounting)
-    foot = made_foot(weightless, DIRECT, 0.034, 0.004)
+    foot = made_foot(weightless, DIRECT, 0.034, 0.004, thick)
     drum, lid = housing_parts(foot.housing)
     down, still = np.array([0.0, 0.0, -foot.wheel_height]), np.zeros(3)
     pieces = [(drum, UPRIGHT, still), (lid, UPRIGHT, still), (foot_part(foot), np.eye(3), down)]
-    cage = mount_of(weightless, None).around(0.004).cage
+    cage = mount_of(weightless, None, thick).around(0.004).cage
     if cage is not None:
         pieces.append((cage_part(cage), UPRIGHT, np.array([0.0, -cage.back, 0.0])))
     expected = combine([weighed(*piece) for piece in pieces])
-    screws = [each for each in standing_parts(weightless, DIRECT, 0.034, 0.004) if is_point(each)]
-    found = standing(weightless, DIRECT, 0.034, 0.004).mass_properties()
+    parts = standing_parts(weightless, DIRECT, 0.034, 0.004, thick)
+    screws = [each for each in parts if is_point(each)]
+    found = standing(weightless, DIRECT, 0.034, 0.004, foot_plate=thick).mass_properties()
     whole = combine([expected, *screws])
     assert found.mass == pytest.approx(whole.mass, rel=1e-6)
     np.testing.assert_allclose(found.com, whole.com, atol=1e-7)

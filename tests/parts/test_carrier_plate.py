@@ -167,3 +167,16 @@ def test_a_ring_that_is_thin_bears_less():
     width = 2.0 * (np.sqrt(0.03**2 - off**2) - np.sqrt(0.028**2 - off**2))
     assert plate.stress(0.3, 0.01) >= bending_stress(0.3, off, width, 3e-3)
     assert plate.stress(0.3, 0.01) > plate_of(0.03, 0.07, 3e-3).stress(0.3, 0.01)
+
+
+def test_a_plate_of_one_width_swings_as_a_cantilever():
+    """sqrt(3 E I / m L^3) from the outermost screws, whose holes are behind the section."""
+    whole = plate_of(0.03, 0.09, 0.004, neck=0.03)
+    plain = replace(whole, window=0.0, feet=(), trunk=((0.0, -0.02),))
+    arm = 0.09 + 0.02
+    second = 0.06 * 0.004**3 / 12.0
+    expected = np.sqrt(3.0 * 69e9 * second / (0.7 * arm**3)) / (2.0 * pi)
+    assert plain.frequency(0.7) == pytest.approx(expected, rel=2e-3)
+    assert replace(plain, thickness=0.008).frequency(0.7) == pytest.approx(
+        8.0**0.5 * plain.frequency(0.7)
+    )

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from ocs_design.parts.cage import NO_POSTS
 from ocs_design.parts.housing import (
     Housing,
     PlainDrum,
@@ -45,7 +46,16 @@ def test_room_for_the_wheel():
     assert half_height(0.01) == pytest.approx(0.01 / 2.0 + CLEARANCE + PANEL)
 
 
-@pytest.mark.parametrize("shell", [PlainDrum(), Printed(0.0), Printed(0.02)])
+@pytest.mark.parametrize(
+    "shell",
+    [
+        PlainDrum(),
+        Printed(0.0),
+        Printed(0.02),
+        Printed(0.02, guard_wall=0.002),
+        Printed(0.02, foot_plate=0.009),
+    ],
+)
 @pytest.mark.parametrize(("outer_radius", "height"), SIZES)
 def test_slopes(shell, outer_radius, height):
     up, down = (shell.mass(outer_radius, height + step) for step in (1e-6, -1e-6))
@@ -58,8 +68,10 @@ def test_masses_are_those_of_the_moments(outer_radius, height):
     assert housing_moments(housing(outer_radius, height)).mass == pytest.approx(
         housing_mass(outer_radius, height), rel=1e-12
     )
-    whole = shell_moments(outer_radius, height, 0.01).mass
-    assert Printed(0.01).mass(outer_radius, height) == pytest.approx(whole, rel=1e-12)
+    for walls in ((0.0, 0.005), (0.002, 0.009)):
+        whole = shell_moments(outer_radius, height, 0.01, *walls).mass
+        shell = Printed(0.01, NO_POSTS, *walls)
+        assert shell.mass(outer_radius, height) == pytest.approx(whole, rel=1e-12)
 
 
 def test_arrays_as_numbers():

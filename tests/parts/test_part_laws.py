@@ -78,14 +78,14 @@ def test_wheel(wheel):
 
 
 @few
-@given(housings())
-def test_housing_and_foot(housing):
+@given(housings(), st.floats(0.005, 0.015))
+def test_housing_and_foot(housing, thickness):
     holes = 1 + housing.mount.screws.bolts
     drum, lid = housing_parts(housing)
     # The threads end on the floor's ears: blind.
     assert_one_body(drum, holes)
     assert_one_body(lid, EAR_COUNT)
-    assert_one_body(foot_part(Foot(housing)), holes + 2)
+    assert_one_body(foot_part(Foot(housing, thickness)), holes + 2)
 
 
 @few

@@ -1,11 +1,14 @@
 """Margins as people read them."""
 
 import io
+from dataclasses import replace
 
 import pytest
 from rich.console import Console
+from stories import design
 
-from ocs_design.report.limits import margin_notes, margin_table
+from ocs_design.device.records import Alternative, MarginRecord
+from ocs_design.report.limits import assumed, lighter, margin_notes, margin_table, tightest
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import Toned
 from ocs_design.report.text.layout import items, show
@@ -45,3 +48,49 @@ def test_a_limit_that_is_exceeded_is_not_told_as_kept(factor, shown):
     margin = Margin("torque", 1.0, factor, "N m", "", "drop")
     ((_, _, _, cell, _),) = margin_table((margin,)).rows
     assert (cell.text if isinstance(cell, Toned) else cell) == shown
+
+
+def test_what_is_used_most_comes_first_and_equals_stand_together():
+    margins = tuple(
+        MarginRecord(
+            name=name, demand=demand, capacity=capacity, unit="", margin=None, note=note,
+            scenario=scenario,
+        )
+        for name, demand, capacity, scenario, note in (
+            ("power", 0.68, 1.0, "flip", "of the battery"),
+            ("rms current", 2.4, 1.0, "drop", "a pause cools it"),
+            ("torque", 0.999, 1.0, "flip", ""),
+            ("voltage", 0.998, 1.0, "flip", ""),
+            ("heat", 3.0, None, "flip", "not known"),
+            ("height", 0.5, 1.0, "", ""),
+        )
+    )  # fmt: skip
+    assert tightest(replace(design(), margins=margins)) == (
+        ("240%", "rms current (drop; a pause cools it)"),
+        ("100%", "torque and voltage (flip)"),
+        (" 68%", "power (flip)"),
+        (" 50%", "height"),
+    )
+
+
+def test_only_what_one_would_change_is_listed_as_assumed():
+    said = ("Maneuvers: the paper's three.", "drop: falls from 1 m.", "Supply: 24 V.", "Edges: x.")
+    assert assumed(said) == (("drop", "falls from 1 m"), ("supply", "24 V"))
+
+
+def test_changes_that_save_come_by_what_they_save():
+    found = design()
+    now, motor = found.ocs.mass_total, found.ocs.motor.name
+    changes = tuple(
+        Alternative(change=change, mass_total=mass, motor=name, note=note)
+        for change, mass, name, note in (
+            ("nothing", now, motor, "saves nothing"),
+            ("more time", now - 0.01, "Other", ""),
+            ("no device", None, "", ""),
+            ("any material", now - 0.02, motor, "titanium"),
+        )
+    )
+    assert lighter(replace(found, alternatives=changes)) == (
+        ("-20.0 g", "any material; titanium"),
+        ("-10.0 g", "more time; Other"),
+    )

@@ -16,7 +16,7 @@ from ocs_design.device.records import (
     SelectionRecord,
     TaskDemand,
 )
-from ocs_design.report.limits import saving_notes, saving_table, what_saves
+from ocs_design.report.limits import saving_notes, saving_table
 from ocs_design.report.text.size import print_selection
 
 LONGEST = ("Antigravity MN6007 II KV320", "GT3 5 mm x 15 mm 18:48", "tungsten-alloy-class-4")
@@ -131,14 +131,6 @@ def test_a_price_says_what_changes_and_what_it_saves():
         ("h_max", "10 to 11 mm", "nothing"),
         ("time for every maneuver", "+1%", "31.20 g"),
     )
-
-
-def test_on_one_line_what_saves_most_comes_first():
-    assert what_saves(with_prices().selection) == (
-        "1% more time for every maneuver saves 31.20 g; r_max of 51 mm instead of 50 saves 14.86 g"
-    )
-    assert what_saves(replace(SELECTION, prices=PRICES[1:2])) == "none alone saves mass"
-    assert what_saves(SELECTION) == ""
 
 
 def test_it_is_told_how_near_the_next_drive_is():

@@ -19,6 +19,7 @@ from ocs_design.requirement.specification import (
     all_keys,
     keys_of,
 )
+from ocs_design.requirement.uncertainty import Distribution
 from ocs_design.requirement.writing import commented_toml, rounded_text
 from ocs_design.robot.manual import robot_by_hand
 
@@ -74,7 +75,10 @@ def test_each_line_can_be_stated_alone(path, empty, default):
     value = getattr(getattr(found, section), key)
     expected = getattr(getattr(default, section), key)
     assert value is not None
-    if expected is not None:
+    if isinstance(expected, Distribution):
+        parts = (0.0, 0.3, 1.0)
+        assert list(map(value.at, parts)) == pytest.approx(list(map(expected.at, parts)), rel=1e-3)
+    elif expected is not None:
         assert value == (pytest.approx(expected, 1e-3) if isinstance(expected, float) else expected)
 
 

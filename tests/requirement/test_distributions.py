@@ -11,7 +11,16 @@ from scipy import stats
 from ocs_design.common.errors import OcsError
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.reading import parse_specification
-from ocs_design.requirement.uncertainty import CUT, Constant, Normal, Spread, Uniform
+from ocs_design.requirement.uncertainty import (
+    CUT,
+    Constant,
+    Normal,
+    Spread,
+    Uniform,
+    default_uncertainty,
+    entries,
+    spreads,
+)
 from ocs_design.requirement.writing import specification_to_toml
 
 ANGLE = Spread(Dimension.ANGLE, "deg")
@@ -67,3 +76,50 @@ def test_a_specification_keeps_its_distributions():
     given = parse_specification(text, "spec")
     assert parse_specification(specification_to_toml(given), "again") == given
     assert given.reality.mass_error == Normal(0.0, 0.02)
+
+
+def test_every_default_has_a_source():
+    assert entries().keys() == spreads().keys()
+    for name, entry in entries().items():
+        assert entry.source, name
+        assert entry.drawn, name
+
+
+def test_defaults_scale_with_the_robot():
+    """2.7 mm and 0.048 rad/s on Solo12, 0.272 m high; the motor's friction is left open."""
+    default = default_uncertainty(0.272)
+    assert default.com_error == Normal(0.0, 0.00272)
+    assert default.takeoff_rate.deviation == pytest.approx(0.008 * math.sqrt(9.81 / 0.272))
+    assert default.coulomb_friction is None
+
+
+def test_a_file_takes_the_place_of_the_defaults(tmp_path):
+    file = tmp_path / "own.toml"
+    file.write_text(
+        '[reality]\nmass_error = "normal(0, 1%)"\n'
+        '[reality.com_error]\nvalue = "uniform(-2%, 2%)"\nof = "standing height"\n'
+        'source = "weighed on three scales"\n'
+    )
+    found = default_uncertainty(0.5, file=str(file))
+    assert found.mass_error == Normal(0.0, 0.01)
+    assert found.com_error == Uniform(-0.01, 0.01)
+    assert found.air_drag == default_uncertainty(0.5).air_drag
+    assert entries(file)["com_error"].source == "weighed on three scales"
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ('mas_error = "1%"', "Did you mean 'mass_error'"),
+        ("mass_error = { valu = 1 }", "valu"),
+        ('com_error = { value = "1%", of = "height" }', "standing height"),
+        ('takeoff_rate = { value = "1deg", of = "pendulum rate" }', "takeoff_rate"),
+        ('[reality.contact_friction]\nvalue = "-50%"\nof = "standing height"', "beyond 1%"),
+    ],
+)
+def test_faults_of_a_file_are_told(tmp_path, text, word):
+    file = tmp_path / "own.toml"
+    file.write_text(f"[reality]\n{text}\n")
+    with pytest.raises(OcsError) as error:
+        default_uncertainty(1.0, file=str(file))
+    assert word in str(error.value)

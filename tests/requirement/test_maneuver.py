@@ -67,9 +67,7 @@ def test_a_turn_strays_by_its_chord(angle):
 
 def test_summaries_carry_units():
     flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
-    assert flip.summary == (
-        "turns -360 deg of pitch in 2 s, in a vertical jump of 1 m at 1.62 m/s2"
-    )
+    assert flip.summary == ("turns -360 deg of pitch in 2 s, in a jump of 1 m at 1.62 m/s2")
     drop = Drop(name="drop", height=1.0, pitch=np.radians(30.0))
     assert drop.summary == "falls from 1 m at roll 0 deg and pitch 30 deg"
     push = Disturbance(

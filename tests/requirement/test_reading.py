@@ -153,6 +153,8 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ("maneuver = [3]", r"maneuver\[0\]: must be a table"),
         ("flywheel = 3", "flywheel: must be a table"),
         ("[requirement]\nrate_change = nan", "not finite"),
+        ("[requirement]\nreliability = 1", "at least 0.5 and below 1"),
+        ("[requirement]\nreliability = '49%'", "at least 0.5 and below 1"),
         ("[robot]\nfile = ' '", "not a text"),
         ("[validation]\nkp = 1979-05-27", "not a number"),
         ("[ocs]\nalpha_criterion = ['equal-rate']", "is none of"),

@@ -1,4 +1,5 @@
 from pathlib import Path
+from unittest import mock
 from zipfile import ZipFile
 
 import numpy as np
@@ -7,13 +8,14 @@ import trimesh
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.meshes import check_mesh_file, mesh_bounds
-from ocs_design.robot.packages import MeshFinder
+from ocs_design.robot.packages import MOST_FOLDERS, MeshFinder
 
 
 @pytest.fixture(autouse=True)
 def no_ros(monkeypatch):
     monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    monkeypatch.delenv("CMAKE_PREFIX_PATH", raising=False)
 
 
 def make(path: Path) -> Path:
@@ -37,6 +39,7 @@ def test_the_given_package_path_goes_first(tmp_path: Path, monkeypatch):
         ("ROS_PACKAGE_PATH", "src", "src/bot"),
         ("ROS_PACKAGE_PATH", "src/bot", "src/bot"),
         ("AMENT_PREFIX_PATH", "install", "install/share/bot"),
+        ("CMAKE_PREFIX_PATH", "install", "install/share/bot"),
     ],
 )
 def test_ros_environment_is_searched(tmp_path: Path, monkeypatch, variable, entry, package):
@@ -68,6 +71,35 @@ def test_what_is_missing_is_noted_once(tmp_path: Path, name):
     assert finder(name) is None
     assert finder(name) is None
     assert list(finder.missing) == [name]
+
+
+@pytest.mark.parametrize(
+    ("name", "at", "cure"),
+    [
+        ("package://bot/m/a.stl", "ws/src/other/m/a.stl", "--package-path bot={}/ws/src/other"),
+        ("package://bot/m/a.stl", "ws/it's/m/a.stl", "bot='{}/ws/it'\"'\"'s'"),
+        ("package://bot/m/a.stl", "lib/share/bot/m/a.stl", "--package-path bot={}/lib/share/bot"),
+        ("package://bot/m/a.stl", "ws/m/.hidden/a.stl", "--package-path bot=DIR"),
+        ("m/a.stl", "ws/bot/m/a.stl", "put the robot's file into {}/ws/bot"),
+        ("m/a.stl", "a.stl", "put them where the file names them, below {}/ws/bot/urdf"),
+    ],
+)
+def test_where_missing_meshes_lie_is_found_near_the_file(tmp_path, monkeypatch, name, at, cure):
+    monkeypatch.setenv("CMAKE_PREFIX_PATH", str(tmp_path / "lib"))
+    make(tmp_path / at)
+    finder = MeshFinder(tmp_path / "ws" / "bot" / "urdf", {"bot": tmp_path / "empty"})
+    finder.missing[name] = None
+    assert cure.format(tmp_path) in finder.cure()
+
+
+def test_the_search_for_missing_meshes_ends(tmp_path):
+    for name in range(40):
+        (tmp_path / "ws" / f"{name}" / "deep").mkdir(parents=True)
+    finder = MeshFinder(tmp_path / "ws", {})
+    finder("package://bot/a.stl")
+    with mock.patch.object(Path, "is_file", return_value=False) as looked:
+        assert "bot=DIR" in finder.cure()
+    assert looked.call_count < 2 * MOST_FOLDERS + 1
 
 
 BOX = trimesh.creation.box(

@@ -86,7 +86,7 @@ def test_an_unknown_name_lists_the_nearest_first(arguments, wrong, right):
     with pytest.raises(RobotError) as caught:
         solo12(**arguments)
     assert wrong in caught.value.message
-    assert caught.value.hint.startswith(f"available: {right}")
+    assert caught.value.hint.startswith(f"did you mean '{right}")
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -1e308])

@@ -60,7 +60,7 @@ def test_an_unknown_trunk_lists_the_nearest_links():
         read_robot(SOLO12, trunk="base")
     assert caught.value.exit_code == 3
     assert "no link 'base'" in caught.value.message
-    assert caught.value.hint.startswith("available: base_link")
+    assert caught.value.hint.startswith("did you mean 'base_link'? available: base_link")
 
 
 def test_sideways_and_upright_conventions_are_told():

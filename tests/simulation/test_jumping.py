@@ -17,6 +17,7 @@ from ocs_design.simulation.metrics import measure, series_of
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import DRIVE, JUMP_STEP, STEP, Wheels
 from ocs_design.simulation.schedule import FlightClock, LegReferences
+from ocs_design.simulation.verdict import MOMENTUM_GATE
 from ocs_design.simulation.world import WorldBuilder
 
 
@@ -64,6 +65,28 @@ def test_the_jump_leaves_the_ground_when_and_as_fast_as_planned(runs, disturbanc
 def test_momentum_is_kept_though_only_wheels_and_trunk_set_the_scale(runs):
     """Legs that brake turn at 20 rad/s: they are stepped finer than a flight with legs at rest."""
     assert max(run.metrics.momentum_error for run in runs) < 3e-7
+
+
+def test_a_flight_whose_momentum_is_off_is_flown_again_in_half_the_step(
+    solo12, disturbance, jumps, runs, monkeypatch
+):
+    """Solo12's braking legs at 1 ms; runs that keep their momentum are left as they are."""
+    monkeypatch.setattr("ocs_design.simulation.world.JUMP_STEP", STEP)
+    monkeypatch.setattr("ocs_design.simulation.scenario.HALVINGS", 0)
+    coarse = run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
+    monkeypatch.undo()
+    monkeypatch.setattr("ocs_design.simulation.world.JUMP_STEP", STEP)
+    refined = run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
+    is_off = [run.metrics.momentum_error > MOMENTUM_GATE for run in coarse]
+    assert any(is_off)
+    for before, after, fine, off in zip(coarse, refined, runs, is_off, strict=True):
+        if off:
+            assert before.passed is None
+            assert "in steps of 0.5 ms: at 1 ms its angular momentum was off by" in after.note
+            assert after.metrics == fine.metrics
+            assert after.series.com == pytest.approx(fine.series.com, abs=0.0)
+        else:
+            assert (after.metrics, after.note) == (before.metrics, before.note)
 
 
 def test_a_jump_leaves_no_energy_unexplained(world):
@@ -121,7 +144,7 @@ def test_drives_give_the_law_of_the_paper(world):
     data.qpos[:], data.qvel[:] = world.qpos, world.qvel
     data.qvel[6:18] = np.linspace(-1.0, 1.0, 12)
     control = np.zeros((1, 1, model.nu))
-    LegReferences([world], 1).write(k, control)
+    LegReferences([world], 1).write(k, control, np.zeros(1, dtype=bool))
     data.ctrl[:] = control[0, 0]
     mujoco.mj_forward(model, data)
     for j, name in enumerate(legs.joints):
@@ -141,7 +164,7 @@ def test_drives_give_the_law_of_the_paper(world):
 
 def test_after_the_jump_drives_hold_the_posture(world):
     control = np.zeros((1, 5, world.model.nu))
-    LegReferences([world], 5).write(100_000, control)
+    LegReferences([world], 5).write(100_000, control, np.zeros(1, dtype=bool))
     np.testing.assert_allclose(control, np.broadcast_to(world.ctrl, control.shape), atol=1e-12)
 
 

@@ -48,6 +48,13 @@ TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
         (GOOD, FLIP, True, False, "turns -29.0 of -360 deg"),
         (replace(GOOD, turned_angle=np.radians(-356.0)), FLIP, True, True, "stands"),
         (replace(GOOD, turned_angle=np.radians(360.0)), FLIP, True, False, "turns 360.0 of -360"),
+        (
+            replace(GOOD, turned_angle=2.0, touchdown_pitch=2.0),
+            replace(FLIP, angle=2.0),
+            True,
+            False,
+            "a turn of 114.6 deg does not end level, one of 360deg does",
+        ),
         (replace(GOOD, momentum_error=2e-6), DROP, True, None, "off by 2.0e-06"),
         (replace(GOOD, touchdown_time=None), DROP, True, None, "nothing of the robot touched"),
         (None, DROP, True, None, "became unstable"),
@@ -59,6 +66,11 @@ def test_pass_rule(metrics, maneuver, can_stand, passed, reason):
     assert reason in verdict.reason
     without_legs = judge(metrics, maneuver, can_stand=None)
     assert comes_down_well(metrics, maneuver) is (without_legs.passed is True)
+
+
+def test_a_biped_is_told_why_its_legs_do_not_stand():
+    reason = judge(FALLEN, DROP, can_stand=False, legs=2).reason
+    assert "even when level, for it takes steps to stay up on fewer than three feet" in reason
 
 
 def test_a_robot_that_topples_slowly_does_not_count_as_standing():

@@ -3,11 +3,15 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
+from robots import ROBOTS
 from wheels import PAPER_WHEEL, paper_device, paper_maneuvers
 
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.reader import read_robot
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels, lowest_point, robot_scene, set_gains
 from ocs_design.simulation.world import WorldBuilder, wheel_gains
 
@@ -130,3 +134,17 @@ def test_gains_scale_with_the_froude_time(solo12):
     # The scale is rounded to six digits.
     assert larger.stiffness == pytest.approx(gains.stiffness / 4.0, rel=1e-5)
     assert larger.damping == pytest.approx(gains.damping / 2.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_legs_that_are_told_their_load_stand_as_they_should(held):
+    """A1 sinks by a quarter and leans by 12 deg where its drives hold the posture alone."""
+    robot = read_robot(ROBOTS / "a1_description" / "urdf" / "a1.urdf")
+    drop = Drop(name="drop", height=1.01 * robot.standing_height, pitch=0.0)
+    world = WorldBuilder(robot, paper_device()).level_landing(drop)
+    world = world if held else replace(world, support=0.0 * world.support)
+    metrics = measure(simulate([world]), 0, world)
+    leans = abs(metrics.final_pitch) > np.radians(5.0)
+    assert leans is not held
+    if held:
+        assert abs(metrics.final_pitch) < np.radians(1.0)

@@ -18,8 +18,8 @@ from ocs_design.requirement.specification import (
 from ocs_design.sizing.alternatives import alternatives
 from ocs_design.sizing.design import design_device
 
-ABOUT = 0.01
-"""To which the figures are good."""
+ABOUT = 0.015
+"""To which the figures are good: the reserve of the device as it stands is kept."""
 MOTORS = "Antigravity MN5006 KV450, MN4014 KV400"
 """Two, so that it is quick."""
 
@@ -31,7 +31,7 @@ def made(spec=None):
     task = by_hand()
     task = task.with_specification(replace(spec, robot=task.specification.robot))
     designed = design_device(task.specification, task.robot, task.resolved)
-    found = alternatives(task.specification, designed, task.robot)
+    found = alternatives(task.specification, task.resolved, designed, task.robot)
     return task, designed, {each.change: each for each in found}
 
 

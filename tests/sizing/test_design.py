@@ -6,6 +6,14 @@ from designed import MOTOR, designed
 from wheels import braked_inertia
 
 from ocs_design.common.errors import Infeasible
+from ocs_design.device.joints import burst_of
+from ocs_design.device.solids import foot_of
+from ocs_design.export.bill_of_materials import bill_rows
+from ocs_design.parts.foot import stem_shock
+from ocs_design.parts.printed import CLEARANCE, SHOCK
+from ocs_design.requirement.specification import MotorSection, RobotSection, Specification
+from ocs_design.sizing.design import design_device
+from ocs_design.workflows.pareto import read_task
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
@@ -61,6 +69,19 @@ def test_a_motor_weighs_more_than_wheels_alone():
     assert chosen.sized.total.inertia[1, 1] > bound.sized.total.inertia[1, 1]
 
 
+def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
+    """To 0.1 mm, and 0.2 mm that are left as they are; all of it is weighed."""
+    robot = RobotSection(mass=12.0, inertia=(0.1, 0.25, 0.3))
+    task = read_task(Specification(robot=robot, motor=MotorSection(name="U8 Lite L KV110")))
+    device = design_device(task.specification, task.robot, task.resolved, advise=False).device
+    thick = device.foot_plate
+    assert thick > 0.006
+    bears = stem_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
+    assert SHOCK <= bears <= SHOCK * (thick / (thick - 3e-4)) ** 2
+    whole = sum(row.quantity * row.mass for row in bill_rows(device))
+    assert whole == pytest.approx(device.mass, rel=1e-9)
+
+
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 @pytest.mark.exhaustive
 def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
@@ -72,3 +93,21 @@ def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
     assert caught.value.binding == ("mass_max",)
     assert caught.value.relaxations == {"mass_max": pytest.approx(mass, rel=1e-12)}
     assert "would do" in caught.value.hint
+
+
+def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
+    """Device, bill and burst go together: the ring is weighed, and thick enough for this wheel."""
+    _, free = designed()
+    task, found = designed(guard="containing")
+    device, wall = found.device, burst_of(found.device).steel.wall
+    assert wall <= device.guard_wall <= wall + 2e-4
+    rows = {row.part: row for row in bill_rows(device)}
+    inside = device.flywheel.outer_radius + CLEARANCE
+    height = device.flywheel.height + 2.0 * CLEARANCE
+    area = np.pi * ((inside + device.guard_wall) ** 2 - inside**2)
+    assert rows["guard ring"].mass == pytest.approx(7850.0 * area * height, rel=1e-9)
+    whole = sum(row.quantity * row.mass for row in bill_rows(device))
+    assert whole == pytest.approx(device.mass, rel=1e-9)
+    assert device.mass > free.device.mass + 2.0 * rows["guard ring"].mass
+    total = braked_inertia(task.robot, device)
+    np.testing.assert_allclose(found.sized.total.inertia, total.inertia, rtol=1e-7, atol=1e-12)

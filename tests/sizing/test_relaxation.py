@@ -103,10 +103,12 @@ def test_nothing_alone_would_do():
 def test_data_for_json():
     data = failure(paper_problem(7.11e-4, 0.03, 0.01)).data()
     assert set(data) == {
+        "assumptions",
         "binding",
-        "required_spin_inertia",
         "largest_spin_inertia",
         "relaxations",
+        "required_spin_inertia",
+        "warnings",
     }
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pinocchio
 import pytest
+from commands import SOLO12
 from naive_wheel import wheel_of
 from selections import has_device, random_problem, with_radius
 from standing_parts import standing_parts
@@ -16,10 +17,14 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_pair import WheelPairTask, pair_slew_time, smallest_spin_inertia
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.specification import FlywheelSection, MotorSection, Specification
+from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
 from ocs_design.sizing.selection.advice import PRECISION, single_changes
+from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.feasibility import Field
-from ocs_design.sizing.selection.problem import with_limit
+from ocs_design.sizing.selection.problem import selection_problem, with_limit
 from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.select import select
 
@@ -113,7 +118,7 @@ def test_ranking(solved):
     kinds = {(r.motor.name, r.gear.name, r.material.name) for r in selection.ranking}
     assert len(kinds) == len(masses)
     for ranked in selection.ranking:
-        for demand in ranked.demands:
+        for demand in with_demands(problem, ranked).demands:
             if demand.time_given is not None:
                 assert demand.time_needed <= demand.time_given * (1.0 + 1e-8)
     names = {r.motor.name for r in selection.ranking} | {r.motor for r in selection.rejections}
@@ -208,6 +213,22 @@ def test_a_rim_that_would_burst():
     error = reasons(replace(problem, materials=feeble))
     assert "stands" in error.message
     assert error.binding == ("stress",)
+
+
+def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
+    """A U15's rotor alone turns Solo12, but r_max is a seventh of its hub."""
+    robot = read_robot(SOLO12)
+    specified = Specification(
+        flywheel=FlywheelSection(r_max=0.012),
+        motor=MotorSection(name="U15 II KV100, AT2820 KV1050"),
+    )
+    problem = selection_problem(specified, robot, resolve(specified, robot, 0.43))
+    error = reasons(problem)
+    assert "AT2820 KV1050 comes closest" in error.message
+    wide = reasons(replace(problem, motors=problem.motors[:1]))
+    assert "a radius of 83.45 mm at the least, r_max is 12 mm" in wide.message
+    assert wide.nearest.shortfall == pytest.approx((83.45 / 12.0) ** 4 - 1.0, rel=1e-3)
+    assert 0.0 < error.nearest.shortfall < wide.nearest.shortfall
 
 
 def test_an_axis_out_of_reach():

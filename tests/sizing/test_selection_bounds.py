@@ -1,6 +1,6 @@
 """The inertia of the whole for many devices, and bounds that no device falls below."""
 
-from dataclasses import astuple, fields
+from dataclasses import astuple, fields, replace
 
 import numpy as np
 import pytest
@@ -10,6 +10,7 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_pair import smallest_spin_inertia
 from ocs_design.parts.moments import Carrier, MassMoments, point, round_body
+from ocs_design.requirement.maneuver import ManeuverReserve
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.placement import Place, Size
 from ocs_design.sizing.selection.bounds import (
@@ -96,7 +97,8 @@ def each(bodies, factors):
 
 @pytest.mark.parametrize("coupled", [0.0, 1e-4, 0.2])
 @pytest.mark.parametrize("seed", range(3))
-def test_more_inertia_and_smaller_shares_ask_for_no_less(seed, coupled):
+@pytest.mark.parametrize("kept", [None, ManeuverReserve(rate=(0.1, 0.02))])
+def test_more_inertia_and_smaller_shares_ask_for_no_less(kept, seed, coupled):
     """What the bounds rest on (`selection.bounds`), also where an axis is left to itself."""
     rng = np.random.default_rng(seed)
     problem = random_problem(seed)
@@ -104,7 +106,10 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(seed, coupled):
     drives = drives_of(problem, pairs)
     # With a gear that speeds up, a wheel may do that a larger one does not.
     drives = drives.take(drives.armature >= 0.0)
-    n, height = len(drives), problem.requirement.standing_height
+    n, required = len(drives), problem.requirement
+    if kept is not None:
+        names = (maneuver.name for maneuver in required.maneuvers)
+        required = replace(required, reserves=dict.fromkeys(names, kept))
     cells = (Cell(0.0, 0.1), Cell(0.1, 0.2), Cell(0.5, 0.7), Cell(1.4, np.pi / 2.0))
     robot = np.diag(problem.robot.inertia)[:2] * rng.uniform(1.0, 1.5, (n, 2))
     center = coupled * np.sqrt(robot.prod(axis=1))
@@ -118,9 +123,9 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(seed, coupled):
     )
     line = DriveLine(*(np.asarray(values)[:, None, None] for values in astuple(drives.line)))
     for maneuver in problem.requirement.maneuvers:
-        tasks = bound_task(maneuver, height, least, cells)
+        tasks = bound_task(maneuver, required, least, cells)
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
-        task = pair_task([maneuver], height, whole, shares_of(angle))
+        task = pair_task([maneuver], required, whole, shares_of(angle))
         asked = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
         finite = np.isfinite(asked)
         assert finite.any()
@@ -134,9 +139,8 @@ def test_shares_beyond_the_unit_circle_are_as_on_it():
     drives, shares = drives_of(problem, np.array([[0, 0]])), np.array([0.8, 0.9])
     maneuver = problem.requirement.maneuvers[0]
     inertia = TiltInertia.uncoupled([[0.05, 0.05]])
-    task = bound_task(
-        maneuver, problem.requirement.standing_height, LeastInertia(inertia, np.zeros(1)), [cell]
-    )
+    least = LeastInertia(inertia, np.zeros(1))
+    task = bound_task(maneuver, problem.requirement, least, [cell])
     load = task.load()
     slew = maneuver.slew(inertia, problem.requirement.standing_height)
     roll, pitch = (np.abs(slew.swept) / shares)[0]
@@ -153,7 +157,7 @@ def test_no_device_falls_below_its_bound(seed):
     rng = np.random.default_rng(100 + seed)
     problem, floor = random_problem(seed), None
     if seed % 2:
-        problem = lopsided(problem, seed)
+        problem = replace(lopsided(problem, seed), foot_plate=0.0084)
     floor = RimFloor.of(problem)
     pairs = np.array([(m, g) for m in range(3) for g in range(3)])
     drives = drives_of(problem, pairs)

@@ -9,6 +9,7 @@ from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
 from ocs_design.device.records import Clearance, MarginRecord
 from ocs_design.parts.joints import Joint
+from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.workflows.buildable import buildable
 
@@ -90,3 +91,51 @@ def test_a_collision_is_open():
     found = buildable(WHOLE, hit, ())
     assert found.yes is False
     assert "leg" in found.open[0].what
+
+
+LEGLESS = """<robot name="rover"><link name="trunk"><inertial><mass value="2"/>
+<inertia ixx="0.02" iyy="0.03" izz="0.04" ixy="0" ixz="0" iyz="0"/></inertial>{}</link></robot>"""
+MESH = '<geometry><mesh filename="package://rover/{}.stl"/></geometry>'
+BALL = '<geometry><sphere radius="0.1"/></geometry>'
+
+
+@pytest.mark.parametrize(
+    ("shapes", "missing"),
+    [
+        (("collision", MESH.format("hull")), True),
+        (("visual", MESH.format("skin")), True),
+        (("collision", BALL, "collision", MESH.format("hull")), True),
+        (("collision", BALL, "visual", MESH.format("skin")), False),
+        (("collision", BALL), False),
+    ],
+)
+def test_a_device_on_shapes_that_are_not_known_cannot_be_built(tmp_path, shapes, missing):
+    """A skin that is missing does no harm where the collision shapes are there."""
+    kinds = zip(shapes[::2], shapes[1::2], strict=True)
+    file = tmp_path / "rover.urdf"
+    file.write_text(LEGLESS.format("".join(f"<{kind}>{each}</{kind}>" for kind, each in kinds)))
+    robot = read_robot(file, legs=())
+    found = buildable(WHOLE, FREE, (), (), robot)
+    assert found.yes is not missing
+    assert buildable(None, FREE, (), (), robot).yes is None
+    assert any("the trunk's top is not known" in each for each in robot.warnings) is missing
+    if missing:
+        (point,) = found.open
+        assert point.what == "meshes are missing: the shape of trunk is not known"
+        assert point.cure == "give --package-path rover=DIR"
+
+
+@pytest.mark.parametrize(("collides", "missing"), [(1, True), (0, False)])
+def test_meshes_that_an_mjcf_lacks_count_too(tmp_path, collides, missing):
+    """One that is only to look at does no harm beside a box that collides."""
+    file = tmp_path / "rover.xml"
+    file.write_text(
+        '<mujoco><asset><mesh name="hull" file="hull.stl"/></asset><worldbody><body name="trunk">'
+        '<freejoint/><inertial pos="0 0 0" mass="2" diaginertia="0.02 0.03 0.04"/>'
+        '<geom type="box" size="0.1 0.1 0.1"/><geom type="mesh" mesh="hull" '
+        f'contype="{collides}" conaffinity="{collides}"/></body></worldbody></mujoco>'
+    )
+    found = buildable(WHOLE, FREE, (), (), read_robot(file, legs=()))
+    assert found.yes is not missing
+    if missing:
+        assert found.open[0].cure == f"put them where the model names them, below {tmp_path}"

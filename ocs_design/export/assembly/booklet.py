@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,8 +54,7 @@ _SECTION_BOX: Box = (LEFT + 2.0, TOP + 14.0, LEFT + 124.0, BOTTOM - 14.0)
 
 def write(subject: "Subject", folder: Path) -> "Notes":
     """Write `assembly.pdf`."""
-    assembly = Assembly(subject.name, subject.device, subject.margins, subject.fitting)
-    (folder / "assembly.pdf").write_bytes(assembly_pdf(assembly))
+    (folder / "assembly.pdf").write_bytes(assembly_pdf(subject.assembly))
     return ()
 
 
@@ -75,9 +75,15 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     ]
 
 
+@lru_cache(maxsize=1)
+def _exploded(assembly: Assembly) -> tuple[list[Item], Scale]:
+    """The exploded view, drawn once for paper and for the report."""
+    return exploded_view(assembly.pieces, assembly.numbers, EXPLODED_BOX)
+
+
 def exploded_svg(assembly: Assembly) -> str:
     """The exploded view alone, for web pages."""
-    items, _ = exploded_view(assembly.pieces, assembly.numbers, EXPLODED_BOX)
+    items, _ = _exploded(assembly)
     return svg_text(items, "Exploded view of one module", _around(items))
 
 
@@ -107,8 +113,8 @@ def _heading(robot: str, identity: str, number: int, count: int) -> Iterator[Ite
 
 def _first_page(assembly: Assembly) -> list[Item]:
     """Exploded view, and below it the pieces by their numbers."""
-    items, scale = exploded_view(assembly.pieces, assembly.numbers, EXPLODED_BOX)
-    items += [*_scale("One module pulled apart", scale, EXPLODED_BOX)]
+    view, scale = _exploded(assembly)
+    items = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
     rows = list(assembly.piece_rows())
     cells = [
         (str(row.number), str(row.quantity), row.name, row.made, row.file or "") for row in rows

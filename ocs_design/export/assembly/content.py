@@ -15,7 +15,16 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
-from ocs_design.device.joints import SHAFT_JOINT, balance_of, joints_of, rim_fit
+from ocs_design.device.joints import (
+    DAMPING,
+    SHAFT_JOINT,
+    balance_of,
+    burst_of,
+    joints_of,
+    resonances_of,
+    rim_fit,
+    top_speed,
+)
 from ocs_design.device.naming import joint_name
 from ocs_design.device.records import MarginRecord
 from ocs_design.device.solids import motor_mount
@@ -27,8 +36,7 @@ from ocs_design.export.device_parts import printed_foot, wheel_geometry
 from ocs_design.export.drawing.title_block import RUN_OUT
 from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.electrics import demand_of, electrics
-from ocs_design.export.module_bodies import highest_speed
-from ocs_design.parts.guard import Containment, containment, fragment_of
+from ocs_design.parts.guard import Containment
 from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import stored_energy
 
@@ -54,6 +62,9 @@ _LABELS = {
     "lid": "housing, lid",
     "foot": "foot",
     "cage": "cage of the motor",
+    "guard": "guard ring",
+    "plate": "plate under the feet",
+    "sleeves": "sleeves under the plate",
 }
 
 _SOFT = 68.0
@@ -139,7 +150,11 @@ class Assembly:
             each.fastening.purpose for each in motor_mount(self.device).screwed if holds_wheel(each)
         }
         return {
-            piece.name: tightened(piece.fastening, on_metal=piece.name in on_wheel)
+            piece.name: tightened(
+                piece.fastening,
+                on_metal=piece.name in on_wheel,
+                head_on_print=not piece.shared,
+            )
             for piece in self.pieces
             if piece.fastening is not None
         }
@@ -147,25 +162,22 @@ class Assembly:
     @cached_property
     def top_speed(self) -> float | None:
         """Highest that motor, voltage and gear let the wheel reach [rad/s]; None: not limited."""
-        speed = highest_speed(self.device.motor)
+        speed = top_speed(self.device)
         return speed if math.isfinite(speed) else None
 
     @cached_property
     def burst(self) -> Containment | None:
         """What would hold a wheel that bursts at its top speed; None where that is not known."""
-        if self.top_speed is None:
-            return None
-        return burst_of(self.device, self.top_speed)
+        return None if self.top_speed is None else burst_of(self.device)
 
     def piece_rows(self) -> Iterator[PieceRow]:
         """Pieces and screws in the order of their numbers."""
-        count, bill = len(self.device.modules), bill_rows(self.device)
+        bill = bill_rows(self.device)
         for piece in {piece.name: piece for piece in self.pieces}.values():
-            number = self.numbers[piece.name]
+            number, count = self.numbers[piece.name], self._count(piece)
             if piece.fastening is not None:
                 what = piece.fastening.screw.designation(piece.fastening.length)
-                each = count * piece.fastening.count
-                yield PieceRow(number, f"screw, {_short(piece.name)}", each, f"bought: {what}", "")
+                yield PieceRow(number, f"screw, {_short(piece.name)}", count, f"bought: {what}", "")
             else:
                 label = _LABELS.get(piece.name, piece.name)
                 made, file = _made(self.device, piece.name, bill)
@@ -173,21 +185,27 @@ class Assembly:
 
     def screw_rows(self) -> Iterator[ScrewRow]:
         """Screws with their torques."""
-        count = len(self.device.modules)
-        for name, found in self.screws.items():
-            held = found.fastening
+        for piece in self.pieces:
+            if piece.fastening is None:
+                continue
+            name, found, held = piece.name, self.screws[piece.name], piece.fastening
             depth = (
                 f"{1e3 * found.engagement:.1f} mm ({found.engagement / held.screw.diameter:.1f} d)"
             )
             yield ScrewRow(
                 self.numbers[name],
                 held.screw.designation(held.length),
-                count * held.count,
+                self._count(piece),
                 held.purpose,
                 depth,
                 f"{found.torque:.2g} N m",
                 found.rule,
             )
+
+    def _count(self, piece: Piece) -> int:
+        """How many of it the device has."""
+        modules = 1 if piece.shared else len(self.device.modules)
+        return modules * (piece.count if piece.fastening is None else piece.fastening.count)
 
     def chapters(self) -> tuple[Chapter, ...]:
         """All text, in the order of the work."""
@@ -246,13 +264,19 @@ class Assembly:
                 f"an oven{self._hot()} until it drops on the web on a flat plate, and let both "
                 "cool."
             )
+        if "guard" in self.numbers:
+            yield (
+                f"Bond the guard ring{self._number('guard')} into the drum"
+                f"{self._number('drum')} with epoxy, down to its floor; its seam, if it has one, "
+                "is welded through."
+            )
         yield from self._motor()
         yield from (self._screwed(name) for name in self.screws if name not in self._late)
         yield from self._joint()
         if "lid" in self.numbers:
             yield (
                 "Turn the wheel by hand: it is free all around, and a strip of "
-                f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and drum. Check the rim's "
+                f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and housing. Check the rim's "
                 f"run-out on its motor: at most {2 * RUN_OUT:g} mm."
             )
             yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
@@ -276,7 +300,9 @@ class Assembly:
     @property
     def _late(self) -> tuple[str, ...]:
         """Screws that come after balancing: those of lid and trunk."""
-        return tuple(name for name in self.screws if name.startswith(("lid", "foot on trunk")))
+        return tuple(
+            name for name in self.screws if name.startswith(("lid", "foot on", "plate on"))
+        )
 
     def _motor(self) -> Iterator[str]:
         """How a motor is held whose threads are not known."""
@@ -310,8 +336,8 @@ class Assembly:
         )
 
     def _on_the_trunk(self) -> Iterator[str]:
-        foot, name = printed_foot(self.device), "foot on trunk"
-        found = next(each for key, each in self.screws.items() if key.startswith(name))
+        foot = printed_foot(self.device)
+        name, found = next(each for each in self.screws.items() if each[0].startswith("foot on"))
         radius, places = foot.slot_radius / math.sqrt(2.0), []
         for module in self.device.modules:
             slope = math.copysign(1.0, float(module.axis[0] * module.axis[1]))
@@ -339,15 +365,29 @@ class Assembly:
         else:
             under_feet = "plate"
             yield (
-                "Cut the plate (cad/plate.stl; `export --formats dxf` writes plate.dxf) and screw "
-                "it on the trunk, its sleeves under it where the bill has any. Its threads "
-                f"{plate.foot_thread} for the feet are, {frame} design.json), at {places_of}."
+                f"Cut the plate{self._number('plate')} (cad/plate.stl; `export --formats dxf` "
+                f"writes plate.dxf) and tap its holes {plate.foot_thread} for the feet, which are, "
+                f"{frame} design.json), at {places_of}. Drill and tap the trunk {plate.thread} "
+                f"where its other {len(plate.trunk)} holes come to lie."
             )
+            origin = plate.position[:2]
+            sleeves = [
+                f"{1e3 * length:.2f} mm at ({1e3 * (origin[0] + x):.1f}, "
+                f"{1e3 * (origin[1] + y):.1f})"
+                for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
+                if length > 0.0
+            ]
+            if sleeves:
+                yield f"Under its holes stand sleeves{self._number('sleeves')}: " + (
+                    ", ".join(sleeves) + "."
+                )
+            yield from (self._screwed(each) for each in self._late if each.startswith("plate on"))
         yield (
             "Scribe a line forward through the middle of each foot, turn the foot until it meets "
             f"the scale at {angle}, and tighten {held.count} x "
-            f"{held.screw.designation(held.length)} with {found.torque:.2g} N m each, into "
-            f"threads, inserts or nuts of the {under_feet}."
+            f"{held.screw.designation(held.length)}{self._number(name)} with {found.torque:.2g} N "
+            f"m each, into {'the threads' if plate else 'threads, inserts or nuts'} of the "
+            f"{under_feet}."
         )
 
     def _direction(self) -> str:
@@ -398,6 +438,15 @@ class Assembly:
                 "The rim's wall is too thin to drill by hand: grind the heavy side of its face, "
                 "evenly over 60 degrees."
             )
+        for mode in resonances_of(self.device):
+            yield (
+                f"The {mode.name}'s first mode is at {mode.frequency:.0f} Hz, "
+                f"{60.0 * mode.frequency:,.0f} rpm, which the wheel passes: what is left then "
+                f"pushes with {mode.force:.2g} N, and a wheel that stayed there would shake the "
+                f"module by {1e6 * mode.amplitude:.2g} µm, with "
+                f"{mode.acceleration / 9.81:.2g} times its weight "
+                f"({DAMPING:.0%} of critical damping, assumed)."
+            )
         yield (
             "By hand: shaft level on two blades, heavy side down; or with an accelerometer on the "
             "foot, a trial mass of wax in three places, and the circle through the three readings."
@@ -416,21 +465,24 @@ class Assembly:
         )
         steps = ", ".join(f"{share:.0%} ({_rpm(share * speed)})" for share in SPIN_STEPS)
         yield f"One minute each at {steps}; stop, and feel the motor and look at all screws."
-        over = _rpm(OVERSPEED * speed)
         motor = self.device.motor
-        limited = motor.speed_max is not None and motor.speed_max <= motor.no_load_speed
+        allowed = math.inf if motor.speed_max is None else motor.speed_max
+        share = min(OVERSPEED, allowed / speed)
+        over = _rpm(share * speed)
+        if share < OVERSPEED:
+            over += ", the most that motor and wheel are allowed"
         supply = (
             ""
-            if motor.bus_voltage is None or limited
-            else f", which takes {OVERSPEED * motor.bus_voltage:.3g} V"
+            if motor.bus_voltage is None or share <= 1.0
+            else f", which takes {share * motor.bus_voltage:.3g} V"
         )
         margin = wheel.stress_margin
         stress = (
             ""
             if margin is None
-            else f" The yield strength is then {margin / OVERSPEED**2:.1f} times the hoop stress."
+            else f" The yield strength is then {margin / share**2:.1f} times the hoop stress."
         )
-        yield f"Once, for ten seconds, {OVERSPEED:.0%}: {over}{supply}.{stress}"
+        yield f"Once, for ten seconds, {share:.0%}: {over}{supply}.{stress}"
         yield (
             "It fails if anything hums that did not before, if the vibration rises between two "
             "steps other than with the square of the speed, if the run-out has changed, if a screw "
@@ -463,16 +515,25 @@ class Assembly:
             f"If a wheel bursts at that speed, a third of it ({1e3 * part.mass:.0f} g) flies off "
             f"at {part.speed:.0f} m/s with {part.energy:.2g} J."
         )
-        if "drum" in self.numbers:
+        steel, aluminium = burst.steel, burst.aluminium
+        rule = "BRL formula, 1.25 times the thickness that is just perforated"
+        built = self.device.guard_wall
+        if built >= steel.wall:
             yield (
-                "The printed guard keeps fingers out. It does not hold a burst rim: that would "
-                f"need a closed band of {1e3 * burst.steel.wall:.2g} mm of mild steel around the "
-                f"drum, {1e3 * burst.steel.mass:.0f} g each "
-                f"({2e3 * burst.steel.inner_radius:.1f} mm inside, "
-                f"{1e3 * burst.steel.height:.1f} mm wide; BRL formula, 1.25 times the "
-                "thickness that is just perforated), or by an estimate without tests behind it "
-                f"{1e3 * burst.aluminium.wall:.2g} mm of 6061-T6, {1e3 * burst.aluminium.mass:.0f} "
-                "g each. Neither is in the device's mass."
+                f"The guard ring of {1e3 * built:.1f} mm holds that piece by the {rule}, which "
+                f"asks for {1e3 * steel.wall:.2g} mm. That formula rests on tests of large plates; "
+                "no ring of this kind has been tested: stay out of the wheel's plane all the same."
+            )
+        elif "drum" in self.numbers:
+            short = f" and its ring of {1e3 * built:.1f} mm" if built else ""
+            yield (
+                f"The printed guard{short} keeps fingers out. It does not hold a burst rim: that "
+                f"would need a ring of {1e3 * steel.wall:.2g} mm of mild steel in the drum, "
+                f"{1e3 * steel.mass:.0f} g each ({2e3 * steel.inner_radius:.1f} mm inside, "
+                f"{1e3 * steel.height:.1f} mm wide; {rule}), or by an estimate without tests "
+                f"behind it {1e3 * aluminium.wall:.2g} mm of 6061-T6, "
+                f"{1e3 * aluminium.mass:.0f} g each. `size --guard containing` builds the one of "
+                "steel in."
             )
         yield (
             "Whenever the supply is on: nobody in the plane of a wheel, eye protection for "
@@ -485,21 +546,6 @@ class Assembly:
         )
 
 
-def burst_of(device: Device, wheel_speed: float) -> Containment:
-    """What would hold a wheel of the device that bursts at a speed [rad/s]."""
-    wheel = device.flywheel
-    web = 0.0 if wheel.web is None else wheel.web.mass
-    piece = fragment_of(
-        inner_radius=wheel.inner_radius,
-        outer_radius=wheel.outer_radius,
-        height=wheel.height,
-        rim_mass=wheel.rim_mass,
-        web_mass=web,
-        wheel_speed=wheel_speed,
-    )
-    return containment(piece, wheel.outer_radius, wheel.height)
-
-
 def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]:
     """How a piece is made, and the file to make it from."""
     motor = device.motor
@@ -509,10 +555,15 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
         return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
     if name in ("drum", "lid", "foot", "cage"):
         return "printed, PETG", f"housing_{name}.stl"
-    rows = {"flywheel": "flywheel, one piece", "rim": "flywheel rim", "hub": "flywheel web and hub"}
-    row = next((each for each in bill if each.part == rows.get(name)), None)
-    if row is None:
-        row = next((each for each in bill if each.part.startswith("flywheel")), None)
+    starts = {"rim": "flywheel rim", "hub": "flywheel web", "sleeves": "sleeve"}
+    start = starts.get(name, name)
+    row = next((each for each in bill if each.part.startswith(start)), None)
+    if name == "guard":
+        assert row is not None, "the bill has a row for the ring"
+        return f"{row.material}, {row.stock}", "guard_ring.stl"
+    if name in ("plate", "sleeves"):
+        cut = "" if row is None else f" from {row.material}, {row.stock}"
+        return f"cut{cut}", "plate.stl" if name == "plate" else ""
     made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
     return made, "wheel.pdf"
 

@@ -11,6 +11,9 @@ from ocs_design.export.meshes import Mesh
 PIXEL = 0.2e-3
 """Size of the depth map's pixels [m]."""
 
+_CHUNK = 1 << 12
+"""Triangles that are filled at once: all of them would take a hundred megabytes."""
+
 _CREASE = np.cos(np.radians(25.0))
 """Cosine between the normals of two faces whose common edge is drawn."""
 
@@ -37,7 +40,7 @@ def visible_lines(meshes: Sequence[Mesh]) -> tuple[tuple[FloatArray, ...], ...]:
 
 
 def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
-    """Where a mesh meets the plane x = 0, as chains of points (y, z), shape (k, 2) [m]."""
+    """Section of a mesh in the plane x = 0, as chains of points (y, z), shape (k, 2) [m]."""
     corners = mesh.corners
     # No corner lies exactly in the plane.
     side = corners[:, :, 0] - 1e-9
@@ -78,13 +81,15 @@ class _DepthMap:
         flat = corners.reshape(-1, 3)
         self._low = flat[:, :2].min(axis=0) - 2.0 * PIXEL
         size = np.ceil((flat[:, :2].max(axis=0) - self._low) / PIXEL).astype(int) + 3
-        self._depth = np.full((size[1], size[0]), -np.inf)
-        self._fill(corners)
+        # Ten million pixels: single precision tells a thousandth of one.
+        self._depth = np.full((size[1], size[0]), -np.inf, dtype=np.float32)
+        for start in range(0, len(corners), _CHUNK):
+            self._fill(corners[start : start + _CHUNK])
         # The farthest around each pixel: what lies at an edge of a face is not hidden by it.
-        farthest = self._depth.copy()
+        farthest = self._depth
         for axis in (0, 1):
-            before, after = (np.roll(farthest, shift, axis) for shift in (1, -1))
-            farthest = np.minimum(farthest, np.minimum(before, after))
+            least = np.minimum(farthest, np.roll(farthest, 1, axis))
+            farthest = np.minimum(least, np.roll(farthest, -1, axis), out=least)
         self._farthest = farthest
 
     def _fill(self, corners: FloatArray) -> None:

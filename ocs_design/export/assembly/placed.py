@@ -3,7 +3,7 @@
 The wheel's axis is z, the floor of its housing at -z, the motor behind it; y points down.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import cos, pi, sin
 
@@ -13,11 +13,18 @@ from ocs_design.actuation.fasteners import Fastening, Screw
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, motor_mount
-from ocs_design.export.device_parts import printed_foot, printed_parts, wheel_pieces
+from ocs_design.export.device_parts import (
+    foot_screws,
+    printed_foot,
+    printed_parts,
+    wheel_pieces,
+)
 from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
+from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import cage_placement
-from ocs_design.parts.foot import BASE_THICKNESS, TRUNK_SCREWS
-from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS
+from ocs_design.parts.carrier_plate import plate_part, sleeve_part
+from ocs_design.parts.foot import BASE_THICKNESS
+from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import LID_SCREW, ear_axis
@@ -26,6 +33,9 @@ from ocs_design.robot.tree import Placement
 
 SECTIONS = 64
 """Chords of a full circle."""
+
+_APART = 0.25
+"""Between pieces that are pulled apart upward or downward, over the housing's radius."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,17 +47,22 @@ class Piece:
             purpose of screws.
         mesh: in its place in the wheel's frame [m].
         fastening: of screws; None: no screws.
-        upright: whether it is put in from above and not along the axis.
+        drop: how far down it is drawn from its place where pieces are pulled apart [m]; None: it
+            is pulled off along the axis.
+        shared: whether the device has it once, for both modules.
+        count: of equal ones in the mesh; screws have theirs in `fastening`.
     """
 
     name: str
     mesh: Mesh
     fastening: Fastening | None = None
-    upright: bool = False
+    drop: float | None = None
+    shared: bool = False
+    count: int = 1
 
     def moved(self, offset: FloatArray) -> "Piece":
         """The piece elsewhere."""
-        return replace(self, mesh=Mesh(self.mesh.vertices + offset, self.mesh.triangles))
+        return replace(self, mesh=self.mesh.moved(offset))
 
 
 def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
@@ -62,6 +77,8 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     if device.carrier.mass == 0.0:
         return found
     foot, cage = printed_foot(device), motor_mount(device).cage
+    if device.guard_wall:
+        found["guard"] = guard_ring(foot.housing), HERE
     places = {"foot": foot.placement}
     if cage is not None:
         places["cage"] = cage_placement(foot, cage)
@@ -103,7 +120,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     on_wheel = [piece for each, piece in screws if each.towards < 0.0 and holds_wheel(each)]
     inside = [piece for each, piece in screws if each.towards < 0.0 and not holds_wheel(each)]
     behind = [piece for each, piece in screws if each.towards > 0.0]
-    back = [parts.pop("cage")] if "cage" in parts else []
+    back, guard = ([parts.pop(name)] if name in parts else [] for name in ("cage", "guard"))
     drum, lid, base = (parts.pop(name) for name in ("drum", "lid", "foot"))
     lid_screws = _ring(
         LID_SCREWS, ear_axis(foot.housing.radius, LID_SCREW), FIRST_EAR, foot.housing.half_height
@@ -112,10 +129,12 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         *behind,
         *back,
         *parts.values(),
-        _trunk_screws(foot.placement, foot.slot_radius),
+        _foot_screws(device),
+        *_plate_pieces(device),
         base,
         drum,
         *inside,
+        *guard,
         *wheel,
         *on_wheel,
         lid,
@@ -155,14 +174,46 @@ def _ring(
     return Piece(fastening.purpose, merged(meshes), fastening)
 
 
-def _trunk_screws(foot: Placement, radius: float) -> Piece:
-    """Screws into the trunk in the middle of the foot's slots."""
-    one = solid_mesh(_screw(TRUNK_SCREWS.screw, TRUNK_SCREWS.length), 24)
-    meshes = [
-        Mesh(one.vertices + np.array([0.0, side * radius, BASE_THICKNESS]), one.triangles)
-        for side in (1.0, -1.0)
+def _foot_screws(device: Device) -> Piece:
+    """Screws of the foot in the middle of its slots."""
+    foot, held = printed_foot(device), foot_screws(device)
+    places = [np.array([0.0, side * foot.slot_radius, BASE_THICKNESS]) for side in (1.0, -1.0)]
+    screws = _placed(_upright_screws(held, places), foot.placement)
+    return Piece(held.purpose, screws, held, drop=-_APART * foot.housing.radius)
+
+
+def _plate_pieces(device: Device) -> Iterator[Piece]:
+    """The plate under the feet, its sleeves and its screws; none where there is no plate."""
+    plate = device.plate
+    if plate is None:
+        return
+    on_trunk = Placement(np.eye(3), np.array(plate.position))
+    place = wheel_placement(device.modules[0]).inverse() @ on_trunk
+    apart = _APART * printed_foot(device).housing.radius
+    lowest = 1.5 * apart + max(plate.screw_lengths)
+    holes = [np.array([*at, 0.0]) for at in plate.trunk]
+    for held in plate.fastenings:
+        top = np.array([0.0, 0.0, plate.thickness])
+        own = zip(holes, plate.screw_lengths, strict=True)
+        heads = [at + top for at, length in own if length == held.length]
+        screws = _placed(_upright_screws(held, heads), place)
+        yield Piece(held.purpose, screws, held, drop=apart, shared=True)
+    sleeves = [
+        part_mesh(sleeve_part(plate, length), SECTIONS).moved(at)
+        for at, length in zip(holes, plate.sleeves, strict=True)
+        if length > 0.0
     ]
-    return Piece(TRUNK_SCREWS.purpose, _placed(merged(meshes), foot), TRUNK_SCREWS, upright=True)
+    if sleeves:
+        mesh, down = _placed(merged(sleeves), place), lowest + apart
+        yield Piece("sleeves", mesh, drop=down, shared=True, count=len(sleeves))
+    mesh = _placed(part_mesh(plate_part(plate), SECTIONS), place)
+    yield Piece("plate", mesh, drop=lowest, shared=True)
+
+
+def _upright_screws(held: Fastening, places: Iterable[FloatArray]) -> Mesh:
+    """Screws from above, the undersides of their heads at those places [m]."""
+    one = solid_mesh(_screw(held.screw, held.length), 24)
+    return merged([one.moved(place) for place in places])
 
 
 def _screw(screw: Screw, length: float) -> Revolution:

@@ -40,7 +40,7 @@ class Tightened:
     engagement: float
 
 
-def tightened(fastening: Fastening, *, on_metal: bool) -> Tightened:
+def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = True) -> Tightened:
     """Torque of screws of class 8.8.
 
     Those of the wheel as their joint is computed (`parts.joints`). Others with the least of: 90 %
@@ -52,6 +52,7 @@ def tightened(fastening: Fastening, *, on_metal: bool) -> Tightened:
     Args:
         fastening: what they are.
         on_metal: whether they hold the wheel, metal on metal.
+        head_on_print: whether their heads press on a print, not on metal.
     """
     screw, engagement = fastening.screw, fastening.length - fastening.thickness
     sheared = pi * screw.diameter * engagement / 2.0
@@ -59,10 +60,10 @@ def tightened(fastening: Fastening, *, on_metal: bool) -> Tightened:
         share = joint_preload(screw) / (sheared * ALUMINIUM_SHEAR)
         rule = f"the joint, as computed; {share:.0%} of what strips a thread in 6061-T6"
         return Tightened(fastening, tightening_torque(screw), rule, engagement)
-    limits = [
-        (screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)"),
-        (PRESSURE_SHARE * STRENGTH * screw.head_area, "head on PETG at half its yield strength"),
-    ]
+    limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
+    if head_on_print:
+        pressed = PRESSURE_SHARE * STRENGTH * screw.head_area
+        limits.append((pressed, "head on PETG at half its yield strength"))
     if fastening.depth >= IN_PLASTIC:
         stripped = STRIP_SHARE * sheared * STRENGTH / sqrt(3.0)
         limits.append((stripped, "thread in PETG at a third of what strips it"))

@@ -1,6 +1,6 @@
 """Exploded view and section of a module on a sheet, with the numbers of its pieces."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -32,9 +32,6 @@ _GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
 """Between pieces that are pulled apart, over the largest radius: the widest that fits the sheet is
 taken. Share of it before screws."""
 
-_LIFT = 0.012
-"""Of screws that are put in from above [m]."""
-
 BALLOON = 3.2
 """Radius of a number's circle [mm]."""
 
@@ -46,7 +43,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
     for piece in pieces:
         heights = piece.mesh.vertices[:, 2]
         low, high = float(heights.min()), float(heights.max())
-        if piece.upright:
+        if piece.drop is not None:
             moved.append(piece)
             continue
         if piece.name == "foot":
@@ -59,9 +56,10 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
         moved.append(piece.moved(np.array([0.0, 0.0, shift])))
         if piece.name == "foot":
             lift = shift
-    # Screws that come from above follow the foot.
+    # What goes on or under the foot follows it.
     return tuple(
-        piece.moved(np.array([0.0, -_LIFT, lift])) if piece.upright else piece for piece in moved
+        piece if piece.drop is None else piece.moved(np.array([0.0, piece.drop, lift]))
+        for piece in moved
     )
 
 
@@ -88,13 +86,7 @@ def exploded_view(
     scale, apart, low, high = max(tried, key=lambda each: each[0].paper / each[0].part)
     meshes = [Mesh(piece.mesh.vertices @ view.T, piece.mesh.triangles) for piece in apart]
     lines = visible_lines(meshes)
-    middle = (low + high) / 2.0
-    centre = np.array([(left + right) / 2.0, (top + bottom) / 2.0])
-
-    def place(at: FloatArray) -> tuple[float, float]:
-        x, y = centre + _on_paper(scale, (at - middle) * [1.0, -1.0])
-        return float(x), float(y)
-
+    place = _placing(scale, (low + high) / 2.0, box)
     items: list[Item] = []
     for chains in lines:
         items += [Polyline(tuple(map(place, chain)), _DRAWN) for chain in chains]
@@ -105,12 +97,12 @@ def exploded_view(
         # What cannot be seen is pointed at all the same.
         flat = np.concatenate(chains) if chains else mesh.vertices[:, :2]
         name = numbers[piece.name]
-        if piece.upright or piece.name == "foot":
+        if piece.drop is not None or piece.name == "foot":
             below.append((name, place(flat[flat[:, 1].argmin()])))
         else:
             above.append((name, place(flat[flat[:, 1].argmax()])))
-    items += _balloons(above, top + BALLOON, (left, right))
-    items += _balloons(below, bottom - BALLOON, (left, right))
+    items += _balloons(above, 0, top + BALLOON, (left, right))
+    items += _balloons(below, 0, bottom - BALLOON, (left, right))
     return items, scale
 
 
@@ -118,39 +110,51 @@ def section_view(
     pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box
 ) -> tuple[list[Item], Scale]:
     """Section along the axis, upright, in a box of the sheet [mm], with its scale."""
-    cut = [(piece, section_lines(piece.mesh)) for piece in pieces if not piece.upright]
+    # The axis to the right, up at the top.
+    cut = [
+        (piece, [chain[:, ::-1] * [1.0, -1.0] for chain in section_lines(piece.mesh)])
+        for piece in pieces
+        if piece.drop is None
+    ]
     cut = [(piece, chains) for piece, chains in cut if chains]
     points = np.concatenate([chain for _, chains in cut for chain in chains])
     low, high = points.min(axis=0), points.max(axis=0)
     left, top, right, bottom = box
     margin = 2.0 * BALLOON + 8.0
-    room = np.array([bottom - top - 8.0, right - left - 2.0 * margin])
-    scale = _fitting(high - low, room)
-    middle = (low + high) / 2.0
-    centre = np.array([(left + right) / 2.0, (top + bottom) / 2.0])
-
-    def place(at: FloatArray) -> tuple[float, float]:
-        # The axis to the right, y of the wheel's frame down.
-        y, x = _on_paper(scale, at - middle)
-        return float(centre[0] + x), float(centre[1] + y)
-
+    room = np.array([right - left - 2.0 * margin, bottom - top - 8.0])
+    scale, middle = _fitting(high - low, room), (low + high) / 2.0
+    place = _placing(scale, middle, box)
     items: list[Item] = []
     beside: dict[bool, list[tuple[int, tuple[float, float]]]] = {True: [], False: []}
     for piece, chains in cut:
         pen = THIN if piece.fastening is not None else OUTLINE
         items += [Polyline(tuple(map(place, chain)), pen) for chain in chains]
         corners = np.concatenate(chains)
-        behind = float(corners[:, 1].mean()) < middle[1]
-        ends = corners[:, 1] if behind else -corners[:, 1]
+        behind = float(corners[:, 0].mean()) < middle[0]
+        ends = corners[:, 0] if behind else -corners[:, 0]
         # The highest of the outermost corners.
-        outer = corners[np.lexsort((corners[:, 0], np.rint(1e6 * ends)))[0]]
+        outer = corners[np.lexsort((-corners[:, 1], np.rint(1e6 * ends)))[0]]
         beside[behind].append((numbers[piece.name], place(outer)))
-    zero = np.array([0.0, low[1] - 0.004]), np.array([0.0, high[1] + 0.004])
+    zero = np.array([low[0] - 0.004, 0.0]), np.array([high[0] + 0.004, 0.0])
     items.append(Line(place(zero[0]), place(zero[1]), CENTRE))
     for behind, marks in beside.items():
         x = left + BALLOON if behind else right - BALLOON
-        items += _balloons_beside(marks, x, (top, bottom))
+        items += _balloons(marks, 1, x, (top, bottom))
     return items, scale
+
+
+def _placing(
+    scale: Scale, middle: FloatArray, box: Box
+) -> Callable[[FloatArray], tuple[float, float]]:
+    """Takes points of the picture, up positive [m], to the sheet: `middle` to that of the box."""
+    left, top, right, bottom = box
+    centre = np.array([(left + right) / 2.0, (top + bottom) / 2.0])
+
+    def place(at: FloatArray) -> tuple[float, float]:
+        x, y = centre + _on_paper(scale, (at - middle) * [1.0, -1.0])
+        return float(x), float(y)
+
+    return place
 
 
 def _fitting(size: FloatArray, room: FloatArray) -> Scale:
@@ -170,26 +174,23 @@ def _axis(pieces: Sequence[Piece], view: FloatArray) -> FloatArray:
 
 
 def _balloons(
-    marks: Sequence[tuple[int, tuple[float, float]]], y: float, room: tuple[float, float]
+    marks: Sequence[tuple[int, tuple[float, float]]],
+    axis: int,
+    level: float,
+    room: tuple[float, float],
 ) -> list[Item]:
-    """Numbers in a row at one height, in the order of what they point to."""
-    ordered = sorted(marks, key=lambda mark: mark[1][0])
-    places = spread([at[0] for _, at in ordered], 2.0 * BALLOON + 1.5, room)
-    items: list[Item] = []
-    for (number, at), x in zip(ordered, places, strict=True):
-        items += _balloon(number, (x, y), at)
-    return items
+    """Numbers in a row or a column, in the order of what they point to.
 
-
-def _balloons_beside(
-    marks: Sequence[tuple[int, tuple[float, float]]], x: float, room: tuple[float, float]
-) -> list[Item]:
-    """Numbers in a column, in the order of what they point to."""
-    ordered = sorted(marks, key=lambda mark: mark[1][1])
-    places = spread([at[1] for _, at in ordered], 2.0 * BALLOON + 1.5, room)
+    Args:
+        marks: numbers, and the points that they name.
+        axis: along which they stand: 0, a row, or 1, a column.
+        level: of all of them across it [mm]. room: between which they stand along it [mm].
+    """
+    ordered = sorted(marks, key=lambda mark: mark[1][axis])
+    places = spread([at[axis] for _, at in ordered], 2.0 * BALLOON + 1.5, room)
     items: list[Item] = []
-    for (number, at), y in zip(ordered, places, strict=True):
-        items += _balloon(number, (x, y), at)
+    for (number, at), along in zip(ordered, places, strict=True):
+        items += _balloon(number, (level, along) if axis else (along, level), at)
     return items
 
 

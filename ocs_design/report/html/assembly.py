@@ -9,12 +9,13 @@ from ocs_design.device.records import OcsDesign
 from ocs_design.export.assembly.booklet import exploded_svg, section_svg
 from ocs_design.export.assembly.content import Assembly, Chapter
 from ocs_design.report.html.elements import Markup, element, items, joined, section, table
+from ocs_design.report.story import Story
 from ocs_design.report.table import Table, columns
 
 
-def assembly_section(design: OcsDesign) -> Markup:
+def assembly_section(story: Story) -> Markup:
     """Pictures, pieces, screws and all instructions."""
-    assembly = Assembly(design.robot.name, _device(design), design.margins, design.ocs.fitting)
+    assembly = story.assembly or _recorded(story.design)
     rows = list(assembly.piece_rows())
     pieces = tuple(
         (str(row.number), str(row.quantity), row.name, row.made, row.file) for row in rows
@@ -51,12 +52,13 @@ def _chapter(chapter: Chapter) -> Markup:
     return joined((head, element("ol", *(element("li", text) for text in chapter.texts))))
 
 
-def _device(design: OcsDesign) -> Device:
-    """The recorded device: what the record holds under the names of the device's own fields."""
+def _recorded(design: OcsDesign) -> Assembly:
+    """Assembly of the recorded device, whose record has the names of its own fields."""
     ocs = design.ocs
     modules = [
         Module(each.name, np.array(each.axis), np.array(each.position)) for each in ocs.modules
     ]
     names = {each.name for each in fields(Device)} - {"modules", "supply"}
     same = {name: getattr(ocs, name) for name in names if hasattr(ocs, name)}
-    return Device(modules=(modules[0], modules[1]), supply=design.supply, **same)
+    device = Device(modules=(modules[0], modules[1]), supply=design.supply, **same)
+    return Assembly(design.robot.name, device, design.margins, ocs.fitting)

@@ -6,7 +6,7 @@ from html import escape
 
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import inline_svg
-from ocs_design.report.table import Column, Table, Toned
+from ocs_design.report.table import Cell, Column, Table, Toned, tied
 
 _ESCAPED = {
     "<": "\\u003c",
@@ -16,6 +16,9 @@ _ESCAPED = {
     "\u2029": "\\u2029",
 }
 """Letters that must not stand in a script's element, as JSON may write them too."""
+
+_LONG = 12
+"""Characters of a cell from which a line of it would hold one word on a telephone."""
 
 _POWER = re.compile(r"\b(kg m|kg mm|m/s|rad/s)\^?([23])\b")
 
@@ -56,21 +59,22 @@ def items(texts: Iterable[str], *, look: str = "") -> Markup:
 
 def table(caption: str, content: Table) -> Markup:
     """A table with its caption; units stand in brackets."""
-    heads = []
-    for column in content.columns:
+    heads, looks = [], []
+    for index, column in enumerate(content.columns):
         name = column.name.replace("\n", " ").strip()
         head = f"{name} [{column.unit.strip()}]" if column.unit else name
-        heads.append(element("th", head, scope="col", class_=_look(column)))
+        looks.append(_look(column, [row[index] for row in content.rows]))
+        heads.append(element("th", head, scope="col", class_="word" if column.words else "number"))
     body = []
     for row in content.rows:
         cells = []
-        for cell, column in zip(row, content.columns, strict=True):
+        for cell, look in zip(row, looks, strict=True):
             text = (
                 element("span", cell.text, class_=f"mark {cell.tone}")
                 if isinstance(cell, Toned)
-                else cell
+                else tied(cell)
             )
-            cells.append(element("td", text, class_=_look(column)))
+            cells.append(element("td", text, class_=look))
         body.append(element("tr", *cells))
     whole = element(
         "table",
@@ -82,8 +86,14 @@ def table(caption: str, content: Table) -> Markup:
     return element("div", whole, class_="scroll", tabindex="0", role="region", aria_label=caption)
 
 
-def _look(column: Column) -> str:
-    return "word" if column.words else "number"
+def _look(column: Column, cells: Iterable[Cell]) -> str:
+    """Class of the cells of a column: a long text keeps some width on a narrow screen."""
+    if not column.words:
+        return "number"
+    longest = max(
+        (len(cell.text if isinstance(cell, Toned) else cell) for cell in cells), default=0
+    )
+    return "word long" if longest > _LONG else "word"
 
 
 def section(name: str, title: str, *content: str) -> Markup:
@@ -93,7 +103,7 @@ def section(name: str, title: str, *content: str) -> Markup:
 
 
 def details(summary: str, *content: str) -> Markup:
-    """Folded away until it is wanted; open in print."""
+    """Folded away until it is wanted; left out in print."""
     return element("details", element("summary", summary), *content)
 
 

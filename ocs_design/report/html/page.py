@@ -16,7 +16,7 @@ from ocs_design.report.html.assembly import assembly_section
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.view import view, view_data
 from ocs_design.report.limits import recorded_margins
-from ocs_design.report.quantities import degrees, grams, rpm, tenths
+from ocs_design.report.quantities import degrees, grams, inertia, rpm, tenths
 from ocs_design.report.story import Story
 from ocs_design.report.verdict import headline
 from ocs_design.report.viewer.decimation import decimated
@@ -87,7 +87,11 @@ def _body(story: Story) -> Iterator[Markup]:
         element("h1", title_of(design)),
         element(
             "p",
-            *(element("strong", part.text, class_=part.tone) for part in line.parts),
+            element(
+                "span",
+                *(element("strong", part.text, class_=part.tone) for part in line.parts),
+                class_="line",
+            ),
             element("span", line.matter) if line.matter else "",
             *(element("span", each) for each in turned_by_hand(design) if each != line.matter),
             class_=f"verdict {line.tone}",
@@ -105,7 +109,7 @@ def _body(story: Story) -> Iterator[Markup]:
         sections.drive_section(story),
         sections.maneuvers_section(story, dict(scenario_charts(story)), scenarios),
         sections.monte_carlo_section(story),
-        assembly_section(story.design),
+        assembly_section(story),
         sections.record_section(story),
     )
     yield data("design", design_to_json(design).decode())
@@ -124,7 +128,7 @@ def _tiles(design: OcsDesign) -> Markup:
         ("Incidence α*", degrees(ocs.incidence), ocs.incidence_criterion),
         ("Motor", ocs.motor.name, drive),
         ("Rim R / r / h", f"{lengths} mm", wheel.material),
-        ("Spin inertia", f"{1e6 * ocs.spin_inertia:.4g} kg mm²", "of each wheel"),
+        ("Spin inertia", inertia(ocs.spin_inertia), "of each wheel"),
         ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), _stress(design)),
     )
     looks = (("span", "name"), ("strong", "value"), ("span", "note"))

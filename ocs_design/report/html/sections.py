@@ -23,7 +23,7 @@ from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.figures import drive_charts, incidence_charts
 from ocs_design.report.charts.flights import distribution_charts
 from ocs_design.report.charts.momentum import bound_charts
-from ocs_design.report.device import device_facts, robot_facts
+from ocs_design.report.device import device_facts, drawn_facts, robot_facts
 from ocs_design.report.flights import device_table, landing_remarks, run_sentence
 from ocs_design.report.html.elements import (
     Markup,
@@ -35,8 +35,13 @@ from ocs_design.report.html.elements import (
     section,
     table,
 )
-from ocs_design.report.monte_carlo import campaign_title, success_table
-from ocs_design.report.quantities import BOUND_NOTE
+from ocs_design.report.monte_carlo import (
+    campaign_title,
+    certificate_line,
+    certificate_notes,
+    success_table,
+)
+from ocs_design.report.quantities import BOUND_NOTE, grams
 from ocs_design.report.story import Story
 from ocs_design.report.table import Table, columns, counted
 
@@ -95,6 +100,7 @@ def sizes_section(design: OcsDesign) -> Markup:
 def limits_section(design: OcsDesign) -> Markup:
     """Active limits, and what moving each of them saves."""
     names, meaning = limits.active_limits(design)
+    owed = limits.owed_to(design)
     more = (
         element(
             "p",
@@ -110,13 +116,29 @@ def limits_section(design: OcsDesign) -> Markup:
         "limits",
         "Active limits, and what moving them saves",
         element("p", "The mass is set by: ", element("strong", names), ". ", meaning),
+        element("p", f"It is owed to {owed}.") if owed else "",
         table("Each limit moved alone", limits.saving_table(design)),
         element("p", limits.saving_notes(design), class_="note"),
         more,
+        *_reserve(design),
         table("What would be lighter otherwise", limits.alternatives_table(design))
         if design.alternatives
         else "",
+        table(f"What must give for {grams(design.lighter.by)} less", limits.lighter_table(design))
+        if design.lighter is not None
+        else "",
     )
+
+
+def _reserve(design: OcsDesign) -> Iterator[Markup]:
+    """What is uncertain, and what it costs."""
+    if design.selection is not None and design.selection.kept is not None:
+        yield table(
+            "What is uncertain, and what it costs", limits.reserve_table(design.selection.kept)
+        )
+        yield element(
+            "p", limits.reserve_note(design.selection.kept, design.ocs.mass_total), class_="note"
+        )
 
 
 def bound_section(story: Story) -> Markup:
@@ -203,11 +225,19 @@ def monte_carlo_section(story: Story) -> Markup:
     return section(
         "samples",
         "Monte Carlo",
+        *(
+            (
+                element("p", element("strong", certificate_line(record.certificate))),
+                items([f"{each}." for each in certificate_notes(record.certificate)]),
+            )
+            if record.certificate is not None
+            else ()
+        ),
         element("p", f"{campaign_title(record)}."),
         table("How often they pass", success_table(record)),
         *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
         figures(distribution_charts(record)),
-        details("What was drawn", facts(record.reality.items())),
+        details("What was drawn", facts(drawn_facts(record.reality))),
     )
 
 
@@ -223,6 +253,7 @@ def record_section(story: Story) -> Markup:
         "Assumptions, sources and provenance",
         element("h3", "Assumed, because nothing else was specified"),
         assumed or element("p", "Nothing: everything was specified."),
+        details("What samples are drawn from", facts(drawn_facts(design.reality))),
         *((element("h3", "Warnings about the robot's file"), read) if read else ()),
         element("h3", "Sources"),
         facts(_sources(design)),

@@ -18,9 +18,9 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
             ("robot", inertia(answer.inertia)),
             ("rate change d", f"{answer.rate_change:.4g} rad/s"),
             ("wheel speed gamma", rpm(answer.wheel_speed_max)),
-            ("one wheel, required", f"{answer.required:.5e} kg m2"),
-            ("one wheel, as the paper prints it", f"{answer.paper:.5e} kg m2"),
-            (f"each of two at {degrees(answer.incidence)}", f"{answer.spin_inertia:.5e} kg m2"),
+            ("one wheel, required", inertia(answer.required, 6)),
+            ("one wheel, as the paper prints it", inertia(answer.paper, 6)),
+            (f"each of two at {degrees(answer.incidence)}", inertia(answer.spin_inertia, 6)),
         ],
     )
     note(console, BOUND_NOTE)

@@ -1,9 +1,11 @@
 """Consoles at any width, with or without colour: answers go to standard output, the rest beside it.
 
-Progress, warnings and errors go to standard error, so that an answer can be kept or searched.
+Progress, warnings and errors go to standard error, so that an answer can be kept or searched. In a
+pipe no line is broken, and there are neither plots nor frames, so that `grep` finds whole facts.
 """
 
 import os
+import re
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -33,6 +35,11 @@ from rich.text import Text
 
 NARROWEST = 60
 WIDEST = 110
+UNBROKEN = 10_000
+"""Columns of a pipe: whatever reads it breaks lines itself. The variable COLUMNS overrules it."""
+
+_LAST_SPACES = re.compile("(?<! ) +(?=\n)")
+"""Without what stands before them each of a pipe's 10,000 spaces would be tried as the first."""
 
 _CONTROL = [*range(0x20), *range(0x7F, 0xA0), *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
 _REPLACED = {code: "\ufffd" for code in (*_CONTROL, 0x2028, 0x2029) if chr(code) not in "\n\t"}
@@ -62,11 +69,17 @@ class _Clean:
         self._inner = inner
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        spaces = ""
         for segment in console.render(self._inner, options):
             if segment.control:
                 yield segment
-            else:
-                yield Segment(cleaned(segment.text), segment.style)
+                continue
+            # Spaces are printed once something stands behind them on their line.
+            text = _LAST_SPACES.sub("", spaces + cleaned(segment.text))
+            shown = text.rstrip(" ")
+            spaces = text[len(shown) :]
+            yield Segment(shown, segment.style)
+        yield Segment(spaces)
 
     def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
         return Measurement.get(console, options, self._inner)
@@ -75,20 +88,33 @@ class _Clean:
 def make_console(*, color: bool = True, stderr: bool = False) -> Console:
     """A console on standard output; without colour there is no bold or dim text either.
 
+    In a pipe its lines are not broken, unless the variable COLUMNS says where.
+
     Args:
         color: whether there may be any.
         stderr: on standard error instead, for what nobody asked for: progress, warnings, errors.
     """
     plain = not color or bool(os.environ.get("NO_COLOR"))
     console = Console(stderr=stderr, color_system=None if plain else "auto", highlight=False)
-    console.width = min(max(console.width, NARROWEST), WIDEST)
+    if console.is_terminal or "COLUMNS" in os.environ:
+        console.width = min(max(console.width, NARROWEST), WIDEST)
+    else:
+        console.width = UNBROKEN
     console.push_render_hook(CleanHook())
     return console
 
 
+def breaks_lines(console: Console) -> bool:
+    """Whether people look at it, who like plots and frames; `grep` does not."""
+    return console.width <= WIDEST
+
+
 def error_panel(lines: Sequence[str], hint: str, *, color: bool = True) -> None:
-    """One panel with what is wrong and how to mend it."""
+    """What is wrong and how to mend it: one panel, in a pipe plain lines."""
     console = make_console(color=color, stderr=True)
+    if not breaks_lines(console):
+        console.print(Text("\n".join(filter(None, ["error: " + lines[0], *lines[1:], hint]))))
+        return
     text = Text("\n".join(lines))
     if hint:
         text.append("\n\n" + hint, style="bold")
@@ -135,6 +161,22 @@ class Steps:
             note = f"  {current.note}" if current.note else ""
             line = Text.assemble((f"{seconds:6.2f} s", "dim"), f"  {label}{note}")
             self._console.print(line, soft_wrap=True)
+
+    def doubt(self, warnings: Sequence[str]) -> None:
+        """Say what is doubtful in the input, before it is worked with."""
+        if self._quiet or not warnings:
+            return
+        more = len(warnings) - MOST_DOUBTS
+        for each in warnings[:MOST_DOUBTS]:
+            self._console.print(Text(f"   doubt  {each}", style="yellow"), soft_wrap=True)
+        if more > 0:
+            self._console.print(
+                Text(f"          {more} more: `ocs-design inspect`"), soft_wrap=True
+            )
+
+
+MOST_DOUBTS = 3
+"""Told before the search; `inspect` has all."""
 
 
 class Step:

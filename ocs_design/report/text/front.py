@@ -1,7 +1,7 @@
 """A front in the terminal: table, plot, and why some points have no device."""
 
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from ocs_design.common.units import format_quantity, to_unit
 from ocs_design.device.answers import Front
 from ocs_design.report.quantities import grams, tenths
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns
+from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import INDENT, facts, heading, items, note, show
 from ocs_design.report.text.plots import Canvas, Scale, frame
 
@@ -87,8 +88,8 @@ def _table(front: Front) -> Table:
 
 
 def _print_plot(console: Console, front: Front) -> None:
-    """Mass against the value, where the terminal has Braille."""
-    if not console.encoding.startswith("utf"):
+    """Mass against the value, where there is a terminal that has Braille."""
+    if not console.encoding.startswith("utf") or not breaks_lines(console):
         return
     heading(console, f"Mass of the device against {front.label}")
     canvas = Canvas(max(console.width - MARGIN, 20), PLOT_HEIGHT)
@@ -121,15 +122,12 @@ def _print_plot(console: Console, front: Front) -> None:
     note(console, f"{OWN} as specified, {NONE} no device")
 
 
-def print_written(
-    console: Console, front: Front, folder: Path | None, remarks: Sequence[str]
-) -> None:
+def print_written(console: Console, front: Front, folder: Path | None) -> None:
     """Files of the front, and the command that makes a whole device of a point."""
     heading(console, "Any point as a whole design")
     if folder is None:
         note(console, "-o DIR writes the specification of each point for `ocs-design size --spec`")
         return
-    items(console, remarks, style="yellow")
     names = ", ".join(sorted(path.name for path in folder.glob("front.*")))
     chosen = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
     command = shlex.join(["ocs-design", "size", "--spec", str(folder / chosen.file)])

@@ -1,9 +1,9 @@
 """Layout of what people read: headings, facts, tables, notes and lists of files."""
 
-import re
 import sys
 import textwrap
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from rich import box
@@ -13,9 +13,16 @@ from rich.padding import Padding
 from rich.text import Text
 
 from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
-from ocs_design.report.table import Cell, Table, Tone, Toned
+from ocs_design.report.table import Cell, Table, Tone, Toned, tied
+from ocs_design.report.text.console import breaks_lines
 
 INDENT = (0, 0, 0, 2)
+
+_NARROWEST = 16
+"""Characters that a column of words keeps at least."""
+
+_PLAIN = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
+"""Rule below the headings of a table, of letters that any program can search."""
 
 MOST_LISTED = 6
 """Files of one folder that are named; more are counted."""
@@ -29,15 +36,9 @@ def heading(console: Console, text: str) -> None:
     console.print(Text(text, style="bold"))
 
 
-_UNITS = "mm|um|m|kg|g|N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"
-_TIED = re.compile(rf"(?<=\d) (?=(?:{_UNITS})\b)|(?<=\bN) (?=m\b)|(?<=\bkg) (?=m+2\b)")
-"""Spaces between a number and its unit, and within a unit."""
-
-
 def wrapped(text: str, width: int) -> str:
     """Lines of a text, none of which ends between a number and its unit."""
-    tied = _TIED.sub("\N{NO-BREAK SPACE}", text)
-    lines = textwrap.wrap(tied, width, break_long_words=False, break_on_hyphens=False)
+    lines = textwrap.wrap(tied(text), width, break_long_words=False, break_on_hyphens=False)
     return "\n".join(lines).replace("\N{NO-BREAK SPACE}", " ")
 
 
@@ -67,35 +68,45 @@ def items(console: Console, texts: Iterable[str], *, style: str = "dim") -> None
 
 def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
     """Names and values in two columns."""
+    found = [(f"  {name}", value) for name, value in rows]
+    room = console.width - 2 - max((len(name) for name, _ in found), default=0)
     grid = rich_table.Table.grid(padding=(0, 2))
     grid.add_column(no_wrap=True)
     grid.add_column(overflow="fold")
-    for name, value in rows:
-        grid.add_row(Text(f"  {name}", style="dim"), Text(value))
+    for name, value in found:
+        grid.add_row(Text(name, style="dim"), Text(wrapped(value, room)))
     console.print(grid)
 
 
 def show(console: Console, table: Table, *, fewest: int = 0) -> None:
     """A table, indented like everything under a heading; closer where it would break a line.
 
+    Where the terminal is too narrow, words are broken into lines, and where that does not do, the
+    last columns are left out: a number is never broken.
+
     Args:
         console: to print on.
         table: to show.
-        fewest: columns that are always shown; the last ones are left out where the terminal is too
-            narrow for all. 0: all are shown, and long cells are broken.
+        fewest: columns down to which they are left out before words are broken. 0: none is.
     """
-    for count in range(len(table.columns), (fewest or len(table.columns)) - 1, -1):
-        drawn = _drawn(table.first(count))
-        if not _fits(console, drawn):
+    room = console.width - INDENT[-1]
+    for count in range(len(table.columns), 0, -1):
+        shown = table.first(count)
+        drawn = _drawn(shown, console)
+        if _width(console, drawn) > room:
             drawn.padding = (0, 1, 0, 0)
-        if _fits(console, drawn):
+        if _width(console, drawn) > room and count <= (fewest or count):
+            drawn = _drawn(_narrower(shown, _width(console, drawn) - room), console)
+            drawn.padding = (0, 1, 0, 0)
+        if _width(console, drawn) <= room:
             break
     console.print(Padding(drawn, INDENT))
 
 
-def _drawn(table: Table) -> rich_table.Table:
+def _drawn(table: Table, console: Console) -> rich_table.Table:
     """Table of rich: names over units, words at the left, numbers at the right."""
-    drawn = rich_table.Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1))
+    rule = box.SIMPLE_HEAD if breaks_lines(console) else _PLAIN
+    drawn = rich_table.Table(box=rule, pad_edge=False, show_edge=False, padding=(0, 1))
     lines = max(column.name.count("\n") for column in table.columns)
     for column in table.columns:
         name = column.name
@@ -107,14 +118,51 @@ def _drawn(table: Table) -> rich_table.Table:
     return drawn
 
 
+def _narrower(table: Table, excess: int) -> Table:
+    """Table by so many characters narrower: the longest words are broken, none in itself."""
+    wordy = {
+        index: max(
+            [*map(len, column.name.split("\n")), *(len(_text(row[index])) for row in table.rows)]
+        )
+        for index, column in enumerate(table.columns)
+        if column.words
+    }
+    for _ in range(excess if wordy else 0):
+        widest = max(wordy, key=wordy.__getitem__)
+        wordy[widest] = max(wordy[widest] - 1, _NARROWEST)
+    return replace(
+        table,
+        rows=tuple(
+            tuple(
+                _broken(cell, wordy[index]) if index in wordy else cell
+                for index, cell in enumerate(row)
+            )
+            for row in table.rows
+        ),
+    )
+
+
+def _text(cell: Cell) -> str:
+    return cell.text if isinstance(cell, Toned) else cell
+
+
+def _broken(cell: Cell, width: int) -> Cell:
+    """A cell in lines of that width; one of several lines, as plots have them, stays."""
+    text = _text(cell)
+    if len(text) <= width or "\n" in text:
+        return cell
+    lines = wrapped(text, width)
+    return replace(cell, text=lines) if isinstance(cell, Toned) else lines
+
+
 def cell_text(cell: Cell) -> Text:
     """Text of a cell in the colour of its tone."""
     return Text(cell.text, style=STYLES[cell.tone]) if isinstance(cell, Toned) else Text(cell)
 
 
-def _fits(console: Console, drawn: rich_table.Table) -> bool:
-    whole = console.options.update(max_width=sys.maxsize)
-    return console.measure(drawn, options=whole).maximum <= console.width - INDENT[-1]
+def _width(console: Console, drawn: rich_table.Table) -> int:
+    """Columns that it takes where no line is broken."""
+    return console.measure(drawn, options=console.options.update(max_width=sys.maxsize)).maximum
 
 
 def files_written(console: Console, folder: str, files: Iterable[str], held: str = "") -> None:

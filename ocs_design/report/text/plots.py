@@ -1,7 +1,4 @@
-"""Curves in a terminal: each character cell holds two by four dots of Braille.
-
-Only characters, no colour: what is drawn can be read in a pipe, and at any width.
-"""
+"""Curves in a terminal: bars of blocks, or cells that hold two by four dots of Braille each."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,11 +8,11 @@ import numpy as np
 from ocs_design.report.flights import off_level
 from ocs_design.simulation.metrics import Series
 
-HEIGHT = 2
-"""Rows of characters of a plot of the tilt, eight dots."""
+BARS = " ▁▂▃▄▅▆▇█"
+"""Eighths of a character's height, and none."""
 
 LEAST_SPAN = np.radians(5.0)
-"""Smallest angle at the upper edge of such a plot [rad]: what counts as level is drawn as level."""
+"""Smallest angle of a full bar [rad]: what counts as level is drawn as level."""
 
 _FLAT = 1e-6
 """Spread of values, relative to them, below which they are equal: rounding is not drawn."""
@@ -103,15 +100,17 @@ def frame(
 
 
 def tilt_plots(flights: Sequence[Series], width: int) -> tuple[list[str], float]:
-    """Plot of the tilt of each flight, all to one scale, and the tilt at their upper edge [rad]."""
+    """Bars of the tilt of each flight, all to one scale, and the tilt of a full bar [rad].
+
+    A bar is the largest tilt of its part of the time; where a flight has ended there is none.
+    """
     tilts = [off_level(series.roll, series.pitch) for series in flights]
     end = max(float(series.time[-1]) for series in flights)
     top = max([float(angles.max()) for angles in tilts] + [LEAST_SPAN])
     plots = []
     for series, angles in zip(flights, tilts, strict=True):
-        # A curve without gaps, as far as the flight lasts.
-        canvas, across = Canvas(width, HEIGHT), series.time / end
-        for place in np.linspace(0.0, across[-1], 16 * width):
-            canvas.dot(float(place), float(np.interp(place, across, angles / top)))
-        plots.append("\n".join(canvas.rows()))
+        places = np.minimum(series.time / end * width, width - 1).astype(np.int64)
+        highest = np.zeros(width)
+        np.maximum.at(highest, places, np.maximum(np.ceil(8.0 * angles / top - 1e-9), 1.0))
+        plots.append("".join(BARS[int(height)] for height in highest))
     return plots, top

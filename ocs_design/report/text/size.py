@@ -4,9 +4,10 @@ from pathlib import Path
 
 from rich.console import Console
 
+from ocs_design.common.units import format_quantity
 from ocs_design.device.records import OcsDesign, SelectionRecord
 from ocs_design.report import limits, selection, warnings
-from ocs_design.report.device import criterion_table, device_facts, device_title
+from ocs_design.report.device import criterion_table, device_facts, device_title, drawn_facts
 from ocs_design.report.flights import landing_remarks
 from ocs_design.report.text.layout import (
     facts,
@@ -38,10 +39,13 @@ def print_design(console: Console, design: OcsDesign) -> None:
     if design.requirement.assumptions:
         heading(console, "Assumed, because nothing else was specified")
         items(console, design.requirement.assumptions)
+    if design.reality:
+        heading(console, "What `validate --samples` draws")
+        facts(console, drawn_facts(design.reality))
     if design.selection is not None:
         print_selection(console, design.selection)
     heading(console, device_title(design))
-    facts(console, device_facts(design))
+    facts(console, (*device_facts(design), ("motor's source", design.ocs.motor.source)))
     warn(console, design.ocs.warnings)
     items(console, warnings.device_warnings(design), style="yellow")
     show(console, criterion_table(design.ocs))
@@ -49,8 +53,15 @@ def print_design(console: Console, design: OcsDesign) -> None:
     heading(console, f"Active limits: {names}")
     if meaning:
         note(console, meaning)
+    owed = limits.owed_to(design)
+    if owed:
+        note(console, f"The mass is owed to {owed}.")
     show(console, limits.saving_table(design))
     note(console, limits.saving_notes(design))
+    if design.selection is not None and design.selection.kept is not None:
+        heading(console, "What is uncertain, and what it costs")
+        show(console, limits.reserve_table(design.selection.kept))
+        note(console, limits.reserve_note(design.selection.kept, design.ocs.mass_total))
     print_alternatives(console, design)
     margins = limits.recorded_margins(design)
     heading(console, "Margins")
@@ -68,7 +79,19 @@ def print_alternatives(console: Console, design: OcsDesign) -> None:
     """What one change of the question would give each; nothing where none was looked for."""
     if design.alternatives:
         heading(console, "What would be lighter otherwise")
-        show(console, limits.alternatives_table(design), fewest=3)
+        show(console, limits.alternatives_table(design))
+    print_lighter(console, design)
+
+
+def print_lighter(console: Console, design: OcsDesign) -> None:
+    """What would have to give for a lighter device; nothing where that was not asked."""
+    if design.lighter is not None:
+        asked = format_quantity(design.lighter.by, "g", 3)
+        heading(console, f"What must give for {asked} less")
+        if design.lighter.changes:
+            show(console, limits.lighter_table(design), fewest=2)
+        else:
+            note(console, "No change that was looked for makes it so much lighter.")
 
 
 def print_solution(console: Console, design: OcsDesign) -> None:

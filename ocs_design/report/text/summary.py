@@ -1,6 +1,6 @@
 """The story of a design on one screen; `-v` has all of it."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath
 
 from rich.console import Console
@@ -8,34 +8,35 @@ from rich.text import Text
 
 from ocs_design.device.records import OcsDesign
 from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
-from ocs_design.report.device import device_facts, device_title, has_motor, robot_facts
-from ocs_design.report.flights import short_verdict
-from ocs_design.report.limits import first_margins, used_up, what_saves
-from ocs_design.report.table import Cell, Table, columns
+from ocs_design.report.device import device_facts, device_title, share_of_robot
+from ocs_design.report.flights import run_sentence, short_verdict
+from ocs_design.report.limits import assumed, lighter, owed_to, tightest
+from ocs_design.report.quantities import degrees_number, grams
+from ocs_design.report.table import Cell, Table, columns, listed
+from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import facts, heading, items, note, show
 from ocs_design.report.text.plots import tilt_plots
-from ocs_design.report.text.size import print_alternatives
+from ocs_design.report.text.size import print_lighter
 from ocs_design.report.text.validation import print_headline
-from ocs_design.report.verdict import headline
+from ocs_design.report.verdict import Headline, headline
 from ocs_design.report.warnings import all_warnings
 from ocs_design.simulation.scenario import Run
 
-ROBOT_FACTS = ("mass", "posture", "locked inertia")
-DEVICE_FACTS = (
-    "total mass",
-    "mass of a module",
-    "carrier plate",
-    "incidence alpha*",
-    "rim",
-    "spin inertia",
-    "motor",
-    "gear",
-    "drive at the wheel",
-    "wheels at",
-)
+DEVICE_FACTS = {
+    "mass of a module": "module",
+    "carrier plate": "plate",
+    "incidence alpha*": "alpha*",
+    "rim": "rim",
+    "motor": "motor",
+    "gear": "gear",
+    "drive at the wheel": "drive",
+}
+"""Facts of the device that are shown, and the short names that they have here."""
+
+MOST_MARGINS, MOST_MINDED, MOST_CHANGES = 4, 3, 3
 
 NARROWEST_PLOT, WIDEST_PLOT = 8, 20
-BESIDE_PLOTS = 63
+BESIDE_PLOTS = 64
 """Columns of the flights' table without its plots."""
 
 
@@ -43,65 +44,85 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     """The verdict first, and last once more, where the eye is when a command ends."""
     line = headline(design)
     print_headline(console, line)
-    if design.requirement.assumptions:
-        heading(console, "Assumed, because nothing else was specified")
-        note(console, " ".join(design.requirement.assumptions))
-    heading(console, f"Robot: {design.robot.name}")
-    facts(console, _chosen(robot_facts(design.robot), ROBOT_FACTS))
-    heading(console, device_title(design))
-    rows = dict(_chosen(device_facts(design), DEVICE_FACTS))
-    if has_motor(design):
-        # The source of a motor's figures is left to the whole report.
-        rows["motor"] = design.ocs.motor.name
-    used = first_margins(design)
-    if used:
-        rows["used at most"] = used
-    rows["limits"] = used_up(design)
-    saves = "" if design.selection is None else what_saves(design.selection)
-    if saves:
-        rows["looser limits"] = saves
-    facts(console, rows.items())
-    print_alternatives(console, design)
+    if design.reliability is not None:
+        items(console, design.reliability.rounds)
+    mass = f"{grams(design.ocs.mass_total)}, {share_of_robot(design)}"
+    heading(console, f"{device_title(design)}, {mass}")
+    facts(console, _device(design))
     if runs:
-        heading(console, "Flights in MuJoCo, with the device and without")
-        show(console, _flights(console, design, runs))
-    warnings = list(all_warnings(design))
-    if warnings:
-        heading(console, "Warnings")
-        items(console, warnings, style="yellow")
+        _print_flights(console, design, runs)
+    minded = _minded(design, line)
+    if minded:
+        more = f"; {len(minded) - MOST_MINDED} more with -v" if len(minded) > MOST_MINDED else ""
+        heading(console, f"To mind{more}")
+        items(console, minded[:MOST_MINDED], style="yellow")
+    changes = lighter(design)[:MOST_CHANGES]
+    if changes:
+        heading(console, "What one change would save")
+        facts(console, changes)
+    print_lighter(console, design)
+    print_assumed(console, design.requirement.assumptions)
     console.print()
-    # The artefact, the report, the other files beside them, and the folders.
+    # The report, the artefact, the other files beside them, and the folders.
     paths = [PurePosixPath(name) for name in design.files]
     beside = sorted(str(path) for path in paths if len(path.parts) == 1)
     folders = sorted({f"{path.parts[0]}/" for path in paths if len(path.parts) > 1})
-    written = ", ".join([DESIGN_FILE, REPORT_FILE, *beside, *folders])
+    written = ", ".join([REPORT_FILE, DESIGN_FILE, *beside, *folders])
     console.print(Text(f"{folder}/: {written}"))
     print_headline(console, line, Text("(-v: all figures)", "dim"))
 
 
-def _chosen(rows: Iterable[tuple[str, str]], names: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Rows of these names, in the order of the names."""
-    found = dict(rows)
-    return ((name, found[name]) for name in names if name in found)
+def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
+    """The robot that it is for, what is to be built, and what sets its mass."""
+    robot = design.robot
+    yield "robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}"
+    found = dict(device_facts(design))
+    yield from ((short, found[name]) for name, short in DEVICE_FACTS.items() if name in found)
+    owed = owed_to(design)
+    why = [listed(design.sizing.binding), f"owed to {owed}" if owed else ""]
+    if any(why):
+        yield "set by", "; ".join(filter(None, why))
+    for index, (share, names) in enumerate(tightest(design)[:MOST_MARGINS]):
+        yield "" if index else "used", f"{share} {names}"
 
 
-def _flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> Table:
+def _minded(design: OcsDesign, line: Headline) -> list[str]:
+    """Warnings, without the flights that the verdict names already."""
+    told = {
+        run_sentence(run, with_note=False)
+        for run in design.validation
+        if run.ocs and run.scenario in line.matter
+    }
+    return [each for each in all_warnings(design) if each not in {line.matter, *told}]
+
+
+def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> None:
     """Each scenario with the device and without, and a curve of its tilt where there is room."""
     width = min((console.width - BESIDE_PLOTS) // 2, WIDEST_PLOT)
-    plotted = width >= NARROWEST_PLOT and console.encoding.startswith("utf")
+    plotted = (
+        width >= NARROWEST_PLOT and console.encoding.startswith("utf") and breaks_lines(console)
+    )
     flips = {item.name for item in design.requirement.maneuvers if item.kind == "flip"}
     pairs = zip(runs[::2], runs[1::2], strict=True)
     records = zip(design.validation[::2], design.validation[1::2], strict=True)
     rows: list[tuple[Cell, ...]] = []
     for pair, recorded in zip(pairs, records, strict=True):
         verdicts = (short_verdict(run, turns=run.scenario in flips) for run in recorded)
-        curves = tilt_plots([run.series for run in pair], width)[0] if plotted else ()
-        rows.append((recorded[0].scenario, *verdicts, *curves))
-    names = (
-        "<scenario",
-        "<with\ndeg off level",
-        "<without\ndeg off level",
-        "<tilt with",
-        "<without",
-    )
-    return Table(columns(*names[: 5 if plotted else 3]), tuple(rows))
+        rows.append((recorded[0].scenario, *verdicts))
+        if plotted:
+            plots, top = tilt_plots([run.series for run in pair], width)
+            rows[-1] += (*plots, degrees_number(top, 0))
+    names = ("<flight", "<with the device", "<without it", "<tilt with", "<without", "full")
+    heading(console, "Flights in MuJoCo: degrees off level at touchdown, or turned")
+    show(console, Table(columns(*names[: 6 if plotted else 3]), tuple(rows)))
+    if plotted:
+        times = listed([f"{run.series.time[-1]:.1f}" for run in runs[::2]])
+        note(console, f"tilt: off level from start to end, {times} s; full: deg of a full bar")
+
+
+def print_assumed(console: Console, assumptions: Sequence[str]) -> None:
+    """What was taken where nothing was stated, as a short list."""
+    rows = assumed(assumptions)
+    if rows:
+        heading(console, "Assumed; `--help` has the option for each")
+        facts(console, rows)

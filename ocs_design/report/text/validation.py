@@ -14,6 +14,7 @@ from ocs_design.report.flights import flight_table, run_sentence
 from ocs_design.report.monte_carlo import (
     campaign_remarks,
     campaign_title,
+    certificate_notes,
     spread_table,
     success_table,
 )
@@ -73,9 +74,12 @@ def print_validated(
         spread = spread_table(record)
         show(console, spread, fewest=len(spread.columns) - 1)
         items(console, campaign_remarks(record))
+        if record.certificate is not None:
+            items(console, certificate_notes(record.certificate))
         again = f"ocs-design validate {found.design} --seed {record.seed} --sample N"
         note(console, f"Fly one again: {again}")
     if folder is not None:
         files_written(console, str(folder), files)
     console.print()
-    print_headline(console, flights_headline(found.validation))
+    certified = None if record is None else record.certificate
+    print_headline(console, flights_headline(found.validation, certified))

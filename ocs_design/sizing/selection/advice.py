@@ -1,10 +1,12 @@
 """No motor can do it: what is missing, and the smallest single changes that would do."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ocs_design.common.errors import Infeasible
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.sweep import change_text
+from ocs_design.robot.links import listed
 from ocs_design.sizing.changes import Progress, advice, smallest_changes, unseen
 from ocs_design.sizing.limits import TIME, Limit
 from ocs_design.sizing.selection.feasibility import Field, largest_wheel
@@ -21,10 +23,11 @@ PRECISION = 0.03
 MOST_CHANGE = 10.0
 """A limit changed by more than this factor is another project."""
 
-_MOST_CHANGES = {"wheel_mass_max": MOST_CHANGE**3, "r_max": 7.0}
-"""Other factors: a mass goes with the cube of every length. A radius, with whose fourth power the
-inertia goes, is changed less: wheels beyond may couple roll and pitch by anything, and no bound of
-what they need survives that."""
+_MOST_CHANGES = {"wheel_mass_max": MOST_CHANGE**3, "r_max": 7.0, "time": 3.0}
+"""Other factors: a mass goes with the cube of every length. Three times the time of a jump is nine
+times its height: beyond, a humanoid is told to fall from 145 m. A radius, with whose fourth power
+the inertia goes, is changed less: wheels beyond may couple roll and pitch by anything, and no bound
+of what they need survives that."""
 
 _STATE_FIGURES = (
     "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state its "
@@ -62,11 +65,12 @@ class Refused(Infeasible):
         )
         self.problem, self.nearest = problem, nearest
 
-    def advised(self, progress: Progress = unseen) -> Infeasible:
+    def advised(self, progress: Progress = unseen, *, default: bool = False) -> Infeasible:
         """The error with the single changes that would do.
 
         Args:
             progress: is told the share that is done.
+            default: whether nobody asked for these maneuvers.
         """
         reason = self.nearest.reason
         changes: dict[Limit, float] = {}
@@ -77,6 +81,10 @@ class Refused(Infeasible):
             if reason is not Reason.INCIDENCE:
                 changes = single_changes(field, progress)
             hints = [*self._motor_hint(), *_hints(field, reason, changes)]
+            if default:
+                hints = [_default_hint(field, changes.get(TIME)), *hints]
+        if any(kept.demand > 1.0 for kept in self.problem.requirement.reserves.values()):
+            hints = [*hints, "A lower --reliability keeps less in reserve."]
         return Infeasible(
             self.message,
             binding=self.binding,
@@ -149,6 +157,40 @@ def _hints(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iter
         )
     elif not changes:
         yield advice([], MOST_CHANGE, "loosen several, ask for less, or add stronger motors.")
+
+
+def _default_hint(field: Field, factor: float | None) -> str:
+    """Which maneuvers nobody asked for, which of them can be done, and how slowly the others.
+
+    Args:
+        field: of the problem.
+        factor: times their time in which all can be done; None: not known.
+    """
+    problem = field.problem
+    asked = problem.requirement
+    fine = [
+        each.name
+        for each in asked.maneuvers
+        if field.changed(replace(problem, requirement=replace(asked, maneuvers=(each,)))).possible
+    ]
+    slow = () if factor is None else slowed_maneuvers(field, factor).requirement.maneuvers
+    able = [f"{each.name} ({each.summary})" for each in slow if each not in asked.maneuvers]
+    texts = [
+        unasked(asked.maneuvers),
+        f"{listed(fine)} can be done as it is." if len(fine) == 1 else "",
+        f"{listed(fine)} can be done, each by itself." if len(fine) > 1 else "",
+        f"All can be done with {listed(able)}." if able else "",
+    ]
+    return " ".join(filter(None, texts))
+
+
+def unasked(maneuvers: Sequence[Maneuver]) -> str:
+    """That these are the default, and how to ask for others."""
+    names = listed([each.name for each in maneuvers])
+    return (
+        f"Nobody asked for {names}: they are the default. State what you need with --jump-height, "
+        "--tilt, --fall or --kick, and only that is asked."
+    )
 
 
 def _change_text(field: Field, limit: Limit, value: float) -> str:

@@ -26,15 +26,15 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from ocs_design.actuation.spin_root import smallest_roots
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
-from ocs_design.actuation.wheel_pair import WheelPairBound, smallest_spin_inertia
+from ocs_design.actuation.wheel_pair import WheelPairBound, spin_demand
 from ocs_design.common.arrays import FloatArray, Table
-from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import PlainDrum, half_height
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.rim import LIGHTENED, hub_of
-from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver import Maneuver, Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import (
     BORE_SHARE,
@@ -54,8 +54,8 @@ CELLS = 18
 
 _RIMS = 96
 _OFF_THE_EDGE = 1.0 + 1e-10
-_SURELY = 1.0 - 1e-9
-"""Factor on what is found to nine digits."""
+_DIGITS, _SURELY = 4, 1.0 - 1e-4
+"""To which the lightest rims are found, and the factor on their mass that a bound takes for it."""
 
 _Range: TypeAlias = tuple[FloatArray, FloatArray]
 """From and to."""
@@ -105,8 +105,10 @@ class RimFloor:
     @classmethod
     def of(cls, problem: SelectionProblem) -> "RimFloor":
         """Rims that turn slowly, around the narrowest hub: no hoop stress adds to their mass."""
-        kinds = np.repeat(np.arange(len(problem.materials)), _RIMS)
-        mounts = [mount_of(motor, None) for motor in problem.motors]
+        materials, webs = len(problem.materials), len(problem.lightenings)
+        # Every rim of every material, in every web.
+        kinds = np.tile(np.repeat(np.arange(materials), _RIMS), webs)
+        mounts = [mount_of(motor, None, problem.foot_plate) for motor in problem.motors]
         geared = any(gear.room is not None for gear in problem.gears)
         # The holes of no motor's mount are nearer to the axis, and no wheel's hub is narrower.
         reach = 0.0 if geared else min(mount.holes.reach for mount in mounts)
@@ -118,22 +120,20 @@ class RimFloor:
                 *(hub_of(motor, direct=False).radius for motor in problem.motors),
             )
         slow, hub, mount = (np.full(kinds.size, value) for value in (1e-3, narrow, reach))
-        limits = rim_limits(problem, kinds, slow, hub, mount)
-        webs = [limits]
-        if problem.lightening:
-            share = LIGHTENED[problem.lightening]
-            webs.append(rim_limits(problem, kinds, slow, hub, mount, lightened=share))
+        share = np.repeat([LIGHTENED[count] for count in problem.lightenings], materials * _RIMS)
+        limits = rim_limits(problem, kinds, slow, hub, mount, lightened=share)
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
-        steps = np.tile(np.linspace(0.0, 1.0, _RIMS), len(problem.materials))
-        least = np.minimum.reduce([smallest_rim(each) for each in webs])
-        least = np.maximum(least * _OFF_THE_EDGE, 1e-9 * disc)
+        steps = np.tile(np.linspace(0.0, 1.0, _RIMS), materials * webs)
+        least = smallest_rim(limits).reshape(webs, -1).min(axis=0)
+        least = np.maximum(np.tile(least, webs) * _OFF_THE_EDGE, 1e-9 * disc)
         inertia = least * np.maximum(disc / least, 1.0) ** steps
         # Where there is no room for holes the web is solid.
-        each = [lightest_module(inertia, limits, Printed(reach)).mass for limits in webs]
-        mass = np.nan_to_num(np.fmin.reduce(each), nan=np.inf)
-        shape = (len(problem.materials), _RIMS)
-        return cls(inertia.reshape(shape), mass.reshape(shape), problem.web_densities)
+        shell = Printed(reach, foot_plate=problem.foot_plate)
+        mass = lightest_module(inertia, limits, shell, _DIGITS).mass
+        mass = _SURELY * np.nan_to_num(mass, nan=np.inf)
+        inertia, mass = (each.reshape(webs, materials, _RIMS) for each in (inertia, mass))
+        return cls(inertia[0], mass.min(axis=0), problem.web_densities)
 
     def at(self, spin_inertia: FloatArray) -> FloatArray:
         """Mass of no more spin inertia than that [kg], both of shape (materials, n)."""
@@ -171,11 +171,14 @@ def least_spin_inertias(
     requirement, least = problem.requirement, least_inertia(problem, drives, below, limits)
     line, armature = columns(drives.line), drives.armature[:, None]
     needed = np.broadcast_to(below[:, None], (len(drives), len(cells)))
+    demands = []
     for maneuver in requirement.maneuvers:
         own = maneuver.incidence
         at = cells if own is None else [Cell(own, own)]
-        task = bound_task(maneuver, requirement.standing_height, least, at)
-        needed = np.maximum(needed, smallest_spin_inertia(task, line, armature))
+        task = bound_task(maneuver, requirement, least, at)
+        demands.append(spin_demand(task, line, armature, below[:, None]))
+    for asked in smallest_roots(demands) if demands else ():
+        needed = np.maximum(needed, asked)
     if requirement.rate_change is not None:
         shares = np.array([cell.shares for cell in cells])
         alone = column(TiltInertia.uncoupled(least.inertia.diagonal))
@@ -200,7 +203,7 @@ class LeastInertia(NamedTuple):
 
 
 def bound_task(
-    maneuver: Maneuver, standing_height: float, least: LeastInertia, cells: Sequence[Cell]
+    maneuver: Maneuver, requirement: Requirement, least: LeastInertia, cells: Sequence[Cell]
 ) -> WheelPairBound:
     """A maneuver as what two wheels must do at the least, fields of shape (n, k, ...).
 
@@ -209,14 +212,14 @@ def bound_task(
 
     Args:
         maneuver: to be done.
-        standing_height: of the trunk over the ground [m].
+        requirement: that it is part of.
         least: what they turn, n of them.
         cells: of the incidence, k of them.
     """
     shares = np.array([cell.shares for cell in cells])
     stretch = np.hypot(shares[:, 0], shares[:, 1])
     diagonal, product = column(least.inertia)
-    slew = maneuver.slew(TiltInertia.uncoupled(diagonal), standing_height)
+    slew = requirement.slew(maneuver, TiltInertia.uncoupled(diagonal))
     return WheelPairBound(
         swept=slew.swept / stretch[:, None],
         momentum=slew.momentum / stretch[:, None],
@@ -272,17 +275,18 @@ def least_inertia(
         rim = np.maximum(rim, smallest_rim(limits) * _OFF_THE_EDGE)
         # A wheel of more spin inertia is no smaller.
         radius = np.minimum(smallest_radius(rim, limits), widest)
-        wheel = np.nan_to_num(lightest_module(rim, limits, PlainDrum()).mass)
+        wheel = _SURELY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
     at_floor, at_wheel = drives.by_floor, drives.by_wheel
     stands = at_floor.mass + drives.mount_mass
     behind = stands + at_wheel.mass
     # The holes stand by less than that behind the floor.
-    holes = drives.mount_mass * PLATE_THICKNESS
+    holes = drives.mount_mass * problem.foot_plate
     fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
     web = np.pi * problem.web_thickness * drives.web_most * widest**2
+    guard = problem.guard_wall
     # Posts are longest behind the flattest rim.
-    shell = Printed(drives.mount_reach).mass(widest, zero + room.height_max)
-    shell = shell + drives.posts.mass(zero)
+    around = Printed(drives.mount_reach, guard_wall=guard, foot_plate=problem.foot_plate)
+    shell = around.mass(widest, zero + room.height_max) + drives.posts.mass(zero)
     least = Least(
         mass=np.maximum(wheel + drives.hub_mass - drives.mount_mass, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
@@ -290,8 +294,8 @@ def least_inertia(
         behind=behind,
         depth=(half_height(room.height_max) * stands + holes - at_floor.y - at_wheel.y) / behind,
         above=(at_floor.z + at_wheel.z) / behind,
-        smallest=drives.size(radius, zero + room.height_min),
-        largest=drives.size(widest, zero + room.height_max),
+        smallest=drives.size(radius + guard, zero + room.height_min),
+        largest=drives.size(widest + guard, zero + room.height_max),
         heaviest=at_floor.mass + at_wheel.mass + drives.hub_mass_most + fullest + web + shell,
     )
     return least_composite_inertia(problem.robot, problem.place, least)
@@ -390,7 +394,7 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
     known = np.isfinite(spin)
     least = smallest_rim(candidates.limits) * _OFF_THE_EDGE
     rim = np.maximum(np.where(known, spin, 0.0) - candidates.drives.beside_rim, least)
-    module = lightest_module(rim, candidates.limits, candidates.shell).mass
+    module = lightest_module(rim, candidates.limits, candidates.shell, _DIGITS).mass
     mass = 2.0 * (candidates.drives.mass + _SURELY * module)
     mass = np.where(known & (module > 0.0), mass, np.inf)
     return Guess(spin, mass, (low + high) / 2.0, high - low)

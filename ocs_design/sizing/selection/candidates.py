@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +19,6 @@ from ocs_design.actuation.drive import (
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.parts.cage import Posts
-from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import half_height
 from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.module import (
@@ -61,12 +60,12 @@ class Drives(Table):
     """Motors behind gears, one per row.
 
     Attributes:
-        motor, gear: their indices in the problem's sequences.
+        motor, gear, web: indices in the problem's motors, gears and lightenings.
         by_floor: moments about the middle of the outside of the housing's floor, see
             `module.by_floor`. by_wheel: about the wheel's middle, see `module.by_wheel`.
         behind_depth, behind_radius, behind_wheel: see `MotorMount.behind` [m].
         mount_reach, mount_mass: of the mount's holes [m, kg].
-        post_area, post_gyration, seat: see `Posts`.
+        post_area, post_gyration, seat, foot_plate: see `Posts`.
         height_max: of a rim that the mount leaves room for [m].
         hub_volume: mass of the wheel's hub, over its density [m^3].
         hub_radius: of that, or of the screws' heads beside it [m]; 0 without a web.
@@ -85,6 +84,7 @@ class Drives(Table):
 
     motor: NDArray[np.intp]
     gear: NDArray[np.intp]
+    web: NDArray[np.intp]
     by_floor: MassMoments[FloatArray]
     by_wheel: MassMoments[FloatArray]
     behind_depth: FloatArray
@@ -95,6 +95,7 @@ class Drives(Table):
     post_area: FloatArray
     post_gyration: FloatArray
     seat: FloatArray
+    foot_plate: FloatArray
     height_max: FloatArray
     hub_volume: FloatArray
     hub_radius: FloatArray
@@ -118,7 +119,7 @@ class Drives(Table):
         return self.motor.size
 
     def of_webs(self, density: FloatArray) -> "Drives":
-        """The same with webs and hubs of these densities [kg/m^3]."""
+        """Drives with webs and hubs of these densities [kg/m^3]."""
         return replace(self, web_least=density, web_most=density)
 
     @property
@@ -144,12 +145,13 @@ class Drives(Table):
     @property
     def posts(self) -> Posts[FloatArray]:
         """Posts of the motors' cages."""
-        return Posts(self.post_area, self.post_gyration, self.seat)
+        return Posts(self.post_area, self.post_gyration, self.seat, self.foot_plate)
 
     def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
-        """Size of modules with rims of these outer radii and heights [m]."""
+        """Size of modules with rims of these outer radii, guard rings added, and heights [m]."""
         behind = Behind(self.behind_depth, self.behind_radius, self.behind_wheel)
-        return module_size(outer_radius, height, behind, self.mount_reach)
+        thickness = self.foot_plate
+        return module_size(outer_radius, height, behind, self.mount_reach, foot_plate=thickness)
 
     @property
     def beside_rim(self) -> FloatArray:
@@ -235,7 +237,8 @@ class Candidates(Table):
     @property
     def shell(self) -> Printed:
         """Housing and foot around their wheels."""
-        return Printed(self.drives.mount_reach, self.drives.posts)
+        drives, problem = self.drives, self.problem
+        return Printed(drives.mount_reach, drives.posts, problem.guard_wall, problem.foot_plate)
 
     @cached_property
     def least_spin_inertia(self) -> FloatArray:
@@ -254,6 +257,7 @@ class Candidates(Table):
     def modules(self, spin_inertia: FloatArray, shapes: ModuleShape) -> Modules:
         """One module of each candidate, braked."""
         drives, wheel = self.drives, spin_inertia - self.drives.rotor_share
+        guard = self.problem.guard_wall
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
         across = cylinder_transverse_inertia(inner, outer, height, 1.0)
         across = across - self.limits.cuts.transverse_inertia(inner, outer, height, 1.0)
@@ -263,12 +267,12 @@ class Candidates(Table):
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
         whole = (
             round_body(mass, wheel, across + web + drives.hub_across * drives.web_most)
-            + shell_moments(outer, height, drives.mount_reach)
+            + shell_moments(outer, height, drives.mount_reach, guard, self.problem.foot_plate)
             + drives.posts.moments(height)
             + drives.by_wheel
             + drives.by_floor.shifted(-half_height(height), np.zeros_like(height))
         )
-        return Modules.of(whole, drives.size(outer, height))
+        return Modules.of(whole, drives.size(outer + guard, height))
 
 
 def web_inertia(limits: RimLimits, bore: FloatArray) -> FloatArray:
@@ -341,19 +345,24 @@ def known_pairs(motors: Sequence[Motor], gears: Sequence[Gear]) -> NDArray[np.bo
     return np.array(columns, dtype=np.bool_).reshape(len(gears), len(motors)).T
 
 
-def drives_of(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Drives:
+def drives_of(
+    problem: SelectionProblem, pairs: NDArray[np.intp], webs: NDArray[np.intp] | None = None
+) -> Drives:
     """Drives of the problem.
 
     Args:
         problem: motors, gears, bus voltage, stated highest speed of a wheel.
         pairs: indices of motor and gear, whose figures are known, shape (n, 2).
+        webs: index of each one's web, shape (n,); None: the first of all.
     """
     motors, gears = pairs.T
+    kinds = np.zeros_like(motors) if webs is None else webs
     figures: list[tuple[float, ...]] = []
-    webs = problem.web_densities
-    for index, gear_index in pairs.tolist():
+    densities = problem.web_densities
+    for (index, gear_index), kind in zip(pairs.tolist(), kinds.tolist(), strict=True):
         motor, gear = problem.motors[index], problem.gears[gear_index]
-        line, hub = drive_line(motor, gear, problem.bus_voltage), problem.hub(motor, gear) or NO_HUB
+        line = drive_line(motor, gear, problem.bus_voltage)
+        hub = problem.hub(motor, gear, problem.lightenings[kind]) or NO_HUB
         rotor, top = motor.rotor_inertia or 0.0, problem.wheel_speed_max or np.inf
         gain = gear.ratio * gear.efficiency * (motor.torque_constant or np.inf)
         peak = float(line.torque_limit) / gain
@@ -367,8 +376,8 @@ def drives_of(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Drives:
                 hub.lightened_stress,
                 hub.axial_inertia(1.0),
                 hub.transverse_inertia(1.0),
-                webs.min(),
-                webs.max(),
+                densities.min(),
+                densities.max(),
                 rotor_share(rotor, gear),
                 armature(rotor, gear),
                 float(line.stall_torque),
@@ -382,7 +391,7 @@ def drives_of(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Drives:
     seats = _seats(problem, pairs)
     if problem.web:
         columns[1] = np.maximum(columns[1], seats.head_reach)
-    return Drives(motors, gears, seats.by_floor, seats.by_wheel, *seats.columns, *columns)
+    return Drives(motors, gears, kinds, seats.by_floor, seats.by_wheel, *seats.columns, *columns)
 
 
 class _Seats(NamedTuple):
@@ -390,7 +399,7 @@ class _Seats(NamedTuple):
 
     Attributes:
         by_floor, by_wheel: see there.
-        columns: from `behind_depth` to `height_max`, shape (9, n).
+        columns: from `behind_depth` to `height_max`, shape (10, n).
         head_reach: of the screws in the housing [m], shape (n,).
     """
 
@@ -405,22 +414,9 @@ def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> _Seats:
     known, of_motor = np.unique(pairs[:, 0], return_inverse=True)
     motors = [problem.motors[m] for m in known.tolist()]
     # One row per motor behind a gear, and the next for the motor with the wheel on its shaft.
-    held = [(motor, mount_of(motor, room)) for motor in motors for room in (GearRoom(), None)]
-    rows = np.array(
-        [
-            (
-                *mount.behind(motor),
-                mount.holes.reach,
-                -mount.holes.cut_out(PANEL + PLATE_THICKNESS).mass,
-                mount.posts.area,
-                mount.posts.gyration,
-                mount.posts.seat,
-                mount.rim_height_max,
-                mount.head_reach,
-            )
-            for motor, mount in held
-        ]
-    )
+    rooms, plate = (GearRoom(), None), problem.foot_plate
+    held = [_seat(motor, room, plate) for motor in motors for room in rooms]
+    rows = np.array([figures for figures, _, _ in held])
     gears = [problem.gears[g] for g in pairs[:, 1].tolist()]
     row = 2 * of_motor + np.array([gear.room is None for gear in gears])
     # Behind a gear a motor stands as far back as that is deep.
@@ -428,7 +424,27 @@ def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> _Seats:
     up = np.array([0.0 if gear.room is None else gear.room.offset for gear in gears])
     seats = rows[row].T
     seats[0] += depth
-    at_floor = stacked([by_floor(motor, DIRECT, mount) for motor, mount in held]).take(row)
-    at_wheel = stacked([by_wheel(motor, mount) for motor, mount in held]).take(row)
-    geared = stacked([gear_moments(gear) for gear in problem.gears]).take(pairs[:, 1])
+    at_floor = stacked([moments for _, moments, _ in held]).take(row)
+    at_wheel = stacked([moments for _, _, moments in held]).take(row)
+    geared = stacked([gear_moments(gear, plate) for gear in problem.gears]).take(pairs[:, 1])
     return _Seats(at_floor.shifted(-depth, up) + geared, at_wheel, seats[:-1], seats[-1])
+
+
+@lru_cache(maxsize=1024)
+def _seat(
+    motor: Motor, room: GearRoom | None, foot_plate: float
+) -> tuple[tuple[float, ...], MassMoments[float], MassMoments[float]]:
+    """One motor's place: see `_Seats`; the same whatever the problem."""
+    mount = mount_of(motor, room, foot_plate)
+    figures = (
+        *mount.behind(motor),
+        mount.holes.reach,
+        -mount.holes.cut_out(PANEL + foot_plate).mass,
+        mount.posts.area,
+        mount.posts.gyration,
+        mount.posts.seat,
+        foot_plate,
+        mount.rim_height_max,
+        mount.head_reach,
+    )
+    return figures, by_floor(motor, DIRECT, mount), by_wheel(motor, mount)

@@ -56,8 +56,15 @@ def margins_of(
     shares, spin = shares_of(angle), spin_inertia[:, None]
     inertia = whole.at(shares)
     free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
-    height = requirement.standing_height
-    by_design = _tried(free, height, drives, spin_inertia=spin, inertia=inertia, shares=shares)
+    by_design = _tried(
+        free,
+        requirement,
+        drives,
+        spin_inertia=spin,
+        inertia=inertia,
+        shares=shares,
+        begun=requirement.free and bool(requirement.reserves),
+    )
     if requirement.rate_change is not None:
         needed = needed_by_rate(requirement.rate_change, drives, inertia, shares)
         by_design.append(Margins(spin / needed, needed))
@@ -66,7 +73,13 @@ def margins_of(
         if maneuver.incidence is not None:
             own = shares_of(np.full((len(drives), 1), maneuver.incidence))
             turned += _tried(
-                [maneuver], height, drives, spin_inertia=spin, inertia=whole.at(own), shares=own
+                [maneuver],
+                requirement,
+                drives,
+                spin_inertia=spin,
+                inertia=whole.at(own),
+                shares=own,
+                begun=bool(requirement.reserves),
             )
     return by_design, turned
 
@@ -82,40 +95,54 @@ def worst(parts: Sequence[Margins], shape: tuple[int, ...]) -> Margins:
 
 def _tried(
     maneuvers: Sequence[Maneuver],
-    standing_height: float,
+    requirement: Requirement,
     drives: Drives,
     *,
     spin_inertia: FloatArray,
     inertia: TiltInertia,
     shares: FloatArray,
+    begun: bool,
 ) -> list[Margins]:
-    """Margins of each maneuver, shape (n, k)."""
+    """Margins of each maneuver, and of each that begins with a rate if any shall, shape (n, k)."""
     if not maneuvers:
         return []
-    task = pair_task(maneuvers, standing_height, inertia, shares)
-    demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
-    can = capability(demand, spin_inertia)
-    following = newton_step(demand, spin_inertia, can)
-    with np.errstate(divide="ignore"):
-        margin = can.sweep / demand.sweep
-    return [Margins(*both) for both in zip(margin, following, strict=True)]
+    tasks = [
+        pair_task(maneuvers, requirement, inertia, shares, begun=each)
+        for each in ((False, True) if begun else (False,))
+    ]
+    found: list[Margins] = []
+    for task in tasks:
+        demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
+        can = capability(demand, spin_inertia)
+        following = newton_step(demand, spin_inertia, can)
+        with np.errstate(divide="ignore"):
+            margin = can.sweep / demand.sweep
+        found += [Margins(*both) for both in zip(margin, following, strict=True)]
+    return found
 
 
 def pair_task(
-    maneuvers: Sequence[Maneuver], standing_height: float, inertia: TiltInertia, shares: FloatArray
+    maneuvers: Sequence[Maneuver],
+    requirement: Requirement,
+    inertia: TiltInertia,
+    shares: FloatArray,
+    *,
+    begun: bool = False,
 ) -> WheelPairTask:
     """Maneuvers as what two wheels must do, fields of shape (m, n, k, ...).
 
     Args:
         maneuvers: m of them.
-        standing_height: of the trunk over the ground [m].
+        requirement: that they are part of.
         inertia: of what they turn, shapes that broadcast against (n, k, 2) and (n, k).
         shares: see `shares_of`; (n, k, 2).
+        begun: see `Requirement.slew`.
     """
     inertia = inertia.times(shares.shape[:-1])
     each = [inertia.within_reach(shares, maneuver.stray) for maneuver in maneuvers]
     slews = [
-        maneuver.slew(own, standing_height) for maneuver, own in zip(maneuvers, each, strict=True)
+        requirement.slew(maneuver, own, begun=begun)
+        for maneuver, own in zip(maneuvers, each, strict=True)
     ]
     return WheelPairTask(
         swept=np.stack([slew.swept for slew in slews]),

@@ -49,15 +49,17 @@ _TOUCHING = 1e-5
 
 
 def device_of(solved: Solved) -> Candidate:
-    """The device of a single solved candidate."""
+    """The device of a single solved candidate, without its demands."""
     candidates, shapes = solved.candidates, solved.point.shapes
     problem, drives = candidates.problem, candidates.drives
     motor, gear = problem.motors[drives.motor[0]], problem.gears[drives.gear[0]]
     material = problem.materials[candidates.material[0]]
     inner, outer = shapes.inner_radius.item(), shapes.outer_radius.item()
     height, rim_mass = shapes.height.item(), shapes.rim_mass.item()
-    hub, cuts = problem.hub(motor, gear), candidates.limits.cuts
-    carrier = standing(motor, gear, outer, height)
+    hub = problem.hub(motor, gear, problem.lightenings[drives.web[0]])
+    cuts = candidates.limits.cuts
+    guard, plate = problem.guard_wall, problem.foot_plate
+    carrier = standing(motor, gear, outer, height, guard, foot_plate=plate)
     web = problem.web_material
     wheel = wheel_body(
         inner,
@@ -68,7 +70,9 @@ def device_of(solved: Solved) -> Candidate:
         cuts=cuts,
         web_density=None if web is None else web.density,
     )
-    centers = problem.place.centers(motor_size(motor, gear.room, outer, height))
+    centers = problem.place.centers(
+        motor_size(motor, gear.room, outer, height, guard, foot_plate=plate)
+    )
     incidence = float(solved.point.angle[0])
     line = (
         drives.stall_torque,
@@ -77,7 +81,7 @@ def device_of(solved: Solved) -> Candidate:
         drives.speed_max,
         drives.power_max,
     )
-    found = Candidate(
+    return Candidate(
         motor=motor,
         gear=gear,
         material=material,
@@ -102,8 +106,21 @@ def device_of(solved: Solved) -> Candidate:
         residual=float(solved.point.residual[0]),
         iterations=int(solved.point.iterations[0]),
         web_material=web,
+        guard_wall=guard,
+        foot_plate=plate,
     )
-    return replace(found, demands=tuple(_task_demands(problem, found)))
+
+
+def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem:
+    """The problem with motor, gear, material and web of each device alone to choose from."""
+    hubs = [device.hub for device in devices]
+    return replace(
+        problem,
+        motors=tuple(device.motor for device in devices),
+        gears=tuple(device.gear for device in devices),
+        materials=tuple(device.material for device in devices),
+        lightenings=tuple(0 if hub is None else hub.lightening for hub in hubs),
+    )
 
 
 def braked(
@@ -129,13 +146,18 @@ def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -
     return TiltInertia.of(braked(problem.robot, bodies, device.centers, incidence).inertia)
 
 
+def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
+    """The device with what each part of the requirement takes of it, which takes some time."""
+    return replace(device, demands=tuple(_task_demands(problem, device)))
+
+
 def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[TaskDemand]:
     """Demands of each part of the requirement, with the inertia at its own incidence."""
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
     for maneuver in requirement.maneuvers:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         inertia, shares = inertia_at(problem, device, at), shares_of(np.array([[at]]))
-        task = pair_task([maneuver], requirement.standing_height, inertia, shares)
+        task = pair_task([maneuver], requirement, inertia, shares)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.armature)
         profile = slew_profile(load.angle(spin), reduced, line, load.final_speed(spin))

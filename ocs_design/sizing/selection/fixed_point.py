@@ -41,10 +41,10 @@ _STEEPEST, _STEEPEST_NEAR = 0.9, 0.9995
 _NEAR = 0.02
 """Relative distance of two iterations that are near each other."""
 
-_SPANS = (1.0, 0.4, 0.15)
+_SPANS = (1.0, 0.2)
 """Shares of all radii that are searched, each a little beyond the neighbours of the best so far."""
 
-_RADII = 7
+_RADII = 13
 _BEYOND, _NOTHING = 1e9, 1e-9
 """Beyond any spin inertia [kg m^2] and any mass [kg], and below any margin."""
 
@@ -73,7 +73,7 @@ class Tolerance(NamedTuple):
     width: float
 
 
-_ROUGH = Tolerance(residual=1e-7, width=0.05)
+_ROUGH = Tolerance(residual=1e-5, width=0.05)
 FINE = Tolerance(residual=1e-12, width=1e-3)
 
 
@@ -144,26 +144,26 @@ def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
     rim = np.maximum(start - candidates.drives.beside_rim, smallest_spin_inertia(candidates.limits))
     high = candidates.problem.envelope.outer_radius_max
     low = np.minimum(smallest_radius(rim, candidates.limits), high)
-    middle, half = np.sqrt(low * high), np.log(high / low) / 2.0
-    design = Design(middle, guess.angle, guess.width)
-    point = fixed_point(candidates, start, design, _ROUGH)
-    best = Solved(candidates, guess, point)
-    yield best
-    each = best.repeat(_RADII)
+    radius, half, angle = np.sqrt(low * high), np.log(high / low) / 2.0, guess.angle
+    each, best = candidates.repeat(_RADII), None
     for span in _SPANS:
         steps = span * np.linspace(-1.0, 1.0, _RADII)
-        radius = best.point.radius[:, None] * np.exp(np.outer(half, steps))
-        angle, width = np.repeat([best.point.angle, span * guess.width], _RADII, axis=1)
-        design = Design(radius.ravel(), angle, width)
-        point = fixed_point(each.candidates, np.repeat(start, _RADII), design, _ROUGH)
-        tried = replace(each, point=point)
-        rows = np.arange(0, len(each.candidates), _RADII)
-        rows += np.argmin(tried.score.reshape(-1, _RADII), axis=1)
-        better = np.flatnonzero(tried.score[rows] < best.score)
-        best = replace(best, point=best.point.put(better, point.take(rows[better])))
+        radii = radius[:, None] * np.exp(np.outer(half, steps))
+        angles, widths = np.repeat([angle, span * guess.width], _RADII, axis=1)
+        design = Design(radii.ravel(), angles, widths)
+        point = fixed_point(each, np.repeat(start, _RADII), design, _ROUGH)
+        score = Solved(each, guess.repeat(_RADII), point).score.reshape(-1, _RADII)
+        rows = np.arange(len(candidates)) * _RADII + score.argmin(axis=1)
+        found = Solved(candidates, guess, point.take(rows))
+        if best is not None:
+            better = np.flatnonzero(found.score < best.score)
+            found = best.put(better, found.take(better))
+        best, radius, angle = found, found.point.radius, found.point.angle
         yield best
+    assert best is not None, "there are spans"
     design = Design(best.point.radius, best.point.angle, np.zeros_like(start))
-    point = fixed_point(candidates, start, design, FINE)
+    near = np.where(best.point.feasible, best.point.spin_inertia, start)
+    point = fixed_point(candidates, near, design, FINE)
     # The lightest radius may be the last that is feasible: there the iteration runs away again.
     lost = np.flatnonzero(best.point.feasible & ~point.feasible)
     rough = replace(best.point.take(lost), feasible=np.zeros(lost.size, dtype=np.bool_))

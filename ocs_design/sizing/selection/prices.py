@@ -7,12 +7,13 @@ heavier the next drive is.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED, Limit
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
+from ocs_design.sizing.selection.device import of_parts
 from ocs_design.sizing.selection.problem import SelectionProblem, limits_of, with_limit
 from ocs_design.sizing.selection.refinement import Programme, lightest
 from ocs_design.sizing.selection.result import Candidate
@@ -52,9 +53,7 @@ def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[Price]
         problem: that was solved.
         chosen: its lightest device, as it was selected.
     """
-    alone = replace(
-        problem, motors=(chosen.motor,), gears=(chosen.gear,), materials=(chosen.material,)
-    )
+    alone = of_parts(problem, chosen)
     wall = chosen.outer_radius - chosen.inner_radius
     sizes = np.log([chosen.outer_radius, chosen.height, wall])
     start = np.append(sizes, chosen.incidence)

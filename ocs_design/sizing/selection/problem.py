@@ -15,6 +15,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import Criterion
 from ocs_design.parts.joints import SERVICE, hub_joint
 from ocs_design.parts.motor_mount import is_held
+from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import (
     NO_CUTS,
     SHRUNK_WEB_THICKNESS,
@@ -69,7 +70,9 @@ class SelectionProblem:
         web: whether wheels have a web and a hub; massless spokes otherwise.
         cuts: chamfers and balancing holes of wheels with a web; those without are plain rims.
         web_material: of web and hub; None: of one piece with the rim.
-        lightening: holes in webs that have room for them (`hub`); 0: none.
+        lightenings: numbers of holes in a web to choose from, 0 a solid one.
+        guard_wall: of the steel rings in the housings [m]; 0: none.
+        foot_plate: thickness of the feet's plates [m].
     """
 
     robot: MassProperties
@@ -85,7 +88,9 @@ class SelectionProblem:
     web: bool = True
     cuts: RimCuts = NO_CUTS
     web_material: Material | None = None
-    lightening: int = 0
+    lightenings: Sequence[int] = (0,)
+    guard_wall: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
 
     @property
     def web_densities(self) -> FloatArray:
@@ -107,10 +112,10 @@ class SelectionProblem:
         """Thickness of their webs [m]."""
         return WEB_THICKNESS if self.web_material is None else SHRUNK_WEB_THICKNESS
 
-    def hub(self, motor: Motor, gear: Gear) -> Hub | None:
+    def hub(self, motor: Motor, gear: Gear, lightening: int) -> Hub | None:
         """Hub of a wheel on this motor behind this gear; None: massless spokes.
 
-        Its web is solid where the largest rim leaves no room for lightening holes.
+        Its web is solid where the largest rim leaves no room for so many holes.
         """
         if not self.web:
             return None
@@ -119,7 +124,7 @@ class SelectionProblem:
             direct=gear.room is None,
             chamfer=self.cuts.chamfer,
             web_thickness=self.web_thickness,
-            lightening=self.lightening,
+            lightening=lightening,
         )
         wall = max(self.envelope.wall_min, self.cuts.wall_min)
         fits = hub.bore_min + wall <= self.envelope.outer_radius_max
@@ -212,7 +217,7 @@ def selection_problem(
         web_material=material(WEB_MATERIAL)
         if specification.flywheel.web == ALUMINIUM_WEB
         else None,
-        lightening=specified_lightening(specification.flywheel),
+        lightenings=specified_lightenings(specification.flywheel),
     )
 
 
@@ -235,11 +240,13 @@ def _holds_wheel(motor: Motor) -> bool:
     return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
 
 
-def specified_lightening(stated: FlywheelSection) -> int:
-    """Lightening holes of a web of one piece with its rim; a shrunk one is pressed, and solid."""
-    if stated.web in {NO_WEB, ALUMINIUM_WEB}:
-        return 0
-    return LIGHTENING if stated.lightening is None else stated.lightening
+def specified_lightenings(stated: FlywheelSection) -> tuple[int, ...]:
+    """Solid webs, and those with lightening holes; one that a rim is shrunk on is pressed, solid.
+
+    A small wheel of a fast motor has no room for holes, and may yet be the lightest.
+    """
+    holes = LIGHTENING if stated.lightening is None else stated.lightening
+    return (0, holes) if holes and stated.web not in {NO_WEB, ALUMINIUM_WEB} else (0,)
 
 
 def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:

@@ -24,7 +24,7 @@ from ocs_design.sizing.selection.composite_inertia import CompositeInertia, comp
 from ocs_design.sizing.selection.demand import margins_of, shares_of
 from ocs_design.sizing.selection.fixed_point import FINE, Design, FixedPoint, fixed_point
 
-HELD = 1e-9
+HELD = 1e-10
 """Relative violation of a limit that is rounding."""
 
 _LEAST, _MOST = 1e-6, 1e6

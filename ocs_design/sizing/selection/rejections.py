@@ -160,16 +160,19 @@ def _unable(found: Found, motors: Sequence[int]) -> dict[int, Rejection]:
             largest=float(largest[row]) if largest[row] > drives.beside_rim[row] else 0.0,
             weighty=float(weighty[row]),
         )
-        reason, detail = _reason(problem, drives.take(np.array([row])), obstacle)
+        drive = drives.take(np.array([row]))
+        reason, detail = _reason(problem, drive, obstacle)
         detail = f"{detail} ({problem.gears[drives.gear[row]].name})"
         if np.isfinite(found.least[motor]).any():
             detail = f"{detail}; {_at_least(found, motor)}"
         beyond = float(needed[row, angle] / max(largest[row], _NOTHING))
+        # An inertia goes with the fourth power of the radius.
+        narrow = (_narrowest(_limits(problem, drive))[1] / problem.envelope.outer_radius_max) ** 4
         reasons[motor] = Rejection(
             motor=problem.motors[motor].name,
             reason=reason,
             detail=detail,
-            shortfall=min(float(late[row, angle]), beyond) - 1.0,
+            shortfall=max(min(float(late[row, angle]), beyond), narrow) - 1.0,
             needed=obstacle.needed if np.isfinite(obstacle.needed) else None,
             largest=obstacle.largest,
         )
@@ -189,7 +192,7 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
     for maneuver in requirement.maneuvers:
         at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
         shares = np.broadcast_to(shares_of(at), (*shape, 2))
-        task = pair_task([maneuver], requirement.standing_height, inertia, shares)
+        task = pair_task([maneuver], requirement, inertia, shares)
         time = float(np.asarray(task.duration).item())
         needed = smallest_spin_inertia(task, line, armature)[0]
         taken = pair_slew_time(task, largest[:, None], line, armature)[0]
@@ -211,15 +214,12 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
         return Reason.INCIDENCE, f"{part.name} asks for an axis out of reach at {at:.4g} deg"
     if not part.late > 1.0:
         # A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia.
-        kinds = np.arange(len(problem.materials))
-        each = drive.repeat(kinds.size)
-        size = (each.hub_radius, each.mount_reach)
-        limits = rim_limits(problem, kinds, each.overspeed, *size, rim_height=each.rim_height)
-        rims = np.maximum(part.needed - each.beside_rim, smallest_rim(limits) * (1.0 + 1e-9))
+        limits = _limits(problem, drive)
+        rims = np.maximum(part.needed - drive.beside_rim, smallest_rim(limits) * (1.0 + 1e-9))
         if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
             return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{_too_narrow(limits)}"
         if not _any_rim(rims, limits):
-            rpm = each.overspeed[0] * 30.0 / np.pi
+            rpm = drive.overspeed[0] * 30.0 / np.pi
             return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"
         return Reason.OWN_WEIGHT, f"{wheel} on the robot alone, and none that fits with its device"
     weak = part.reason == SlewReason.TORQUE
@@ -232,6 +232,14 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
     return Reason.TORQUE if weak else Reason.SPEED, detail
 
 
+def _limits(problem: SelectionProblem, drive: Drives) -> RimLimits:
+    """Limits of the rims of each material on one drive."""
+    kinds = np.arange(len(problem.materials))
+    each = drive.repeat(kinds.size)
+    size = (each.hub_radius, each.mount_reach)
+    return rim_limits(problem, kinds, each.overspeed, *size, rim_height=each.rim_height)
+
+
 def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
     """Whether there is a rim of any material."""
     return bool((lightest_module(spin_inertia, limits, PlainDrum()).mass > 0.0).any())
@@ -239,13 +247,20 @@ def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
 
 def _too_narrow(limits: RimLimits) -> str:
     """Clause on what leaves no radius below the largest; empty where something does."""
-    least, most = np.asarray(limits.outer_radius_min), float(np.asarray(limits.outer_radius_max))
-    around = np.asarray(limits.inner_radius_min) + limits.wall_min
-    narrowest = {"around its motor's mount": least.min(), "around its hub and bore": around.min()}
-    where, radius = max(narrowest.items(), key=lambda item: float(item[1]))
+    most, (where, radius) = float(np.asarray(limits.outer_radius_max)), _narrowest(limits)
     if radius <= most:
         return ""
     return (
-        f": {where} it has a radius of {format_quantity(float(radius), 'mm')} at the least, r_max "
+        f": {where} it has a radius of {format_quantity(radius, 'mm')} at the least, r_max "
         f"is {format_quantity(most, 'mm')}"
     )
+
+
+def _narrowest(limits: RimLimits) -> tuple[str, float]:
+    """What a rim must go around, and its least outer radius by that [m]."""
+    around = np.asarray(limits.inner_radius_min) + limits.wall_min
+    least = {
+        "around its motor's mount": float(np.asarray(limits.outer_radius_min).min()),
+        "around its hub and bore": float(around.min()),
+    }
+    return max(least.items(), key=lambda item: item[1])

@@ -11,6 +11,7 @@ from ocs_design.device.records import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import Hub, RimCuts, wheel_body
 from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.mass import MassProperties
@@ -41,13 +42,15 @@ class Candidate:
         overspeed: at which the hoop stress is limited [rad/s].
         total: robot and both modules, braked, in B.
         centers: of the left and the right wheel in B [m], shape (2, 3).
-        demands: of all parts of the requirement.
+        demands: of all parts of the requirement; empty where nobody looked at them.
         binding: limits that hold the mass up, as named in the specification; "housing" where a
             larger rim would be lighter, but its housing heavier.
         residual: relative change of the spin inertia in one more iteration of the fixed point.
         iterations: taken.
         web_material: of web and hub; None: of one piece with the rim.
         plate: that it stands on; None: the trunk itself, or not looked for yet.
+        guard_wall: of the steel rings in the housings [m]; 0: none.
+        foot_plate: thickness of the feet's plates [m].
     """
 
     motor: Motor
@@ -75,6 +78,8 @@ class Candidate:
     iterations: int
     web_material: Material | None = None
     plate: CarrierPlate | None = None
+    guard_wall: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
 
     @property
     def web_density(self) -> float | None:
@@ -112,7 +117,7 @@ class Candidate:
     def limits(self, room: Envelope) -> RimLimits:
         """Limits of its rim, scalars, in the room that is specified."""
         alone = RimProblem(self.spin_inertia, room, self.material, self.overspeed).limits
-        mount = mount_of(self.motor, self.gear.room)
+        mount = mount_of(self.motor, self.gear.room, self.foot_plate)
         mounted = limits_with_mount(alone, mount.holes.reach)
         mounted = replace(mounted, height_max=min(room.height_max, mount.rim_height_max))
         if self.hub is None:
@@ -184,7 +189,8 @@ class Rejection:
         reason: the first thing in the way of its most promising combination.
         detail: the same with figures.
         shortfall: by how much it fails: time with the largest wheel that fits over the time given,
-            or wheel needed over the largest, whichever is less, over 1; inf if not known.
+            or wheel needed over the largest, whichever is less, over 1, or what the least radius
+            around the motor makes of it; inf if not known.
         needed: spin inertia of the smallest wheel that would do [kg m^2]; None: none would, however
             large, or it is not known.
         largest: of the largest wheel that fits, its rotor included [kg m^2]; None: not looked at.

@@ -1,6 +1,7 @@
 """Branch and bound over motors, gears and materials; the incidence is solved for.
 
-Every pair of a motor and a gear carries a lower bound on the mass of its lightest device. It starts
+Every pair of a motor and a gear carries a lower bound on the mass of its lightest device, of any
+material and web. It starts
 as what motor, gear and the smallest wheel weigh, is tightened step by step (`bounds`), and becomes
 the mass itself where the fixed point is solved (`fixed_point`), for the most promising candidates
 first. A candidate is left out once its bound exceeds the tenth lightest device that is known, and
@@ -11,12 +12,14 @@ refined in the end.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ocs_design.actuation.motor import Motor
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.motor_mount import MotorMount, mount_of
+from ocs_design.parts.motor_mount import mount_of
 from ocs_design.sizing.selection.bounds import (
     CELLS,
     Guess,
@@ -52,12 +55,21 @@ saved at most 1e-4 on the robots tried."""
 
 @dataclass(frozen=True, order=True)
 class Rank:
-    """Place of one of the lightest devices: mass [kg], batch and row where it is, and motor."""
+    """Place of one of the lightest devices: mass [kg], batch and row where it is, and its parts.
+
+    Attributes:
+        parts: indices of motor, gear and material.
+    """
 
     mass: float
     batch: int
     row: int
-    motor: int
+    parts: tuple[int, int, int]
+
+    @property
+    def motor(self) -> int:
+        """Index of the motor."""
+        return self.parts[0]
 
 
 @dataclass(eq=False)
@@ -90,7 +102,7 @@ class Found:
         """State before the search."""
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
-        mounts = np.array([_held_mass(mount_of(motor, None)) for motor in problem.motors])
+        mounts = np.array([_held_mass(motor, problem.foot_plate) for motor in problem.motors])
         gears = np.array([gear.mass for gear in problem.gears])
         direct = np.array([gear.room is None for gear in problem.gears])
         drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
@@ -152,14 +164,20 @@ class Found:
 
     def _list(self, ranks: Sequence[Rank]) -> None:
         """The lightest of these, and the lightest of each of the best motors."""
-        ordered = sorted(ranks)
+        lightest: dict[tuple[int, int, int], Rank] = {}
+        for rank in sorted(ranks):
+            lightest.setdefault(rank.parts, rank)
+        ordered = list(lightest.values())
         self.places = sorted({*ordered[:RANKED], *_best_of_motors(ordered)})
 
 
 def _ranks(batch: int, solved: Solved) -> Iterator[Rank]:
-    motor = solved.candidates.drives.motor
-    for row in np.flatnonzero(solved.point.feasible):
-        yield Rank(float(solved.mass[row]), batch, int(row), int(motor[row]))
+    candidates, mass = solved.candidates, solved.mass
+    drives = candidates.drives
+    parts = np.stack([drives.motor, drives.gear, candidates.material], axis=1).tolist()
+    for row in np.flatnonzero(solved.point.feasible).tolist():
+        motor, gear, material = parts[row]
+        yield Rank(float(mass[row]), batch, row, (motor, gear, material))
 
 
 def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
@@ -170,8 +188,10 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
     return list(best.values())[:MOTORS]
 
 
-def _held_mass(mount: MotorMount) -> float:
+@lru_cache(maxsize=512)
+def _held_mass(motor: Motor, foot_plate: float) -> float:
     """Mass of screws and cage at the least, less the holes [kg]."""
+    mount = mount_of(motor, None, foot_plate)
     return mount.by_floor().mass + mount.by_wheel().mass
 
 
@@ -220,17 +240,18 @@ def _chunks(found: Found) -> Iterator[NDArray[np.intp]]:
 def _examine(found: Found, pairs: NDArray[np.intp]) -> None:
     """Bound these pairs, and solve those that may be listed."""
     problem = found.problem
-    drives = drives_of(problem, pairs)
+    webs = np.arange(len(problem.lightenings))
+    drives = drives_of(problem, np.repeat(pairs, webs.size, axis=0), np.tile(webs, len(pairs)))
     spin = np.zeros(len(drives))
     bound = np.full((len(problem.materials), len(drives)), -np.inf)
-    for count in (1, CELLS, CELLS):
+    for count in (1, CELLS):
         worth = np.flatnonzero(bound.min(axis=0) < found.enough[drives.motor])
         cells, some = cells_of(problem.incidence, count), drives.take(worth)
         spin[worth] = least_spin_inertias(problem, some, cells, spin[worth]).min(axis=1)
         bound[:, worth] = least_masses(found.floor, some, spin[worth])
-    found.spin_inertia[drives.motor, drives.gear] = spin
     _solve_best(found, drives, spin, bound)
-    found.least[drives.motor, drives.gear] = bound.min(axis=0)
+    for least, values in ((found.spin_inertia, spin), (found.least, bound.min(axis=0))):
+        least[tuple(pairs.T)] = values.reshape(len(pairs), -1).min(axis=1)
 
 
 def _solve_best(found: Found, drives: Drives, spin: FloatArray, bound: FloatArray) -> None:

@@ -1,19 +1,17 @@
 """The lightest device that does everything that is required, at the best or a stated incidence."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from math import pi
 
 import numpy as np
 
-from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.selection.advice import Refused
 from ocs_design.sizing.selection.bounds import Guess, cells_of
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
-from ocs_design.sizing.selection.device import device_of
+from ocs_design.sizing.selection.device import device_of, of_parts, with_demands
 from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
@@ -44,43 +42,11 @@ def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
         Refused: the same, not advised.
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
     """
-    return _solid_where_lighter(problem, select_given_webs, None, advise=advise)
-
-
-def _solid_where_lighter(
-    problem: SelectionProblem,
-    choose: Callable[..., Selection],
-    criterion: Criterion | None,
-    *,
-    advise: bool,
-) -> Selection:
-    """Selection with solid webs where lightening holes ask for more room or strength than is best.
-
-    A small wheel of a fast motor has no room for them, and may yet be the lightest.
-    """
-    if not problem.lightening:
-        return choose(problem, advise=advise)
-    solid = replace(problem, lightening=0)
-    try:
-        holed = choose(problem, advise=False)
-    except Infeasible:
-        return choose(solid, advise=advise)
-    lighter = lightest_by(solid, criterion)
-    if lighter is None or lighter.mass >= holed.best.mass:
-        return holed
-    try:
-        other = choose(solid, advise=False)
-    except Infeasible:
-        return holed
-    return min(holed, other, key=lambda selection: selection.best.mass)
-
-
-def select_given_webs(problem: SelectionProblem, *, advise: bool) -> Selection:
-    """The lightest devices, of webs as the problem has them (`select`)."""
     found = _found(problem, search, advise=advise)
     ranked = {rank.motor for rank in found.places}
+    best, *others = map(device_of, found.devices)
     return Selection(
-        ranking=tuple(map(device_of, found.devices)),
+        ranking=(with_demands(problem, best), *others),
         rejections=rejections(found, ranked),
         candidates=int(found.known.sum())
         * len(problem.materials)
@@ -101,7 +67,11 @@ def _found(
 
 
 def select_by(
-    problem: SelectionProblem, criterion: Criterion | None, *, advise: bool = True
+    problem: SelectionProblem,
+    criterion: Criterion | None,
+    *,
+    advise: bool = True,
+    winner: Candidate | None = None,
 ) -> Selection:
     """The lightest devices at the incidence that a criterion sets.
 
@@ -115,14 +85,36 @@ def select_by(
         problem: its own incidence goes first.
         criterion: None: whatever makes the device lightest.
         advise: see `select`.
+        winner: device of this problem that is likely to win; None: the lightest at the robot's own
+            incidence.
 
     Raises:
         Infeasible, UsageError: see `select`.
     """
     if problem.incidence is not None or criterion is None:
         return select(problem, advise=advise)
-    choose = partial(_select_by, criterion=criterion)
-    return _solid_where_lighter(problem, choose, criterion, advise=advise)
+    if winner is None:
+        # Only its winner is of use, and a refined one would be at the wrong incidence too.
+        found = _found(_at_robots(problem, criterion), search_lightest, advise=advise)
+        winner = device_of(found.devices[0])
+    winners: list[Candidate] = []
+    own: list[Candidate] = []
+    while not any(same_parts(winner, earlier) for earlier in winners):
+        angle, settled = at_own_incidence(problem, winner, criterion)
+        selection = select(replace(problem, incidence=angle), advise=advise)
+        if same_parts(selection.best, winner):
+            _, exact = at_own_incidence(problem, selection.best, criterion)
+            return selection if exact is None else _with_best(problem, exact, selection)
+        winners.append(winner)
+        own += [] if settled is None else [settled]
+        if len(winners) == _WINNERS_MAX:
+            break
+        winner = selection.best
+    if not own:
+        return selection
+    lightest = min(own, key=lambda candidate: candidate.mass)
+    there = select(replace(problem, incidence=lightest.incidence), advise=advise)
+    return _led_by(with_demands(problem, lightest), there)
 
 
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
@@ -135,37 +127,15 @@ def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candi
     if problem.incidence is not None or criterion is None:
         found = search_lightest(problem)
         return device_of(found.devices[0]) if found.places else None
-    angle = incidence_by_criterion(problem.robot.inertia)[criterion]
-    found = search_lightest(replace(problem, incidence=angle))
+    found = search_lightest(_at_robots(problem, criterion))
     if not found.places:
         return None
     return at_own_incidence(problem, device_of(found.devices[0]), criterion)[1]
 
 
-def _select_by(problem: SelectionProblem, *, criterion: Criterion, advise: bool) -> Selection:
-    """The lightest devices at their own incidence, of webs as the problem has them."""
-    angle = incidence_by_criterion(problem.robot.inertia)[criterion]
-    # Only its winner is of use, and a refined one would be at the wrong incidence too.
-    found = _found(replace(problem, incidence=angle), search_lightest, advise=advise)
-    winner = device_of(found.devices[0])
-    winners: list[Candidate] = []
-    own: list[Candidate] = []
-    while not any(same_parts(winner, earlier) for earlier in winners):
-        angle, settled = at_own_incidence(problem, winner, criterion)
-        selection = select_given_webs(replace(problem, incidence=angle), advise=advise)
-        if same_parts(selection.best, winner):
-            _, exact = at_own_incidence(problem, selection.best, criterion)
-            return selection if exact is None else _with_best(problem, exact, selection)
-        winners.append(winner)
-        own += [] if settled is None else [settled]
-        if len(winners) == _WINNERS_MAX:
-            break
-        winner = selection.best
-    if not own:
-        return selection
-    lightest = min(own, key=lambda candidate: candidate.mass)
-    there = select_given_webs(replace(problem, incidence=lightest.incidence), advise=advise)
-    return _led_by(lightest, there)
+def _at_robots(problem: SelectionProblem, criterion: Criterion) -> SelectionProblem:
+    """The problem at the incidence that the criterion sets for the robot alone."""
+    return replace(problem, incidence=incidence_by_criterion(problem.robot.inertia)[criterion])
 
 
 def at_own_incidence(
@@ -176,14 +146,17 @@ def at_own_incidence(
     It keeps its radius, which hardly depends on the incidence. Where these parts make no device on
     the way there, the first incidence at which they do not, and None.
     """
-    found, angle = winner, winner.incidence
+    found, angle, last = winner, winner.incidence, None
     for _ in range(_ITERATIONS_MAX):
         momenta = design_momenta(problem.requirement, found.total.inertia)
-        following = incidence_by_criterion(found.total.inertia, momenta)[criterion]
-        change, angle = abs(following - angle), following
-        if change < _CONVERGED:
+        change = incidence_by_criterion(found.total.inertia, momenta)[criterion] - angle
+        if abs(change) < _CONVERGED:
             break
-        turned = device_at(problem, found, min(angle, pi / 2.0))
+        slope = 0.0 if last is None else (change - last[1]) / (angle - last[0])
+        last = angle, change
+        # The device's inertia hardly changes with the incidence: the slope is about -1.
+        angle -= change / (slope if -2.0 < slope < -0.5 else -1.0)
+        turned = device_at(problem, found, min(max(angle, 0.0), pi / 2.0))
         if turned is None:
             # Not of these parts, then: whether of others, the whole selection tells.
             return angle, None
@@ -196,35 +169,38 @@ def device_at(problem: SelectionProblem, device: Candidate, incidence: float) ->
 
     None: there is none near it.
     """
-    alone = replace(
-        problem,
-        motors=(device.motor,),
-        gears=(device.gear,),
-        materials=(device.material,),
-        incidence=incidence,
-    )
-    first = np.zeros(1, dtype=np.intp)
-    candidates = Candidates(alone, drives_of(alone, np.zeros((1, 2), dtype=np.intp)), first)
-    angle, nothing = np.array([incidence]), np.zeros(1)
-    design = Design(np.array([device.outer_radius]), angle, nothing)
-    point = fixed_point(candidates, nothing, design, FINE)
-    if not point.feasible[0]:
-        # The iteration runs away where a device can only just carry itself; a programme does not.
-        point = refine(candidates, point)
-    if not point.feasible[0]:
-        return None
-    return device_of(Solved(candidates, Guess(nothing, nothing, angle, nothing), point))
+    (found,) = _devices_at(problem, [device], incidence)
+    return found
+
+
+def _devices_at(
+    problem: SelectionProblem, devices: Sequence[Candidate], incidence: float
+) -> Iterator[Candidate | None]:
+    """Each of these devices for another problem; see `device_at`."""
+    problem = replace(of_parts(problem, *devices), incidence=incidence)
+    rows = np.arange(len(devices))
+    drives = drives_of(problem, np.stack([rows, rows], axis=1), rows)
+    candidates, angle = Candidates(problem, drives, rows), np.full(rows.size, incidence)
+    nothing, radius = np.zeros(rows.size), np.array([device.outer_radius for device in devices])
+    start = np.array([device.spin_inertia for device in devices])
+    point = fixed_point(candidates, start, Design(radius, angle, nothing), FINE)
+    solved = Solved(candidates, Guess(start, nothing, angle, nothing), point)
+    for row in rows:
+        one = solved.take(np.array([row]))
+        if not one.point.feasible[0]:
+            # The iteration runs away where a device can only just carry itself; a programme not.
+            one = replace(one, point=refine(one.candidates, one.point))
+        yield device_of(one) if one.point.feasible[0] else None
 
 
 def _with_best(problem: SelectionProblem, exact: Candidate, selection: Selection) -> Selection:
     """Selection with its best at exactly its own incidence, and there what is about as light."""
-    near = exact.mass * (1.0 + _ABOUT)
-    others = (
-        device_at(problem, entry, exact.incidence) or entry if entry.mass < near else entry
-        for entry in selection.ranking[1:]
-    )
-    ranking = sorted((exact, *others), key=lambda entry: entry.mass)
-    return replace(selection, ranking=tuple(ranking))
+    near = [entry for entry in selection.ranking[1:] if entry.mass < exact.mass * (1.0 + _ABOUT)]
+    there = _devices_at(problem, near, exact.incidence) if near else ()
+    moved = [found or entry for found, entry in zip(there, near, strict=True)]
+    best, *others = sorted((exact, *moved), key=lambda entry: entry.mass)
+    later = selection.ranking[1 + len(near) :]
+    return replace(selection, ranking=(with_demands(problem, best), *others, *later))
 
 
 def _led_by(chosen: Candidate, selection: Selection) -> Selection:

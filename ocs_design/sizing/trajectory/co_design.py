@@ -13,6 +13,7 @@ from time import perf_counter
 import casadi as ca
 import numpy as np
 
+from ocs_design.actuation.drive import RESERVE, DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
@@ -107,7 +108,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     if device is None:
         return replace(stands, note="the selection stands: its room leaves the wheels no choice")
     turns = list(device.turns())
-    solution = solve(turns, selected.line.reserved(), PASSES, device.dimensions())
+    solution = solve(turns, _usable(problem, selected), PASSES, device.dimensions())
     found = device.at(*solution.dimensions.tolist())
     flights = tuple(_flights(problem, found, turns, solution))
     wrong = _rejection_reason(
@@ -255,21 +256,23 @@ def with_wheels(
     """
     motor, gear, turning = selected.motor, selected.gear, selected.rotor_share + selected.hub_share
     limits = selected.limits(problem.envelope)
-    mount = mount_of(motor, gear.room)
-    shell = Printed(mount.holes.reach, mount.posts)
+    guard, plate = selected.guard_wall, selected.foot_plate
+    mount = mount_of(motor, gear.room, plate)
+    shell = Printed(mount.holes.reach, mount.posts, guard, plate)
     spin_inertias, outer_radii = factors * selected.spin_inertia, radii * selected.outer_radius
     shapes = lightest_module_at(spin_inertias - turning, outer_radii, limits, shell)
     for row in np.flatnonzero(np.isfinite(shapes.mass)):
         inner, outer = float(shapes.inner_radius[row]), float(shapes.outer_radius[row])
         height, rim_mass = float(shapes.height[row]), float(shapes.rim_mass[row])
         sized = replace(selected, inner_radius=inner, outer_radius=outer, height=height)
+        size = motor_size(motor, gear.room, outer, height, guard, foot_plate=plate)
         yield replace(
             sized,
             spin_inertia=float(spin_inertias[row]),
             rim_mass=rim_mass,
             web_mass=sized.wheel.mass - rim_mass,
-            carrier=standing(motor, gear, outer, height),
-            centers=problem.place.centers(motor_size(motor, gear.room, outer, height)),
+            carrier=standing(motor, gear, outer, height, guard, foot_plate=plate),
+            centers=problem.place.centers(size),
             binding=binding_limits(shapes, limits, problem.envelope, int(row)),
         )
 
@@ -282,6 +285,15 @@ def _total(problem: SelectionProblem, device: Candidate, incidence: float) -> Ma
 def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) -> Gyrostat:
     inertia = _total(problem, device, incidence).inertia
     return Gyrostat(inertia, module_axes(incidence), device.spin_inertia, device.armature)
+
+
+def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
+    """What the drives may use: torque and speed over a factor do a turn with that factor to spare.
+
+    Of the reserves of all maneuvers the largest holds for each.
+    """
+    factors = (kept.demand for kept in problem.requirement.reserves.values())
+    return device.line.reserved(RESERVE / max(factors, default=1.0))
 
 
 def _top_speed(device: Candidate) -> float:
@@ -299,7 +311,7 @@ def _flights(
         own = maneuver.incidence
         gyrostat = _gyrostat(problem, device, device.incidence if own is None else own)
         outline = replace(turn, gyrostat=gyrostat).outline
-        yield fly(gyrostat, device.line.reserved(), turn.asked, outline, motion)
+        yield fly(gyrostat, _usable(problem, device), turn.asked, outline, motion)
 
 
 def _rejection_reason(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ocs_design.actuation.drive import RESERVE, DriveLine, power_less_friction
+from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
 from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.maneuver import Maneuver, Unforeseen
 from ocs_design.robot.mass import MassProperties
@@ -21,11 +21,6 @@ if TYPE_CHECKING:
     from ocs_design.device.device import Device
 
 INTERVALS = 24
-
-PLANNED = (1.0 + RESERVE) / 2.0
-"""Share of voltage, current, speed limit and power that a plan may use. A device is sized so that
-its hardest maneuver just takes `RESERVE` of them: half of the rest lets a plan be smoother than
-that, the other half is left to the feedback."""
 
 _UNFORESEEN = "a push is not known beforehand: no trajectory is planned, feedback holds the trunk"
 
@@ -66,7 +61,11 @@ class Reference:
 
 
 def plan(
-    robot: MassProperties, device: "Device", maneuvers: Sequence[Maneuver], standing_height: float
+    robot: MassProperties,
+    device: "Device",
+    maneuvers: Sequence[Maneuver],
+    standing_height: float,
+    kept: Mapping[str, float] | None = None,
 ) -> Mapping[str, Reference]:
     """The turn of least peak power for each maneuver by its name; none is planned for a push.
 
@@ -75,33 +74,47 @@ def plan(
         device: with a real motor.
         maneuvers: each at its own incidence, if it has one.
         standing_height: of the trunk over the ground [m].
+        kept: factor on what is asked that the device keeps for a maneuver, by its name; 1 if none.
     """
-    line = drive_line_of(device)
+    line, factors = drive_line_of(device), kept or {}
     return {
         maneuver.name: reference(
-            gyrostat_of(robot, device.as_flown(maneuver)), line, maneuver, standing_height
+            gyrostat_of(robot, device.as_flown(maneuver)),
+            line,
+            maneuver,
+            standing_height,
+            factors.get(maneuver.name, 1.0),
         )
         for maneuver in maneuvers
     }
 
 
 def reference(
-    gyrostat: Gyrostat, line: DriveLine, maneuver: Maneuver, standing_height: float
+    gyrostat: Gyrostat,
+    line: DriveLine,
+    maneuver: Maneuver,
+    standing_height: float,
+    kept: float = 1.0,
 ) -> Reference:
     """Least peak power within `PLANNED` of voltage, current and power, else with all of them.
+
+    What the device keeps in reserve is left to the feedback: a plan of least power would use it up
+    and run at top speed, which a robot with more inertia than designed cannot follow.
 
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
         line: of the drives, nothing held back.
         maneuver: what nobody foresees gets no reference, because it comes unforeseen.
         standing_height: of the trunk over the ground [m].
+        kept: factor on what is asked that the device keeps.
     """
     if isinstance(maneuver, Unforeseen):
         return Reference(None, _UNFORESEEN, None)
     turn = Turn(boundary(maneuver, standing_height), gyrostat)
-    planned = gentlest(turn, line.reserved(PLANNED))
-    if not planned.failure:
-        return Reference(planned.trajectory, "", planned)
+    for share in dict.fromkeys((PLANNED / kept, PLANNED)):
+        planned = gentlest(turn, line.reserved(share))
+        if not planned.failure:
+            return Reference(planned.trajectory, "", planned)
     planned = gentlest(turn, line)
     if planned.failure:
         return Reference(None, f"no optimal turn was found ({planned.failure})", planned)

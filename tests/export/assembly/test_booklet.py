@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from wheels import paper_device
 
 from ocs_design.catalogue.materials import materials
-from ocs_design.device.joints import balance_of, rim_fit
+from ocs_design.device.joints import balance_of, burst_of, rim_fit
 from ocs_design.device.records import MarginRecord
 from ocs_design.export.assembly.booklet import (
     assembly_pages,
@@ -20,7 +20,7 @@ from ocs_design.export.assembly.booklet import (
     exploded_svg,
     section_svg,
 )
-from ocs_design.export.assembly.content import Assembly, burst_of
+from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import pulled_apart, spread
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import printed_parts
@@ -69,18 +69,41 @@ def test_the_same_device_has_the_same_bytes(assembly):
     assert section_svg(assembly).startswith("<svg")
 
 
-def test_every_screw_of_the_bill_is_numbered_and_has_a_torque():
-    assembly = Assembly("solo12", DEVICES["caged"])
-    bought = {
+def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
+    bought = [
         (row.part.removeprefix("screw "), row.quantity)
         for row in bill_rows(assembly.device)
         if row.part.startswith("screw")
-    }
+    ]
     rows = list(assembly.screw_rows())
-    assert {(row.designation, row.quantity) for row in rows} == bought
+    assert sorted((row.designation, row.quantity) for row in rows) == sorted(bought)
     assert all(re.fullmatch(r"\d.*N m", row.torque) for row in rows)
     numbers = [row.number for row in assembly.piece_rows()]
     assert numbers == list(range(1, len(numbers) + 1))
+
+
+def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
+    """Where it stands, its top is the foot's underside; pulled apart they are one below another."""
+    assembly = Assembly("solo12", DEVICES["on a plate"])
+    rows = {row.name: (row.quantity, row.file) for row in assembly.piece_rows()}
+    assert rows["plate under the feet"] == (1, "plate.stl")
+    assert rows["sleeves under the plate"] == (3, "")
+    screws = [row for row in assembly.screw_rows() if row.purpose.startswith("plate")]
+    assert [row.quantity for row in screws] == [1, 2, 1]
+
+    def low_and_high(pieces, name):
+        """Height of the underside and of the top."""
+        meshes = [each.mesh for each in pieces if re.split("[,;]", each.name)[0] == name]
+        down = np.concatenate([mesh.vertices[:, 1] for mesh in meshes])
+        return -down.max(), -down.min()
+
+    placed, apart = assembly.pieces, pulled_apart(assembly.pieces, 0.02)
+    assert low_and_high(placed, "plate")[1] == pytest.approx(low_and_high(placed, "foot")[0])
+    for above, below in pairwise(("foot on plate", "plate on trunk", "plate", "sleeves")):
+        assert low_and_high(apart, above)[0] > low_and_high(apart, below)[1]
+    said = texts(assembly, "Steps")
+    assert "4.50 mm at" in said
+    assert "into the threads of the plate" in said
 
 
 def test_the_pieces_are_those_that_are_made():
@@ -94,7 +117,7 @@ def test_the_pieces_are_those_that_are_made():
 
 def test_pulled_apart_no_piece_touches_its_neighbour():
     pieces = Assembly("solo12", DEVICES["caged"]).pieces
-    apart = [piece for piece in pulled_apart(pieces, 0.02) if not piece.upright]
+    apart = [piece for piece in pulled_apart(pieces, 0.02) if piece.drop is None]
     for one, other in pairwise(apart):
         if "foot" not in (one.name, other.name):
             assert one.mesh.vertices[:, 2].max() < other.mesh.vertices[:, 2].min()
@@ -115,12 +138,25 @@ def texts(assembly, title):
 def test_the_guard_is_told_what_it_does_not_do():
     device = DEVICES["caged"]
     assembly = Assembly("solo12", device)
-    said, burst = texts(assembly, "Safety"), burst_of(device, assembly.top_speed)
+    said, burst = texts(assembly, "Safety"), burst_of(device)
     assert assembly.top_speed == 650.4
     assert "It does not hold a burst rim" in said
     assert f"{1e3 * burst.steel.wall:.2g} mm of mild steel" in said
     energy = 0.5 * device.flywheel.spin_inertia * 650.4**2
     assert f"Each wheel stores {energy:.3g} J at 6,211 rpm, 2 of them {2 * energy:.3g} J" in said
+
+
+def test_a_guard_ring_is_built_and_told_with_its_limits():
+    device = DEVICES["in a guard ring"]
+    assembly = Assembly("solo12", device)
+    said, wall = texts(assembly, "Safety"), burst_of(device).steel.wall
+    assert device.guard_wall >= wall
+    assert "The guard ring of 1.5 mm holds that piece" in said
+    assert "no ring of this kind has been tested" in said
+    rows = {row.name: row for row in assembly.piece_rows()}
+    assert rows["guard ring"].file == "guard_ring.stl"
+    thin = texts(Assembly("solo12", replace(device, guard_wall=wall / 2.0)), "Safety")
+    assert "It does not hold a burst rim" in thin
 
 
 def test_the_balance_says_how_much_is_left_and_what_holes_take():
@@ -186,3 +222,25 @@ def test_a_wheel_whose_speed_is_not_known_is_not_tested():
     assert Assembly("solo12", device).top_speed is None
     titles = [chapter.title for chapter in Assembly("solo12", device).chapters()]
     assert "Safety" not in titles
+
+
+@pytest.mark.parametrize(
+    ("allowed", "says"),
+    [
+        (1.5, "ten seconds, 110%: 11,000 rpm, which takes 26.4 V."),
+        (1.05, "ten seconds, 105%: 10,500 rpm, the most that motor and wheel are allowed, which"),
+        (1.0, "ten seconds, 100%: 10,000 rpm, the most that motor and wheel are allowed."),
+    ],
+)
+def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, says):
+    free = 10000.0 * np.pi / 30.0
+    device = next(iter(DEVICES.values()))
+    motor = replace(
+        device.motor, no_load_speed=free, speed_max=allowed * free, bus_voltage=24.0, gear="direct"
+    )
+    (chapter,) = (
+        each
+        for each in Assembly("solo12", replace(device, motor=motor)).chapters()
+        if each.title.startswith("Spin test")
+    )
+    assert says in " ".join(chapter.texts)

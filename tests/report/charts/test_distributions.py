@@ -28,7 +28,7 @@ def record(values):
         peak_wheel_speed=None, peak_wheel_torque=None, causes=(), worst=(),
     )  # fmt: skip
     return MonteCarloRecord(
-        seed=3, samples=500, asked=500, confidence=0.95, reality={"sensor.delay": "5 ms"},
+        seed=3, samples=500, asked=500, confidence=0.95, reality={"torque_delay": "0.005"},
         success=share(499, 500), scenarios=(scenario,),
     )  # fmt: skip
 
@@ -51,7 +51,7 @@ def test_flights_that_are_all_alike_have_a_bin_too():
 def test_the_section_is_there_only_if_samples_were_flown():
     assert monte_carlo_section(story()) == ""
     section = monte_carlo_section(replace(story(), monte_carlo=record(VALUES)))
-    for text in ("500 robots", "99.8 %", "sensor.delay"):
+    for text in ("500 robots", "99.8 %", "torque delay", "5 ms"):
         assert text in section
 
 

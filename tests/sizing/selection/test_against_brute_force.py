@@ -19,7 +19,7 @@ from selections import lopsided, random_problem
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.selection.select import select, select_given_webs
+from ocs_design.sizing.selection.select import select
 
 FAST = (2, 12)
 SLOW = (1, 3, 6, 4, 5, 7, 8, 10, 11, 14)
@@ -30,10 +30,9 @@ LOPSIDED = (3, 9, 12, 16, 20)
 
 
 def selected(problem):
-    """The lightest device of the webs that were drawn; None if there is none."""
-    choose = select_given_webs if problem.lightening else select
+    """The lightest device that was drawn; None if there is none."""
     try:
-        return choose(problem, advise=False).best
+        return select(problem, advise=False).best
     except Infeasible:
         return None
 
@@ -95,9 +94,15 @@ def test_nothing_lighter_is_on_a_grid(seed):
     check_nothing_lighter(draw(seed).problem)
 
 
+def test_nothing_lighter_stands_on_thicker_feet():
+    """Wheels, cages and screws of the same drive on feet of 5 mm are others."""
+    problem = replace(draw(FAST[0]).problem, foot_plate=0.0084)
+    check_nothing_lighter(problem)
+
+
 @pytest.mark.parametrize("seed", [12, pytest.param(10, marks=pytest.mark.exhaustive)])
 def test_nothing_lighter_has_lightening_holes(seed):
-    check_nothing_lighter(replace(draw(seed).problem, lightening=6))
+    check_nothing_lighter(replace(draw(seed).problem, lightenings=(6,)))
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ SEEDS = (4, 10, 16)
 
 
 def problem_of(seed: int) -> SelectionProblem:
-    return replace(draw(seed).problem, incidence=0.6, lightening=6)
+    return replace(draw(seed).problem, incidence=0.6, lightenings=(0, 6))
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -41,7 +41,7 @@ def test_the_selected_wheel_is_the_made_one(seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_with_holes_a_device_is_no_heavier(seed):
     problem = problem_of(seed)
-    holed, solid = select(problem).best, select(replace(problem, lightening=0)).best
+    holed, solid = select(problem).best, select(replace(problem, lightenings=(0,))).best
     assert holed.mass <= solid.mass * (1.0 + 1e-3)
 
 
@@ -49,11 +49,11 @@ def test_where_their_room_holds_the_device_back_the_web_is_solid():
     """Wheels of the least spin inertia, in webs that are smaller than the holes ask for."""
     problem = problem_of(SEEDS[0])
     little = replace(problem.requirement, maneuvers=(), rate_change=None, spin_inertia=None)
-    solid = select(replace(problem, lightening=0)).best
+    solid = select(replace(problem, lightenings=(0,))).best
     asked = replace(little, spin_inertia=0.1 * solid.spin_inertia)
     try:
         found = select(replace(problem, requirement=asked)).best
-        alone = select(replace(problem, requirement=asked, lightening=0)).best
+        alone = select(replace(problem, requirement=asked, lightenings=(0,))).best
     except Infeasible:
         pytest.skip("no wheel is that small")
     assert found.mass <= alone.mass * (1.0 + 1e-6)

@@ -17,6 +17,13 @@ def test_it_leaves_the_feedback_its_reserve():
     np.testing.assert_allclose(np.linalg.norm(path.vertical, axis=1), 1.0, rtol=1e-9)
 
 
+def test_what_the_device_keeps_is_left_to_the_feedback_too():
+    found = reference(body(FORTY, 1.4e-4), EC_45_FLAT, drop(30.0), STANDING, 1.05)
+    path, share = found.trajectory, PLANNED / 1.05
+    assert found.note == ""
+    assert limit_violation(path.wheel_speed, path.wheel_torque, EC_45_FLAT.reserved(share)) < 1e-6
+
+
 def test_where_the_reserve_is_too_little_it_takes_all_and_says_so():
     """Between the smallest wheel with all of the drive and the one with what is reserved."""
     found = reference(body(FORTY, 9.2e-5), EC_45_FLAT, drop(30.0), STANDING)

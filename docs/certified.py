@@ -1,0 +1,151 @@
+"""Certificates that the docs quote: flown by this script, kept in `certified.json`.
+
+    python docs/certified.py examples/solo12.urdf ...    sizes and flies each, some minutes a robot
+    python docs/generate.py --quick                      fills in the pages
+
+A slow test flies Solo12's again: on another machine single samples may end otherwise, so it asks
+for the same verdict and for intervals that overlap.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from math import degrees, exp, inf, log
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from blocks import table
+
+from ocs_design.common.units import floored
+from ocs_design.monte_carlo.certificate import ERROR, Finding, SequentialTest
+
+ROOT = Path(__file__).resolve().parents[1]
+KEPT = Path(__file__).with_name("certified.json")
+
+
+def flown(robot: Path) -> dict[str, Any]:
+    """Certificate of the device of a robot that is sized without options."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = ["size", str(robot), "--certify", "-q", "--out", f"{folder}/ocs"]
+        subprocess.run([sys.executable, "-m", "ocs_design", *command], check=False)
+        return said(Path(folder) / "ocs")
+
+
+def said(folder: Path) -> dict[str, Any]:
+    """What a folder of `size --certify` says of reliability, and how far off level robots land."""
+    design = json.loads((folder / "design.json").read_text())
+    record = json.loads((folder / "certificate" / "monte_carlo.json").read_text())
+    off_level = {
+        each["scenario"]: round(degrees(each["attitude_error"]["quantiles"][-1]), 2)
+        for each in record["scenarios"]
+    }
+    return {
+        "mass": round(design["ocs"]["mass_total"], 4),
+        "off_level": off_level,
+        **design["reliability"],
+    }
+
+
+def kept() -> dict[str, dict[str, Any]]:
+    """Certificates by the robot's name."""
+    found: dict[str, dict[str, Any]] = json.loads(KEPT.read_text())
+    return found
+
+
+def sentence(name: str) -> str:
+    """What is sure of one robot, for the README."""
+    found = kept()[name]
+    low, asked = floored(100.0 * found["whole_interval"][0], 1), 100.0 * found["asked"]
+    return (
+        f"Flown with these (`size --certify`, seed {found['seed']}), {found['whole']} of "
+        f"{found['samples']}\nof {name} do all maneuvers. That is at least {low} of 100 with 95 % "
+        f"confidence, and the test for\n{asked:.4g} of 100 says: {found['verdict']} "
+        f"([Monte Carlo](docs/monte_carlo.md), [all robots](docs/robots.md)).\n"
+    )
+
+
+def certificates(_: str) -> str:
+    """Table of all robots."""
+    rows = []
+    for name, found in kept().items():
+        low = floored(100.0 * found["whole_interval"][0], 1)
+        worst = ", ".join(f"{key} {angle:.1f}°" for key, angle in found["off_level"].items())
+        rows.append(
+            (
+                name,
+                f"{1e3 * found['mass']:.0f} g",
+                found["verdict"],
+                f"{found['whole']} of {found['samples']}",
+                f"{low} %",
+                str(found["round"]),
+                worst,
+            )
+        )
+    heads = ("robot", "device", "99 %", "do all", "at least", "round", "largest tilt at touchdown")
+    return table(heads, rows)
+
+
+def endings(test: SequentialTest) -> list[tuple[int, int, Finding, float]]:
+    """All ends of a test: passed, flown, finding, and the logarithm of the ways that lead there.
+
+    Dynamic programming over the number of failures: exact, nothing is drawn.
+    """
+    gain = log(test.asked / test.worse)
+    loss = log((1.0 - test.asked) / (1.0 - test.worse))
+    ends, ways = [], {0: 0.0}
+    for count in range(1, test.most + 1):
+        grown: dict[int, float] = {}
+        for failed, before in ways.items():
+            for now in (failed, failed + 1):
+                grown[now] = float(np.logaddexp(grown.get(now, -inf), before))
+        ways = {}
+        for failed, paths in grown.items():
+            evidence = (count - failed) * gain + failed * loss
+            if abs(evidence) >= log(1.0 / ERROR):
+                finding = Finding.CERTIFIED if evidence > 0.0 else Finding.SHORT
+                ends.append((count - failed, count, finding, paths))
+            elif count == test.most:
+                ends.append((count - failed, count, Finding.UNDECIDED, paths))
+            else:
+                ways[failed] = paths
+    return ends
+
+
+def operating(
+    ends: list[tuple[int, int, Finding, float]], reliability: float
+) -> tuple[dict[Finding, float], float]:
+    """Probability of each finding for a device of this reliability, and the mean of flights."""
+    chances, mean = dict.fromkeys(Finding, 0.0), 0.0
+    for passed, count, finding, paths in ends:
+        odds = passed * log(reliability) + (count - passed) * log(1.0 - reliability)
+        chance = exp(paths + odds)
+        chances[finding] += chance
+        mean += chance * count
+    return chances, mean
+
+
+def characteristic(asked: str) -> str:
+    """Table of what the test finds, by the reliability that a device really has."""
+    test = SequentialTest(float(asked))
+    ends = endings(test)
+    rows = []
+    for share in (0.1, 0.5, 1.0, 2.0, 3.0, 5.0):
+        reliability = 1.0 - share * (1.0 - test.asked)
+        chances, mean = operating(ends, reliability)
+        rows.append(
+            (
+                f"{100.0 * reliability:.4g} %",
+                *(f"{100.0 * chances[each]:.1f} %" for each in Finding),
+                f"{mean:.0f}",
+            )
+        )
+    return table(("works in truth", *map(str, Finding), "flights on average"), rows)
+
+
+if __name__ == "__main__":
+    robots = {path.stem: path for path in map(Path, sys.argv[1:])}
+    known = kept() if KEPT.exists() else {}
+    known.update({name: flown(path) for name, path in robots.items()})
+    KEPT.write_text(json.dumps(known, indent=1) + "\n")

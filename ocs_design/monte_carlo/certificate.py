@@ -1,0 +1,175 @@
+"""Wald's sequential test (1945): does a device do its work as often as was asked?
+
+Robots as they might be built fly one after the other until the question is decided. What is tested
+is that one of them does all of its maneuvers.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import ceil, log
+from statistics import NormalDist
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.device.records import ReliabilityRecord
+from ocs_design.monte_carlo.campaign import Campaign
+from ocs_design.monte_carlo.outcomes import Outcomes
+from ocs_design.monte_carlo.summary import share
+from ocs_design.monte_carlo.uncertainty import NAMES
+from ocs_design.simulation.verdict import LANDING_TOLERANCE
+
+ERROR = 0.05
+"""Largest probability of either wrong verdict."""
+
+WORSE = 3.0
+"""Odds of failure of a device that must not be certified, over those that were asked for."""
+
+
+class Finding(StrEnum):
+    """What a certificate says."""
+
+    CERTIFIED = "certified"
+    SHORT = "falls short"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True)
+class SequentialTest:
+    """Test between the reliability that was asked for and one with `WORSE` odds of failure.
+
+    The likelihood ratio of the worse over the better exceeds 1 / `ERROR` with a probability of at
+    most `ERROR` if the better one is true, however long one looks, and the other way round (Ville
+    1939, Wald 1945). So neither wrong verdict is likelier than that, also where the test is cut
+    short.
+
+    Attributes:
+        asked: share of robots that do all of their maneuvers, between 0 and 1.
+    """
+
+    asked: float
+
+    @property
+    def worse(self) -> float:
+        """Reliability that the asked one is told from."""
+        return self.asked / (self.asked + WORSE * (1.0 - self.asked))
+
+    @property
+    def most(self) -> int:
+        """Flights after which it gives up."""
+        return ceil(10.0 / (1.0 - self.asked) - 1e-9)
+
+    def found(self, passed: NDArray[np.bool_]) -> tuple[Finding | None, int]:
+        """Verdict on flights in their order, and how many of them it took; None: not decided yet.
+
+        Args:
+            passed: shape (n,).
+        """
+        passed = passed[: self.most]
+        better = log(self.asked / self.worse), log((1.0 - self.asked) / (1.0 - self.worse))
+        evidence = np.cumsum(np.where(passed, *better))
+        decided = np.flatnonzero(np.abs(evidence) >= log(1.0 / ERROR))
+        if decided.size:
+            first = int(decided[0])
+            return Finding.CERTIFIED if evidence[first] > 0.0 else Finding.SHORT, first + 1
+        return Finding.UNDECIDED if len(passed) == self.most else None, len(passed)
+
+    def decided(self, outcomes: Outcomes) -> bool:
+        """Whether these outcomes decide it."""
+        return self.found(outcomes.all_passed)[0] is not None
+
+
+ROUND = 1 << 20
+"""Samples of a round of `size --certify` begin at its number times this, those of `validate` at 0.
+A sample's index is the spawn key of its generator: no round sees what another has learnt from."""
+
+ROUNDS = 3
+"""How often a device is sized at most: what its flights taught raises the reserve of the next."""
+
+
+def certificate(
+    test: SequentialTest,
+    campaign: Campaign,
+    outcomes: Outcomes,
+    *,
+    number: int = 0,
+) -> ReliabilityRecord:
+    """What these outcomes say; those after the verdict are not counted.
+
+    Args:
+        test: that they are flown for. campaign, outcomes: what was flown.
+        number: of the round, see `ReliabilityRecord`.
+    """
+    finding, count = test.found(outcomes.all_passed)
+    passed = outcomes.passed[:count]
+    names = [flight.maneuver.name for flight in campaign.flights]
+    whole, *each = (share(int(k), count) for k in (passed.all(axis=1).sum(), *passed.sum(axis=0)))
+    return ReliabilityRecord(
+        asked=test.asked,
+        worse=test.worse,
+        verdict=(finding or Finding.UNDECIDED).value,
+        samples=count,
+        whole=whole.passed,
+        whole_interval=(whole.low, whole.high),
+        passed={name: one.passed for name, one in zip(names, each, strict=True)},
+        interval={name: (one.low, one.high) for name, one in zip(names, each, strict=True)},
+        seed=campaign.seed,
+        first=int(outcomes.index[0]),
+        round=number,
+    )
+
+
+LEAST, LARGEST = 1.1, 2.0
+"""Factors between which the reserve is raised in a round."""
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """What flights that fall short say of the reserve.
+
+    Attributes:
+        factor: by which deviations are larger than the reserve takes them to be; 1: it is not the
+            reserve that is short.
+        told: what was seen, a sentence.
+    """
+
+    factor: float
+    told: str
+
+
+def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Lesson:
+    """How much larger a reserve must be for the maneuver and the axis that fail most often.
+
+    Tilt at touchdown is nearly linear in what is drawn (docs/theory.md), and what is drawn is
+    independent: so tilt is nearly normal, and the square of its correlation with a quantity is the
+    share of its variance that the quantity makes.
+
+    Args:
+        test: that they fell short of. campaign, outcomes: what was flown.
+    """
+    names = ("roll", "pitch")
+    tilts = np.stack([outcomes.metric(f"touchdown_{name}") for name in names])
+    off = (np.abs(tilts) > LANDING_TOLERANCE).sum(axis=1)
+    axis, number = divmod(int(np.argmax(off)), len(campaign.flights))
+    if not off[axis, number]:
+        return Lesson(1.0, "every touchdown is level: no reserve of the device helps")
+    tilt = tilts[axis, :, number]
+    known = np.isfinite(tilt)
+    tilt, values = tilt[known], outcomes.values[known]
+    reached = abs(tilt.mean()) + NormalDist().inv_cdf(0.5 * (1.0 + test.asked)) * tilt.std()
+    varied = np.flatnonzero(np.ptp(values, axis=0) > 0.0)
+    shares = np.corrcoef(values[:, varied], tilt, rowvar=False)[-1, :-1] ** 2
+    part, cause = max(zip(shares.tolist(), (NAMES[i] for i in varied), strict=True))
+    factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
+    ending = f"the reserve is raised by {factor:.2f}"
+    if cause.startswith("attitude_bias"):
+        # The law brings to level what the sensor calls level, whatever the wheels can do.
+        factor, ending = 1.0, "a better attitude sensor helps, no reserve of the device does"
+    quantity = cause.replace("_", " ").replace(".", " ")
+    return Lesson(
+        factor,
+        f"{campaign.flights[number].maneuver.name}: {off[axis, number]} of {len(tilt)} land off "
+        f"level in {names[axis]}, which {test.asked:.4g} of them keep within "
+        f"{np.degrees(reached):.1f} deg ({np.degrees(LANDING_TOLERANCE):.0f} are allowed); "
+        f"{part:.0%} of its variance goes with {quantity}: {ending}",
+    )

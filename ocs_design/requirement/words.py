@@ -1,0 +1,154 @@
+"""What a user says of a maneuver in one text: a kick, a tilt, a flip, a planet."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import pi
+from reprlib import repr as shortened
+from types import MappingProxyType
+
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.units import Dimension
+from ocs_design.requirement.values import (
+    MOST_TURNS,
+    ONE_TURN,
+    TILT,
+    NamedQuantity,
+    Quantities,
+    Quantity,
+    Sign,
+    Text,
+    Value,
+)
+
+Vector3 = tuple[float, float, float]
+
+DIRECTIONS: Mapping[str, Vector3] = MappingProxyType(
+    {
+        "forward": (1.0, 0.0, 0.0),
+        "backward": (-1.0, 0.0, 0.0),
+        "left": (0.0, 1.0, 0.0),
+        "right": (0.0, -1.0, 0.0),
+        "up": (0.0, 0.0, 1.0),
+        "down": (0.0, 0.0, -1.0),
+    }
+)
+"""In B."""
+
+GRAVITY = NamedQuantity(Dimension.ACCELERATION, words={"earth": 9.81, "moon": 1.62, "mars": 3.71})
+"""Earth's and the Moon's as the paper takes them; Mars: NASA, Mars Fact Sheet."""
+
+FLIP = NamedQuantity(
+    Dimension.ANGLE,
+    Sign.ANY,
+    MOST_TURNS * 2.0 * pi,
+    ONE_TURN,
+    "deg",
+    words={"back": -2.0 * pi, "forward": 2.0 * pi},
+)
+
+
+@dataclass(frozen=True)
+class Kick:
+    """An impulse at a point of the trunk.
+
+    Attributes:
+        impulse: its size [N s].
+        point: in B [m], or the name of a link whose frame's origin it is.
+        along: its direction in B, of any length; None: from the side.
+    """
+
+    impulse: float
+    point: Vector3 | str
+    along: Vector3 | None = None
+
+    def __str__(self) -> str:
+        at = self.point if isinstance(self.point, str) else ",".join(map(repr, self.point))
+        along = "" if self.along is None else f" along {','.join(map(repr, self.along))}"
+        return f"{self.impulse!r} N s at {at}{along}"
+
+
+@dataclass(frozen=True)
+class KickText(Value[Kick]):
+    """A kick: how much, where, and in which direction."""
+
+    _PARTS = re.compile(r"\s*(.+?)\s+at\s+(.+?)(?:\s+along\s+(.+?))?\s*")
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left"
+
+    def read(self, raw: object, where: str) -> Kick:
+        """Value that `raw` stands for (`Value.read`)."""
+        parts = self._PARTS.fullmatch(raw) if isinstance(raw, str) else None
+        if parts is None:
+            raise SpecificationError(
+                f"{where}: {shortened(raw)} does not say how much, and where",
+                hint="Write '12 N s at 0.1,0,0.2', '12 N s at FL_hip' or "
+                "'12 N s at 0.1,0,0.2 along 0,1,0'; metres in the trunk's frame.",
+            )
+        impulse, at, along = parts.groups()
+        return Kick(
+            Quantity(Dimension.IMPULSE).read(impulse, where),
+            _row(at, Dimension.LENGTH, f"{where}, at") if "," in at else Text().read(at, where),
+            None if along is None else self._direction(along, f"{where}, along"),
+        )
+
+    def _direction(self, text: str, where: str) -> Vector3:
+        """Three numbers, not all zero, or one of `DIRECTIONS`."""
+        if text.casefold() in DIRECTIONS:
+            return DIRECTIONS[text.casefold()]
+        if "," not in text:
+            raise SpecificationError(
+                f"{where}: {shortened(text)} is no direction",
+                hint=f"Write 0,1,0, or one of {', '.join(DIRECTIONS)}.",
+            )
+        row = _row(text, Dimension.RATIO, where)
+        if not any(row):
+            raise SpecificationError(f"{where}: {text} is no direction", hint="Write 0,1,0.")
+        return row
+
+
+@dataclass(frozen=True)
+class Tilt:
+    """Roll and pitch at release [rad]."""
+
+    roll: float
+    pitch: float
+
+    def __str__(self) -> str:
+        return f"{self.roll!r} rad roll {self.pitch!r} rad pitch"
+
+
+@dataclass(frozen=True)
+class TiltText(Value[Tilt]):
+    """A tilt: an angle of pitch, or angles with their axes."""
+
+    _PART = re.compile(r"\s*(.+?)\s*\b(roll|pitch)\b", re.IGNORECASE)
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return f"{TILT.takes}; of pitch, or as in '20deg roll', '10deg roll 20deg pitch'"
+
+    def read(self, raw: object, where: str) -> Tilt:
+        """Value that `raw` stands for (`Value.read`)."""
+        found = {}
+        rest = raw
+        while isinstance(rest, str) and (part := self._PART.match(rest)):
+            angle, axis = part.groups()
+            found[axis.casefold()] = TILT.read(angle, where)
+            rest = rest[part.end() :]
+        if not found:
+            return Tilt(0.0, TILT.read(raw, where))
+        if isinstance(rest, str) and rest.strip():
+            raise SpecificationError(
+                f"{where}: {shortened(raw)} is no tilt", hint="Write '20deg' or '20deg roll'."
+            )
+        return Tilt(found.get("roll", 0.0), found.get("pitch", 0.0))
+
+
+def _row(text: str, dimension: Dimension, where: str) -> Vector3:
+    x, y, z = Quantities(dimension, (3,)).read(text, where)
+    return x, y, z

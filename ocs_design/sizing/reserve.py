@@ -1,0 +1,518 @@
+"""The reserve that a device keeps for what is drawn, so that it works as built and not as designed.
+
+Each robot drawn asks the closed forms of the selection what its wheels do within the time, and what
+is asked of them: the factor by which they must do more than a device that is designed for the mean.
+The reserve is the factor that enough of all robots do with (docs/theory.md, From possible to sure).
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from statistics import NormalDist
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.actuation.drive import PLANNED, Drive, DriveLine
+from ocs_design.actuation.spin_root import SpinDemand, capability
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.actuation.unit_drive import UnitDrive
+from ocs_design.actuation.wheel_pair import WheelPairTask, spin_demand
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.records import KeptRecord, ReserveRecord, UncertaintyCost
+from ocs_design.requirement.maneuver import (
+    Disturbance,
+    Flip,
+    Maneuver,
+    ManeuverReserve,
+    Requirement,
+    Unforeseen,
+)
+from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty
+from ocs_design.robot.robot import Robot
+from ocs_design.sizing.selection.demand import pair_task, shares_of
+from ocs_design.sizing.selection.device import inertia_at
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.result import Candidate
+
+LEVEL = np.radians(5.0)
+"""Largest roll and pitch at touchdown [rad], by the pass rule of the flights."""
+
+PUSH_OFF = 0.08
+"""Share of m v d, the momentum about roll or pitch of a push-off at the speed v with the centre of
+mass d off, that is left at lift-off: legs that track their plan take up the rest."""
+
+RELIABILITIES = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
+"""Whose masses are told."""
+
+NOMINAL = 0.5
+"""Reliability of a device that is designed for the mean of all that is drawn, and keeps nothing."""
+
+DRAWN = 2048
+"""Robots that are drawn, each quantity by strata (Latin hypercube): the same ones every time."""
+
+_SEED = 0x5EED0F5E
+"""Key of their generator, which no flight has: a device never sees what certifies it."""
+
+_KNOTS = np.linspace(0.0, 1.0, 257)
+_LEAST, _MOST = 0.25, 4.0
+"""Factors on what is asked between which a device is looked for."""
+
+
+@dataclass(frozen=True)
+class Reserve:
+    """What is kept for the errors of `[reality]`.
+
+    Attributes:
+        reliability: share of flights that shall pass, every maneuver of a sample.
+        scale: factor on every deviation from the mean; above 1 where flights showed more.
+        maneuvers: what it comes to for each, by name; empty until it is `settled`.
+    """
+
+    reliability: float
+    scale: float = 1.0
+    maneuvers: Mapping[str, ManeuverReserve] = field(default_factory=dict)
+
+    def raised(self, factor: float) -> "Reserve":
+        """A reserve for deviations that are this much larger, to be worked out anew."""
+        return replace(self, scale=self.scale * factor, maneuvers={})
+
+    def kept(self, requirement: Requirement, *, free: bool) -> Requirement:
+        """The requirement with this reserve; `free`: the incidence is still to be chosen."""
+        return replace(requirement, reserves=self.maneuvers, free=free)
+
+    def settled(
+        self, reality: "Reality", problem: SelectionProblem, device: Candidate
+    ) -> "Reserve":
+        """The reserve of the problem that a device which does the nominal maneuvers tells.
+
+        Args:
+            reality: what is drawn.
+            problem: without a reserve. device: that does it.
+        """
+        if self.reliability <= NOMINAL or not problem.requirement.maneuvers:
+            return self
+        return self.of(reality.needed(problem, device, self))
+
+    def of(self, needed: "Needed") -> "Reserve":
+        """The reserve with which enough of these robots pass."""
+        factors = needed.for_all(self.reliability)
+        kept = {
+            name: ManeuverReserve(max(factor, 1.0), rate, begun)
+            for (name, rate), factor, begun in zip(
+                needed.rates.items(),
+                factors.tolist(),
+                (factors * needed.left).tolist(),
+                strict=True,
+            )
+        }
+        return replace(self, maneuvers=kept)
+
+
+@dataclass(frozen=True, eq=False)
+class Needed:
+    """What robots that are drawn need.
+
+    Attributes:
+        factors: on what the nominal maneuver asks, shape (robots, maneuvers).
+        rates: of roll and pitch that the reserve is for [rad/s], by name.
+        has: factor that the device has, shape (maneuvers,).
+        left: part of that which it has with these rates, shape (maneuvers,).
+        blind: whether a robot ends off level about an axis out of the wheels' reach, whatever they
+            do, shape (robots, maneuvers).
+        drawn: what was drawn, by key, shape (robots, parts).
+    """
+
+    factors: FloatArray
+    rates: Mapping[str, tuple[float, float]]
+    has: FloatArray
+    left: FloatArray
+    blind: NDArray[np.bool_]
+    drawn: Mapping[str, FloatArray]
+
+    @property
+    def reliability(self) -> float:
+        """Share of the robots that pass every maneuver."""
+        passes = (self.factors <= self.has) & ~self.blind
+        return float(passes.all(axis=1).mean())
+
+    def for_all(self, reliability: float) -> FloatArray:
+        """Factors with which this share passes every maneuver, (maneuvers,), all as sure alone.
+
+        Where less than 1 would do, the nominal demand is met all the same.
+        """
+        low, high = reliability, 1.0
+        for _ in range(20):
+            chance = (low + high) / 2.0
+            asked = np.quantile(self.factors, chance, axis=0, method="higher")
+            passes = self.factors <= np.maximum(asked, 1.0)
+            enough = passes.all(axis=1).mean() >= reliability
+            low, high = (low, chance) if enough else (chance, high)
+        return np.asarray(np.quantile(self.factors, high, axis=0, method="higher"))
+
+    @property
+    def shares(self) -> Mapping[str, float]:
+        """Share of each key in the variance of the worst maneuver's factor, log.
+
+        By least squares on what was drawn and on how far off the mean it is, either way.
+        """
+        worst = np.log(self.factors / self.has).max(axis=1)
+        off = {key: values - values.mean(axis=0) for key, values in self.drawn.items()}
+        parts = {key: np.hstack([one, np.abs(one)]) for key, one in off.items()}
+        parts = {key: one - one.mean(axis=0) for key, one in parts.items()}
+        slopes, *_ = np.linalg.lstsq(np.hstack(list(parts.values())), worst - worst.mean())
+        ends = np.cumsum([one.shape[1] for one in parts.values()])[:-1]
+        own = {
+            key: float(np.var(one @ slope))
+            for (key, one), slope in zip(parts.items(), np.split(slopes, ends), strict=True)
+        }
+        whole = sum(own.values()) or 1.0
+        return {key: variance / whole for key, variance in own.items()}
+
+
+def account(
+    reserve: Reserve,
+    reality: "Reality",
+    problem: SelectionProblem,
+    device: Candidate,
+    resized: Callable[[Reserve], float | None],
+    *,
+    nominal: float,
+) -> ReserveRecord | None:
+    """What is kept, and what it costs; None without maneuvers.
+
+    Args:
+        reserve: that the device was selected with. reality: what is drawn.
+        problem: that was solved. device: that came of it.
+        resized: mass of the device of the same parts with another reserve [kg], if there is one.
+        nominal: mass of the lightest device without one, before it is refined [kg].
+    """
+    if not problem.requirement.maneuvers:
+        return None
+    needed = reality.needed(problem, device, reserve)
+    before = resized(reserve.of(needed))
+
+    def saved(key: str) -> float:
+        """What the device of the same parts weighs less if this is known [kg]."""
+        if before is None or not spends:
+            return 0.0
+        known = resized(reserve.settled(reality.knowing(key), problem, device))
+        return 0.0 if known is None else max(before - known, 0.0)
+
+    spends = any(kept.demand > 1.0 for kept in reserve.maneuvers.values())
+    costs = [
+        UncertaintyCost(key=key, share=share, mass=saved(key))
+        for key, share in needed.shares.items()
+    ]
+    curve = {
+        level: resized(replace(reserve, reliability=level).of(needed)) for level in RELIABILITIES
+    }
+    return ReserveRecord(
+        reliability=reserve.reliability,
+        predicted=needed.reliability,
+        scale=reserve.scale,
+        nominal=min(nominal, curve[NOMINAL] or nominal),
+        maneuvers=tuple(
+            KeptRecord(
+                maneuver=name,
+                demand=reserve.maneuvers.get(name, ManeuverReserve()).demand,
+                needed=factor,
+                roll_rate=roll,
+                pitch_rate=pitch,
+                lost=lost,
+            )
+            for (name, (roll, pitch)), factor, lost in zip(
+                needed.rates.items(),
+                needed.for_all(reserve.reliability).tolist(),
+                needed.blind.mean(axis=0).tolist(),
+                strict=True,
+            )
+        ),
+        costs=tuple(sorted(costs, key=lambda cost: -cost.share)),
+        curve=tuple((level, mass) for level, mass in curve.items() if mass is not None),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Reality:
+    """What is drawn of a robot and its device, as far as the closed forms feel it.
+
+    Attributes:
+        stated: section `[reality]`; its file's or the package's holds in place of the rest.
+        height: that the robot stands at [m].
+        trunk: second moments of the trunk's mass along x, y and z [kg m^2], shape (3,).
+        pushes_off: whether jumps start on the ground.
+        known: keys that are measured, and always at their mean.
+    """
+
+    stated: UncertaintySection
+    height: float
+    trunk: FloatArray
+    pushes_off: bool
+    known: frozenset[str] = frozenset()
+
+    @classmethod
+    def of(
+        cls, stated: UncertaintySection, robot: Robot, height: float, *, ballistic: bool
+    ) -> "Reality":
+        """What is drawn of a robot that stands at this height; `ballistic`: it never pushes off."""
+        index = robot.tree.body_of_link[robot.trunk]
+        placed = robot.tree.placements_from(robot.trunk, robot.posture)[index].rotation
+        inertia = placed @ robot.tree.bodies[index].mass_properties.inertia @ placed.T
+        moments = np.trace(inertia) / 2.0 - np.diag(inertia)
+        return cls(stated, height, moments, bool(robot.legs) and not ballistic)
+
+    def knowing(self, key: str) -> "Reality":
+        """The same with this quantity always at its mean."""
+        return replace(self, known=self.known | {key})
+
+    def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:
+        """Values of each key, strata in random order, shape (robots, parts)."""
+        motor = Drive.of(device.motor, device.gear, problem.bus_voltage)
+        spreads = complete_uncertainty(self.stated, self.height, motor)
+        random = np.random.Generator(np.random.Philox(key=_SEED))
+        strata, found = (np.arange(DRAWN) + 0.5) / DRAWN, {}
+        for key, parts in _PARTS.items():
+            knots = [getattr(spreads, key).at(knot) for knot in _KNOTS]
+            scores = np.stack([random.permutation(strata) for _ in range(parts)], axis=1)
+            values = np.interp(scores, _KNOTS, knots)
+            found[key] = np.full_like(values, values.mean()) if key in self.known else values
+        return found
+
+    def needed(self, problem: SelectionProblem, device: Candidate, reserve: Reserve) -> Needed:
+        """What the robots need of a device, and what it has.
+
+        Args:
+            problem: that it was selected for. device: see `Candidate`.
+            reserve: whose `scale` holds, and whose reliability sets the rates.
+        """
+        drawn = {
+            key: mean + reserve.scale * (values - mean)
+            for key, values in self.drawn(problem, device).items()
+            for mean in [values.mean(axis=0)]
+        }
+        line, sure = _line(device.line, drawn), NormalDist().inv_cdf(reserve.reliability)
+        maneuvers = problem.requirement.maneuvers
+        flown = [self._flown(problem, device, maneuver, drawn) for maneuver in maneuvers]
+        rates = [one.rate_kept(sure) for one in flown]
+        has = np.array([one.has(device, (0.0, 0.0)) for one in flown])
+        begun = [one.has(device, rate) for one, rate in zip(flown, rates, strict=True)]
+        factors = [
+            one.factors(one.wheels(device, line), own) for one, own in zip(flown, has, strict=True)
+        ]
+        asked = np.stack(factors, axis=1)
+        if reserve.scale > 1.0:
+            # Flights fell short of what is worked out here: nothing is to spare any more.
+            once = self.needed(problem, device, replace(reserve, scale=1.0))
+            asked = asked / np.minimum(once.for_all(reserve.reliability), 1.0)
+        return Needed(
+            factors=asked,
+            rates=dict(zip((maneuver.name for maneuver in maneuvers), rates, strict=True)),
+            has=has,
+            left=np.where(np.array(begun) > 0.0, begun / has, 1.0),
+            blind=np.stack([one.lost for one in flown], axis=1),
+            drawn=drawn,
+        )
+
+    def _flown(
+        self,
+        problem: SelectionProblem,
+        device: Candidate,
+        maneuver: Maneuver,
+        drawn: Mapping[str, FloatArray],
+    ) -> "_Flown":
+        """One maneuver of the robots that are drawn."""
+        at = device.incidence if maneuver.incidence is None else maneuver.incidence
+        whole = inertia_at(problem, device, at)
+        nominal = whole.within_reach(shares_of(np.asarray(at)), maneuver.stray)
+        # I_xx = S_y + S_z and I_yy = S_x + S_z, of the trunk's second moments S.
+        moments = self.trunk * drawn["inertia_error"]
+        added = moments[:, 2:] + moments[:, 1::-1]
+        heavier = drawn["mass_error"] * np.diag(problem.robot.inertia)[:2]
+        diagonal = nominal.diagonal + added + heavier
+        inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
+        slew = maneuver.slew(inertia, problem.requirement.standing_height)
+        speed = _lift_off(maneuver)
+        # Forward of the middle the push pitches, left of it it rolls.
+        off = drawn["com_error"][:, 1::-1] if self.pushes_off else 0.0
+        rates = PUSH_OFF * device.total.mass * speed * off / diagonal
+        rates = rates + (drawn["takeoff_rate"] if speed else 0.0)
+        time, share = slew.duration, 1.0
+        if isinstance(maneuver, Flip):
+            # Who is behind the plan may take the whole flight, but brakes late, and ends in time
+            # only where the supply takes the wheels' energy in what the flight lasts beyond it.
+            top = min(device.line.no_load_speed, device.line.speed_max)
+            energy = 0.5 * device.spin_inertia * top**2
+            late = energy <= device.line.power_max * (maneuver.flight_time - time)
+            time, share = (maneuver.flight_time, 1.0) if late else (time, PLANNED)
+        return _Flown(
+            maneuver=maneuver,
+            requirement=problem.requirement,
+            incidence=at,
+            nominal=nominal,
+            inertia=diagonal,
+            # A turn undoes a tilt of the other sense.
+            swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
+            momentum=slew.momentum + diagonal * rates,
+            rates=rates,
+            duration=time - drawn["torque_delay"],
+            share=share,
+            angles=at + drawn["incidence_error"],
+            bias=drawn["attitude_bias"],
+        )
+
+
+_PARTS: Mapping[str, int] = {
+    "mass_error": 1,
+    "inertia_error": 3,
+    "com_error": 3,
+    "incidence_error": 2,
+    "torque_constant_error": 2,
+    "resistance_error": 2,
+    "bus_voltage_error": 1,
+    "coulomb_friction": 2,
+    "viscous_friction": 2,
+    "torque_delay": 1,
+    "attitude_bias": 2,
+    "takeoff_rate": 2,
+}
+"""Keys that the closed forms feel, and how many numbers are drawn of each."""
+
+
+def _line(line: DriveLine, drawn: Mapping[str, FloatArray]) -> DriveLine:
+    """Lines of both wheels as built, shape (robots, 2).
+
+    The law commands what the nominal motor can do, and the real one gives k_t / k_t0 times that
+    within its own line. Friction is in the torque limit already, at its mean.
+    """
+    constant = 1.0 + drawn["torque_constant_error"]
+    voltage, resistance = 1.0 + drawn["bus_voltage_error"], 1.0 + drawn["resistance_error"]
+    drag = drawn["coulomb_friction"] + 0.5 * line.no_load_speed * drawn["viscous_friction"]
+    more = drag - drag.mean(axis=0)
+    return DriveLine(
+        stall_torque=line.stall_torque * constant * np.minimum(voltage / resistance, 1.0) - more,
+        no_load_speed=line.no_load_speed * np.minimum(voltage / constant, 1.0),
+        torque_limit=line.torque_limit * constant - more,
+        speed_max=line.speed_max,
+        power_max=line.power_max * constant,
+    )
+
+
+def _lift_off(maneuver: Maneuver) -> float:
+    """Upward speed at the end of a push-off [m/s]; 0 where there is none."""
+    match maneuver:
+        case Disturbance():
+            return maneuver.takeoff_velocity[1]
+        case Flip():
+            return maneuver.gravity * maneuver.flight_time / 2.0
+        case _:
+            return 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class _Flown:
+    """One maneuver of the robots that are drawn.
+
+    Attributes:
+        maneuver, requirement: see there. incidence: as designed [rad].
+        nominal: inertia of robot and device as designed. inertia: as built [kg m^2], (robots, 2).
+        swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2).
+        rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
+        duration: in which it must be done [s], shape (robots, 1).
+        share: of the drives that does it.
+        angles: incidence of each wheel [rad], shape (robots, 2).
+        bias: of measured roll and pitch [rad], shape (robots, 2).
+    """
+
+    maneuver: Maneuver
+    requirement: Requirement
+    incidence: float
+    nominal: TiltInertia
+    inertia: FloatArray
+    swept: FloatArray
+    momentum: FloatArray
+    rates: FloatArray
+    duration: FloatArray
+    share: float
+    angles: FloatArray
+    bias: FloatArray
+
+    @property
+    def _reached(self) -> NDArray[np.bool_]:
+        """Whether the wheels reach roll and pitch, shape (2,)."""
+        return np.asarray(shares_of(np.asarray(self.incidence)) > OUT_OF_REACH)
+
+    def rate_kept(self, sure: float) -> tuple[float, float]:
+        """Rates of so many deviations [rad/s]; none about an axis that its own incidence blinds."""
+        kept = self._reached | (self.maneuver.incidence is None)
+        roll, pitch = np.where(kept, sure * self.rates.std(axis=0), 0.0).tolist()
+        return roll, pitch
+
+    def _task(self, rate: tuple[float, float]) -> WheelPairTask:
+        """The maneuver as designed, with these rates at its start."""
+        reserves = {self.maneuver.name: ManeuverReserve(1.0, rate)}
+        requirement = replace(self.requirement, reserves=reserves)
+        shares = shares_of(np.array([[self.incidence]]))
+        return pair_task([self.maneuver], requirement, self.nominal, shares, begun=True)
+
+    def has(self, device: Candidate, rate: tuple[float, float]) -> float:
+        """What the device does over what is asked, by the selection's own formula."""
+        demand = spin_demand(self._task(rate), device.line.reserved(), device.armature)
+        can = capability(demand, np.asarray(device.spin_inertia))
+        return (can.sweep / demand.sweep).item()
+
+    def _each(self, asked: FloatArray) -> FloatArray:
+        """Momentum of each wheel, left and right, for one about roll and pitch, (robots, 2).
+
+        The other axis is left to itself where one is out of reach.
+        """
+        (sine, other_sine), (cosine, other) = np.sin(self.angles).T, np.cos(self.angles).T
+        roll, pitch = asked.T
+        if not self._reached[0]:
+            return np.asarray(np.stack([pitch, pitch], axis=1) / (cosine + other)[:, None])
+        if not self._reached[1]:
+            return np.asarray(np.stack([roll, -roll], axis=1) / (sine + other_sine)[:, None])
+        left, right = other_sine * pitch + other * roll, sine * pitch - cosine * roll
+        determinant = sine * other + cosine * other_sine
+        return np.asarray(np.stack([left, right], axis=1) / determinant[:, None])
+
+    def wheels(self, device: Candidate, line: DriveLine) -> tuple[FloatArray, FloatArray]:
+        """What each wheel must sweep and what it can [N m s^2], with its sense, (robots, 2)."""
+        held = self._each(self.momentum)
+        asked = self._each(self.swept + self.momentum * self.duration)
+        demand = SpinDemand(
+            sweep=2.0 * np.abs(asked),
+            momentum=2.0 * np.abs(held),
+            duration=self.duration,
+            coupling=np.asarray(self._task((0.0, 0.0)).load().coupling.item()),
+            armature=np.asarray(device.armature),
+            least=np.zeros(1),
+            drive=UnitDrive.of(line.reserved(self.share)),
+        )
+        can = capability(demand, np.asarray(device.spin_inertia)).sweep / 2.0
+        return asked, np.copysign(can, asked)
+
+    def factors(self, wheels: tuple[FloatArray, FloatArray], has: float) -> FloatArray:
+        """Factor on what the nominal maneuver asks with which each robot lands level, (robots,).
+
+        Args:
+            wheels: what they must sweep and can. has: factor of the device that they are of.
+        """
+        asked, can = wheels
+        low, high = np.full(len(asked), _LEAST), np.full(len(asked), _MOST)
+        for _ in range(24):
+            factor = np.sqrt(low * high)
+            missing = asked - can * (factor / has)[:, None]
+            missing = np.where(missing * np.sign(asked) > 0.0, missing, 0.0)
+            shares = np.sin(self.angles), np.cos(self.angles)
+            roll = (shares[0] * missing * [1.0, -1.0]).sum(axis=1)
+            pitch = (shares[1] * missing).sum(axis=1)
+            off = np.stack([roll, pitch], axis=1) / self.inertia * self._reached + self.bias
+            level = (np.abs(off) <= LEVEL).all(axis=1)
+            low, high = np.where(level, low, factor), np.where(level, factor, high)
+        return high
+
+    @property
+    def lost(self) -> NDArray[np.bool_]:
+        """Whether a robot drifts off level about an axis out of the wheels' reach, (robots,)."""
+        drift = self.rates * self.duration + self.bias
+        return np.asarray(((np.abs(drift) > LEVEL) & ~self._reached).any(axis=1))

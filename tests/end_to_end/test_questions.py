@@ -1,0 +1,65 @@
+"""The questions of docs/questions.md: each command line is run and answers what the page says."""
+
+import re
+import shlex
+
+import pytest
+from commands import ROOT, run
+from robots import ROBOTS
+
+GO2 = ROBOTS / "go2_description" / "urdf" / "go2.urdf"
+PAGE = (ROOT / "docs" / "questions.md").read_text()
+QUESTION = re.compile(
+    r"^## (?P<title>[^\n]+)\n(?P<between>.*?)```sh\n(?P<command>[^\n]+)\n```\n"
+    r"(?P<prose>.*?)```text\n(?P<answer>.*?)```\n(?P<after>.*?)(?=^## |\Z)",
+    re.MULTILINE | re.DOTALL,
+)
+NUMBER = re.compile(r"(?<![\w.])(\d[\d,]*(?:\.\d+)?)(?!\w)")
+"""Not those within a name, such as MN5006."""
+
+ABOUT = 0.05
+"""A figure moves with the catalogue and the defaults; more than this is another answer."""
+
+A_TENTH = 0.1
+"""A figure below two moves by more than its share: 0.1 deg off level."""
+
+
+def questions():
+    for found in QUESTION.finditer(PAGE):
+        marks = [pytest.mark.slow] if "takes a minute" in found["prose"] + found["after"] else []
+        yield pytest.param(found, id=found["title"], marks=marks)
+
+
+def figures(text):
+    return [float(each.replace(",", "")) for each in NUMBER.findall(text)]
+
+
+def told(line, said):
+    """Whether a line of the answer was said, its words as they are and its figures about so."""
+    words = " ".join(line.split())
+    pattern = r"\d[\d,]*(?:\.\d+)?".join(map(re.escape, NUMBER.split(words)[::2]))
+    return any(
+        figures(found[1]) == pytest.approx(figures(words), rel=ABOUT, abs=A_TENTH)
+        for found in re.finditer(f"(?=({pattern}))", said)
+    )
+
+
+def test_there_are_fourteen_and_none_needs_a_file_of_its_own():
+    commands = [found["command"] for found in QUESTION.finditer(PAGE)]
+    assert len(commands) == len(re.findall("^## ", PAGE, re.MULTILINE)) == 14
+    assert not any("--spec" in command for command in commands)
+
+
+@pytest.mark.parametrize("question", list(questions()))
+def test_a_question_has_its_answer(question, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    stated = re.search(r"[Ee]xit code (\d)", question["prose"] + question["after"])
+    said, code = "", 0
+    for command in question["command"].replace("$GO2", str(GO2)).split("&&"):
+        result = run(*shlex.split(command)[1:])
+        said, code = f"{said} {result.said}", result.code
+    assert code == (int(stated[1]) if stated else 0), said
+    missing = [line for line in question["answer"].splitlines() if not told(line, said)]
+    assert not missing, said

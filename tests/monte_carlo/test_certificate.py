@@ -1,0 +1,157 @@
+"""The sequential test's promises, summed exactly over all flights it may see."""
+
+import sys
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from campaigns import short_campaign
+from commands import SOLO12
+from made_outcomes import made_outcomes
+from scipy import stats
+
+from ocs_design.monte_carlo.certificate import (
+    ERROR,
+    LARGEST,
+    Finding,
+    SequentialTest,
+    certificate,
+    lesson,
+)
+from ocs_design.monte_carlo.outcomes import METRICS
+from ocs_design.monte_carlo.summary import share
+from ocs_design.monte_carlo.uncertainty import NAMES
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "docs"))
+import certified
+from certified import operating
+
+endings = cache(certified.endings)
+
+ASKED = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_all_ends_of_a_test_are_found(asked):
+    for reliability in (0.3, asked, 0.5 * (1.0 + asked)):
+        chances, _ = operating(endings(SequentialTest(asked)), reliability)
+        assert sum(chances.values()) == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_neither_wrong_verdict_is_likelier_than_it_says(asked):
+    test = SequentialTest(asked)
+    ends = endings(test)
+    for better in (asked, 0.5 * (1 + asked)):
+        assert operating(ends, better)[0][Finding.SHORT] <= ERROR
+    for worse in (test.worse, 0.9 * test.worse):
+        assert operating(ends, worse)[0][Finding.CERTIFIED] <= ERROR
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_a_good_device_is_certified_and_a_bad_one_is_not(asked):
+    test = SequentialTest(asked)
+    ends = endings(test)
+    findings, flown = operating(ends, 1 - 0.1 * (1 - asked))
+    assert findings[Finding.CERTIFIED] >= 0.999
+    first = test.found(np.ones(test.most, dtype=bool))[1]
+    assert flown <= 1.15 * first
+    assert operating(ends, 0.5 * test.worse)[0][Finding.SHORT] >= 0.9
+
+
+def test_99_of_100_take_152_flights_and_settle_most_questions():
+    """ln 20 / ln(0.99 / 0.970588) = 151.3."""
+    test = SequentialTest(0.99)
+    assert test.worse == pytest.approx(0.970588, abs=1e-6)
+    assert test.most == 1000
+    assert test.found(np.ones(151, dtype=bool)) == (None, 151)
+    assert test.found(np.ones(400, dtype=bool)) == (Finding.CERTIFIED, 152)
+    assert test.found(np.zeros(400, dtype=bool)) == (Finding.SHORT, 3)
+    halfway = operating(endings(test), 0.5 * (test.asked + test.worse))[0]
+    assert halfway[Finding.UNDECIDED] < 0.1
+
+
+@pytest.mark.parametrize(("asked", "flights"), [(0.95, 32), (0.8, 9)])
+def test_a_device_that_never_fails_needs_few(asked, flights):
+    assert SequentialTest(asked).found(np.ones(64, dtype=bool)) == (Finding.CERTIFIED, flights)
+
+
+@pytest.mark.parametrize("asked", [0.8, 0.95, 0.99])
+def test_the_interval_holds_the_truth_nearly_as_often_as_of_a_fixed_number(asked):
+    """Stopping by the result costs some: docs/monte_carlo.md says how much."""
+    ends = endings(SequentialTest(asked))
+    intervals = [share(passed, flown) for passed, flown, *_ in ends]
+    for truth in 1 - np.geomspace(1e-3 * (1 - asked), 0.98, 40):
+        held = [
+            end
+            for end, found in zip(ends, intervals, strict=True)
+            if found.low <= truth <= found.high
+        ]
+        assert sum(operating(held, truth)[0].values()) >= 0.89
+
+
+def test_it_gives_up_in_the_end():
+    test = SequentialTest(0.9)
+    passed = np.arange(2 * test.most) % 6 != 5
+    assert test.found(passed) == (Finding.UNDECIDED, test.most)
+
+
+@pytest.fixture(scope="module")
+def campaign(solo12):
+    return short_campaign(solo12, drop_only=True)
+
+
+def test_flights_after_the_verdict_are_not_counted(campaign):
+    outcomes = made_outcomes(range(64))
+    outcomes.codes[:] = 0
+    outcomes.codes[[3, 4, 5, 6, 40]] = 3
+    found = certificate(SequentialTest(0.9), campaign, outcomes)
+    assert (found.verdict, found.samples, found.whole) == ("falls short", 7, 3)
+    assert found.passed == {"drop": 3}
+    exact = stats.binomtest(3, 7).proportion_ci(0.95, method="exact")
+    assert found.interval["drop"] == pytest.approx((exact.low, exact.high))
+    assert found.whole_interval == found.interval["drop"]
+
+
+@pytest.mark.parametrize("spread", [0.04, 0.05])
+def test_the_reserve_is_raised_by_what_the_tilt_lacks(campaign, spread):
+    """99 of 100 are within 2.576 deviations; 5 deg are allowed."""
+    outcomes = made_outcomes(range(400))
+    drawn = NAMES.index("com_error.y")
+    tilt = spread * (0.9 * outcomes.values[:, drawn] + np.sqrt(0.19) * outcomes.values[:, 3])
+    outcomes.metrics[:, 0, METRICS.index("touchdown_pitch")] = 0.0
+    outcomes.metrics[:, 0, METRICS.index("touchdown_roll")] = tilt
+    learnt = lesson(SequentialTest(0.99), campaign, outcomes)
+    assert learnt.factor == pytest.approx(min(2.576 * spread / np.radians(5.0), LARGEST), rel=0.1)
+    assert "off level in roll" in learnt.told
+    assert "com error y" in learnt.told
+
+
+@pytest.mark.parametrize(
+    ("metric", "cause", "words"),
+    [
+        ("touchdown_pitch", "attitude_bias.pitch", "a better attitude sensor"),
+        ("turned_angle", "com_error.y", "every touchdown is level"),
+    ],
+)
+def test_no_reserve_is_raised_where_it_does_not_help(campaign, metric, cause, words):
+    outcomes = made_outcomes(range(64))
+    drawn = 0.1 * outcomes.values[:, NAMES.index(cause)]
+    outcomes.metrics[:] = 0.0
+    outcomes.metrics[:, 0, METRICS.index(metric)] = drawn
+    learnt = lesson(SequentialTest(0.99), campaign, outcomes)
+    assert learnt.factor == 1.0
+    assert words in learnt.told
+
+
+@pytest.mark.slow
+def test_what_the_docs_quote_is_what_flies():
+    """Single flights may end otherwise on another machine: intervals overlap, the verdict stays."""
+    quoted = certified.kept()["solo12"]
+    flown = certified.flown(Path(SOLO12))
+    assert flown["verdict"] == quoted["verdict"]
+    for scenario, (low, high) in flown["interval"].items():
+        assert low <= quoted["interval"][scenario][1]
+        assert quoted["interval"][scenario][0] <= high
+    assert flown["mass"] == pytest.approx(quoted["mass"], rel=1e-3)

@@ -1,0 +1,286 @@
+"""Maneuvers in a user's words: how they are read, what they become, and a kick against MuJoCo."""
+
+import re
+from dataclasses import replace
+from math import pi, radians
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ocs_design.common.errors import OcsError, SpecificationError, UsageError
+from ocs_design.requirement.froude import default_maneuvers, worded_maneuvers
+from ocs_design.requirement.maneuver import Disturbance
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.specification import (
+    RequirementSection,
+    Specification,
+    merge,
+    specification_from_options,
+)
+from ocs_design.requirement.sweep import SWEEPS, Task, slower
+from ocs_design.requirement.words import FLIP, GRAVITY, Kick, KickText, Tilt, TiltText
+from ocs_design.requirement.writing import specification_to_toml
+from ocs_design.robot.reader import read_robot
+
+SIZE = 0.45
+
+
+@pytest.fixture(scope="module")
+def real():
+    """Solo12 from its file: its centre of mass is not at the trunk's frame."""
+    return read_robot(Path(__file__).parents[2] / "examples" / "solo12.urdf")
+
+
+def asked(**words):
+    """The requirement that options of the command line ask for."""
+    options = {f"requirement.{key}": value for key, value in words.items()}
+    return specification_from_options(options).requirement
+
+
+@pytest.mark.parametrize(
+    ("text", "kick"),
+    [
+        ("12 N s at 0.1,0,0.2", Kick(12.0, (0.1, 0.0, 0.2))),
+        ("12Ns at 100mm, 0, 20cm along 0,1,0", Kick(12.0, (0.1, 0.0, 0.2), (0.0, 1.0, 0.0))),
+        ("500 mN s at FL_hip along Left", Kick(0.5, "FL_hip", (0.0, 1.0, 0.0))),
+        ("3 at base_link along 0,-1,-1", Kick(3.0, "base_link", (0.0, -1.0, -1.0))),
+    ],
+)
+def test_a_kick_is_read_and_written(text, kick):
+    assert KickText().read(text, "kick") == kick
+    assert KickText().read(str(kick), "kick") == kick
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("12", "how much, and where.*'12 N s at FL_hip'"),
+        ("12 N s", "how much, and where"),
+        ("12 N at 0.1,0,0.2", "unit 'N'.*N s"),
+        ("12 N m at 0.1,0,0.2", "torque, not of impulse"),
+        ("-12 N s at 0.1,0,0.2", "must be positive"),
+        ("12 N s at 0.1,0.2", "needs 3 values"),
+        ("12 N s at 0.1,0,0.2 along 0,0,0", "no direction"),
+        ("12 N s at 0.1,0,0.2 along sideways", "no direction.*left"),
+    ],
+)
+def test_a_kick_that_is_none_is_told_how_to_write_it(text, says):
+    with pytest.raises(OcsError, match=r"(?s)--kick.*") as told:
+        KickText().read(text, "--kick")
+    assert re.search(says, f"{told.value.message} {told.value.hint}", re.DOTALL)
+
+
+@pytest.mark.parametrize(
+    ("text", "roll", "pitch"),
+    [("20deg", 0, 20), ("20 deg roll", 20, 0), ("10deg roll -20deg pitch", 10, -20)],
+)
+def test_a_tilt_is_read_and_written(text, roll, pitch):
+    tilt = TiltText().read(text, "tilt")
+    assert tilt == Tilt(pytest.approx(radians(roll)), pytest.approx(radians(pitch)))
+    assert TiltText().read(str(tilt), "tilt") == tilt
+
+
+@pytest.mark.parametrize("text", ["20", "20deg yaw", "200deg", "roll"])
+def test_a_tilt_that_is_none_is_refused(text):
+    with pytest.raises(OcsError, match="tilt"):
+        TiltText().read(text, "tilt")
+
+
+def test_words_stand_for_gravity_and_whole_turns():
+    assert [GRAVITY.read(word, "") for word in ("Mars", "moon", "3.5 m/s2")] == [3.71, 1.62, 3.5]
+    assert [FLIP.read(word, "") for word in ("back", "forward")] == [-2.0 * pi, 2.0 * pi]
+    with pytest.raises(OcsError) as told:
+        FLIP.read("360", "--flip")
+    assert told.value.hint == "Did you mean 360deg?"
+    with pytest.raises(OcsError, match="none of earth, moon, mars") as told:
+        GRAVITY.read("mras", "--gravity")
+    assert told.value.hint == "Did you mean 'mars'?"
+    with pytest.raises(OcsError, match="400 m") as told:
+        asked(jump_height=["400"])
+    assert "Did you mean 400mm?" in str(told.value)
+
+
+def test_options_and_keys_say_the_same():
+    text = """
+        [requirement]
+        jump_height = ["0.4 m", 0.5]
+        kick = "3 N s at 0.1,0,0.2"
+        fall = 1.0
+        tilt = ["20deg", "10deg roll"]
+        flip = "back"
+        gravity = "mars"
+        """
+    from_file = parse_specification(text, "x")
+    from_options = specification_from_options(
+        {
+            "requirement.jump_height": ["0.4m", "0.5m"],
+            "requirement.kick": ["3 N s at 0.1,0,0.2"],
+            "requirement.fall": ["1m"],
+            "requirement.tilt": ["20deg", "10deg roll"],
+            "requirement.flip": ["-360deg"],
+            "requirement.gravity": "Mars",
+        }
+    )
+    assert from_file.requirement == from_options.requirement
+    assert parse_specification(specification_to_toml(from_file), "y") == from_file
+
+
+def test_all_faults_of_options_are_told_at_once():
+    with pytest.raises(UsageError, match=r"(?s)--kick.*--tilt"):
+        asked(kick=["12"], tilt=["20"])
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        ({"jump_height": ["0.4"]}, ["jump"]),
+        ({"kick": ["1 N s at 0.1,0,0.1"]}, ["kick"]),
+        ({"jump_height": ["0.4"], "kick": ["1 at 0.1,0,0.1"]}, ["kick"]),
+        ({"jump_height": ["0.4"], "flip": ["back"]}, ["flip"]),
+        (
+            {"jump_height": ["0.4", "0.5"], "kick": ["1 at 0.1,0,0.1", "2 at 0.1,0,0.1"]},
+            ["kick", "kick 2", "kick 3", "kick 4"],
+        ),
+        ({"fall": ["1"], "tilt": ["20deg"]}, ["fall"]),
+        ({"tilt": ["20deg", "10deg roll"]}, ["fall", "fall 2"]),
+        ({"fall": ["1"], "flip": ["back"]}, ["flip", "fall"]),
+    ],
+)
+def test_words_become_the_maneuvers_that_are_meant(solo12, words, names):
+    resolved = resolve(Specification(requirement=asked(**words)), solo12, SIZE)
+    assert [each.name for each in resolved.requirement.maneuvers] == names
+    told = "\n".join(resolved.assumptions)
+    assert "paper's three" not in told
+    assert all(f"{name}: " in told for name in names)
+
+
+def test_what_is_not_stated_is_the_papers(solo12):
+    _, drop, flip = default_maneuvers(solo12)
+    (fall,) = worded_maneuvers(asked(fall=["0.9m"]), solo12).maneuvers
+    assert (fall.height, fall.pitch) == (0.9, drop.pitch)
+    (turn,) = worded_maneuvers(asked(flip=["back"], gravity="moon"), solo12).maneuvers
+    assert turn.duration == pytest.approx(flip.duration)
+    assert (turn.jump_height, turn.gravity) == (flip.jump_height, flip.gravity)
+    (jump,) = worded_maneuvers(asked(jump_height=["0.4"]), solo12).maneuvers
+    usual = default_maneuvers(solo12)[0]
+    assert jump.takeoff_velocity == (0.0, pytest.approx(np.sqrt(2.0 * 9.81 * 0.4)))
+    assert np.multiply(jump.torque, jump.duration) == pytest.approx(
+        np.multiply(usual.torque, usual.duration)
+    )
+
+
+def test_words_of_the_command_line_replace_what_a_file_asks_for():
+    drop = parse_specification(
+        '[[maneuver]]\nkind = "drop"\nname = "a"\nheight = 1.0\npitch = 0.3', "x"
+    )
+    paper = Specification(requirement=RequirementSection(maneuvers="paper", fall=(2.0,)))
+    for base in (drop, paper):
+        merged = merge(base, Specification(requirement=asked(flip=["back"])))
+        assert not merged.maneuvers
+        assert merged.requirement == asked(flip=["back"])
+        assert merge(base, Specification()) == base
+
+
+def test_the_papers_three_are_added_when_they_are_named(solo12):
+    section = replace(asked(fall=["1m"]), maneuvers="paper")
+    maneuvers = resolve(Specification(requirement=section), solo12, SIZE).requirement.maneuvers
+    assert [each.name for each in maneuvers] == ["disturbance", "drop", "back-flip", "fall"]
+
+
+def test_a_sweep_writes_worded_maneuvers_out(solo12):
+    task = Task.of(Specification(requirement=asked(fall=["1m"])), solo12, SIZE)
+    changed = task.with_specification(SWEEPS["time"].at(0.5, task))
+    (fall,) = changed.maneuvers
+    assert fall.time(changed.standing_height) == pytest.approx(0.5)
+
+
+def test_the_worked_kick(make_robot):
+    """By hand: (0.1, 0, 0.2) m x (0, 0.3, 0) N s = (-0.06, 0, 0.03) N m s; 0.3 / 2.5 = 0.12."""
+    robot = make_robot(2.5, (0.032, 0.055, 0.07), 0.27)
+    worded = worded_maneuvers(asked(kick=["0.3 N s at 0.1,0,0.2 along 0,2,0"]), robot)
+    (kick,) = worded.maneuvers
+    assert np.multiply(kick.torque, kick.duration) == pytest.approx([-0.06, 0.0, 0.03])
+    assert kick.velocity_change == pytest.approx((0.0, 0.12, 0.0))
+    assert "angular impulse (-0.06, 0, 0.03) N m s" in worded.notes[0]
+
+
+def test_a_kick_without_a_direction_comes_from_its_side(solo12):
+    for point, along in (("0,0.1,0", -1.0), ("0,-0.1,0", 1.0), ("0.1,0,0.1", 1.0)):
+        worded = worded_maneuvers(asked(kick=[f"1 N s at {point}"]), solo12)
+        assert np.sign(worded.maneuvers[0].velocity_change[1]) == along
+        assert f"along (0, {along:g}, 0) (from the side: no direction is stated)" in worded.notes[0]
+
+
+def test_a_kick_at_a_link_hits_its_frame(real):
+    kick, same = worded_maneuvers(
+        asked(kick=["1 N s at FL_SHOULDER along up", "1 N s at 0.1946,0.0875,0 along up"]), real
+    ).maneuvers
+    assert kick.torque == pytest.approx(same.torque, rel=1e-9)
+    with pytest.raises(SpecificationError, match="no link 'FL_SHOLDER'") as told:
+        worded_maneuvers(asked(kick=["1 N s at FL_SHOLDER"]), real)
+    assert "FL_SHOULDER" in told.value.hint
+
+
+@pytest.mark.parametrize("along", ["0,1,0", "1,0,0", "0,0,-1", "1,-2,0.5"])
+def test_the_closed_form_of_a_kick_is_what_mujoco_does(real, along):
+    """One free body of the robot's mass and inertia, and the force itself at that point."""
+    (kick,) = worded_maneuvers(
+        asked(kick=[f"0.7 N s at 0.12,0.05,0.08 along {along}"]), real
+    ).maneuvers
+    body = mujoco.MjSpec()
+    body.option.gravity = (0.0, 0.0, 0.0)
+    body.option.timestep = 1e-7
+    trunk = body.worldbody.add_body(name="trunk")
+    trunk.add_freejoint()
+    trunk.explicitinertial = True
+    trunk.mass, trunk.ipos = real.mass, real.com
+    trunk.fullinertia = [*np.diag(real.inertia), *real.inertia[np.triu_indices(3, 1)]]
+    model = body.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    direction = np.array([float(each) for each in along.split(",")])
+    force = 0.7 * direction / np.linalg.norm(direction) / model.opt.timestep
+    mujoco.mj_applyFT(
+        model, data, force, np.zeros(3), np.array([0.12, 0.05, 0.08]), 1, data.qfrc_applied
+    )
+    mujoco.mj_step(model, data)
+    rate = np.linalg.solve(real.inertia, np.multiply(kick.torque, kick.duration))
+    assert data.qvel[3:] == pytest.approx(rate, rel=1e-5)
+    at_com = data.qvel[:3] + np.cross(data.qvel[3:], real.com)
+    assert at_com == pytest.approx(np.array(kick.velocity_change), rel=1e-5, abs=1e-6)
+
+
+@given(st.floats(-1.5, 1.5), st.floats(1.0, 4.0), st.floats(0.05, 0.15))
+def test_a_kick_up_or_down_moves_the_landing(gained, upward, onset):
+    kick = Disturbance(
+        name="kick",
+        takeoff_velocity=(0.0, upward),
+        torque=(0.1, 0.0, 0.0),
+        onset=onset,
+        duration=0.0005,
+        velocity_change=(0.3, -0.2, gained),
+    )
+    hit = onset + 0.5 * kick.duration
+    height = upward * hit - 9.81 * hit**2 / 2.0
+    then = upward - 9.81 * hit + gained
+    left = (then + np.sqrt(then**2 + 2.0 * 9.81 * height)) / 9.81
+    assert kick.flight_time == pytest.approx(hit + left)
+
+
+@pytest.mark.parametrize("gained", [-0.5, 0.0, 0.5])
+def test_more_time_for_a_kicked_jump_is_that_much_more(real, gained):
+    (kick,) = worded_maneuvers(asked(kick=["1 N s at 0.1,0,0.1"]), real).maneuvers
+    kick = replace(kick, velocity_change=(0.0, 0.1, gained))
+    assert slower(kick, 1.2, 0.27).time_left == pytest.approx(1.2 * kick.time_left)
+
+
+def test_a_kick_in_millimetres_without_their_unit_is_off_the_robot(solo12):
+    spec = Specification(requirement=asked(kick=["1 N s at 100,0,80"]))
+    with pytest.raises(SpecificationError) as told:
+        resolve(spec, solo12, SIZE)
+    assert "off the robot (0.45 m)" in told.value.problems[0]

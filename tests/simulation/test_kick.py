@@ -1,0 +1,39 @@
+"""A kick as it is flown: all of its impulse, and no angular momentum that no torque explains."""
+
+import numpy as np
+import pytest
+from wheels import paper_device
+
+from ocs_design.requirement.maneuver import Disturbance
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder
+
+KICK = Disturbance(
+    name="kick",
+    takeoff_velocity=(0.0, 2.4),
+    torque=(-0.5, 0.8, 0.0),
+    onset=0.101,
+    duration=0.052,
+    velocity_change=(-0.1, 0.3, 0.2),
+)
+
+
+def test_a_kick_changes_velocity_and_momentum_by_its_impulses(solo12):
+    world = WorldBuilder(solo12, paper_device()).flight(KICK, Wheels.ABSENT)
+    recording = simulate([world], hold=5)
+    before, after = np.searchsorted(recording.time, [0.09, 0.17])
+    gained = recording.momentum[after, 0] - recording.momentum[before, 0]
+    assert gained == pytest.approx(np.multiply(KICK.torque, KICK.duration), abs=2e-3)
+    (v1, v2) = np.gradient(recording.com[:, 0], recording.time, axis=0)[[before, after]]
+    fallen = [0.0, 0.0, 9.81 * (recording.time[after] - recording.time[before])]
+    assert v2 - v1 + fallen == pytest.approx(KICK.velocity_change, abs=0.02)
+
+
+def test_the_momentum_gate_stays_shut_to_a_kick(solo12):
+    with_device, without = run_scenarios(solo12, paper_device(), [KICK])
+    for run in (with_device, without):
+        assert run.metrics.momentum_error < 1e-6
+        assert "not judged" not in run.reason
+    assert with_device.metrics.touchdown_pitch < without.metrics.touchdown_pitch

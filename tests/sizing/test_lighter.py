@@ -1,0 +1,87 @@
+"""What would have to give for a lighter device, and which maneuver its mass is owed to."""
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from fronts import by_hand
+
+from ocs_design.requirement.specification import MotorSection, RequirementSection, Specification
+from ocs_design.requirement.sweep import slower
+from ocs_design.sizing.alternatives import owed_to
+from ocs_design.sizing.design import design_device
+from ocs_design.sizing.lighter import lighter_by
+
+MOTORS = MotorSection(name="Antigravity MN5006 KV450, MN4014 KV400")
+"""Two, so that it is quick."""
+LESS = 0.02
+
+
+@cache
+def made(**asked):
+    """The task for Solo12's figures, its device, and what its mass is owed to."""
+    task = by_hand()
+    spec = Specification(
+        motor=MOTORS, robot=task.specification.robot, requirement=RequirementSection(**asked)
+    )
+    task = task.with_specification(spec)
+    designed = design_device(task.specification, task.robot, task.resolved)
+    return task, designed, owed_to(designed, task.robot)
+
+
+def mass_of(task, specification):
+    """Of the device of another question [kg]."""
+    resolved = task.with_specification(specification).resolved
+    return design_device(specification, task.robot, resolved).device.mass
+
+
+def test_the_mass_is_owed_to_the_maneuver_without_which_it_is_lightest():
+    task, designed, owed = made()
+    without = {
+        maneuver.name: mass_of(
+            task,
+            replace(
+                task.specification,
+                maneuvers=tuple(each for each in task.maneuvers if each is not maneuver),
+            ),
+        )
+        for maneuver in task.maneuvers
+    }
+    assert owed.maneuver == min(without, key=without.get)
+    assert owed.mass_without == pytest.approx(without[owed.maneuver], rel=0.01)
+    assert owed.mass_without < designed.device.mass
+
+
+def test_the_mass_is_owed_to_the_only_maneuver():
+    _, _, owed = made(fall=(1.0,))
+    assert (owed.maneuver, owed.mass_without) == ("fall", None)
+
+
+def test_a_rate_change_alone_owes_nothing_to_a_maneuver():
+    assert made(rate_change=1.0)[2] is None
+
+
+@pytest.mark.slow
+def test_every_answer_is_light_enough_and_the_smallest_change_that_is():
+    task, designed, owed = made()
+    answers = lighter_by(LESS, task, designed.choice, owed.maneuver)
+    target = designed.choice.chosen.mass - LESS
+    assert answers
+    assert all(each.mass_total <= target for each in answers)
+    of_time = next(each for each in answers if each.change.endswith("for every maneuver"))
+    percent = int(of_time.change.partition("%")[0])
+
+    def slower_by(percent):
+        """Mass with so much more time."""
+        maneuvers = tuple(
+            slower(each, 1.0 + percent / 100.0, task.standing_height) for each in task.maneuvers
+        )
+        return mass_of(task, replace(task.specification, maneuvers=maneuvers))
+
+    assert slower_by(percent) == pytest.approx(of_time.mass_total, rel=1e-3)
+    assert slower_by(percent - 2) > target
+
+
+def test_nothing_makes_it_lighter_than_nothing():
+    task, designed, _ = made()
+    assert lighter_by(10.0, task, designed.choice, "") == ()

@@ -1,0 +1,146 @@
+"""What a device keeps for what is drawn: its laws, and what it is worth."""
+
+from functools import cache
+from statistics import NormalDist
+
+import numpy as np
+import pytest
+
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.requirement.maneuver import Flip, ManeuverReserve, Requirement
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.resolving import read_specified_robot, resolve
+from ocs_design.requirement.specification import merge
+from ocs_design.robot.meshes import size
+from ocs_design.sizing.design import design_device
+from ocs_design.sizing.reserve import LEVEL, Needed, Reserve
+
+FLIP = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2.0 * np.pi, duration=2.0)
+SOLO12 = """
+[robot]
+file = "examples/solo12.urdf"
+[motor]
+name = "Antigravity MN5006 KV450, AT2820 KV1050, AS2820 KV1050"
+"""
+WIDE = """
+[reality]
+mass_error = "normal(0, 4%)"
+inertia_error = "normal(0, 10%)"
+torque_constant_error = "normal(0, 6%)"
+bus_voltage_error = "uniform(-15%, 20%)"
+"""
+ONLY_FLIP = """
+[[maneuver]]
+kind = "flip"
+name = "flip"
+gravity = 1.62
+jump_height = 1.0
+angle = "-360deg"
+duration = 2.0
+"""
+
+
+@cache
+def solo12(more="", reliability=None, scale=1.0):
+    stated = parse_specification(SOLO12, "test")
+    stated = merge(stated, parse_specification(more, "test")) if more else stated
+    robot = read_specified_robot(stated)
+    resolved = resolve(stated, robot, size(robot.tree, robot.posture, robot.trunk))
+    reserve = None if reliability is None else Reserve(reliability).raised(scale)
+    return design_device(stated, robot, resolved, reserve=reserve)
+
+
+def needed(factors, **more):
+    count = factors.shape[1]
+    given = {"has": np.ones(count), "left": np.ones(count), "drawn": {}, **more}
+    names = {f"m{index}": (0.0, 0.0) for index in range(count)}
+    return Needed(factors=factors, rates=names, blind=np.zeros(factors.shape, bool), **given)
+
+
+def test_two_maneuvers_apart_must_each_be_surer_than_both():
+    """0.95 each is 0.9025 together: factors of exp(1.645 sigma)."""
+    scores = np.random.default_rng(0).standard_normal((200_000, 2))
+    found = needed(np.exp(scores * [0.05, 0.1])).for_all(0.95**2)
+    expected = np.exp(NormalDist().inv_cdf(0.95) * np.array([0.05, 0.1]))
+    np.testing.assert_allclose(found, expected, rtol=2e-3)
+
+
+def test_shares_are_those_of_the_variances():
+    scores = np.random.default_rng(1).standard_normal((20_000, 3))
+    drawn = {"mass_error": 0.02 * scores[:, :1], "inertia_error": 0.05 * scores[:, 1:]}
+    factors = np.exp(drawn["mass_error"] + drawn["inertia_error"].sum(axis=1, keepdims=True))
+    shares = needed(factors, drawn=drawn).shares
+    assert shares["mass_error"] == pytest.approx(0.02**2 / (0.02**2 + 2 * 0.05**2), rel=0.05)
+    assert sum(shares.values()) == pytest.approx(1.0)
+
+
+def test_a_rate_at_the_start_is_momentum_till_the_end():
+    """0.03 kg m2 at 0.1 rad/s are 3 mN m s; a turn of 0.055 kg m2 sweeps 2 pi times that."""
+    kept = {"flip": ManeuverReserve(1.1, (0.1, 0.02), 0.9)}
+    requirement = Requirement((FLIP,), None, 1.0, None, 0.27, kept)
+    inertia = TiltInertia.uncoupled([0.03, 0.055])
+    plain, begun = (requirement.slew(FLIP, inertia, begun=begun) for begun in (False, True))
+    np.testing.assert_allclose(plain.swept, [0.0, -1.1 * 0.055 * 2.0 * np.pi], rtol=1e-12)
+    np.testing.assert_allclose(plain.momentum, 0.0)
+    np.testing.assert_allclose(begun.momentum, [0.9 * 0.003, 0.9 * 0.0011], rtol=1e-12)
+
+
+def test_nothing_is_kept_for_an_even_chance_and_nothing_where_the_nominal_device_has_it():
+    """The default: 5 deg at touchdown and 5 % of the drive are worth more than what is drawn."""
+    nominal, sure = solo12(reliability=0.5), solo12()
+    assert not nominal.reserve.maneuvers
+    assert sure.device.mass == nominal.device.mass
+    assert sure.kept.predicted >= 0.99
+    assert all(each.needed < 1.0 for each in sure.kept.maneuvers)
+
+
+def test_more_is_kept_for_more_reliability_and_for_larger_deviations():
+    found = [solo12(WIDE, 0.8), solo12(WIDE, 0.99), solo12(WIDE, 0.99, 1.2)]
+    demands = [[each.demand for each in one.kept.maneuvers] for one in found]
+    assert demands[0] < demands[1]
+    assert np.all(np.diff(demands, axis=0) >= 0.0)
+    masses = [one.device.mass for one in found]
+    assert masses[0] < masses[1] < masses[2]
+    assert all(one.kept.predicted >= one.kept.reliability - 0.01 for one in found)
+    assert found[1].kept.nominal < masses[1]
+    curve = [mass for _, mass in found[1].kept.curve]
+    assert curve == sorted(curve)
+
+
+def test_a_supply_that_brakes_slowly_leaves_the_end_of_the_flight_unused():
+    """Wheels whose energy it takes back in more than the 0.2 s after the plan: 10 % of the time."""
+    strong, weak = solo12(ONLY_FLIP), solo12(f"{ONLY_FLIP}\n[supply]\npower_max = 250.0\n")
+    drive, wheel = weak.choice.chosen.line, weak.choice.chosen.spin_inertia
+    energy = 0.5 * wheel * min(drive.no_load_speed, drive.speed_max) ** 2
+    assert energy / drive.power_max > FLIP.flight_time - FLIP.duration
+    assert weak.kept.maneuvers[0].needed > 1.05 * strong.kept.maneuvers[0].needed
+    assert weak.kept.maneuvers[0].demand > 1.0
+
+
+def test_what_saves_most_when_known_has_a_share_in_the_variance():
+    costs = solo12(WIDE, 0.99).kept.costs
+    shares = [cost.share for cost in costs]
+    assert shares == sorted(shares, reverse=True)
+    assert sum(shares) == pytest.approx(1.0)
+    best = max(costs, key=lambda cost: cost.mass)
+    assert best.mass > 0.0
+    assert best.share > 0.05
+    assert all(cost.mass < 0.3 * best.mass for cost in costs if cost.share < 0.005)
+
+
+def test_an_angle_without_roll_authority_is_not_chosen_where_roll_is_disturbed():
+    more = f'{ONLY_FLIP}\n[ocs]\nalpha_criterion = "lightest"\n'
+    nominal, sure = solo12(more, 0.5), solo12(more)
+    assert nominal.device.incidence == pytest.approx(0.0, abs=1e-6)
+    assert sure.device.incidence > np.radians(2.0)
+    assert sure.kept.predicted >= 0.99
+
+
+def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
+    """A rate w for the time T is a tilt of w T, of which 5 deg are allowed."""
+    more = ONLY_FLIP + 'incidence = 0\n[reality]\ntakeoff_rate = "normal(0, 0.05rad/s)"\n'
+    more += 'com_error = "0"\nattitude_bias = "0"\n'
+    (flip,) = solo12(more).kept.maneuvers
+    expected = 2.0 * NormalDist().cdf(-LEVEL / (0.05 * FLIP.flight_time))
+    assert flip.lost == pytest.approx(expected, abs=0.02)
+    assert flip.roll_rate == 0.0
