@@ -293,7 +293,7 @@ class Resonance:
 
     @property
     def acceleration(self) -> float:
-        """Of the module at that amplitude [m/s^2]."""
+        """Acceleration of the module at that amplitude [m/s^2]."""
         return (2.0 * pi * self.frequency) ** 2 * self.amplitude
 
 

@@ -452,6 +452,7 @@ def shrink_fit(
     grown = [(expansions[0] - expansions[1]) * (at - MADE) * radius for at in (COLDEST, WARMEST)]
 
     def turning(interference: float, at: float) -> TurningRings:
+        """Rings with this interference at the joint [m], at this speed [rad/s]."""
         return TurningRings.of(rings, at, [0.0] * joint + [interference])
 
     # Pressure is linear in the interference.

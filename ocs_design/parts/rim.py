@@ -394,6 +394,7 @@ def _lightened_bore(count: int, hub_radius: float) -> float:
     """Bore from which on all of them have their spokes [m], to rounding."""
 
     def has_room(bore: float) -> bool:
+        """Whether spokes and holes are wide enough to be made."""
         holes = WebHoles.of(count, hub_radius, bore)
         spoke = holes.spoke(hub_radius, bore)
         return spoke >= SPOKE and holes.hole_radius >= SMALLEST_LIGHTENING

@@ -59,6 +59,7 @@ def _flight_row(run: ValidationRecord) -> tuple[Cell, ...]:
     flew = was_in_the_air(*lift_off_and_touchdown(metrics))
 
     def angle(name: str, *, known: bool = True) -> str:
+        """Metric of that name [deg]; a dash where there is none."""
         value = metrics.get(name) if known else None
         return "-" if value is None else degrees_number(value)
 

@@ -57,7 +57,7 @@ def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
 
 
 def _edges(mesh: Mesh) -> FloatArray:
-    """Both ends of creases and outlines that look at the eye on one side, shape (n, 2, 3)."""
+    """Creases and outlines that look at the eye on one side, by their ends, shape (n, 2, 3)."""
     corners = mesh.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)

@@ -151,6 +151,7 @@ def _placing(
     centre = np.array([(left + right) / 2.0, (top + bottom) / 2.0])
 
     def place(at: FloatArray) -> tuple[float, float]:
+        """Point of the sheet [mm], down positive."""
         x, y = centre + _on_paper(scale, (at - middle) * [1.0, -1.0])
         return float(x), float(y)
 
