@@ -440,12 +440,11 @@ class Assembly:
             )
         for mode in resonances_of(self.device):
             yield (
-                f"The {mode.name}'s first mode is at {mode.frequency:.0f} Hz, "
-                f"{60.0 * mode.frequency:,.0f} rpm, which the wheel passes: what is left then "
-                f"pushes with {mode.force:.2g} N, and a wheel that stayed there would shake the "
-                f"module by {1e6 * mode.amplitude:.2g} µm, with "
-                f"{mode.acceleration / 9.81:.2g} times its weight "
-                f"({DAMPING:.0%} of critical damping, assumed)."
+                f"The {mode.name}'s first mode: {mode.frequency:.0f} Hz, "
+                f"{60.0 * mode.frequency:,.0f} rpm. What is left pushes with {mode.force:.2g} N; "
+                "a wheel that stays there shakes the module by "
+                f"{1e6 * mode.amplitude:.2g} µm, with {mode.acceleration / 9.81:.2g} times its "
+                f"weight ({DAMPING:.0%} damping, assumed)."
             )
         yield (
             "By hand: shaft level on two blades, heavy side down; or with an accelerometer on the "
