@@ -124,7 +124,7 @@ Reliability: TypeAlias = Annotated[
     typer.Option(
         "--reliability",
         metavar="SHARE",
-        help="Share of flights that shall pass as built; 0.99 by default, 0.5: nominal.",
+        help="Share of robots that shall pass as built; 0.99 by default, 0.5: nominal.",
     ),
 ]
 JumpHeight: TypeAlias = Annotated[

@@ -328,7 +328,7 @@ class AxisInertia:
 class RequirementRecord:
     """What was asked of the device, and everything that was assumed to ask it.
 
-    `reliability` is the share of flights that shall pass as built; None: none was asked for.
+    `reliability` is the share of robots that shall pass as built; None: none was asked for.
     """
 
     maneuvers: tuple[ManeuverRecord, ...]

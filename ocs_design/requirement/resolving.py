@@ -243,7 +243,7 @@ def _assumptions(
         )
         if specification.requirement.reliability is None:
             yield (
-                f"Reliability: {RELIABILITY:.0%} of flights shall pass with what is drawn "
+                f"Reliability: {RELIABILITY:.0%} of robots shall pass with what is drawn "
                 "(`[reality]`)."
             )
         return
@@ -315,7 +315,7 @@ class Resolved:
         material: of a rim.
         torque_max: of a wheel [N m]; None: not limited.
         choice: of motors, gears and materials; None: no motor is wanted, and `material` holds.
-        reliability: share of flights that shall pass as built; None: no motor is wanted.
+        reliability: share of robots that shall pass as built; None: no motor is wanted.
         assumptions: what was not stated and what holds in its place, one sentence each.
     """
 

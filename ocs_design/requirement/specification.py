@@ -86,7 +86,7 @@ BALANCING_DIAMETER, BALANCING_DEPTH = 1.6e-3, 1.0e-3
 """Of balancing holes, where nothing is stated [m]: the core hole of M2, and shallow, for glue."""
 
 RELIABILITY = 0.99
-"""Share of flights that shall pass, where nothing is stated."""
+"""Share of robots that shall pass, where nothing is stated."""
 
 CONTROL_PERIOD = 0.005
 """From one torque of the wheels to the next, where nothing is stated [s]."""
@@ -163,7 +163,7 @@ class RequirementSection:
         Key(Choice(("paper", "none")), "the paper's three beside what else is asked, or none"),
     ] = None
     reliability: Annotated[
-        float | None, Key(Chance(), "share of flights that shall pass as built (`[reality]`)")
+        float | None, Key(Chance(), "share of robots that shall pass as built (`[reality]`)")
     ] = None
 
     @property

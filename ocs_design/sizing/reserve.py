@@ -63,7 +63,7 @@ class Reserve:
     """What is kept for the errors of `[reality]`.
 
     Attributes:
-        reliability: share of flights that shall pass, every maneuver of a sample.
+        reliability: share of robots that shall pass, each in every maneuver.
         scale: factor on every deviation from the mean; above 1 where flights showed more.
         maneuvers: what it comes to for each, by name; empty until it is `settled`.
     """
