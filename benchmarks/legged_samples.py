@@ -5,7 +5,8 @@
 
 Sizes each robot with no option beyond its file, and flies N samples of those that get a device.
 FOLDER keeps all of it: a second run sizes again, and flies again where the device is another or
-fewer samples were flown. `--samples 0` only sizes. The Markdown tables are printed, or put into the
+fewer samples were flown. `--samples 0` only sizes. Samples are of a pair; devices of more wheels
+are flown as designed. The Markdown tables are printed, or put into the
 blocks of a page.
 """
 
@@ -57,7 +58,13 @@ class Found:
     @property
     def samples(self) -> int:
         """How many flew."""
-        return 0 if self.flown is None else int(self.flown["monte_carlo"]["samples"])
+        campaign = None if self.flown is None else self.flown.get("monte_carlo")
+        return 0 if campaign is None else int(campaign["samples"])
+
+    @property
+    def is_pair(self) -> bool:
+        """Whether its device is one pair, of which alone samples are drawn."""
+        return len(self.sized["ocs"]["modules"]) == 2
 
     @property
     def designed(self) -> Mapping[str, dict[str, Any]]:
@@ -68,7 +75,8 @@ class Found:
     @property
     def scenarios(self) -> list[dict[str, Any]]:
         """What came of the samples."""
-        return [] if self.flown is None else self.flown["monte_carlo"]["scenarios"]
+        campaign = None if self.flown is None else self.flown.get("monte_carlo")
+        return [] if campaign is None else campaign["scenarios"]
 
 
 def main() -> None:
@@ -115,13 +123,15 @@ def renew(folder: Path, robot: str, samples: int) -> None:
     work.mkdir(parents=True, exist_ok=True)
     sized = run("size", str(file), "--no-validate", "--force", out=work / "ocs").document
     found = Found(name_of(robot), read_robot(file).mass_properties.mass, sized)
-    assert not found.refused or sized["error"]["kind"] == "infeasible", sized
+    assert not found.refused or sized["error"]["kind"] in {"infeasible", "robot"}, sized
     if not found.refused:
         same = before is not None and before.sized.get("ocs") == sized["ocs"]
-        if same and before.samples >= samples:
+        enough = before is not None and before.samples >= (samples if found.is_pair else 0)
+        if same and before.flown and enough:
             found = replace(found, flown=before.flown)
         elif samples:
-            options = (str(work / "ocs"), "--samples", str(samples), "--force")
+            drawn = ("--samples", str(samples)) if found.is_pair else ()
+            options = (str(work / "ocs"), *drawn, "--force")
             found = replace(found, flown=run("validate", *options, out=work / "flown").document)
     (work / "found.json").write_text(json.dumps(vars(found)))
     print(found.name, f"{found.samples} samples", file=sys.stderr, flush=True)
@@ -130,8 +140,9 @@ def renew(folder: Path, robot: str, samples: int) -> None:
 def devices(found: list[Found]) -> str:
     """A row for each robot that gets a device: the device, and how often it works."""
     there = [robot for robot in found if not robot.refused]
-    names = list(dict.fromkeys(each["scenario"] for robot in there for each in robot.scenarios))
-    header = ("robot", "mass", "device", "of it", "α\\*", "motor", *names, "all", "95 % interval")
+    names = list(dict.fromkeys(each for robot in there for each in robot.designed))
+    of_device = ("device", "of it", "wheels", "α\\*", "motor")
+    header = ("robot", "mass", *of_device, *names, "all", "95 % interval")
     return table(header, (device_row(robot, names) for robot in there))
 
 
@@ -139,7 +150,10 @@ def device_row(robot: Found, names: list[str]) -> tuple[str, ...]:
     ocs = robot.sized["ocs"]
     cells = {each["scenario"]: rate(robot, each) for each in robot.scenarios}
     whole, interval = "not flown yet", ""
-    if robot.flown is not None:
+    if robot.flown is not None and not robot.is_pair:
+        cells = {name: as_designed(flight) for name, flight in robot.designed.items()}
+        whole = "as designed"
+    elif robot.flown is not None:
         success = robot.flown["monte_carlo"]["success"]
         whole = f"{success['passed']} of {success['flown']}"
         interval = f"{floor(100.0 * success['low'])} to {ceil(100.0 * success['high'])} %"
@@ -148,6 +162,7 @@ def device_row(robot: Found, names: list[str]) -> tuple[str, ...]:
         f"{robot.mass:.1f} kg",
         grams(ocs["mass_total"]),
         f"{ocs['mass_total'] / robot.mass:.1%}",
+        str(len(ocs["modules"])),
         f"{degrees(ocs['incidence']):.1f}°",
         motor(ocs["motor"]),
         *(cells.get(each, "-") for each in names),
@@ -159,6 +174,12 @@ def device_row(robot: Found, names: list[str]) -> tuple[str, ...]:
 def motor(record: dict[str, Any]) -> str:
     """Its name, and its gear if there is one."""
     return str(record["name"]) + ("" if record["gear"] == DIRECT.name else f", {record['gear']}")
+
+
+def as_designed(flight: dict[str, Any]) -> str:
+    """Whether the one flight passes; a star where nothing is said of standing."""
+    passed = "passes" if flight["passed"] else "**fails**"
+    return passed + (" \\*" if flight["can_stand"] is False else "")
 
 
 def rate(robot: Found, scenario: dict[str, Any]) -> str:
@@ -217,6 +238,8 @@ def refusals(found: list[Found]) -> str:
 def refusal(robot: Found) -> tuple[str, str, str]:
     """Of the message, and of the hint what it says of a motor and of another incidence."""
     error = robot.sized["error"]
+    if error["kind"] != "infeasible":
+        return f"not asked: {error['message'].split(': ', 1)[-1].splitlines()[0]}", "-", "-"
     closest = error["message"].splitlines()[0].split("; ")[-1].removesuffix(" (direct).")
     closest = closest.replace(" comes closest:", ",")
     would_do, turned = WOULD_DO.search(error["hint"]), "At another incidence" in error["hint"]

@@ -55,7 +55,7 @@ def main() -> None:
     for title, (name, robot) in ENTRIES.items():
         design = read_design(place(Path(folder), robot) / "ocs" / "design.json")
         if not words or any(word in name for word in words):
-            file = next((place(Path(folder), robot) / "ocs" / "robot").glob("*.xml"))
+            file = next((place(Path(folder), robot) / "ocs" / "robot").glob("*_ocs.xml"))
             picture(design, file, PICTURES / f"{name}.webp")
         cells.append(cell(title, name, design))
     cells += [""] * (-len(cells) % ACROSS)

@@ -53,7 +53,9 @@ OPTIONS = {"validation.enabled": "--no-validate"}
 def command_help(name: str) -> str:
     """What `--help` prints; `ocs-design` stands for the program itself."""
     group = typer.main.get_command(app)
-    outer = group.context_class(group, info_name="ocs-design", max_content_width=WIDTH)
+    outer = group.context_class(
+        group, info_name="ocs-design", max_content_width=WIDTH, **group.context_settings
+    )
     if name == "ocs-design":
         return fenced(group.get_help(outer))
     command = commands()[name]

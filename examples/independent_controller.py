@@ -7,8 +7,15 @@ It reads the exported robot and `design.json`, puts the robot on a floor, its le
 and a controller on its wheels, each written anew from docs/theory.md and docs/validation.md, and
 compares the attitude at touchdown with what `size` recorded. Start from it for a controller of your
 own.
+
+    ocs-design size examples/solo12.urdf --ballistic
+    ocs-design export solo12-ocs --formats controller -o fly && make -C fly/controller
+    python examples/independent_controller.py solo12-ocs fly/controller
+
+flies the exported C controller in the same loop.
 """
 
+import importlib.util
 import json
 import sys
 from pathlib import Path
@@ -24,18 +31,19 @@ STABLE = 0.5  # share of what an explicit step bears
 
 def main() -> None:
     """Fly and compare."""
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in {2, 3}:
         sys.exit(__doc__)
-    folder = Path(sys.argv[1])
+    folder, *exported = map(Path, sys.argv[1:])
     design = json.loads((folder / "design.json").read_text())
-    # With limited motors drops and flips follow trajectories that ocs-design plans each time anew.
+    # With limited motors drops and flips follow planned trajectories, which only the C has.
     limited = design["ocs"]["motor"]["torque_limit"] is not None
-    for maneuver in design["requirement"]["maneuvers"]:
-        if maneuver["kind"] != "disturbance" and limited:
+    for index, maneuver in enumerate(design["requirement"]["maneuvers"]):
+        if maneuver["kind"] != "disturbance" and limited and not exported:
             continue
+        law = Compiled(exported[0], index) if exported else None
         runs = (r for r in design["validation"] if r["scenario"] == maneuver["name"] and r["ocs"])
         there = next(runs)["metrics"]
-        here = touchdown(folder, design, maneuver)
+        here = touchdown(folder, design, maneuver, law)
         for name, angle in zip(("roll", "pitch"), here, strict=True):
             recorded = there[f"touchdown_{name}"]
             print(
@@ -44,18 +52,22 @@ def main() -> None:
             )
 
 
-def touchdown(folder: Path, design: dict, maneuver: dict) -> tuple[float, float]:
+def touchdown(
+    folder: Path, design: dict, maneuver: dict, law: "Compiled | None" = None
+) -> tuple[float, float]:
     """Roll and pitch at the last control instant of the flight [rad]."""
     start = Start(maneuver, design["robot"]["standing_height"])
     model, data = world(folder, design, start)
     trunk = model.body(design["robot"]["trunk"]).id
     wheels = [int(model.joint(name).dofadr[0]) for name in ("ocs_left", "ocs_right")]
     motors = [model.actuator(name).id for name in ("ocs_left", "ocs_right")]
-    law = Controller(design, locked_inertia(model, data), start.incidence)
+    law = law or Controller(design, locked_inertia(model, data), start.incidence)
     while True:
         rotation = data.xmat[trunk].reshape(3, 3).copy()
         up = rotation[2]
-        data.ctrl[motors] = law.torque(up, data.qvel[3:6], data.qvel[wheels], start, data.time)
+        data.ctrl[motors] = law.torque(
+            rotation, data.qvel[3:6], data.qvel[wheels], start, data.time
+        )
         share = overlap(data.time, HOLD * STEP, start.onset, start.duration)
         data.xfrc_applied[trunk, 3:] = share * (rotation @ start.push)
         for _ in range(HOLD):
@@ -104,10 +116,6 @@ def world(folder: Path, design: dict, start: Start) -> tuple[mujoco.MjModel, muj
         geom.conaffinity = int(bool(geom.contype or geom.conaffinity))
         geom.contype = 0
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], conaffinity=0)
-    for name in robot["posture"]:
-        spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
-    spec.option.timestep, spec.option.tolerance = STEP, 1e-12
     spec.option.gravity = [0, 0, -start.gravity]
     model = spec.compile()
     if start.incidence is not None:
@@ -150,7 +158,6 @@ def drive_legs(model: mujoco.MjModel, data: mujoco.MjData, robot: dict) -> None:
     for name, angle in robot["posture"].items():
         drive, joint = model.actuator(name).id, model.joint(name)
         model.actuator_gainprm[drive, 0] = stiffness
-        model.actuator_biastype[drive] = mujoco.mjtBias.mjBIAS_AFFINE
         bearable = STABLE * felt[joint.dofadr[0]] / STEP
         model.actuator_biasprm[drive, 1:3] = -stiffness, -min(damping, bearable)
         data.ctrl[drive] = angle
@@ -180,10 +187,10 @@ class Controller:
         self.gain = HOLD * STEP * (alone + self.reaction**2 * largest)
 
     def torque(
-        self, up: np.ndarray, rate: np.ndarray, speed: np.ndarray, start: Start, time: float
+        self, rotation: np.ndarray, rate: np.ndarray, speed: np.ndarray, start: Start, time: float
     ) -> np.ndarray:
         """Of the motors [N m]: `J w_dot = -g A tau - w x H` with roll and pitch as wanted."""
-        pitch, turning = start.pitch(time), start.rate(time)
+        up, pitch, turning = rotation[2], start.pitch(time), start.rate(time)
         target = np.array([-np.sin(pitch), 0.0, np.cos(pitch)])
         error = np.cross(target, up)
         sine = np.linalg.norm(error)
@@ -203,6 +210,26 @@ class Controller:
         most = np.minimum((self.line - speed) / give, (self.top - speed) / self.gain)
         least = np.maximum((-self.line - speed) / give, (-self.top - speed) / self.gain)
         return np.clip(np.clip(torque, least, most), -self.limit, self.limit)
+
+
+class Compiled:
+    """The exported controller of one maneuver, by its own Python binding."""
+
+    def __init__(self, folder: Path, maneuver: int) -> None:
+        (path,) = folder.glob("*_ocs_controller.py")
+        specification = importlib.util.spec_from_file_location(path.stem, path)
+        module = importlib.util.module_from_spec(specification)
+        specification.loader.exec_module(module)
+        self.controller, self.maneuver = module.Controller(), maneuver
+
+    def torque(
+        self, rotation: np.ndarray, rate: np.ndarray, speed: np.ndarray, start: Start, time: float
+    ) -> list[float]:
+        """Of the motors [N m]."""
+        del start  # it has the plans
+        attitude = np.empty(4)
+        mujoco.mju_mat2Quat(attitude, rotation.ravel())
+        return self.controller.step(self.maneuver, time, attitude, rate, speed)
 
 
 def overlap(time: float, period: float, onset: float, duration: float) -> float:

@@ -14,15 +14,13 @@ from ocs_design import OcsDesign, read_design
 
 HEIGHT, PITCH = 1.0, np.radians(20.0)  # of the trunk at release [m, rad]
 KP, KD = 60.0, 12.0  # of the trunk's tilt [1/s^2, 1/s]
-LEG_KP, LEG_KD = 5.0, 0.1  # of the leg joints [N m/rad, N m s/rad]
 
 
 def main(folder: Path) -> float:
     """Drop the robot; its pitch at touchdown [rad]."""
     design = read_design(folder / "design.json")
-    model, data = load(folder, design)
+    model, data = load(folder)
     while data.time < 2.0 and not data.ncon:
-        hold_legs(model, data, design)
         drive_wheels(data, design)
         mujoco.mj_step(model, data)
     pitch = tilt(data)[1]
@@ -30,29 +28,15 @@ def main(folder: Path) -> float:
     return float(pitch)
 
 
-def load(folder: Path, design: OcsDesign) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """The exported robot over a floor, in its posture, tilted."""
-    spec = mujoco.MjSpec.from_file(str(next((folder / "robot").glob("*_ocs.xml"))))
-    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5.0, 5.0, 0.1])
-    spec.option.timestep = 1e-3
-    # Wheels that spin fast lose momentum with the default integrator.
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
-    model = spec.compile()
+def load(folder: Path) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The exported robot over its floor, in its posture, tilted; its legs hold themselves."""
+    model = mujoco.MjModel.from_xml_path(str(folder / "robot" / "scene.xml"))
     data = mujoco.MjData(model)
-    for name, value in design.robot.posture.items():
-        data.joint(name).qpos[0] = value
+    mujoco.mj_resetDataKeyframe(model, data, model.key("ocs_home").id)
     data.qpos[2] = HEIGHT
     data.qpos[3:7] = np.cos(PITCH / 2.0), 0.0, np.sin(PITCH / 2.0), 0.0
     mujoco.mj_forward(model, data)
     return model, data
-
-
-def hold_legs(model: mujoco.MjModel, data: mujoco.MjData, design: OcsDesign) -> None:
-    """In place of your own controller."""
-    for name, value in design.robot.posture.items():
-        joint, dof = data.joint(name), model.joint(name).dofadr[0]
-        torque = LEG_KP * (value - joint.qpos[0]) - LEG_KD * joint.qvel[0]
-        data.qfrc_applied[dof] = torque
 
 
 def drive_wheels(data: mujoco.MjData, design: OcsDesign) -> None:

@@ -8,13 +8,7 @@ Only the last design, for the largest radius, is flown.
 import sys
 from pathlib import Path
 
-from ocs_design import Infeasible, design_ocs
-from ocs_design.requirement.specification import (
-    FlywheelSection,
-    RobotSection,
-    Specification,
-    ValidationSection,
-)
+from ocs_design import Infeasible, design_ocs, specify
 
 ROBOT = Path(__file__).with_name("solo12.urdf")
 RADII = (0.02, 0.03, 0.04, 0.05)  # m
@@ -25,10 +19,8 @@ def main() -> None:
     robot = sys.argv[1] if len(sys.argv) > 1 else str(ROBOT)
     print("radius [mm]  one wheel [g]  what binds")
     for radius in RADII:
-        specification = Specification(
-            robot=RobotSection(file=robot),
-            flywheel=FlywheelSection(r_max=radius),
-            validation=ValidationSection(enabled=radius == RADII[-1]),
+        specification = specify(
+            robot, flywheel={"r_max": radius}, validation={"enabled": radius == RADII[-1]}
         )
         folder = Path(f"radius-{radius * 1e3:.0f}mm-ocs")
         try:

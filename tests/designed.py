@@ -19,7 +19,7 @@ MOTOR = "EC 45 flat 70 W 411812"
 
 
 @cache
-def designed(motor=MOTOR, alpha=None, criterion="lightest", mass_max=None, guard=None):
+def designed(motor=MOTOR, alpha=None, criterion="lightest", mass_max=None, guard=None, layout=None):
     """The task and what came of it; without a motor no incidence is the lightest."""
     task = by_hand()
     if motor == "none" and criterion == "lightest":
@@ -28,7 +28,13 @@ def designed(motor=MOTOR, alpha=None, criterion="lightest", mass_max=None, guard
         robot=task.specification.robot,
         motor=MotorSection(name=motor, gear=None if motor == "none" else "direct"),
         flywheel=FlywheelSection(material="auto"),
-        ocs=OcsSection(alpha=alpha, alpha_criterion=criterion, mass_max=mass_max, guard=guard),
+        ocs=OcsSection(
+            alpha=alpha,
+            alpha_criterion=criterion if layout is None else None,
+            mass_max=mass_max,
+            guard=guard,
+            layout=layout,
+        ),
     )
     task = task.with_specification(given)
     return task, design_device(given, task.robot, task.resolved)

@@ -2,8 +2,11 @@
 
 import numpy as np
 
+from ocs_design.device.layout import PAIR
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
-from ocs_design.monte_carlo.uncertainty import NAMES
+from ocs_design.monte_carlo.uncertainty import quantities
+
+NAMES = quantities(PAIR)
 
 
 def made_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):
@@ -15,6 +18,5 @@ def made_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):
     metrics = np.zeros((len(values), scenarios, len(METRICS)))
     metrics[:, :, METRICS.index("touchdown_pitch")] = values[:, :1]
     codes = np.where(np.abs(values[:, :1]) > fail_from, 3, 0).astype(np.int8)
-    return Outcomes(
-        np.array(samples), values, metrics, np.broadcast_to(codes, (len(values), scenarios)).copy()
-    )
+    codes = np.broadcast_to(codes, (len(values), scenarios)).copy()
+    return Outcomes(np.array(samples), values, metrics, codes, NAMES)

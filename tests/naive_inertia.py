@@ -27,7 +27,7 @@ def _tensor(problem, drive, rims, angle):
     robot, place = problem.robot, problem.place
     size = rims.outer, rims.height, drive.motor, drive.gear, drive.thick
     reach, standing = room_taken(*size)
-    x, y, z = (o + d * reach for o, d in zip(place.origin, place.outward, strict=True))
+    x, y, z = (o + d * reach for o, d in zip(place.origins[0], place.outward[0], strict=True))
     z = z + standing if place.upright else z
     sine, cosine = np.sin(angle), np.cos(angle)
     zero = np.zeros_like(sine + mass)

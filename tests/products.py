@@ -30,7 +30,10 @@ FILES = [
     "cad/assembly.pdf",
     "cad/housing.3mf",
     *(f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")),
+    "robot/README.md",
+    "robot/scene.xml",
     "robot/solo12_ocs.glb",
+    "robot/solo12_ocs.png",
     "robot/solo12_ocs.urdf",
     "robot/solo12_ocs.xml",
     "robot/meshes/ocs_flywheel.stl",
@@ -70,7 +73,9 @@ class Case:
     def files(self) -> list[str]:
         meshes = [f"robot/meshes/ocs_{part}.stl" for part in self.standing]
         pieces = [*self.pieces, *self.plates]
-        return [*FILES, *meshes, *self.cages, *(f"cad/{piece}.stl" for piece in pieces)]
+        # Of a device with a real motor, which is made and has something in reserve.
+        made = ["cad/drilling.pdf", "figures/reliability.svg"] if self.standing else []
+        return [*FILES, *meshes, *self.cages, *made, *(f"cad/{piece}.stl" for piece in pieces)]
 
     @property
     def cages(self) -> list[str]:

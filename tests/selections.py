@@ -73,7 +73,7 @@ def random_problem(seed, motors=3, *, mounted=True):
             rng.choice([None, rng.uniform(0.5, 1.5)]), 1.0, None, standing,
         ),
         envelope=envelope,
-        place=Place((0.005 * size, 0.0, 0.05 * size), (0.0, 1.1, 1.1)),
+        place=Place(((0.005 * size, 0.0, 0.05 * size),) * 2, ((0.0, 1.1, 1.1), (0.0, -1.1, 1.1))),
         motors=tuple(motor(rng, f"m{i}", torque, speed, voltage) for i in range(motors)),
         gears=(DIRECT, *(gear(rng, f"g{ratio:.2f}", ratio, 4.0 * torque) for ratio in ratios)),
         materials=(STEEL, ALUMINIUM),

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from math import pi, radians
 
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
+from ocs_design.requirement.maneuver import Catch, Disturbance, Drop, Flip, Shove, TurnTo
 from ocs_design.requirement.specification import (
     FlywheelSection,
     MotorSection,
@@ -15,7 +15,7 @@ from ocs_design.requirement.specification import (
     ValidationSection,
 )
 from ocs_design.requirement.uncertainty import UncertaintySection, Uniform, spreads
-from ocs_design.requirement.words import Kick, Tilt
+from ocs_design.requirement.words import About, Kick, Tilt
 
 MANEUVERS = (
     Disturbance(
@@ -28,6 +28,18 @@ MANEUVERS = (
     Shove(name="nudge", torque=(0.5, 0.0, 0.0), duration=0.1, settling=0.4, stride=0.3),
     Drop(name="drop", height=1.0, pitch=radians(30.0), roll=-0.1, incidence=0.0),
     Flip(name="back-flip", gravity=1.62, jump_height=1.0, angle=-2 * pi, duration=2.0),
+    TurnTo(
+        name="round",
+        gravity=1.62,
+        jump_height=1.9,
+        yaw=pi / 2,
+        roll=0.1,
+        pitch=-0.2,
+        duration=2.9,
+        wheel_speed=100.0,
+        end="attitude",
+    ),
+    Catch(name="catch", jump_height=0.5, duration=0.6, rate=(0.4, 0.8, -0.1), end="at rest"),
 )
 
 FULL = Specification(
@@ -51,8 +63,11 @@ FULL = Specification(
         fall=(1.0,),
         tilt=(Tilt(0.1, radians(20.0)),),
         flip=(radians(-360.0),),
+        turn=(About(0.0, 0.1, radians(90.0), 2.9, "rad"), About(0.3, 0.0, 0.0, None, "rad")),
+        catch=(About(0.1, 1 / 3, 0.0, 0.5, "rad/s"),),
     ),
     ocs=OcsSection(
+        layout="pair",
         alpha=radians(40.0),
         alpha_criterion="lightest",
         position=(0.1, 0.2, 1e-17),

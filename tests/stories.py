@@ -15,9 +15,9 @@ TOUCHDOWN = 0.4
 
 
 @cache
-def design(motor=MOTOR):
+def design(motor=MOTOR, layout=None):
     """As it would be written, not flown."""
-    task, made = designed(motor)
+    task, made = designed(motor, layout=layout)
     return record_design(
         task.robot, task.resolved, made, (), plans={}, mounting=None, seed=7, files={"a.stl": "0"}
     )

@@ -8,7 +8,7 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Flywheel, Module
-from ocs_design.device.layout import module_axes
+from ocs_design.device.layout import Layout, module_axes
 from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.froude import Scale, default_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
@@ -78,6 +78,14 @@ def driven_device(
     return replace(paper_device(incidence, drive), flywheel=wheel, carrier=carrier)
 
 
+def layout_device(layout: Layout) -> Device:
+    """That rim and motor on each axis of a layout, around a place on top of the trunk."""
+    angle = layout.angle or 0.0
+    centers = 0.08 * np.array(layout.ring) + [0.0, 0.0, 0.1]
+    modules = map(Module, layout.names, layout.axes(angle).T, centers)
+    return replace(driven_device(), incidence=angle, modules=tuple(modules), layout=layout)
+
+
 def geared(ratio: float, *, reverses: bool = False, inertia: float = 2e-6) -> Drive:
     """That motor behind a gear (docs/theory.md): s N J_r of its rotor adds to the momentum."""
     sense = -1.0 if reverses else 1.0
@@ -115,10 +123,12 @@ def _carriers(device: Device) -> Iterator[MassProperties]:
     """Each in the frame that looks away from the other module."""
     carrier = device.carrier
     up = np.array([0.0, 0.0, 1.0])
-    for module, side in zip(device.modules, (1.0, -1.0), strict=True):
-        outward = side * module.axis
-        frame = np.column_stack([np.cross(outward, up), outward, up])
-        place = module.position + carrier.along * outward + carrier.up * up
+    for module in device.modules:
+        outward = -module.axis if module.name == "right" else module.axis
+        upward = up - outward[2] * outward
+        upward = upward / np.linalg.norm(upward) if np.any(upward) else np.array([1.0, 0.0, 0.0])
+        frame = np.column_stack([np.cross(outward, upward), outward, upward])
+        place = module.position + carrier.along * outward + carrier.up * upward
         yield MassProperties(carrier.mass, place, frame @ carrier.inertia @ frame.T)
 
 

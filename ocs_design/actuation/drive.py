@@ -201,6 +201,7 @@ class Drive:
         gear_room: that its gear takes; None: there is no gear.
         saturation_torque: at the wheel, above which the motor's k_t falls off [N m].
         controller_mass: of the controller that stands with the motor [kg]; 0: not counted.
+        maker: of the motor; empty: not known.
     """
 
     name: str
@@ -231,6 +232,12 @@ class Drive:
     continuous_torque_source: str = ""
     confidence: str = ""
     controller_mass: float = 0.0
+    maker: str = ""
+
+    @property
+    def full_name(self) -> str:
+        """Maker and name, as one orders it."""
+        return f"{self.maker} {self.name}".lstrip()
 
     @classmethod
     def of(
@@ -268,6 +275,17 @@ class Drive:
         }
         names = {field.name for field in fields(cls)} & {field.name for field in fields(motor)}
         return cls(**{name: getattr(motor, name) for name in names} | at_the_wheel)
+
+    @property
+    def line_left(self) -> float:
+        """Share of the voltage line that the motor's friction leaves, 1 - N eta k_t I_0 / tau_s.
+
+        Both its torque at rest and its speed without load shrink by it: the slope stays.
+        """
+        if self.stall_torque is None or self.torque_constant is None:
+            return 1.0
+        gain = self.gear_ratio * self.gear_efficiency * self.torque_constant
+        return 1.0 - gain * (self.no_load_current or 0.0) / self.stall_torque
 
 
 def _finite(limit: float | FloatArray) -> float | None:

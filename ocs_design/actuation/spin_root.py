@@ -1,10 +1,10 @@
-"""The root behind the smallest spin inertia: the h with which two wheels sweep enough in time.
+"""The root behind the smallest spin inertia: h with which the busiest wheel is in time.
 
 Within the time T a wheel of spin inertia h turns by at most Phi(h), ending at its final speed
-W_f = momentum / (2 h), and the pair sweeps M(h) = 2 h Phi. It must sweep P + L T, the excess and
-what the final speed itself sweeps. From `dA/dt = x` (`unit_slew`) the slope is exact,
+W_f = momentum / h, and sweeps M(h) = h Phi. It must sweep phi(P) + phi(L) T (`wheel_load`), the
+excess and what the final speed itself sweeps. From `dA/dt = x` (`unit_slew`) the slope is exact,
 
-    dM/dh = 2 Phi + 2 h w_0 T_0 (A - x t) (1 - 2 kappa h) / I_red - 2 w_0 T_0 f (x - f) / b(f).
+    dM/dh = Phi + h w_0 T_0 (A - x t) (1 - 2 kappa h) / I_red - w_0 T_0 f (x - f) / b(f).
 
 1/M over 1/h bends upwards from its level of full torque to its slope of full speed, so that
 Newton's method on it climbs from the least h that speed alone would need without overshooting, to
@@ -36,11 +36,11 @@ _BLOCK = 32768
 
 @dataclass(frozen=True, eq=False)
 class SpinDemand(Table):
-    """What two wheels must do; all fields broadcast.
+    """What the busiest wheel must do; all fields broadcast.
 
     Attributes:
-        sweep: P + L T, momentum over time that must pass the wheels [N m s^2]; inf: out of reach.
-        momentum: L, left in the wheels at the end [N m s].
+        sweep: momentum over time that must pass it [N m s^2]; inf: out of reach.
+        momentum: left in it at the end [N m s].
         duration: T [s].
         coupling: kappa [1 / (kg m^2)].
         armature: I_m - h [kg m^2].
@@ -58,7 +58,7 @@ class SpinDemand(Table):
 
 
 class Capability(NamedTuple):
-    """What two wheels of a spin inertia do in the time of their demand.
+    """What a wheel of a spin inertia does in the time of their demand.
 
     Attributes:
         sweep: M [N m s^2].
@@ -79,14 +79,14 @@ def capability(demand: SpinDemand, spin_inertia: FloatArray) -> Capability:
     unit = reduced * drive.no_load_speed / drive.torque
     time = demand.duration / unit
     final = np.minimum(
-        demand.momentum / (2.0 * h * drive.no_load_speed),
+        demand.momentum / (h * drive.no_load_speed),
         risen_speed(drive, rise_for(drive, time)),
     )
     slew = farthest_slew(drive, time, final)
     by_inertia = h * (slew.angle - slew.peak * time) * (1.0 - 2.0 * demand.coupling * h) / reduced
     by_final_speed = final * (slew.peak - final) / drive.braking(final)
     slope = slew.angle + by_inertia - by_final_speed
-    scale = 2.0 * drive.no_load_speed * unit
+    scale = drive.no_load_speed * unit
     return Capability(scale * h * slew.angle, scale * slope)
 
 
@@ -136,9 +136,7 @@ def _roots(demand: SpinDemand) -> FloatArray:
     drive, high = demand.drive, 1.0 / (2.0 * demand.coupling)
 
     # Below this h the speed alone is too low, or there is nothing to accelerate.
-    by_speed = demand.sweep / (
-        2.0 * drive.highest * drive.no_load_speed * positive(demand.duration)
-    )
+    by_speed = demand.sweep / (drive.highest * drive.no_load_speed * positive(demand.duration))
     relief = np.maximum(-demand.armature, 0.0)
     root = np.sqrt(np.maximum(1.0 - 4.0 * demand.coupling * relief, 0.0))
     nothing_left = 2.0 * relief / (1.0 + root) * (1.0 + 1e-9)

@@ -384,8 +384,14 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
     Raises:
         SpecificationError: see `load_entries`.
     """
-    sheets = load_entries(path, "motor", MotorSheet, _faults)
+    sheets = load_entries(path, "motor", MotorSheet, _faults, _lacks)
     return MappingProxyType({name: sheet.motor() for name, sheet in sheets.items()})
+
+
+def _lacks(sheet: MotorSheet) -> str:
+    """What nobody can build with it without; empty: nothing."""
+    gaps = build_gaps(sheet.motor())
+    return f"to be built with, it lacks {', '.join(gaps)}" if gaps else ""
 
 
 def motors_to_json(found: Iterable[Motor]) -> bytes:

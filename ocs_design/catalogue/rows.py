@@ -297,6 +297,7 @@ def load_entries(
     kind: str,
     sheet: type[E],
     faults_of: Callable[[E], Iterable[str]] = lambda _: (),
+    lacks: Callable[[E], str] = lambda _: "",
 ) -> Mapping[str, E]:
     """Every entry of a CSV or TOML file by name, sorted (docs/catalogue.md has the columns).
 
@@ -305,6 +306,7 @@ def load_entries(
         kind: of entry: `motor` or `gear`.
         sheet: dataclass whose fields are the columns.
         faults_of: what is wrong with an entry whose cells can be read, one line each.
+        lacks: what else an entry needs before it is of use, told together with faults.
 
     Raises:
         SpecificationError: it cannot be read, or has faults, all of which are listed.
@@ -313,27 +315,29 @@ def load_entries(
     found: dict[str, E] = {}
     first: dict[str, str] = {}
     twice: list[str] = []
+    lacking: dict[str, str] = {}
     rows = read_rows(path, kind, faults)
     for row in rows:
         name = row.cells.get("name")
         where = f"{row.where} ({name})" if isinstance(name, str) else row.where
         if isinstance(name, str) and first.setdefault(name, row.where) != row.where:
             twice.append(f"{row.where}: {name!r} is already the name of {first[name]}")
-        values = _read_cells(row, where, sheet, faults)
-        if values is not None:
-            read = sheet(**values)
+        before = len(faults)
+        read = sheet(**_read_cells(row, where, sheet, faults))
+        if len(faults) == before:
             faults.extend(f"{where}: {fault}" for fault in faults_of(read))
-            found[read.name] = read
+        lacking[where] = lacks(read)
+        found[read.name] = read
     faults += twice
     if faults:
         count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
+        faults += [f"{where}: {what}" for where, what in lacking.items() if what]
         raise SpecificationError(f"{path} has {count}:", problems=faults)
     return _by_name(found)
 
 
-def _read_cells(row: Row, where: str, sheet: type, faults: list[str]) -> dict[str, Any] | None:
-    """The value of each column that the row has; None, with every fault kept, if there is any."""
-    before = len(faults)
+def _read_cells(row: Row, where: str, sheet: type, faults: list[str]) -> dict[str, Any]:
+    """The value of each column that can be read; texts that must be there are empty otherwise."""
     columns, values = columns_of(sheet), {}
     for column, raw in row.cells.items():
         if column not in columns:
@@ -349,7 +353,7 @@ def _read_cells(row: Row, where: str, sheet: type, faults: list[str]) -> dict[st
     required = {item.name for item in fields(sheet) if item.default is MISSING}
     missing = sorted(required - row.cells.keys())
     faults.extend(f"{where}, {column}: is missing" for column in missing)
-    return values if len(faults) == before else None
+    return {**dict.fromkeys(required, ""), **values}
 
 
 def packaged(name: str, load: Callable[[Path], Mapping[str, E]]) -> Mapping[str, E]:

@@ -6,13 +6,14 @@ Heavy modules are imported inside the commands: that costs seconds, and `--help`
 import gc
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ocs_design.cli import errors
+from ocs_design.cli import completion, errors
 from ocs_design.cli import options as opt
 from ocs_design.cli.commands import doctor, export, init, pareto, validate
 from ocs_design.cli.options import (
@@ -22,13 +23,61 @@ from ocs_design.cli.options import (
     with_options,
 )
 
+if TYPE_CHECKING:
+    from ocs_design.requirement.specification import Specification
+
 app = typer.Typer(
     name="ocs-design",
     help="Size, export and prove a flywheel orientation control system for a legged robot.",
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     add_completion=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+EXAMPLES: Mapping[str, tuple[str, ...]] = {
+    "size": (
+        "ocs-design size robot.urdf",
+        "ocs-design size robot.urdf --jump-height 0.4m --kick '12 N s at 0.1,0,0.2'",
+        "ocs-design size robot.urdf --bus-voltage 36V --r-max 40mm -o wheels --open",
+        "ocs-design size robot.urdf --motor MN4012-KV480 --motor G60-KV55",
+        "ocs-design size --mass 2.5 --inertia 0.030,0.0515,0.068",
+    ),
+    "demo": ("ocs-design demo", "ocs-design demo -o /tmp/solo12-ocs --no-open"),
+    "inspect": (
+        "ocs-design inspect robot.urdf --picture robot.svg",
+        "ocs-design inspect robot.xml --posture home --json",
+    ),
+    "bound": (
+        "ocs-design bound --inertia '0.0515 kg m2' --rate-change 2rad/s",
+        "ocs-design bound --inertia 0.0515 --rate-change 2 --alpha 40deg",
+    ),
+    "export": (
+        "ocs-design export robot-ocs --formats 3mf,step,dxf",
+        "ocs-design export robot-ocs --formats all --robot elsewhere/robot.urdf",
+    ),
+    "validate": (
+        "ocs-design validate robot-ocs --samples 1000 --until-width 5% -o flights",
+        "ocs-design validate robot-ocs --certify",
+        "ocs-design validate robot-ocs --replay flights/worst/drop_1.json --view",
+    ),
+    "pareto": (
+        "ocs-design pareto robot.urdf --against time -o front",
+        "ocs-design pareto robot.urdf --against angle --maneuver drop --to 40deg",
+    ),
+    "init": (
+        "ocs-design init robot.urdf",
+        "ocs-design init robot.urdf --r-max 40mm -y -o dog.toml",
+    ),
+    "doctor": ("ocs-design doctor", "ocs-design doctor --json"),
+    "catalogue": ("ocs-design catalogue motors -v", "ocs-design catalogue gears --json"),
+}
+"""What to type, by command, for the end of its help."""
+
+
+def _examples(command: str) -> str:
+    """Paragraph that is not to be wrapped, as the backspace says."""
+    return "\b\n" + "\n".join(["Examples:", *(f"  {line}" for line in EXAMPLES[command])])
 
 
 def main() -> int:
@@ -55,7 +104,9 @@ def _quick_imports() -> Iterator[None]:
 @app.callback(invoke_without_command=True)
 def _no_command(
     context: typer.Context,
-    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
+    version: Annotated[
+        bool, typer.Option("-V", "--version", help="Print the version and exit.")
+    ] = False,
 ) -> None:
     if version:
         from ocs_design import __version__
@@ -65,7 +116,7 @@ def _no_command(
         print(context.get_help())
 
 
-@app.command()
+@app.command(epilog=_examples("size"))
 @with_options(opt.TASK_OPTIONS)
 def size(
     context: typer.Context,
@@ -75,6 +126,7 @@ def size(
     ballistic: opt.Ballistic = False,
     certify: opt.Certify = False,
     video: opt.Video = False,
+    open_report: opt.Open = False,
     seed: opt.Seed = None,
     out: opt.Out = None,
     force: opt.Force = False,
@@ -90,11 +142,82 @@ def size(
     scenario fails, 2 wrong usage, 3 the input cannot be read, 4 no design meets the specification,
     5 an optional tool is missing.
     """
-    from ocs_design.report.text.console import Steps, make_console
+    _design(
+        specified_by_command(context),
+        package_paths_of_command(context),
+        out,
+        opt.Output(force, as_json, strict, quiet, no_color),
+        verbose=verbose,
+        open_report=open_report,
+    )
 
-    specification = specified_by_command(context)
-    console = make_console(color=not no_color)
-    steps = Steps(make_console(color=not no_color, stderr=True), quiet=quiet or as_json)
+
+@app.command(epilog=_examples("demo"))
+def demo(
+    no_open: Annotated[
+        bool, typer.Option("--no-open", help="Do not open the report in the browser.")
+    ] = False,
+    out: Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="Output folder.")] = Path(
+        "solo12-ocs"
+    ),
+    force: opt.Force = False,
+    quiet: opt.Quiet = False,
+    no_color: opt.NoColor = False,
+) -> None:
+    """Size a device for Solo12; needs no file.
+
+    The robot comes with this program. As `size` with its defaults, which takes less than a minute,
+    and then the report is opened.
+    """
+    from ocs_design.common.files import packaged_folder
+    from ocs_design.requirement.specification import specification_from_options
+
+    robot = packaged_folder("examples") / "solo12.urdf"
+    _design(
+        specification_from_options({"robot.file": str(robot)}),
+        {},
+        out,
+        opt.Output(force, as_json=False, strict=False, quiet=quiet, no_color=no_color),
+        verbose=False,
+        open_report=not no_open,
+    )
+
+
+def _design(
+    specification: "Specification",
+    package_paths: Mapping[str, Path],
+    out: Path | None,
+    output: opt.Output,
+    *,
+    verbose: bool,
+    open_report: bool,
+) -> None:
+    """Size, print and end with the outcome's exit code."""
+    from ocs_design.report.text.console import Steps, make_console, open_page
+    from ocs_design.requirement.specification import ALL_LAYOUTS
+
+    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
+    steps = Steps(aside, quiet=output.quiet or output.as_json)
+    if specification.ocs.layout == ALL_LAYOUTS:
+        if out is not None:
+            from ocs_design.common.errors import UsageError
+
+            raise UsageError(
+                "a comparison of layouts writes no folder",
+                hint="leave out -o, or take one layout, as in --layout triad",
+            )
+        from ocs_design.device.answers import to_json
+        from ocs_design.report.text.answers import print_layouts
+        from ocs_design.workflows.layouts import compare_layouts
+
+        answer = compare_layouts(
+            specification, package_paths=package_paths, strict=output.strict, progress=steps
+        )
+        if output.as_json:
+            sys.stdout.buffer.write(to_json(answer))
+        else:
+            print_layouts(console, answer)
+        return
     with steps.step("load the solver and the simulator"), _quick_imports():
         from ocs_design.device.records import design_to_json
         from ocs_design.report.text.size import print_design, print_outcome, print_solution
@@ -105,24 +228,28 @@ def size(
     outcome = design_ocs(
         specification,
         out=out,
-        package_paths=package_paths_of_command(context),
-        force=force,
-        strict=strict,
-        steps=steps,
+        package_paths=package_paths,
+        force=output.force,
+        strict=output.strict,
+        progress=steps,
         command=typed_command(),
     )
-    if as_json:
+    if output.as_json:
         sys.stdout.buffer.write(design_to_json(outcome.design))
     elif verbose:
         print_design(console, outcome.design)
         print_solution(console, outcome.design)
         print_outcome(console, outcome.design, outcome.folder)
-    elif not quiet:
+    elif not output.quiet:
         print_summary(console, outcome.design, outcome.runs, outcome.folder)
+    if open_report:
+        from ocs_design.export.folder import REPORT_FILE
+
+        open_page(aside, outcome.folder / REPORT_FILE)
     raise typer.Exit(outcome.exit_code)
 
 
-@app.command()
+@app.command(epilog=_examples("inspect"))
 @with_options(opt.ROBOT_OPTIONS)
 def inspect(
     context: typer.Context,
@@ -152,7 +279,7 @@ def inspect(
         print_inspection(make_console(color=not no_color), inspection, verbose=verbose)
 
 
-@app.command()
+@app.command(epilog=_examples("bound"))
 def bound(
     inertia: Annotated[
         str,
@@ -167,7 +294,12 @@ def bound(
     alpha: Annotated[
         str, typer.Option(metavar="ANGLE", help="Incidence of the wheel axes.")
     ] = "0deg",
-    axis: Annotated[str, typer.Option(metavar="AXIS", help="pitch or roll.")] = "pitch",
+    axis: Annotated[
+        str,
+        typer.Option(
+            autocompletion=completion.one_of("pitch", "roll"), metavar="AXIS", help="pitch or roll."
+        ),
+    ] = "pitch",
     as_json: opt.AsJson = False,
     no_color: opt.NoColor = False,
 ) -> None:
@@ -190,16 +322,23 @@ def bound(
         print_bound(make_console(color=not no_color), answer)
 
 
-app.command()(export)
-app.command()(validate)
-app.command()(pareto)
-app.command()(init)
-app.command()(doctor)
+app.command(epilog=_examples("export"))(export)
+app.command(epilog=_examples("validate"))(validate)
+app.command(epilog=_examples("pareto"))(pareto)
+app.command(epilog=_examples("init"))(init)
+app.command(epilog=_examples("doctor"))(doctor)
 
 
-@app.command()
+@app.command(epilog=_examples("catalogue"))
 def catalogue(
-    what: Annotated[str, typer.Argument(metavar="motors|gears|materials", help="What to list.")],
+    what: Annotated[
+        str,
+        typer.Argument(
+            autocompletion=completion.one_of("motors", "gears", "materials"),
+            metavar="motors|gears|materials",
+            help="What to list.",
+        ),
+    ],
     motors: opt.MotorsFile = None,
     gears: opt.GearsFile = None,
     as_json: opt.AsJson = False,

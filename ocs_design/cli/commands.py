@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias, TypeVar
 
 import typer
 
+from ocs_design.cli import completion
 from ocs_design.cli import options as opt
 from ocs_design.cli.options import (
     package_paths_of_command,
@@ -181,7 +182,12 @@ def _ask(question: str, default: str, read: Callable[[str], Answer]) -> Answer:
 
 
 DesignFile: TypeAlias = Annotated[
-    Path, typer.Argument(metavar="DESIGN", help="design.json, or the folder that it lies in.")
+    Path,
+    typer.Argument(
+        autocompletion=completion.files("design.json"),
+        metavar="DESIGN",
+        help="design.json, or the folder that it lies in.",
+    ),
 ]
 ExportFolder: TypeAlias = Annotated[
     Path | None,
@@ -191,16 +197,18 @@ Formats: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--formats",
+        autocompletion=completion.listed(completion.any_of(completion.formats)),
         metavar="NAMES",
         help=f"{', '.join(each.name for each in USUAL_FORMATS)} (these are the default), "
-        f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, with "
-        "commas between them; or all.",
+        f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, "
+        "controller, with commas between them; or all.",
     ),
 ]
 OtherRobot: TypeAlias = Annotated[
     Path | None,
     typer.Option(
         "--robot",
+        autocompletion=completion.files(*completion.ROBOTS),
         metavar="FILE",
         help="The robot's file, where it has moved or is to be another than was sized for.",
     ),
@@ -258,7 +266,10 @@ def export(
 Against: TypeAlias = Annotated[
     str,
     typer.Option(
-        "--against", metavar="NAME", help="time, angle, radius, height or voltage is varied."
+        "--against",
+        autocompletion=completion.one_of("time", "angle", "radius", "height", "voltage"),
+        metavar="NAME",
+        help="time, angle, radius, height or voltage is varied.",
     ),
 ]
 Low: TypeAlias = Annotated[
@@ -277,6 +288,7 @@ ManeuverName: TypeAlias = Annotated[
     str,
     typer.Option(
         "--maneuver",
+        autocompletion=completion.maneuvers,
         metavar="NAME",
         help="Vary the time or angle of this one alone. Default: of all, in one ratio.",
     ),
@@ -328,6 +340,7 @@ def pareto(
     with steps.step("read the robot") as step:
         task = read_task(specification, package_paths=paths, strict=output.strict)
         step.note = task.robot.name
+    steps.doubt(task.robot.warnings)
     values = front_values(sweep, task, low=low, high=high, points=points)
     with steps.step(f"choose a device for each of {points} values") as step:
         front = draw_front(task, sweep, values, lightest_device, step.update)
@@ -372,7 +385,12 @@ OneSample: TypeAlias = Annotated[
 ]
 CaseFile: TypeAlias = Annotated[
     Path | None,
-    typer.Option("--replay", metavar="FILE", help="Fly a case from the folder worst/ again."),
+    typer.Option(
+        "--replay",
+        autocompletion=completion.files(".json"),
+        metavar="FILE",
+        help="Fly a case from the folder worst/ again.",
+    ),
 ]
 View: TypeAlias = Annotated[
     bool, typer.Option("--view", help="Show the runs in MuJoCo's viewer, each until it is closed.")
@@ -421,7 +439,7 @@ def validate(
         from ocs_design.device.answers import to_json
         from ocs_design.report.text.layout import warn
         from ocs_design.report.text.validation import print_validated
-        from ocs_design.workflows.validate import Request, validate_design, watch
+        from ocs_design.workflows.validate import Request, validated, watch
     width = None
     if until_width is not None:
         width = parse_quantity(until_width, Dimension.RATIO, "--until-width")
@@ -440,7 +458,7 @@ def validate(
         strict=output.strict,
         view=view,
     )
-    answer = validate_design(request, steps)
+    answer = validated(request, steps)
     if output.as_json:
         sys.stdout.buffer.write(to_json(answer.found))
     elif not output.quiet:

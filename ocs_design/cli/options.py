@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
+from ocs_design.cli import completion
+
 if TYPE_CHECKING:
     from ocs_design.requirement.specification import Specification
 
@@ -58,6 +60,7 @@ Text: TypeAlias = str | None
 RobotFile: TypeAlias = Annotated[
     str | None,
     typer.Argument(
+        autocompletion=completion.files(*completion.ROBOTS),
         metavar="ROBOT",
         help="URDF, xacro or MJCF file, may be gzipped; - reads standard input. "
         "By hand instead: --mass and --inertia.",
@@ -81,7 +84,13 @@ Weighed: TypeAlias = Annotated[
     ),
 ]
 Spec: TypeAlias = Annotated[
-    Path | None, typer.Option("--spec", metavar="FILE", help="Specification file (TOML).")
+    Path | None,
+    typer.Option(
+        "--spec",
+        autocompletion=completion.files(".toml"),
+        metavar="FILE",
+        help="Specification file (TOML).",
+    ),
 ]
 Trunk: TypeAlias = Annotated[
     Text,
@@ -99,6 +108,7 @@ Posture: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--posture",
+        autocompletion=completion.one_of("stand", "zero"),
         metavar="NAME",
         help="zero, stand, or a keyframe or SRDF state. Default: stand where legs are found.",
     ),
@@ -164,14 +174,34 @@ FlipOption: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--flip",
+        autocompletion=completion.one_of("back", "forward"),
         metavar="ANGLE",
         help="Turn in pitch during a jump: back, forward, or an angle; repeatable.",
+    ),
+]
+TurnOption: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--turn",
+        metavar="TURN",
+        help="Turn to an attitude during a jump, e.g. 'yaw 90deg in 2.9s'; repeatable.",
+    ),
+]
+CatchOption: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--catch",
+        metavar="RATES",
+        help="Stop a trunk that turns at lift-off, e.g. 'pitch 45deg/s in 0.5s'; repeatable.",
     ),
 ]
 Gravity: TypeAlias = Annotated[
     Text,
     typer.Option(
-        "--gravity", metavar="GRAVITY", help="earth (default), moon, mars, or e.g. 3.7m/s2."
+        "--gravity",
+        autocompletion=completion.of_key("requirement.gravity"),
+        metavar="GRAVITY",
+        help="earth (default), moon, mars, or e.g. 3.7m/s2.",
     ),
 ]
 WheelSpeedMax: TypeAlias = Annotated[
@@ -190,13 +220,28 @@ TorqueMax: TypeAlias = Annotated[
         help="Torque of a wheel. Default: the motor's; not limited without a motor.",
     ),
 ]
+LayoutKind: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--layout",
+        autocompletion=completion.of_key("ocs.layout"),
+        metavar="NAME",
+        help="How the wheels' axes lie: pair, double-pair or triple-pair (default: the first that "
+        "a motor is strong enough for), single, triad, orthogonal, pyramid; all compares them and "
+        "writes no folder.",
+    ),
+]
 Alpha: TypeAlias = Annotated[
-    Text, typer.Option("--alpha", metavar="ANGLE", help="Incidence angle, e.g. 40deg.")
+    Text,
+    typer.Option(
+        "--alpha", metavar="ANGLE", help="Incidence angle, e.g. 40deg; of a pyramid, elevation."
+    ),
 ]
 AlphaCriterion: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--alpha-criterion",
+        autocompletion=completion.of_key("ocs.alpha_criterion"),
         metavar="NAME",
         help="equal-rate (default), lightest, weighted, simultaneous, pitch-only, roll-only.",
     ),
@@ -209,7 +254,7 @@ Position: TypeAlias = Annotated[
 ]
 MassMax: TypeAlias = Annotated[
     Text,
-    typer.Option("--mass-max", metavar="MASS", help="Largest mass of the device, both modules."),
+    typer.Option("--mass-max", metavar="MASS", help="Largest mass of the device, all modules."),
 ]
 RMax: TypeAlias = Annotated[
     Text, typer.Option("--r-max", metavar="LENGTH", help="Largest outer radius, e.g. 30mm.")
@@ -233,6 +278,7 @@ WebKind: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--web",
+        autocompletion=completion.of_key("flywheel.web"),
         metavar="disc|aluminium|none",
         help="What joins a rim to its motor: a thin disc with a hub in one piece (default), "
         "one of aluminium that it is shrunk on, or massless spokes.",
@@ -242,6 +288,7 @@ GuardKind: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--guard",
+        autocompletion=completion.of_key("ocs.guard"),
         metavar="fingers|containing",
         help="Printed housings (default), or a steel ring in each that holds a wheel that bursts.",
     ),
@@ -250,6 +297,7 @@ MaterialName: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--material",
+        autocompletion=completion.any_of(completion.materials),
         metavar="NAME",
         help="See `ocs-design catalogue materials`; steel (default): any steel; auto: any.",
     ),
@@ -258,6 +306,7 @@ MotorName: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--motor",
+        autocompletion=completion.any_of(completion.motors),
         metavar="NAME",
         help="See `ocs-design catalogue motors`; may be repeated; auto (default): the lightest "
         "device; none: size the wheels by the bound alone.",
@@ -298,6 +347,7 @@ Controllers: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--controllers",
+        autocompletion=completion.of_key("supply.controllers"),
         metavar="MASS",
         help="Mass of one motor controller; auto (default): by its current; none: not counted.",
     ),
@@ -306,6 +356,7 @@ GearName: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--gear",
+        autocompletion=completion.any_of(completion.gears),
         metavar="NAME",
         help="See `ocs-design catalogue gears`; direct (default): none; auto: the lightest device.",
     ),
@@ -313,7 +364,10 @@ GearName: TypeAlias = Annotated[
 MotorsFile: TypeAlias = Annotated[
     Text,
     typer.Option(
-        "--motors", metavar="FILE", help="Choose among these motors instead, CSV or TOML."
+        "--motors",
+        autocompletion=completion.files(".csv", ".toml"),
+        metavar="FILE",
+        help="Choose among these motors instead, CSV or TOML.",
     ),
 ]
 WithCatalogue: TypeAlias = Annotated[
@@ -321,7 +375,13 @@ WithCatalogue: TypeAlias = Annotated[
     typer.Option("--with-catalogue", help="Choose among the catalogue's motors too: --motors."),
 ]
 GearsFile: TypeAlias = Annotated[
-    Text, typer.Option("--gears", metavar="FILE", help="Gears of your own, CSV or TOML.")
+    Text,
+    typer.Option(
+        "--gears",
+        autocompletion=completion.files(".csv", ".toml"),
+        metavar="FILE",
+        help="Gears of your own, CSV or TOML.",
+    ),
 ]
 LighterBy: TypeAlias = Annotated[
     Text,
@@ -344,10 +404,16 @@ Ballistic: TypeAlias = Annotated[
 Video: TypeAlias = Annotated[
     bool, typer.Option("--video", help="Film the flights with and without the device: MP4 or GIF.")
 ]
+Open: TypeAlias = Annotated[
+    bool, typer.Option("--open", help="Open the report in the browser, where there is a screen.")
+]
 Reality: TypeAlias = Annotated[
     Text,
     typer.Option(
-        "--reality", metavar="FILE", help="Draw samples from these distributions instead, TOML."
+        "--reality",
+        autocompletion=completion.files(".toml"),
+        metavar="FILE",
+        help="Draw samples from these distributions instead, TOML.",
     ),
 ]
 Certify: TypeAlias = Annotated[
@@ -407,9 +473,12 @@ TASK_OPTIONS: Mapping[str, object] = {
     "fall": Fall,
     "tilt": TiltOption,
     "flip": FlipOption,
+    "turn": TurnOption,
+    "catch": CatchOption,
     "gravity": Gravity,
     "wheel_speed_max": WheelSpeedMax,
     "torque_max": TorqueMax,
+    "layout": LayoutKind,
     "alpha": Alpha,
     "alpha_criterion": AlphaCriterion,
     "position": Position,

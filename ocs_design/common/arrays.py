@@ -61,9 +61,13 @@ class Table(DataclassInstance):
 
     @classmethod
     def joined(cls, parts: Sequence[Self]) -> Self:
-        """Table with the rows of several, one after the other; every field must be an array."""
-        names = [field.name for field in fields(cls)]
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+        """Table with the rows of several, one after the other; none has a table as its column."""
+        columns = {
+            field.name: np.concatenate([getattr(part, field.name) for part in parts])
+            for field in fields(cls)
+            if isinstance(getattr(parts[0], field.name), np.ndarray)
+        }
+        return replace(parts[0], **columns)
 
     def repeat(self, times: int) -> Self:
         """Table with every row `times` times in a row, shape (n * times,)."""

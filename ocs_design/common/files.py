@@ -7,9 +7,12 @@ import stat
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from ocs_design.common.errors import SpecificationError
+
+AnyPath: TypeAlias = str | os.PathLike[str]
+"""A path as people give it in Python."""
 
 
 def safe_name(name: str) -> str:
@@ -122,3 +125,10 @@ def processors() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def packaged_folder(name: str) -> Path:
+    """Folder `name` of the package where it is installed, else that of the checkout."""
+    package = Path(__file__).parents[1]
+    installed = package / name
+    return installed if installed.is_dir() else package.parent / name

@@ -38,6 +38,37 @@ class BoundAnswer:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LayoutAnswer:
+    """The lightest device of one layout.
+
+    Attributes:
+        layout: its name. wheels: how many. mass: of the device [kg]. motor: its name.
+        momentum: that the wheels take at their highest speed about roll, pitch and yaw, each alone
+            [N m s]. momentum_without_one: the least of it with any one wheel lost.
+        open: what keeps it from being built, as far as its place on the trunk tells.
+        without: why there is no device; empty if there is one.
+    """
+
+    layout: str
+    wheels: int = 0
+    mass: float | None = None
+    motor: str = ""
+    momentum: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    momentum_without_one: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    open: tuple[str, ...] = ()
+    without: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayoutsAnswer:
+    """Devices of all layouts for one robot and requirement."""
+
+    schema_version: int
+    robot: str
+    layouts: tuple[LayoutAnswer, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class PostureLine:
     """The robot in one posture: diagonal of its locked inertia, and alpha* (equal-rate)."""
 
@@ -191,6 +222,16 @@ class Front:
         """0, or 4 if no point has a device."""
         return 0 if self.feasible else Infeasible.exit_code
 
+    def __repr__(self) -> str:
+        masses = [1e3 * point.device.mass for point in self.feasible if point.device is not None]
+        found = f"{min(masses):.4g} to {max(masses):.4g} g" if masses else "no device"
+        return f"<Front of {self.robot} against {self.label}: {len(self.points)} points, {found}>"
+
+    def _repr_html_(self) -> str:
+        from ocs_design import as_html  # noqa: PLC0415 - the report stands above
+
+        return as_html(self)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Initialized:
@@ -224,6 +265,9 @@ class Exported:
     files: Mapping[str, str]
     warnings: tuple[str, ...]
     notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<Exported to {self.folder}: {len(self.files)} files>"
 
 
 def to_json(answer: object) -> bytes:

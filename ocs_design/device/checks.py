@@ -68,6 +68,8 @@ def check_device(device: Device) -> None:
         faults.append(f"ocs.foot_plate is {device.foot_plate}")
     if not isfinite(device.incidence):
         faults.append(f"ocs.incidence is {device.incidence}")
+    if tuple(module.name for module in device.modules) != device.layout.names:
+        faults.append(f"ocs.modules are not those of {device.layout.text}")
     for module in device.modules:
         axis = module.axis
         if np.abs(axis).max() > 2.0 or abs(float(axis @ axis) - 1.0) > _UNIT_TOLERANCE:

@@ -7,7 +7,8 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.layout import module_axes
+from ocs_design.common.units import format_quantity
+from ocs_design.device.layout import PAIR, Layout, sense, standing_frames
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.printed import PLATE_THICKNESS
@@ -78,16 +79,12 @@ class Flywheel:
         return self.mass - (0.0 if self.web is None else self.web.mass)
 
 
-SIDES = ("left", "right")
-"""Of the trunk; where there is one of something for each, in this order."""
-
-
 @dataclass(frozen=True, eq=False)
 class Module:
     """One flywheel on the trunk.
 
     Attributes:
-        name: of its side.
+        name: of its side, or its number (`Layout.names`).
         axis: unit spin axis in B, shape (3,).
         position: of the wheel's centre of mass in B [m], shape (3,).
     """
@@ -96,26 +93,33 @@ class Module:
     axis: FloatArray
     position: FloatArray
 
+    @property
+    def frame(self) -> FloatArray:
+        """Attitude in B, its y axis along the wheel's away from the motor, shape (3, 3)."""
+        return standing_frames(sense(self.name) * self.axis)
+
 
 @dataclass(frozen=True, eq=False)
 class Device:
-    """The orientation control system: two equal modules and what drives them.
+    """The orientation control system: equal modules and what drives them.
 
     Attributes:
-        incidence: angle between each wheel axis and the lateral direction y [rad].
-        modules: left and right.
+        incidence: of pairs, between each wheel axis and the lateral direction y; else the angle
+            of the layout (`Layout.axes`) [rad].
+        modules: in the layout's order; a pair's are left and right.
         flywheel: of each module.
         motor: of each module.
         carrier: what of each module stands still with the trunk, in the module's own frame
-            (`device.layout.module_frames`).
+            (`Module.frame`).
         supply: of all motors; None: not known.
         plate: that the feet stand on; None: they stand on the trunk.
         guard_wall: of the ring of mild steel in each housing [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
+        layout: how the axes lie to each other.
     """
 
     incidence: float
-    modules: tuple[Module, Module]
+    modules: tuple[Module, ...]
     flywheel: Flywheel
     motor: Drive
     carrier: Carrier = NO_CARRIER
@@ -123,12 +127,13 @@ class Device:
     plate: CarrierPlate | None = None
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    layout: Layout = PAIR
 
     @property
     def mass(self) -> float:
         """Mass of all modules, wheels, motors, gears, housings and feet, and of the plate [kg]."""
         plate = 0.0 if self.plate is None else self.plate.mass
-        return 2.0 * (self.flywheel.mass + self.carrier.mass) + plate
+        return len(self.modules) * (self.flywheel.mass + self.carrier.mass) + plate
 
     def plated(self, robot: MassProperties) -> MassProperties:
         """A robot, in B, with the plate under the feet where there is one."""
@@ -136,17 +141,26 @@ class Device:
 
     @property
     def axes(self) -> FloatArray:
-        """Spin axes as columns, the matrix C of the paper, shape (3, 2)."""
+        """Spin axes as columns, of a pair the matrix C of the paper, shape (3, n)."""
         return np.column_stack([module.axis for module in self.modules])
 
     def at_incidence(self, incidence: float) -> "Device":
         """Device with its modules turned by hand, as the paper does for its back-flip."""
-        axes = module_axes(incidence)
-        turned = [
+        axes = self.layout.axes(incidence)
+        turned = (
             replace(module, axis=axis) for module, axis in zip(self.modules, axes.T, strict=True)
-        ]
-        return replace(self, incidence=incidence, modules=(turned[0], turned[1]))
+        )
+        return replace(self, incidence=incidence, modules=tuple(turned))
 
     def as_flown(self, maneuver: Maneuver) -> "Device":
         """Device at the maneuver's own incidence, if it has one."""
         return self if maneuver.incidence is None else self.at_incidence(maneuver.incidence)
+
+    def __repr__(self) -> str:
+        rim = self.flywheel
+        radius, height = (format_quantity(x, "mm") for x in (rim.outer_radius, rim.height))
+        return (
+            f"<Device of {len(self.modules)} wheels: {format_quantity(self.mass, 'g')}, incidence "
+            f"{format_quantity(self.incidence, 'deg')}, {self.motor.name}, rims of {rim.material}, "
+            f"R {radius}, h {height}>"
+        )

@@ -27,6 +27,7 @@ class Finding:
         found: version, or what there is; empty: nothing.
         wanted: versions that are allowed; empty: any.
         purpose: what it is for.
+        extra: of ours that asks for it; empty: none.
         cure: how to get it, where it does not work. reason: why it does not.
     """
 
@@ -36,6 +37,7 @@ class Finding:
     purpose: str
     found: str = ""
     wanted: str = ""
+    extra: str = ""
     cure: str = ""
     reason: str = ""
 

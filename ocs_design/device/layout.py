@@ -1,12 +1,221 @@
-"""The incidence angle of the two wheel axes (docs/theory.md, Incidence angle)."""
+"""Where the wheels' axes point (docs/layouts.md), and the incidence angle of a pair's.
+
+A layout has at most one free angle: the incidence of a pair (docs/theory.md, Incidence angle) or
+the elevation of a pyramid.
+"""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.common.arrays import FloatArray, frozen
+
+Direction = tuple[float, float, float]
+"""Unit vector in B."""
+
+SIDES = ("left", "right")
+"""Names of a pair's modules; of several pairs' with a number: left_1, right_1, left_2 and so on."""
+
+ISOTROPIC = float(np.arctan(np.sqrt(0.5)))
+"""Elevation at which four wheels reach as far along x, y and z: atan(1 / sqrt(2)), 35.3 deg [rad].
+"""
+
+
+class LayoutName(StrEnum):
+    """How the axes lie to each other.
+
+    Attributes:
+        SINGLE: one wheel, on pitch. PAIR: two at an incidence to the lateral direction (paper).
+        DOUBLE_PAIR, TRIPLE_PAIR: two and three pairs one behind the other, all at one incidence.
+        TRIAD: three in the horizontal plane, 120 degrees apart, one of them on pitch.
+        ORTHOGONAL: on roll, pitch and yaw. PYRAMID: four at 45 degrees to forward, all as much
+            upwards. BY_HAND: as stated.
+    """
+
+    SINGLE = "single"
+    PAIR = "pair"
+    DOUBLE_PAIR = "double-pair"
+    TRIPLE_PAIR = "triple-pair"
+    TRIAD = "triad"
+    ORTHOGONAL = "orthogonal"
+    PYRAMID = "pyramid"
+    BY_HAND = "by-hand"
+
+
+_PAIRS: Mapping[LayoutName, int] = {
+    LayoutName.PAIR: 1,
+    LayoutName.DOUBLE_PAIR: 2,
+    LayoutName.TRIPLE_PAIR: 3,
+}
+
+_AZIMUTHS: Mapping[LayoutName, tuple[float, ...]] = {
+    LayoutName.SINGLE: (90.0,),
+    LayoutName.TRIAD: (90.0, 210.0, 330.0),
+    LayoutName.PYRAMID: (45.0, 135.0, 225.0, 315.0),
+}
+"""Of axes, and of the modules around their middle, from forward towards the left [deg]."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Directions of the wheels' axes, and of their modules around a middle.
+
+    Attributes:
+        name: see `LayoutName`.
+        stated: axes by hand, else empty.
+    """
+
+    name: LayoutName = LayoutName.PAIR
+    stated: tuple[Direction, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the modules: sides of pairs, else numbers from 1."""
+        if self.pairs == 1:
+            return SIDES
+        if self.pairs:
+            return tuple(f"{side}_{row + 1}" for row in range(self.pairs) for side in SIDES)
+        return tuple(str(number + 1) for number in range(len(self)))
+
+    @property
+    def pairs(self) -> int:
+        """Number of pairs that it consists of; 0: of none."""
+        return _PAIRS.get(self.name, 0)
+
+    def __len__(self) -> int:
+        """Number of wheels."""
+        return int(self.axes(0.0).shape[-1])
+
+    @property
+    def text(self) -> str:
+        """How people call it, as in "the layout 'triad'"."""
+        return f"the layout '{self.name}'"
+
+    @property
+    def angle(self) -> float | None:
+        """Angle where none is stated [rad]; None: it is designed."""
+        if self.pairs:
+            return None
+        return ISOTROPIC if self.name is LayoutName.PYRAMID else 0.0
+
+    def axes(self, angle: ArrayLike) -> FloatArray:
+        """Unit spin axes of the wheels in B as columns, shape (..., 3, n).
+
+        Those of the pair are the matrix C of the paper, section 3.2.
+
+        Args:
+            angle: of pairs between an axis and the lateral direction y, 0..pi/2; of the pyramid
+                between an axis and the horizontal plane; without effect on others [rad], shape
+                (...).
+        """
+        at = np.asarray(angle, dtype=np.float64)[..., None]
+        sine, cosine = np.sin(at), np.cos(at)
+        if self.pairs:
+            left_right = np.tile([1.0, -1.0], self.pairs)
+            x, y, z = sine * left_right, cosine * left_right**2, 0.0 * sine * left_right**2
+            return frozen(np.stack([x, y, z], axis=-2))
+        if self.name in {LayoutName.ORTHOGONAL, LayoutName.BY_HAND}:
+            rows = np.eye(3) if self.name is LayoutName.ORTHOGONAL else np.array(self.stated).T
+            return frozen(np.broadcast_to(rows, (*at.shape[:-1], *rows.shape)))
+        rise = 1.0 if self.name is LayoutName.PYRAMID else 0.0
+        level, up = np.where(rise, cosine, 1.0), rise * sine
+        around = np.radians(_AZIMUTHS[self.name])
+        # No cosine of a right angle leaves rounding errors in the files.
+        x, y = (
+            np.where(np.abs(each) > OUT_OF_REACH, each, 0.0)
+            for each in (np.cos(around), np.sin(around))
+        )
+        return frozen(np.stack([level * x, level * y, up * np.ones_like(x)], axis=-2))
+
+    def frames(self, angle: ArrayLike) -> FloatArray:
+        """Attitudes of the modules in B, all alike, shape (..., n, 3, 3).
+
+        Their y axis points outward, along the wheel's axis away from its motor: a pair's right
+        module is its left one turned about the vertical, and its mirror image.
+        """
+        outward = np.swapaxes(self.axes(angle), -1, -2)
+        return standing_frames(outward * np.array([*map(sense, self.names)])[:, None])
+
+    def feet(self, axes: FloatArray) -> FloatArray:
+        """Directions about which modules turn on their feet, shape (3, n).
+
+        That is the vertical of B where they stand, so that a pair's incidence grows; a leaning
+        module's foot leans with it.
+
+        Args:
+            axes: of the wheels in B, shape (3, n).
+        """
+        # More incidence turns a pair's right wheel to the left as seen from above, its left one to
+        # the right, and so do all others.
+        return standing_frames(axes.T)[..., 2].T * [-sense(name) for name in self.names]
+
+    @property
+    def ring(self) -> tuple[Direction, ...]:
+        """Places of modules of radius 1 that touch, around their middle in the horizontal plane.
+
+        Pairs stand one behind the other, the first in front.
+        """
+        count = len(self)
+        if self.pairs:
+            rows = [self.pairs - 1.0 - 2.0 * row for row in range(self.pairs)]
+            return tuple((along, across, 0.0) for along in rows for across in (1.0, -1.0))
+        if count == 1:
+            return ((0.0, 0.0, 0.0),)
+        first = 90.0 if self.name is not LayoutName.ORTHOGONAL else 0.0
+        first = _AZIMUTHS.get(self.name, (first,))[0]
+        around = np.radians(first + 360.0 / count * np.arange(count))
+        off = np.stack([np.cos(around), np.sin(around)], axis=1) / np.sin(np.pi / count)
+        off = np.where(np.abs(off) > OUT_OF_REACH, off, 0.0)
+        return tuple((float(x), float(y), 0.0) for x, y in off)
+
+    def stands(self, angle: float) -> NDArray[np.bool_]:
+        """Whether each module stands upright on its foot, shape (n,)."""
+        return np.asarray(self.frames(angle)[..., 2, 2] > 1.0 - OUT_OF_REACH)
+
+    def hull(self, low: float, high: float) -> FloatArray:
+        """Axes about roll and pitch whose zonotope holds the layout's at all angles between two.
+
+        It is as wide to both sides of roll and of pitch, shape (2, n).
+        """
+        if self.pairs:
+            sine, cosine = np.sin(high), np.cos(low)
+            return frozen(np.tile([[sine, -sine], [cosine, cosine]], self.pairs))
+        axes = self.axes(low)[:2]
+        # A box, where nothing is known of the axes.
+        return axes if self.name is not LayoutName.BY_HAND else np.diag(np.abs(axes).sum(axis=1))
+
+
+PAIR = Layout()
+"""The paper's two wheels."""
+
+
+def sense(name: str) -> float:
+    """Sign of a module's outward direction along its wheel's axis: a pair's right one is turned."""
+    return -1.0 if name.startswith(SIDES[1]) else 1.0
+
+
+def standing_frames(outward: FloatArray) -> FloatArray:
+    """Attitudes whose y axis is `outward`, as upright as that allows, shape (..., 3, 3).
+
+    What points straight up lies on its side: its z axis is forward.
+
+    Args:
+        outward: unit vectors in B, shape (..., 3).
+    """
+    up = np.array([0.0, 0.0, 1.0]) - outward[..., 2:] * outward
+    size = np.linalg.norm(up, axis=-1, keepdims=True)
+    lies = size < OUT_OF_REACH
+    upward = np.where(lies, [1.0, 0.0, 0.0], up / np.where(lies, 1.0, size))
+    return frozen(np.stack([np.cross(outward, upward), outward, upward], axis=-1))
+
+
+def module_axes(incidence: float) -> FloatArray:
+    """Axes of a pair at an incidence [rad], shape (3, 2); see `Layout.axes`."""
+    return PAIR.axes(incidence)
 
 
 class Criterion(StrEnum):
@@ -25,34 +234,6 @@ class Criterion(StrEnum):
     SIMULTANEOUS = "simultaneous"
     PITCH_ONLY = "pitch-only"
     ROLL_ONLY = "roll-only"
-
-
-def module_axes(incidence: float) -> FloatArray:
-    """Unit spin axes of the left and the right wheel in B as columns, shape (3, 2).
-
-    The matrix C of the paper, section 3.2.
-
-    Args:
-        incidence: angle between a wheel axis and the lateral direction y [rad], 0..pi/2.
-    """
-    sine, cosine = np.sin(incidence), np.cos(incidence)
-    return frozen([[sine, -sine], [cosine, cosine], [0.0, 0.0]])
-
-
-def module_frames(incidence: float) -> tuple[FloatArray, FloatArray]:
-    """Attitudes of the left and the right module in B, shape (3, 3) each.
-
-    Their x axis is forward in the left one, y along the wheel's axis away from the other module, z
-    up: the right one is the left one turned about the vertical, and its mirror image.
-
-    Args:
-        incidence: see `module_axes` [rad].
-    """
-    sine, cosine = np.sin(incidence), np.cos(incidence)
-    return (
-        frozen([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]]),
-        frozen([[-cosine, sine, 0.0], [-sine, -cosine, 0.0], [0.0, 0.0, 1.0]]),
-    )
 
 
 def incidence_by_criterion(
@@ -89,17 +270,3 @@ def heading_drift(inertia: FloatArray) -> FloatArray:
         inertia: of the robot with its device about the centre of mass in B [kg m^2], shape (3, 3).
     """
     return frozen(-inertia[2, :2] / inertia[2, 2])
-
-
-def actuated_inertia(total: FloatArray, spin_inertia: float, incidence: float) -> FloatArray:
-    """What the motors' torque accelerates, J = I_tot - I_w A A^T [kg m^2], shape (3, 3).
-
-    The wheels' mass and transverse inertia count, their spin inertia does not.
-
-    Args:
-        total: inertia of the robot with its device, wheels braked [kg m^2], shape (3, 3).
-        spin_inertia: of one wheel [kg m^2].
-        incidence: [rad].
-    """
-    axes = module_axes(incidence)
-    return frozen(total - spin_inertia * axes @ axes.T)

@@ -3,7 +3,8 @@
 from collections.abc import Iterable
 
 from ocs_design.common.errors import RobotError
-from ocs_design.device.device import SIDES, Device, Module
+from ocs_design.device.device import Device, Module
+from ocs_design.device.layout import Layout, LayoutName
 
 PREFIX = "ocs_"
 PLATE = f"{PREFIX}plate"
@@ -13,9 +14,17 @@ IMU = f"{PREFIX}imu"
 """Site in MJCF, at the base frame B."""
 
 
+_FLYWHEEL = "_flywheel"
+
+
 def flywheel_name(module: Module) -> str:
     """Link in URDF, body in MJCF."""
-    return f"{PREFIX}{module.name}_flywheel"
+    return f"{PREFIX}{module.name}{_FLYWHEEL}"
+
+
+def flywheels_among(bodies: Iterable[str]) -> list[str]:
+    """Bodies of a robot that are wheels of the device, in their order."""
+    return [name for name in bodies if name.startswith(PREFIX) and name.endswith(_FLYWHEEL)]
 
 
 def joint_name(module: Module) -> str:
@@ -61,7 +70,8 @@ def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None
 
 def require_no_device(joints: Iterable[str]) -> None:
     """Refuse a robot that has a device already, by its joints, before another one is sized."""
-    require_free("joint", joints, (f"{PREFIX}{side}" for side in SIDES))
+    names = (name for each in LayoutName for name in Layout(each).names)
+    require_free("joint", joints, (f"{PREFIX}{name}" for name in names))
 
 
 def flywheel_names(device: Device) -> tuple[str, ...]:

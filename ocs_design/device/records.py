@@ -16,12 +16,16 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import Matrix, Vector, matrix, vector
 from ocs_design.common.errors import OcsError
-from ocs_design.common.files import read_plain_file
+from ocs_design.common.files import AnyPath, read_plain_file
+from ocs_design.common.units import format_quantity
 from ocs_design.device.device import NO_CARRIER, Flywheel
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.robot.robot import Mount, Robot
+
+DESIGN_FILE = "design.json"
 
 Record = TypeVar("Record")
 
@@ -214,7 +218,7 @@ class UncertaintyCost:
     """What one uncertain quantity costs.
 
     Attributes:
-        key: of `[reality]`. share: of the variance of what robots need.
+        key: of `[reality]`. share: of what robots need more for all keys, each known by itself.
         mass: that the device would be lighter by if the quantity were known [kg].
     """
 
@@ -301,7 +305,7 @@ class ManeuverRecord:
     name: str
     gravity: float
     incidence: float | None
-    parameters: Mapping[str, float | tuple[float, ...]]
+    parameters: Mapping[str, float | str | tuple[float, ...]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -345,7 +349,7 @@ class RequirementRecord:
 class ModuleRecord:
     """One module in B."""
 
-    name: Literal["left", "right"]
+    name: str
     axis: Vector
     position: Vector
 
@@ -383,11 +387,11 @@ class MountingRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class OcsRecord:
-    """The device. `mass_total` is of both modules; `total_...` of robot and braked device.
+    """The device. `mass_total` is of all modules; `total_...` of robot and braked device.
 
     `center_of_mass` is of the device alone, in B; None in files of older versions.
-    `fitting` is what is left to do by hand: see `export.fitting`. `layout` is how the axes lie: of
-    a pair at plus and minus the incidence.
+    `fitting` is what is left to do by hand: see `export.fitting`. `layout` is how the axes lie, and
+    `incidence` its angle: of a pair the axes are at plus and minus that.
     """
 
     incidence: float
@@ -400,7 +404,7 @@ class OcsRecord:
     total_mass: float
     total_inertia: Matrix
     total_com: Vector
-    modules: tuple[ModuleRecord, ModuleRecord]
+    modules: tuple[ModuleRecord, ...]
     clearance: Clearance | None
     flywheel: Flywheel
     motor: Drive
@@ -412,7 +416,23 @@ class OcsRecord:
     warnings: tuple[str, ...] = ()
     fitting: tuple[str, ...] = ()
     mounting: MountingRecord | None = None
-    layout: Literal["pair"] = "pair"
+    layout: Literal[
+        "single",
+        "pair",
+        "double-pair",
+        "triple-pair",
+        "triad",
+        "orthogonal",
+        "pyramid",
+        "by-hand",
+    ] = "pair"
+
+    @property
+    def axes(self) -> Layout:
+        """Layout of the modules' axes."""
+        name = LayoutName(self.layout)
+        axes = (each.axis for each in self.modules)
+        return Layout(name, tuple(axes) if name is LayoutName.BY_HAND else ())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -517,6 +537,10 @@ class ControlRecord:
     ballistic: bool = True
 
 
+SAVES_NOTHING = "saves nothing"
+"""Note of an alternative that is no lighter than the device."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Alternative:
     """A lighter or simpler device that one change of the question would give.
@@ -600,18 +624,43 @@ class OcsDesign:
     reality: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, str]
 
+    def __repr__(self) -> str:
+        ocs, flown = self.ocs, [run for run in self.validation if run.ocs]
+        motor = "no motor" if self.selection is None else ocs.motor.name
+        passed = [run.passed for run in flown].count(True)
+        return (
+            f"<OcsDesign for {self.robot.name}: {len(ocs.modules)} wheels, "
+            f"{format_quantity(ocs.mass_total, 'g')}, {motor}, "
+            f"{passed} of {len(flown)} flights pass>"
+        )
+
+    def _repr_html_(self) -> str:
+        from ocs_design import as_html  # noqa: PLC0415 - the report stands above
+
+        return as_html(self)
+
 
 def design_to_json(design: OcsDesign) -> bytes:
     """The artefact as indented UTF-8 JSON; numbers that are not finite are null."""
     return msgspec.json.format(msgspec.json.encode(design), indent=2) + b"\n"
 
 
-def read_design(path: Path) -> OcsDesign:
+def design_file(path: AnyPath) -> Path:
+    """The `design.json` at a path, or in the folder there."""
+    path = Path(path)
+    return path / DESIGN_FILE if path.is_dir() else path
+
+
+def read_design(path: AnyPath) -> OcsDesign:
     """Read a `design.json`.
+
+    Args:
+        path: of the file, or of the folder that it lies in.
 
     Raises:
         OcsError: the file cannot be read, or is not a design of this schema version.
     """
+    path = design_file(path)
     try:
         content = read_plain_file(path, LARGEST)
         version = msgspec.json.decode(content, type=_Version).schema_version

@@ -68,13 +68,13 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
     foot = foot_of(device)
     housing, tall = foot.housing, 2.0 * foot.housing.half_height
     down = foot.wheel_height - BASE_THICKNESS / 2.0
-    base = Drum(module.position - down * _UP, _UP, foot.base_radius, BASE_THICKNESS)
+    _, outward, up = module.frame.T
+    base = Drum(module.position - down * up, up, foot.base_radius, BASE_THICKNESS)
     drum = Drum(module.position, module.axis, housing.radius, tall)
-    # What drives the wheel stands behind the foot's plate; the other module is behind both.
-    outward = module.axis if module.name == "left" else -module.axis
+    # What drives the wheel stands behind the foot's plate; the other modules are behind both.
     driving = [
         Drum(
-            module.position + (solid.low + solid.high) / 2.0 * outward + solid.up * _UP,
+            module.position + (solid.low + solid.high) / 2.0 * outward + solid.up * up,
             module.axis,
             solid.radius,
             solid.high - solid.low,
@@ -87,8 +87,8 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
 def plate_solids(device: Device) -> tuple[Drum, ...]:
     """What the plate under the feet fills, none without one: discs side by side, and its sleeves.
 
-    The first and the last disc are its ends. Between two of them the neck's edge is up to 3 % of
-    their radius farther out. The roundings where it meets the ends are left out.
+    The first and the last disc of each plate are its ends. Between two of them the neck's edge is
+    up to 3 % of their radius farther out. The roundings where it meets the ends are left out.
     """
     plate = device.plate
     if plate is None:
@@ -98,7 +98,8 @@ def plate_solids(device: Device) -> tuple[Drum, ...]:
     up = plate.thickness / 2.0 * _UP
     along_neck = [(across, plate.neck) for across in np.linspace(-straight, straight, count)[1:-1]]
     discs = [
-        Drum(middle + up + np.array([0.0, across, 0.0]), _UP, radius, plate.thickness)
+        Drum(middle + up + np.array([row, across, 0.0]), _UP, radius, plate.thickness)
+        for row in plate.rows
         for across, radius in ((-straight, plate.radius), *along_neck, (straight, plate.radius))
     ]
     sleeves = [

@@ -76,7 +76,7 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
             supply.append(f"rated for {motor.rated_voltage:g} V: ask its maker before you buy")
         source = "; ".join([*supply, motor.source, *drive_notes(device)])
-        rows.append(BillRow(f"motor {motor.name}", count, "", "", motor.mass, source))
+        rows.append(BillRow(f"motor {motor.full_name}", count, "", "", motor.mass, source))
     if motor.gear != DIRECT.name:
         source = f"ratio {motor.gear_ratio:g}; see `ocs-design catalogue gears -v`"
         rows.append(BillRow(f"gear {motor.gear}", count, "", "", motor.gear_mass, source))
@@ -119,9 +119,10 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
     made = (
         f"milled or cut by water jet to plate.dxf (`export --formats dxf` writes it), "
         f"neck {_mm(2.0 * plate.neck)}; "
-        f"{len(plate.feet)} threads {plate.foot_thread} for the feet"
+        f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
     )
-    yield BillRow("plate under the feet", 1, plate.material, size, plate_part(plate).mass(), made)
+    mass = plate_part(plate.each[0]).mass()
+    yield BillRow("plate under the feet", len(plate.rows), plate.material, size, mass, made)
     for length in sorted({length for length in plate.sleeves if length > 0.0}):
         stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(SLEEVE_WALL)} wall"
         made = f"cut to {_mm(length)}, between plate and trunk"

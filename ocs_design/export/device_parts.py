@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import compress
+from math import copysign, sqrt
 
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.device.device import Device, Flywheel
@@ -79,6 +81,21 @@ def metal_pieces(device: Device) -> Mapping[str, Part]:
     if not device.guard_wall:
         return plate_pieces(device)
     return {**plate_pieces(device), "guard_ring": guard_ring(printed_foot(device).housing)}
+
+
+def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
+    """Places of each foot's screws in B, x and y [m], by the name of its module.
+
+    They stand at 45 degrees to the lateral direction, on the wheel axis's side of it. Modules that
+    do not stand upright have none.
+    """
+    off, found = printed_foot(device).slot_radius / sqrt(2.0), {}
+    stands = device.layout.stands(device.incidence)
+    for module in compress(device.modules, stands):
+        slope = copysign(1.0, float(module.axis[0] * module.axis[1]))
+        x, y, _ = (float(value) for value in module.position)
+        found[module.name] = tuple((x + side * slope * off, y + side * off) for side in (1.0, -1.0))
+    return found
 
 
 def foot_screws(device: Device) -> Fastening:

@@ -1,6 +1,6 @@
 """Device as links, joints and ros2_control elements of a URDF."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -182,15 +182,39 @@ def ros2_control_urdf(
         joints: names of the wheels' joints, ready to stand in XML.
         name: of the system, ready to stand in XML. plugin: its hardware, likewise.
     """
+    elements = "".join(control_wheels(device, joints))
+    return fill("ros2_control.urdf", {"name": name, "plugin": plugin, "joints": elements})
+
+
+def control_wheels(device: Device, joints: Iterable[str]) -> Iterator[str]:
+    """Element of each wheel's joint, commanded by torque; arguments of `ros2_control_urdf`."""
     limit = largest_torque(device.motor)
-    command = '<command_interface name="effort"/>'
-    if limit is not None:
-        inside = "".join(
-            f'<param name="{end}">{numbers(bound)}</param>'
-            for end, bound in (("min", -limit), ("max", limit))
-        )
-        command = f'<command_interface name="effort">{inside}</command_interface>'
-    elements = [
-        fill("ros2_control_joint.urdf", {"joint": joint, "command": command}) for joint in joints
-    ]
-    return fill("ros2_control.urdf", {"name": name, "plugin": plugin, "joints": "".join(elements)})
+    bounds = {} if limit is None else {"min": -limit, "max": limit}
+    for joint in joints:
+        yield control_joint(joint, "effort", bounds)
+
+
+def control_joint(
+    joint: str, command: str, bounds: Mapping[str, float], position: float | None = None
+) -> str:
+    """Element of ros2_control of one joint.
+
+    Args:
+        joint: name, ready to stand in XML.
+        command: its command interface; empty: none.
+        bounds: of the command, `min` and `max`.
+        position: at the start [rad or m]; None: not stated.
+    """
+    start = {} if position is None else {"initial_value": position}
+    interface = f"      {_interface('command', command, bounds)}\n" if command else ""
+    state = _interface("state", "position", start)
+    values = {"joint": joint, "command": interface, "position": state}
+    return fill("ros2_control_joint.urdf", values)
+
+
+def _interface(kind: str, name: str, parameters: Mapping[str, float]) -> str:
+    inside = "".join(
+        f'<param name="{each}">{numbers(value)}</param>' for each, value in parameters.items()
+    )
+    tag = f"{kind}_interface"
+    return f'<{tag} name="{name}">{inside}</{tag}>' if inside else f'<{tag} name="{name}"/>'

@@ -10,11 +10,15 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 from ezdxf import units
+from ezdxf.document import Drawing
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.device_parts import plate_pieces, wheel_pieces
+from ocs_design.export.drawing import sheet
+from ocs_design.export.drawing.sheet import Area, Circle, Line, Polyline, Text
+from ocs_design.export.drilling import CHECK, Drilling, bounds, drilling_of
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.part import Part
 from ocs_design.parts.solids import Prism, Revolution
@@ -24,18 +28,24 @@ MILLIMETRES = 1000.0
 OUTLINE, HOLES, AXES, SECTION = "OUTLINE", "HOLES", "AXES", "SECTION"
 """Layers: the largest and the smallest circle from the front; holes; centre lines; half section."""
 
-_COLORS = {OUTLINE: 7, HOLES: 1, AXES: 8, SECTION: 5}
-"""Colours of the layers by their numbers in AutoCAD: black or white, red, grey, blue."""
+FEET, TEXT = "FEET", "TEXT"
+"""Layers of the drilling template besides: what stands on the trunk; words and what is measured."""
+
+_COLORS = {OUTLINE: 7, HOLES: 1, AXES: 8, SECTION: 5, FEET: 3, TEXT: 7}
+"""Colours of the layers by their numbers in AutoCAD: black or white, red, grey, blue, green."""
 
 GAP = 20.0
 """Distance between front view and section, and of centre lines beyond both [mm]."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write `flywheel.dxf`, or one for each of the wheel's pieces, and `plate.dxf`."""
+    """Write `flywheel.dxf`, or one for each of the wheel's pieces, `plate.dxf`, `drilling.dxf`."""
     pieces = {**wheel_pieces(subject.device.flywheel), **plate_pieces(subject.device)}
     for name, piece in pieces.items():
         (folder / f"{name}.dxf").write_text(dxf_text(piece), encoding="utf-8", newline="\n")
+    if drilling := drilling_of(subject):
+        text = drilling_text(drilling)
+        (folder / "drilling.dxf").write_text(text, encoding="utf-8", newline="\n")
     return ()
 
 
@@ -43,33 +53,79 @@ def dxf_text(piece: Part) -> str:
     """DXF of a piece of the wheel, the axis of its front view at the origin, or of the plate.
 
     Args:
-        piece: a body of revolution about z, or a plate in the xy plane, with holes along z.
+        piece: a body of revolution about z, or plates in the xy plane, with holes along z.
     """
+    document = _new_document()
+    space = document.modelspace()
+    # Blind holes in both faces lie behind each other, and are drawn once.
+    cuts = (cut.outline for cut in piece.cut if isinstance(cut, Prism))
+    for outline in {outline.points.tobytes(): outline for outline in cuts}.values():
+        _add_outline(space, MILLIMETRES * outline.points, outline.bulges, HOLES)
+    edges = []
+    for body in piece.joined:
+        if isinstance(body, Prism):
+            edges.append(body.outline.points)
+            _add_outline(space, MILLIMETRES * edges[-1], body.outline.bulges, OUTLINE)
+        else:
+            _add_turned(space, body)
+    if edges:
+        across, along = MILLIMETRES * np.abs(np.concatenate(edges)).max(axis=0) + GAP / 4.0
+        _add_axes(space, float(across), float(along) + float(across))
+    return _text_of(document)
+
+
+def drilling_text(drilling: Drilling) -> str:
+    """DXF of the trunk's drilling template, in the frame of the trunk."""
+    document = _new_document()
+    space = document.modelspace()
+    for item in drilling.items:
+        match item:
+            case Circle(center, radius, pen):
+                layer = HOLES if pen is sheet.OUTLINE else FEET
+                space.add_circle(center, radius, dxfattribs={"layer": layer})
+            case Line(start, end):
+                space.add_line(start, end, dxfattribs={"layer": AXES})
+            case Polyline(points) | Area(points):
+                space.add_lwpolyline(points, close=True, dxfattribs={"layer": FEET})
+            case Text(place, text, height):
+                _add_text(space, text, place, height)
+    _, low, _, _ = bounds(drilling.items)
+    _add_text(space, drilling.title, (-CHECK / 2.0, low - GAP / 2.0), 2.5)
+    y = low - GAP
+    for start, end in (
+        ((-CHECK / 2.0, y), (CHECK / 2.0, y)),
+        *(((x, y - 2.0), (x, y + 2.0)) for x in (-CHECK / 2.0, CHECK / 2.0)),
+    ):
+        space.add_line(start, end, dxfattribs={"layer": TEXT})
+    _add_text(space, f"{CHECK:.0f} mm", (-4.0, y + 1.0), 2.5)
+    return _text_of(document)
+
+
+def _new_document() -> Drawing:
+    """Empty drawing in millimetres, with the layers."""
     # Without clocks and counters the same piece has the same bytes.
     ezdxf.options.write_fixed_meta_data_for_testing = True  # type: ignore[attr-defined]  # documented
     document = new("R2010", units=units.MM)
     document.linetypes.add("CENTER", [20.0, 12.5, -2.5, 2.5, -2.5])
     for name, color in _COLORS.items():
         document.layers.add(name, color=color, linetype="CENTER" if name == AXES else "CONTINUOUS")
-    space = document.modelspace()
-    (turned,) = piece.joined
-    # Blind holes in both faces lie behind each other, and are drawn once.
-    cuts = (cut.outline for cut in piece.cut if isinstance(cut, Prism))
-    for outline in {outline.points.tobytes(): outline for outline in cuts}.values():
-        _add_outline(space, MILLIMETRES * outline.points, outline.bulges, HOLES)
-    if isinstance(turned, Prism):
-        edge = turned.outline
-        _add_outline(space, MILLIMETRES * edge.points, edge.bulges, OUTLINE)
-        across, along = MILLIMETRES * np.abs(edge.points).max(axis=0) + GAP / 4.0
-        _add_axes(space, float(across), float(along) + float(across))
-    else:
-        _add_turned(space, turned)
+    return document
+
+
+def _text_of(document: Drawing) -> str:
+    """The drawing as it is written."""
     # Else ezdxf adds them in the order of a set.
     for name in sorted(document.entitydb.dxf_types_in_use()):
         document.classes.add_class(name)
     stream = StringIO()
     document.write(stream)
     return stream.getvalue()
+
+
+def _add_text(space: Modelspace, text: str, place: tuple[float, float], height: float) -> None:
+    """Add a line of lettering that begins there [mm]."""
+    attributes = {"layer": TEXT, "insert": place, "height": height}
+    space.add_text(text, dxfattribs=attributes)
 
 
 def _add_axes(space: Modelspace, across: float, along: float) -> None:

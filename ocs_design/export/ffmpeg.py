@@ -3,7 +3,9 @@
 import shutil
 from importlib.util import find_spec
 
-FFMPEG_HINT = "pip install 'ocs-design[video]', or on Debian: apt install ffmpeg"
+from ocs_design.common.installing import extra_command
+
+FFMPEG_HINT = f"{extra_command('video')}, or on Debian: apt install ffmpeg"
 
 
 def ffmpeg_program() -> str | None:

@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ocs_design.common.errors import OutputError
+from ocs_design.device.records import DESIGN_FILE
 from ocs_design.export.staging import NEW, OLD, clear_leftovers, staging_beside
 
-DESIGN_FILE = "design.json"
 FRONT_FILE = "front.json"
 REPORT_FILE = "report.html"
 
@@ -67,7 +67,8 @@ def check_target(target: Path, *, force: bool) -> None:
     if not force:
         raise OutputError(
             f"{target}: exists already",
-            hint="choose another folder with -o, or replace this one with --force",
+            hint="choose another folder with -o, or replace this one with --force; in Python: "
+            "`out=`, `force=True`",
         )
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from ocs_design.common.errors import MissingToolError, UsageError
+from ocs_design.common.installing import extra_command
 
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
@@ -150,7 +151,7 @@ class Format:
     def _missing(self, why: str) -> MissingToolError:
         return MissingToolError(
             f"no {self.name.upper()} file can be written: {self.library} {why}",
-            hint=f"pip install 'ocs-design[{self.extra}]'",
+            hint=extra_command(self.extra),
         )
 
 
@@ -159,7 +160,9 @@ FORMATS = (
     Format(
         "bom", "parts list with stock and masses", "cad", "bill_of_materials", needs_margins=True
     ),
-    Format("drawing", "technical drawing of the wheel", "cad", "drawing.wheel_sheet"),
+    Format(
+        "drawing", "technical drawing of the wheel, drilling template", "cad", "drawing.wheel_sheet"
+    ),
     Format("3mf", "wheel for slicers", "cad", "threemf", on_request=True),
     Format("step", "exact parts", "cad", "step", on_request=True, library="OCP", extra="step"),
     Format(
@@ -173,6 +176,7 @@ FORMATS = (
     Format("mjcf", "whole robot", "robot", "mjcf", needs_robot=True),
     Format("glb", "whole robot to look at", "robot", "glb", needs_robot=True),
     Format("snippets", "device alone as URDF, xacro, MJCF and SDF", "snippets", "snippets"),
+    Format("ros2", "ROS 2 description package", "ros2", "ros2", needs_robot=True, on_request=True),
     Format("pictures", "views as PNG", "pictures", "pictures", needs_robot=True, on_request=True),
 )
 """All formats in the order of writing."""

@@ -87,10 +87,8 @@ class _ModelScene:
         model = self._model
         first = model.body_geomadr[body]
         for geom in range(first, first + model.body_geomnum[body]):
-            color, material = _rgba(model.geom_rgba[geom]), model.geom_matid[geom]
-            if material >= 0 and color == _PLAIN:
-                color = _rgba(model.mat_rgba[material])
-            if model.geom_group[geom] >= HIDDEN_GROUP or color[3] == 0.0:
+            color = shown_color(model, geom)
+            if color is None:
                 continue
             surface = self._surface(geom)
             if surface is not None:
@@ -109,17 +107,31 @@ class _ModelScene:
         is_mesh = kind in {mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF}
         key = (kind, mesh) if is_mesh else (kind, *model.geom_size[geom].tolist())
         if key not in self._surfaces:
-            found = primitive_mesh(kind, model.geom_size[geom])
-            if is_mesh:
-                vertex, face = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
-                found = Mesh(
-                    model.mesh_vert[vertex : vertex + model.mesh_vertnum[mesh]],
-                    model.mesh_face[face : face + model.mesh_facenum[mesh]],
-                )
+            found = geom_mesh(model, geom)
             if found is None:
                 return None
             self._surfaces[key] = self._scene.add_surface(found)
         return self._surfaces[key]
+
+
+def shown_color(model: mujoco.MjModel, geom: int) -> Color | None:
+    """Colour of a geom; None where viewers do not show it."""
+    color, material = _rgba(model.geom_rgba[geom]), model.geom_matid[geom]
+    if material >= 0 and color == _PLAIN:
+        color = _rgba(model.mat_rgba[material])
+    return None if model.geom_group[geom] >= HIDDEN_GROUP or color[3] == 0.0 else color
+
+
+def geom_mesh(model: mujoco.MjModel, geom: int) -> Mesh | None:
+    """Surface of a geom in its own frame; None where it has none of its own."""
+    if int(model.geom_type[geom]) not in {mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF}:
+        return primitive_mesh(int(model.geom_type[geom]), model.geom_size[geom])
+    mesh = model.geom_dataid[geom]
+    vertex, face = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
+    return Mesh(
+        model.mesh_vert[vertex : vertex + model.mesh_vertnum[mesh]],
+        model.mesh_face[face : face + model.mesh_facenum[mesh]],
+    )
 
 
 def _rgba(values: FloatArray) -> Color:

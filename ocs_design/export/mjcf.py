@@ -1,6 +1,7 @@
-"""Whole robot with its device as a MJCF model, in full double precision.
+"""Whole robot with its device as a MJCF model in full double precision, its scene and its README.
 
-MuJoCo by itself prints six digits.
+MuJoCo by itself prints six digits. The folder is made as MuJoCo Menagerie makes its own: a model
+that can be included, a scene that can be looked at, and a page that says what is in it.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,13 +11,27 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import format_quantity, significant
+from ocs_design.device.naming import IMU, joint_names
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.robot_model import RobotModel
-from ocs_design.export.templates import numbers
+from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, highest_speed, largest_torque
+from ocs_design.export.offscreen import shown_box
+from ocs_design.export.physics import STEADY_LEGS, leg_joints
+from ocs_design.export.png import png_bytes
+from ocs_design.export.robot_model import HOLD, HOME, RobotModel
+from ocs_design.export.snapshot import snapshot
+from ocs_design.export.templates import fill, in_comment, numbers, quoted, template_text
 from ocs_design.export.visuals import WHEEL_MESH
+from ocs_design.robot.robot import Format
 
 _MESHES = PurePath(WHEEL_MESH).parent
+
+_CONTACT = {"contact_bit": str(WHEEL_CONTACT_BIT)}
+
+_SIDE = np.array([0.83, -1.18, 0.39])
+"""Camera of the scene from the robot, over its extent: against `xyaxes` in the template."""
 
 _PRINTED = 1e-5
 """Relative error of six printed digits."""
@@ -31,9 +46,18 @@ _INERTIAL_NAMES = {"pos": "ipos", "quat": "iquat", "diaginertia": "inertia"}
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write `<name>_ocs.xml` with its meshes and textures."""
-    export_robot_mjcf(subject.model, folder / f"{subject.name}_ocs.xml")
-    return subject.model.warnings
+    """Write `<name>_ocs.xml` with its meshes and textures, `scene.xml`, and `README.md`."""
+    model, name = subject.model, f"{subject.name}_ocs"
+    path = export_robot_mjcf(model, folder / f"{name}.xml")
+    data = mujoco.MjData(model.compiled)
+    mujoco.mj_resetDataKeyframe(model.compiled, data, model.compiled.key(HOME).id)
+    mujoco.mj_forward(model.compiled, data)
+    scene = scene_xml(model, data, path.name, subject.name)
+    (folder / "scene.xml").write_text(scene, encoding="utf-8", newline="\n")
+    (folder / f"{name}.png").write_bytes(png_bytes(snapshot(model.compiled, data)))
+    page = readme(subject, data, path.name, f"{name}.png")
+    (folder / "README.md").write_text(page, encoding="utf-8", newline="\n")
+    return model.warnings
 
 
 def export_robot_mjcf(model: RobotModel, path: Path) -> Path:
@@ -46,12 +70,110 @@ def export_robot_mjcf(model: RobotModel, path: Path) -> Path:
         path: of the MJCF.
     """
     text = precise_xml(model.spec, model.compiled, assets=str(_MESHES))
-    path.write_bytes(text.encode("utf-8"))
+    path.write_bytes((fill("robot_comment.xml", _CONTACT) + text).encode("utf-8"))
     folder = path.parent / _MESHES
     for name, content in model.spec.assets.items():
         folder.mkdir(exist_ok=True)
         (folder / name).write_bytes(content)
     return path
+
+
+def scene_xml(model: RobotModel, data: mujoco.MjData, file: str, name: str) -> str:
+    """Scene with a floor that meets whatever of the robot can touch, light and a camera.
+
+    Args:
+        model: of the robot.
+        data: of its keyframe, kinematics computed.
+        file: name of the MJCF to include.
+        name: of the robot.
+    """
+    compiled = model.compiled
+    robot = compiled.geom_bodyid > 0
+    low, high = shown_box(compiled, data)
+    extent = float(np.linalg.norm(high - low))
+    sky = any(each.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX for each in model.spec.textures)
+    return fill(
+        "scene.xml",
+        {
+            **_CONTACT,
+            "robot": quoted(in_comment(name)),
+            "file": quoted(file),
+            "height": numbers((low[2] + high[2]) / 2.0),
+            "extent": numbers(extent),
+            "sky": "" if sky else template_text("sky.xml"),
+            "camera": numbers(extent * _SIDE),
+            # Two geoms touch if the contype of one shares a bit with the conaffinity of the other.
+            "contype": str(np.bitwise_or.reduce(compiled.geom_conaffinity[robot], initial=1)),
+            "conaffinity": str(np.bitwise_or.reduce(compiled.geom_contype[robot], initial=1)),
+        },
+    )
+
+
+def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> str:
+    """Page that says what is in the folder, with the design's figures.
+
+    Args:
+        subject: that was written.
+        data: of its keyframe, kinematics computed.
+        file, picture: their names.
+    """
+    robot, device, model = subject.carrier, subject.device, subject.model
+    motor, wheel, torque = device.motor, device.flywheel, largest_torque(device.motor)
+    speed, legs = highest_speed(motor), leg_joints(robot)
+    figures = {
+        "mass of the robot with its device": format_quantity(robot.mass + device.mass, "kg"),
+        "mass of the device": format_quantity(device.mass, "g"),
+        "wheel": f"{format_quantity(2.0 * wheel.outer_radius, 'mm')} in diameter, "
+        f"{format_quantity(wheel.height, 'mm')} high, {wheel.material}, "
+        f"{format_quantity(wheel.mass, 'g')}",
+        "inertia of a wheel about its axis, rotor included": format_quantity(
+            wheel.spin_inertia, "kg m2"
+        ),
+        "axes of the wheels in the base frame": ", ".join(
+            "({})".format(", ".join(significant(float(part) + 0.0, 4) for part in module.axis))
+            for module in device.modules
+        ),
+        "motor": motor.name if motor.gear == DIRECT.name else f"{motor.name} with {motor.gear}",
+        "highest speed of a wheel": "not limited"
+        if np.isinf(speed)
+        else f"{format_quantity(speed, 'rpm')} ({format_quantity(speed, 'rad/s')})",
+        "largest torque of a motor": "not limited"
+        if torque is None
+        else format_quantity(torque, "N m"),
+        "height of the trunk's frame where it stands": format_quantity(
+            float(data.site(IMU).xpos[2]), "m"
+        ),
+    }
+    own = "The robot's own actuators, unchanged; `ocs_home` has commands for those on joints."
+    drives = (
+        f"{len(legs)} position servos, one for each joint of a leg and of its name: kp from weight "
+        "and length of the leg, kv from its Froude time, the force limited to the file's effort. "
+        "The flights have the same."
+    )
+    held = [each.name for each in model.spec.equalities if each.name.startswith(HOLD)]
+    others = (
+        f"- **Other joints.** {len(held)} joints that are in no leg are held in the posture by the "
+        f"equalities `{HOLD}...`, as in the flights. Switch them off for drives of your own.\n"
+    )
+    values = {
+        "name": subject.name,
+        "picture": picture,
+        "model": file,
+        "trunk": robot.trunk,
+        "count": str(len(device.modules)),
+        "figures": "".join(f"| {what} | {figure} |\n" for what, figure in figures.items()),
+        "step": format_quantity(model.compiled.opt.timestep, "ms"),
+        "stands": "It stands by itself."
+        if len(robot.legs) >= STEADY_LEGS
+        else "On fewer than three legs it does not balance by itself, and falls.",
+        "legs": (drives if legs else "None was recognised.") if model.driven else own,
+        "others": others if held else "",
+        "contact": "The robot's own contacts are as in its file"
+        if robot.format is Format.MJCF
+        else "Links meet floors and things, not each other, as in the flights",
+        "wheels": ", ".join(f"`{joint}`" for joint in joint_names(device)),
+    }
+    return fill("robot_readme.md", {**_CONTACT, **values})
 
 
 def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> str:

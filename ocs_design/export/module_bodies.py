@@ -28,6 +28,8 @@ Beyond that, with a light motor behind a high gear, the files have more inertia 
 _DISC = np.diag([1.0, 0.0, 1.0])
 """Axes of the module's frame across which a rotor has second moments."""
 
+_ROUNDING = 1e-12
+
 _FROM_MODULE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Rotation from the left module's frame, its axis along y, to its wheel's, the axis along z."""
 
@@ -49,14 +51,15 @@ def wheel_placement(module: Module) -> Placement:
 
 
 def carrier_placement(module: Module) -> Placement:
-    """Frame of the carrier in the wheel's, the motor on the side of the other module.
+    """Frame of the carrier in the wheel's, the motor on the inner side.
 
-    All modules are of the same parts: the right one is turned by half a turn about the vertical,
-    and so the mirror image of the left.
+    All modules are of the same parts. Of a pair the carrier's frame is the left wheel's own; in the
+    right module it is turned by half a turn about the vertical.
     """
-    if module.name == "left":
-        return Placement.identity()
-    return Placement(np.diag([-1.0, 1.0, -1.0]), np.zeros(3))
+    turn = wheel_placement(module).rotation.T @ module.frame @ _FROM_MODULE.T
+    # Half a turn is one to the last digit.
+    whole = np.round(turn)
+    return Placement(np.where(np.abs(turn - whole) < _ROUNDING, whole, turn), np.zeros(3))
 
 
 def largest_torque(motor: Drive) -> float | None:

@@ -4,15 +4,36 @@ from dataclasses import dataclass
 from pathlib import PurePath
 
 import mujoco
+import numpy as np
 
+from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
-from ocs_design.device.naming import PLATE, carrier_name, flywheel_names
+from ocs_design.device.naming import PLATE, PREFIX, carrier_name, flywheel_names, require_free
 from ocs_design.export.attach import add_sensors, attach_device
+from ocs_design.export.physics import (
+    add_drives,
+    flight_options,
+    leg_joints,
+    meet_no_link,
+    set_gains,
+    stand,
+    standing_torques,
+)
 from ocs_design.export.visuals import WHEEL_MESH, carrier_visuals, device_meshes, plate_visuals
+from ocs_design.robot.links import unused_name
 from ocs_design.robot.mjcf_spec import compiled
 from ocs_design.robot.mujoco_bodies import GEOM_TYPES, HIDDEN_GROUP, VISUAL_GROUP, quaternion
 from ocs_design.robot.mujoco_model import build_spec
-from ocs_design.robot.robot import Robot
+from ocs_design.robot.robot import Format, Robot
+
+HOME = f"{PREFIX}home"
+"""Keyframe: the robot stands in its nominal posture, its actuators bear its weight."""
+
+FREE_JOINT = "floating_base_joint"
+"""Name of the free joint where the robot's file gives it none."""
+
+HOLD = f"{PREFIX}hold_"
+"""Prefix of the equalities that hold the joints that are in no leg."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,17 +44,31 @@ class RobotModel:
         spec: with the bytes of its meshes and textures.
         compiled: from `spec`.
         warnings: differences of the model from the robot's file, one sentence each.
+        driven: whether its legs have the flights' drives; else it has actuators of its own.
     """
 
     spec: mujoco.MjSpec
     compiled: mujoco.MjModel
     warnings: tuple[str, ...]
+    driven: bool
 
 
 def robot_model(robot: Robot, device: Device) -> RobotModel:
     """Model of robot, wheels, motors and sensors, with the shapes of the device."""
     built = build_spec(robot)
     spec = built.spec
+    flight_options(spec)
+    if robot.format is not Format.MJCF:
+        # As in the flights. MJX besides lacks contact of cylinders with boxes and with meshes.
+        meet_no_link(spec)
+        for pair in list(spec.excludes):
+            spec.delete(pair)
+    _name_free_joint(spec)
+    # A robot that brings its own actuators keeps them, and gets no others.
+    driven = not spec.actuators
+    if driven:
+        add_drives(spec, robot)
+        _hold_other_joints(spec, robot)
     attach_device(spec, robot, device)
     add_sensors(spec, robot, device)
     # Wheels and carriers get what they look like, without mass and contact.
@@ -65,4 +100,74 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
         else:
             geom.meshname = visual.mesh.stem
     spec.compiler.saveinertial = True
-    return RobotModel(spec, compiled(spec), built.warnings)
+    _add_home(spec, robot, driven=driven)
+    return RobotModel(spec, compiled(spec), built.warnings, driven)
+
+
+def _name_free_joint(spec: mujoco.MjSpec) -> None:
+    names = {joint.name for joint in spec.joints}
+    for joint in spec.joints:
+        if joint.type == mujoco.mjtJoint.mjJNT_FREE and not joint.name:
+            joint.name = unused_name(FREE_JOINT, "", names)
+
+
+def _hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
+    """Hold every joint that is in no leg in its posture, as in the flights, by an equality."""
+    driven = leg_joints(robot)
+    for name, joint in robot.tree.joints.items():
+        if name not in driven and joint.mimic is None:
+            spec.add_equality(
+                name=HOLD + name,
+                type=mujoco.mjtEq.mjEQ_JOINT,
+                objtype=mujoco.mjtObj.mjOBJ_JOINT,
+                name1=name,
+                data=[robot.posture[name] - float(spec.joint(name).ref), *[0.0] * 11],
+            )
+
+
+def _add_home(spec: mujoco.MjSpec, robot: Robot, *, driven: bool) -> None:
+    """Keyframe of the standing robot; its drives, if they are ours, get the flights' gains."""
+    require_free("keyframe", (key.name for key in spec.keys), (HOME,))
+    model = compiled(spec)
+    data = mujoco.MjData(model)
+    height = stand(robot, model, data)
+    names = leg_joints(robot)
+    if driven:
+        set_gains(model, data, robot)
+        for name in names:
+            spec.actuator(name).gainprm = model.actuator(name).gainprm
+            spec.actuator(name).biasprm = model.actuator(name).biasprm
+            spec.joint(name).damping[0] = model.joint(name).damping[0]
+    torques = dict(zip(names, standing_torques(model, data, robot), strict=True))
+    free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
+    data.qpos[model.jnt_qposadr[free] + 2] += height
+    home = data.qpos.copy(), _holding_controls(model, data, torques)
+    for index, key in enumerate(spec.keys if driven else ()):
+        # The file's own keyframes know nothing of our drives, which would pull all joints to zero.
+        data.qpos[:] = model.key_qpos[index]
+        key.ctrl = _holding_controls(model, data, {})
+    spec.add_key(name=HOME, qpos=home[0], ctrl=home[1])
+
+
+def _holding_controls(
+    model: mujoco.MjModel, data: mujoco.MjData, torques: dict[str, float]
+) -> FloatArray:
+    """Commands with which actuators on joints give these torques at rest, others none.
+
+    A servo's force is `gain u + b_0 + b_1 l` with the length `l = gear q`, an MjModel's
+    `actuator_gainprm` and `actuator_biasprm`.
+    """
+    controls = np.zeros(model.nu)
+    for index in np.flatnonzero(model.actuator_trntype == int(mujoco.mjtTrn.mjTRN_JOINT)):
+        gain, bias = model.actuator_gainprm[index, 0], model.actuator_biasprm[index]
+        gear, joint = model.actuator_gear[index, 0], model.joint(model.actuator_trnid[index, 0])
+        simple = model.actuator_gaintype[index] == int(mujoco.mjtGain.mjGAIN_FIXED)
+        if not simple or gain * gear == 0.0 or joint.type[0] == mujoco.mjtJoint.mjJNT_FREE:
+            continue
+        force = torques.get(joint.name, 0.0) / gear
+        length = gear * float(data.qpos[joint.qposadr[0]])
+        command = (force - bias[0] - bias[1] * length) / gain
+        if model.actuator_ctrllimited[index]:
+            command = np.clip(command, *model.actuator_ctrlrange[index])
+        controls[index] = command
+    return controls

@@ -1,12 +1,13 @@
 """Device alone, to paste, include or attach: URDF, xacro, ros2_control, MJCF and SDF."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from textwrap import indent
 
 import numpy as np
 
 from ocs_design.device.device import Device, Module
+from ocs_design.device.layout import PAIR
 from ocs_design.device.naming import (
     IMU,
     PLATE,
@@ -38,6 +39,7 @@ from ocs_design.export.module_bodies import (
     flywheel_inertial,
     largest_torque,
     wheel_placement,
+    wheel_rpy,
 )
 from ocs_design.export.sdf import export_snippet_sdf
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
@@ -49,7 +51,7 @@ _MACRO_PLACE = {
     "link": "${prefix}ocs_${side}_motor",
     "parent": "${parent}",
     "position": "${position}",
-    "rpy": "${-pi/2} 0 ${yaw}",
+    "rpy": "${rpy}",
 }
 """Place of the carrier in terms of the xacro macro's arguments."""
 
@@ -90,7 +92,6 @@ def export_snippet_urdf(device: Device, seat: Seat, path: Path) -> Path:
 
 def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
     """Write a xacro macro `ocs`; arguments as in `export_snippet_urdf`."""
-    left, right = device.modules
     joints = [f"${{prefix}}{joint}" for joint in joint_names(device)]
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
@@ -98,9 +99,7 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
         **_names(seat),
         "base_rpy": numbers(rpy_from_rotation(rotation)),
         **inertial_values(flywheel_inertial(device)),
-        "incidence": numbers(device.incidence),
-        "left_position": numbers(left.position),
-        "right_position": numbers(right.position),
+        **_macro_wheels(device),
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
         "carrier": indent(_macro_carrier(device), "  "),
@@ -111,23 +110,65 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
     return _write(path, fill("ocs.urdf.xacro", values))
 
 
-def _macro_carrier(device: Device) -> str:
-    """Carrier, with what differs between the sides left to the macro's argument."""
-    left, right = (carrier_inertial(device, module) for module in device.modules)
-    if left is None or right is None:
-        return ""
-    own, other = inertial_values(left), inertial_values(right)
-    sided = {
-        name: f"${{'{own[name]}' if side == 'left' else '{other[name]}'}}"
-        for name in ("com", "iyz")
-    }
-    one, two = (visuals_urdf(plain_carrier_visuals(device, each)) for each in device.modules)
-    is_left = "value=\"${side == 'left'}\""
-    visuals = (
-        f"    <xacro:if {is_left}>\n{one}    </xacro:if>\n"
-        f"    <xacro:unless {is_left}>\n{two}    </xacro:unless>\n"
+def _macro_wheels(device: Device) -> dict[str, str]:
+    """Arguments of the macro, what they are, and the wheels that it makes of them.
+
+    A pair's incidence is an argument, as its modules may be turned by hand.
+    """
+    what, params, wheels = {}, [], []
+    turns = {"left": "${-pi/2} 0 ${-incidence}", "right": "${-pi/2} 0 ${incidence}"}
+    if device.layout == PAIR:
+        what["incidence"] = "angle between each spin axis and the lateral direction y"
+        params.append(f"incidence:={numbers(device.incidence)}")
+        wheels.append("    <!-- The axes are (sin, cos, 0) and (-sin, cos, 0) of it. -->\n")
+    for module in device.modules:
+        pair, name = device.layout == PAIR, module.name
+        place = f"{name}_position" if pair else f"position_{name}"
+        what[place] = f"centre of the {name} flywheel" if pair else f"centre of flywheel {name}"
+        params.append(f"{place}:='{numbers(module.position)}'")
+        rpy = turns[name] if pair else numbers(wheel_rpy(module.axis))
+        wheels.append(
+            f'    <xacro:ocs_flywheel side="{name}" rpy="{rpy}" position="${{{place}}}" '
+            'parent="${prefix}ocs_base" prefix="${prefix}"/>\n'
+        )
+    told = (
+        f"  {name:<15} {text}{' in that frame' * ('centre' in text)}" for name, text in what.items()
     )
-    return fill("carrier.urdf", {**_MACRO_PLACE, **own, **sided, "visuals": visuals})
+    return {
+        "arguments": "\n".join(told) + "\n",
+        "params": " ".join(params),
+        "wheels": "".join(wheels),
+    }
+
+
+def _macro_carrier(device: Device) -> str:
+    """Carrier, with what differs between the modules left to the macro's argument."""
+    found = [carrier_inertial(device, module) for module in device.modules]
+    each = [inertial_values(body) for body in found if body is not None]
+    if not each:
+        return ""
+    # Xacro takes what looks like a number for one.
+    sides = [name if name.isdigit() else f"'{name}'" for name in device.layout.names]
+
+    def told(values: Sequence[str]) -> str:
+        """The value, or what gives that of each side."""
+        if len({*values}) == 1:
+            return values[0]
+        chain = (
+            f"'{value}' if side == {side} else " for value, side in zip(values, sides, strict=True)
+        )
+        return "${" + "".join([*chain][:-1]) + f"'{values[-1]}'" + "}"
+
+    sided = {name: told([values[name] for values in each]) for name in each[0]}
+    looks = [visuals_urdf(plain_carrier_visuals(device, each)) for each in device.modules]
+    if len({*looks}) == 1:
+        visuals = looks[0]
+    else:
+        visuals = "".join(
+            f'    <xacro:if value="${{side == {side}}}">\n{look}    </xacro:if>\n'
+            for side, look in zip(sides, looks, strict=True)
+        )
+    return fill("carrier.urdf", {**_MACRO_PLACE, **sided, "visuals": visuals})
 
 
 def _macro_plate(device: Device) -> str:

@@ -3,13 +3,14 @@
 Importing this takes seconds, and fails where Open CASCADE is not installed.
 """
 
+import re
+from collections.abc import Sequence
 from functools import reduce
 from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
-from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
 from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeEdge,
@@ -24,18 +25,32 @@ from OCP.Interface import Interface_Static
 from OCP.Message import Message, Message_PrinterOStream
 from OCP.ShapeUpgrade import ShapeUpgrade_UnifySameDomain
 from OCP.StepBasic import StepBasic_Product
+from OCP.STEPCAFControl import STEPCAFControl_Writer
 from OCP.STEPControl import STEPControl_Controller, STEPControl_StepModelType, STEPControl_Writer
 from OCP.StepRepr import StepRepr_NextAssemblyUsageOccurrence
-from OCP.TCollection import TCollection_HAsciiString
+from OCP.TCollection import TCollection_ExtendedString, TCollection_HAsciiString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
-from OCP.TopoDS import TopoDS_Compound, TopoDS_Edge, TopoDS_Face, TopoDS_Shape
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape
+from OCP.XCAFApp import XCAFApp_Application
+from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
-from ocs_design.export.device_parts import metal_pieces, printed_parts, wheel_pieces
+from ocs_design.export.device_parts import (
+    metal_pieces,
+    printed_parts,
+    wheel_pieces,
+)
 from ocs_design.export.formats import Notes, Subject
+from ocs_design.export.module_bodies import carrier_placement, wheel_placement
+from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, Color
+from ocs_design.parts.carrier_plate import plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.part import Part
 from ocs_design.parts.solids import Prism, Revolution, Solid
@@ -52,6 +67,11 @@ _SETTINGS = {"write.step.schema": "AP214IS", "write.step.unit": "MM"}
 _CURVES_ON_SURFACES = "write.surfacecurve.mode"
 """Off: readers make them from the curves in space, and the file is half as large."""
 
+STEEL: Color = (0.55, 0.56, 0.58, 1.0)
+
+_COLORS = dict.fromkeys(("drum", "lid", "foot", "cage"), PRINT) | {"motor": MOTOR, "gear": GEAR}
+"""Of pieces by their names; what is not there is of steel."""
+
 _TIMESTAMP = "2000-01-01T00:00:00"
 """Time in every file, so that the same part has the same bytes."""
 
@@ -60,7 +80,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     """Write `flywheel.step`, or one file for each of its pieces, and one for each other part.
 
     `plate.step` is what the feet stand on, where that is designed; `module.step` has all of one
-    module in its place, motor and gear as cylinders.
+    module in its place, motor and gear as cylinders, and `device.step` all modules and the plate.
     """
     device = subject.device
     printed = {f"housing_{part.name}": part for part in printed_parts(device)}
@@ -68,26 +88,127 @@ def write(subject: Subject, folder: Path) -> Notes:
     for name, part in {**metal, **printed}.items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
     (folder / "module.step").write_bytes(module_bytes(device))
+    (folder / "device.step").write_bytes(device_bytes(device))
     return ()
 
 
 def module_bytes(device: Device) -> bytes:
-    """STEP of one module, a solid for each piece, in the frame of the left wheel."""
-    compound, builder = TopoDS_Compound(), BRep_Builder()
-    builder.MakeCompound(compound)
-    placed = placed_parts(device)
-    for part, place in placed.values():
-        builder.Add(compound, _moved(part_brep(part), place))
-    return _written(compound, "module", *placed)
+    """STEP of one module, a coloured solid for each piece, in the frame of the left wheel."""
+    assembly = _Assembly()
+    assembly.add_module(device)
+    return assembly.written("module")
+
+
+def device_bytes(device: Device) -> bytes:
+    """STEP of all modules, each of the same pieces, and the plate, in the base frame B."""
+    assembly = _Assembly()
+    module, whole = assembly.add_module(device), assembly.add_group("device")
+    for each in device.modules:
+        place = wheel_placement(each) @ carrier_placement(each)
+        assembly.put(module, whole, place, each.name)
+    if device.plate is not None:
+        plate = assembly.add_part("plate", plate_part(device.plate), ALUMINIUM)
+        place = Placement(np.eye(3), np.array(device.plate.position))
+        assembly.put(plate, whole, place, "plate")
+    return assembly.written("device")
+
+
+class _Assembly:
+    """Parts with names and colours, which groups have in their places (XCAF)."""
+
+    def __init__(self) -> None:
+        self._document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+        XCAFApp_Application.GetApplication_s().InitDocument(self._document)
+        self._shapes = XCAFDoc_DocumentTool.ShapeTool_s(self._document.Main())
+        self._colors: list[Color] = []
+
+    def add_part(self, name: str, part: Part, color: Color) -> TDF_Label:
+        """Add a part, which no group has yet."""
+        label = self._shapes.AddShape(part_brep(part), False)
+        _name(label, name)
+        self._colors.append(color)
+        return label
+
+    def add_group(self, name: str) -> TDF_Label:
+        """Add a group, which is empty."""
+        label = self._shapes.NewShape()
+        _name(label, name)
+        return label
+
+    def add_module(self, device: Device) -> TDF_Label:
+        """Add all pieces of a module, in a group."""
+        group, web = self.add_group("module"), device.flywheel.web
+        light = web is not None and web.material.startswith("aluminium")
+        colors = _COLORS | ({"hub": ALUMINIUM} if light else {})
+        for name, (part, place) in placed_parts(device).items():
+            color = colors.get(name.removesuffix("_2"), STEEL)
+            self.put(self.add_part(name, part, color), group, place, name)
+        return group
+
+    def put(self, what: TDF_Label, group: TDF_Label, place: Placement, name: str) -> None:
+        """Put a part or a group into a group, under a name of its own there."""
+        where = TopLoc_Location(_transformation(place))
+        _name(self._shapes.AddComponent(group, what, where), name)
+
+    def written(self, name: str) -> bytes:
+        """File of everything."""
+        self._shapes.UpdateAssemblies()
+        _prepare()
+        writer = STEPCAFControl_Writer()
+        writer.SetColorMode(False)
+        writer.Transfer(self._document, STEPControl_StepModelType.STEPControl_AsIs)
+        return _colored(_bytes(writer.ChangeWriter(), name), self._colors)
+
+
+def _colored(content: bytes, colors: Sequence[Color]) -> bytes:
+    """File whose solids have these colours, in their order.
+
+    Open CASCADE's own writer puts them in the order of addresses in memory.
+    """
+    text = content.decode("ascii")
+    solids = re.findall(r"#(\d+) = (?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS)", text)
+    shown = r"ADVANCED_BREP_SHAPE_REPRESENTATION\('[^']*',\s*\([^)]*\),\s*#(\d+)\)"
+    number, lines = max(map(int, re.findall(r"^#(\d+) = ", text, re.MULTILINE))), []
+    for solid, context, color in zip(solids, re.findall(shown, text), colors, strict=True):
+        red, green, blue = (
+            f"{value:.4g}" if value % 1.0 else f"{value:.0f}." for value in color[:3]
+        )
+        for entity in (
+            f"COLOUR_RGB('',{red},{green},{blue})",
+            "FILL_AREA_STYLE_COLOUR('',{})",
+            "FILL_AREA_STYLE('',({}))",
+            "SURFACE_STYLE_FILL_AREA({})",
+            "SURFACE_SIDE_STYLE('',({}))",
+            "SURFACE_STYLE_USAGE(.BOTH.,{})",
+            "PRESENTATION_STYLE_ASSIGNMENT(({}))",
+            f"STYLED_ITEM('color',({{}}),#{solid})",
+            f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',({{}}),#{context})",
+        ):
+            lines.append(f"#{number + 1} = {entity.format(f'#{number}')};\n")
+            number += 1
+    end = text.rindex("ENDSEC;")
+    return (text[:end] + "".join(lines) + text[end:]).encode("ascii")
+
+
+def _name(label: TDF_Label, name: str) -> None:
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name))
 
 
 def step_bytes(part: Part) -> bytes:
     """STEP of the part as one solid that bears its name; the same bytes every time."""
-    return _written(part_brep(part), part.name)
+    _prepare()
+    writer = STEPControl_Writer()
+    writer.Transfer(part_brep(part), STEPControl_StepModelType.STEPControl_AsIs)
+    model, title = writer.Model(), TCollection_HAsciiString(part.name)
+    for entity in (model.Value(number) for number in range(1, model.NbEntities() + 1)):
+        if isinstance(entity, StepBasic_Product):
+            entity.SetName(title)
+            entity.SetId(title)
+    return _bytes(writer, part.name)
 
 
-def _written(shape: TopoDS_Shape, name: str, *pieces: str) -> bytes:
-    """File of a shape, or of an assembly of pieces, with their names."""
+def _prepare() -> None:
+    """Set how files are written, and that nothing is printed."""
     # Open CASCADE reports to standard output, where a command's JSON goes.
     Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())
     # Before that there are no settings.
@@ -95,24 +216,19 @@ def _written(shape: TopoDS_Shape, name: str, *pieces: str) -> bytes:
     for setting, value in _SETTINGS.items():
         Interface_Static.SetCVal_s(setting, value)
     Interface_Static.SetIVal_s(_CURVES_ON_SURFACES, 0)
-    writer = STEPControl_Writer()
-    writer.Transfer(shape, STEPControl_StepModelType.STEPControl_AsIs)
-    # Name and time in place of counters and clocks.
+
+
+def _bytes(writer: STEPControl_Writer, name: str) -> bytes:
+    """File of what was transferred, with names and numbers in place of counters and clocks."""
     model, title = writer.Model(), TCollection_HAsciiString(name)
     header = APIHeaderSection_MakeHeader(model)
     header.SetName(title)
     header.SetDescriptionValue(1, title)
     header.SetTimeStamp(TCollection_HAsciiString(_TIMESTAMP))
     header.SetOriginatingSystem(TCollection_HAsciiString("ocs-design"))
-    names = [name, *pieces] if pieces else [name]
     for number in range(1, model.NbEntities() + 1):
         entity = model.Value(number)
-        if isinstance(entity, StepBasic_Product):
-            # The whole first, then its pieces in the order that they were added.
-            called = TCollection_HAsciiString(names.pop(0))
-            entity.SetName(called)
-            entity.SetId(called)
-        elif isinstance(entity, StepRepr_NextAssemblyUsageOccurrence):
+        if isinstance(entity, StepRepr_NextAssemblyUsageOccurrence):
             entity.SetId(TCollection_HAsciiString(str(number)))
     buffer = BytesIO()
     writer.WriteStream(buffer)
@@ -157,10 +273,14 @@ def _shape(solid: Solid) -> TopoDS_Shape:
 
 
 def _moved(shape: TopoDS_Shape, place: Placement) -> TopoDS_Shape:
+    return BRepBuilderAPI_Transform(shape, _transformation(place), True).Shape()
+
+
+def _transformation(place: Placement) -> gp_Trsf:
     rows = np.column_stack([place.rotation, MILLIMETRES * place.position])
     transformation = gp_Trsf()
     transformation.SetValues(*rows.ravel().tolist())
-    return BRepBuilderAPI_Transform(shape, transformation, True).Shape()
+    return transformation
 
 
 def _edge(start: FloatArray, end: FloatArray, bulge: float, height: float) -> TopoDS_Edge:

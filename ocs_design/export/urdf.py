@@ -43,6 +43,21 @@ def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
         device: to add.
         path: of the URDF.
     """
+    path.write_bytes(robot_urdf(robot, device))
+    write_meshes(device, path.parent)
+    return path
+
+
+def write_meshes(device: Device, folder: Path) -> None:
+    """Write the device's meshes to their places in the folder of a robot file."""
+    for place, mesh in device_meshes(device).items():
+        target = folder / place
+        target.parent.mkdir(exist_ok=True)
+        target.write_bytes(mesh)
+
+
+def robot_urdf(robot: Robot, device: Device) -> bytes:
+    """Text of the robot with the flywheels on its trunk; see `export_robot_urdf`."""
     content = robot.content if robot.format is Format.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content)
     base = () if robot.mount is None or robot.format is not Format.URDF else (BASE_FRAME,)
@@ -57,12 +72,7 @@ def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
     # What is written from the tree has the base frame already.
     if robot.mount is not None and robot.format is Format.URDF:
         elements = mount_urdf(robot.mount) + elements
-    path.write_bytes(insert_before_end(content, heading + elements))
-    for place, mesh in device_meshes(device).items():
-        target = path.parent / place
-        target.parent.mkdir(exist_ok=True)
-        target.write_bytes(mesh)
-    return path
+    return insert_before_end(content, heading + elements)
 
 
 def urdf_notes(robot: Robot) -> Notes:

@@ -120,12 +120,16 @@ def plain_plate_visuals(device: Device) -> tuple[Visual, ...]:
         for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
         if length > 0.0
     )
-    return (
-        Visual("plate", ShapeKind.BOX, (plate.neck, straight, half), _shifted(0.0, 0.0, half)),
-        _cylinder("plate", plate.radius, half, _shifted(0.0, straight, half)),
-        _cylinder("plate", plate.radius, half, _shifted(0.0, -straight, half)),
-        *sleeves,
+    bodies = (
+        body
+        for row in plate.rows
+        for body in (
+            Visual("plate", ShapeKind.BOX, (plate.neck, straight, half), _shifted(row, 0.0, half)),
+            _cylinder("plate", plate.radius, half, _shifted(row, straight, half)),
+            _cylinder("plate", plate.radius, half, _shifted(row, -straight, half)),
+        )
     )
+    return (*bodies, *sleeves)
 
 
 @lru_cache(maxsize=1)

@@ -5,7 +5,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
+from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver, TurnTo
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,10 @@ def jump_of(maneuver: Maneuver) -> Jump | None:
         case Disturbance():
             forward, upward = maneuver.takeoff_velocity
             return Jump(forward, upward, maneuver.gravity)
-        case Flip():
+        case TurnTo() if any(maneuver.rate) or maneuver.wheel_speed:
+            # No push-off is planned that leaves these.
+            return None
+        case Flip() | TurnTo():
             upward = sqrt(2.0 * maneuver.gravity * maneuver.jump_height)
             return Jump(0.0, upward, maneuver.gravity)
         case _:

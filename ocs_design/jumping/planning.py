@@ -127,7 +127,8 @@ def with_device(trunk: MassProperties, device: Device) -> MassProperties:
     wheel, motor = device.flywheel, device.motor
     free = Carrier(wheel.mass, -motor.rotor_inertia, wheel.transverse_inertia)
     centers = np.stack([module.position for module in device.modules])
-    return braked(device.plated(trunk), (free, device.carrier), centers, device.incidence)
+    bodies = free, device.carrier
+    return braked(device.plated(trunk), bodies, centers, device.incidence, device.layout)
 
 
 class Planned(NamedTuple):

@@ -12,16 +12,18 @@ import numpy as np
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import TextKind, safe_name
 from ocs_design.device.device import Device
+from ocs_design.device.layout import Layout
+from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of
-from ocs_design.monte_carlo.uncertainty import NAMES, Sample, Uncertainty, built
+from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, built, quantities
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.engine import Progress, poses_of, scaled, simulate
+from ocs_design.simulation.engine import Progress, scaled
 from ocs_design.simulation.imperfections import AirDrag, air_drag
-from ocs_design.simulation.metrics import Metrics, measure, objection, series_of
-from ocs_design.simulation.scenario import Options, Run, world_builder
-from ocs_design.simulation.scene import STEP, Wheels
+from ocs_design.simulation.metrics import Metrics, objection
+from ocs_design.simulation.scenario import Options, Run, fly, world_builder
+from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory.flight import Trajectory
@@ -157,18 +159,18 @@ def _flown_at_once(
     """Every scenario of these samples in one batch; its worlds are let go of with it."""
     samples = [campaign.sample(index) for index in indices]
     worlds = [world for sample in samples for world in campaign.worlds(sample)]
-    recording = simulate(worlds, hold=campaign.hold, threads=threads, progress=progress)
+    flights = fly(worlds, Options(hold=campaign.hold, threads=threads), progress)
     shape = (len(samples), len(campaign.flights))
     metrics, codes = np.full((*shape, len(METRICS)), np.nan), np.zeros(shape, dtype=np.int8)
-    for place, world in enumerate(worlds):
-        row = divmod(place, len(campaign.flights))
-        found = measure(recording, place, world)
+    for place, flight in enumerate(flights):
+        row, found = divmod(place, len(campaign.flights)), flight.metrics
         codes[row] = code_of(campaign.judged(found, row[1]))
         if found is not None:
             figures = (getattr(found, name) for name in METRICS)
             metrics[row] = [np.nan if figure is None else float(figure) for figure in figures]
     values = np.stack([sample.values for sample in samples])
-    return Outcomes(np.array(indices), values, metrics, codes)
+    names = quantities(campaign.uncertainty.layout)
+    return Outcomes(np.array(indices), values, metrics, codes, names)
 
 
 SCHEMA_VERSION = 1
@@ -197,9 +199,20 @@ class Case:
     values: Mapping[str, float]
     metrics: Mapping[str, Mapping[str, float | None]]
 
-    def drawn(self) -> Sample:
-        """The sample itself."""
-        return Sample(self.seed, self.sample, np.array([self.values[name] for name in NAMES]))
+    def drawn(self, layout: Layout) -> Sample:
+        """The sample itself, of a device with this layout.
+
+        Raises:
+            OcsError: it lacks a quantity that is drawn.
+        """
+        names = quantities(layout)
+        if missing := [name for name in names if name not in self.values]:
+            raise OcsError(
+                f"case of sample {self.sample}: says nothing of {', '.join(missing)}",
+                hint="it is of another version; draw it again with --seed and --sample",
+            )
+        values = np.array([self.values[name] for name in names])
+        return Sample(self.seed, self.sample, layout, values)
 
 
 def case_of(campaign: Campaign, outcomes: Outcomes, row: int, scenario: int, design: str) -> Case:
@@ -212,7 +225,7 @@ def case_of(campaign: Campaign, outcomes: Outcomes, row: int, scenario: int, des
         sample=int(outcomes.index[row]),
         scenario=names[scenario],
         verdict=campaign.judged(metrics_of(outcomes, row, scenario), scenario).reason,
-        values=dict(zip(NAMES, outcomes.values[row].tolist(), strict=True)),
+        values=dict(zip(outcomes.names, outcomes.values[row].tolist(), strict=True)),
         metrics={
             name: dict(zip(METRICS, outcomes.metrics[row, number].tolist(), strict=True))
             for number, name in enumerate(names)
@@ -242,19 +255,12 @@ def read_case(path: Path) -> Case:
     """What `write_case` wrote.
 
     Raises:
-        OcsError: it cannot be read, or lacks a quantity that is drawn.
+        OcsError: it cannot be read.
     """
     try:
-        case = msgspec.json.decode(_KIND.read(path), type=Case)
+        return msgspec.json.decode(_KIND.read(path), type=Case)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: not a case: {error}", hint=_KIND.path_hint) from error
-    missing = [name for name in NAMES if name not in case.values]
-    if missing:
-        raise OcsError(
-            f"{path}: says nothing of {', '.join(missing)}",
-            hint="it is of another version; draw it again with --seed and --sample",
-        )
-    return case
 
 
 def replayed(
@@ -266,23 +272,21 @@ def replayed(
         campaign: that it belongs to. sample: to fly.
         pose_rate: see `simulate`.
     """
-    worlds = campaign.worlds(sample)
-    recording = simulate(worlds, hold=campaign.hold, pose_rate=pose_rate)
+    flights = fly(campaign.worlds(sample), Options(hold=campaign.hold, pose_rate=pose_rate))
     runs = []
-    for number, (flight, world) in enumerate(zip(campaign.flights, worlds, strict=True)):
-        metrics = measure(recording, number, world)
-        verdict = campaign.judged(metrics, number)
+    for number, (designed, flight) in enumerate(zip(campaign.flights, flights, strict=True)):
+        verdict = campaign.judged(flight.metrics, number)
         runs.append(
             Run(
-                scenario=flight.maneuver.name,
+                scenario=designed.maneuver.name,
                 ocs=True,
                 passed=verdict.passed,
                 reason=verdict.reason,
-                metrics=metrics,
-                series=series_of(recording, number, world),
-                note=world.note,
-                can_stand=flight.can_stand,
-                poses=poses_of(recording, number, world),
+                metrics=flight.metrics,
+                series=flight.series,
+                note=flight.world.note,
+                can_stand=designed.can_stand,
+                poses=flight.poses,
                 level=verdict.level,
                 stands=verdict.stands,
             )

@@ -16,7 +16,6 @@ from ocs_design.device.records import ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes
 from ocs_design.monte_carlo.summary import share
-from ocs_design.monte_carlo.uncertainty import NAMES
 from ocs_design.simulation.verdict import LANDING_TOLERANCE
 
 ERROR = 0.05
@@ -159,10 +158,12 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     reached = abs(tilt.mean()) + NormalDist().inv_cdf(0.5 * (1.0 + test.asked)) * tilt.std()
     varied = np.flatnonzero(np.ptp(values, axis=0) > 0.0)
     shares = np.corrcoef(values[:, varied], tilt, rowvar=False)[-1, :-1] ** 2
-    part, cause = max(zip(shares.tolist(), (NAMES[i] for i in varied), strict=True))
+    part, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
     factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
     ending = f"the reserve is raised by {factor:.2f}"
-    if cause.startswith("attitude_bias"):
+    if not campaign.flights[number].world.body.reach[axis]:
+        factor, ending = 1.0, f"no wheel turns the robot in {names[axis]}, however large it is"
+    elif cause.startswith("attitude_bias"):
         # The law brings to level what the sensor calls level, whatever the wheels can do.
         factor, ending = 1.0, "a better attitude sensor helps, no reserve of the device does"
     quantity = cause.replace("_", " ").replace(".", " ")

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import OutputError
 from ocs_design.export.folder import output_error, whole_file
-from ocs_design.monte_carlo.uncertainty import NAMES
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
 
@@ -59,15 +58,17 @@ class Outcomes(Table):
 
     Attributes:
         index: of each sample, shape (n,).
-        values: that were drawn, in the order of `NAMES` (SI), shape (n, len(NAMES)).
+        values: that were drawn (SI), shape (n, len(names)).
         metrics: in the order of `METRICS`, NaN where there is none (SI), (n, s, len(METRICS)).
         codes: 0 for a pass, otherwise of the fault, see `FAULTS`, shape (n, s).
+        names: of the values.
     """
 
     index: NDArray[np.int64]
     values: FloatArray
     metrics: FloatArray
     codes: NDArray[np.int8]
+    names: tuple[str, ...]
 
     @property
     def passed(self) -> NDArray[np.bool_]:
@@ -92,7 +93,7 @@ class Outcomes(Table):
                 values=self.values,
                 metrics=self.metrics,
                 codes=self.codes,
-                names=np.array(NAMES),
+                names=np.array(self.names),
                 figures=np.array(METRICS),
             )
 
@@ -100,7 +101,8 @@ class Outcomes(Table):
     def load(cls, path: Path) -> "Outcomes":
         """What `save` wrote."""
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            return cls(*(stored[field.name] for field in fields(cls)))
+            columns = {field.name: stored[field.name] for field in fields(cls)}
+            return cls(**columns | {"names": tuple(columns["names"].tolist())})
 
 
 def code_of(verdict: Verdict) -> int:
@@ -128,7 +130,7 @@ def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> 
         "scenario": np.tile(np.array(scenarios), samples),
         "verdict": words[outcomes.codes.ravel()],
         **dict(zip(METRICS, figures.T, strict=True)),
-        **dict(zip(NAMES, drawn.T, strict=True)),
+        **dict(zip(outcomes.names, drawn.T, strict=True)),
     }
     # Numbers to six digits; an empty cell where there is none.
     cells = [

@@ -12,6 +12,7 @@ from importlib import import_module
 from typing import TypeAlias
 
 from ocs_design.common.errors import MissingToolError, OcsError
+from ocs_design.common.installing import extra_command
 from ocs_design.monte_carlo.campaign import Campaign, fly_samples
 from ocs_design.monte_carlo.outcomes import Block, Outcomes, Storage
 from ocs_design.monte_carlo.summary import shares
@@ -133,7 +134,7 @@ class Cluster(Workers):
         except ImportError as error:
             raise MissingToolError(
                 "--scheduler needs Dask, which is not installed",
-                hint="pip install 'ocs-design[cluster]'",
+                hint=extra_command("cluster"),
             ) from error
         try:
             self._client = self._dask.Client(address, timeout=PATIENCE)

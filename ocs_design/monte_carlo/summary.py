@@ -12,11 +12,10 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records import ReliabilityRecord, ValidationRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
-from ocs_design.monte_carlo.uncertainty import NAMES, Sample
+from ocs_design.monte_carlo.uncertainty import Sample
 from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
-from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.metrics import measure
-from ocs_design.simulation.verdict import LANDING_TOLERANCE, Fault
+from ocs_design.simulation.scenario import Options, fly
+from ocs_design.simulation.verdict import LANDING_TOLERANCE, Fault, landing_attitude
 from ocs_design.simulation.world import World
 
 CONFIDENCE = 0.95
@@ -73,7 +72,7 @@ class Cause:
     """A drawn quantity that the outcome goes with.
 
     Attributes:
-        quantity: see `uncertainty.NAMES`.
+        quantity: see `uncertainty.quantities`.
         correlation: Spearman's, of the quantity with the severity, -1..1.
         either_way: it is the distance of the quantity from its median that counts.
     """
@@ -91,6 +90,10 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
     if isinstance(maneuver, Flip):
         turned = outcomes.metric("turned_angle")[:, number]
         error = np.maximum(error, np.abs(turned - maneuver.angle))
+    _, _, heading = landing_attitude(maneuver)
+    if heading is not None:
+        off = outcomes.metric("heading_drift")[:, number] - heading
+        error = np.maximum(error, np.abs((off + np.pi) % (2.0 * np.pi) - np.pi))
     return np.asarray(error)
 
 
@@ -124,7 +127,7 @@ def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
     either = np.argmax(np.abs(found), axis=0)
     return tuple(
         Cause(
-            quantity=NAMES[index],
+            quantity=outcomes.names[index],
             correlation=float(found[either[index], index]),
             either_way=bool(either[index]),
         )
@@ -194,10 +197,9 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
     worlds = [campaign.worlds(campaign.sample(index))[number] for index in fell[:TRIED].tolist()]
     stand = {}
     for words, change in REMEDIES.items():
-        changed = [change(world) for world in worlds]
-        recording = simulate(changed, hold=campaign.hold)
-        found = (measure(recording, index, world) for index, world in enumerate(changed))
-        stand[words] = [campaign.judged(metrics, number).passed for metrics in found].count(True)
+        found = fly([change(world) for world in worlds], Options(hold=campaign.hold))
+        judged = [campaign.judged(flight.metrics, number).passed for flight in found]
+        stand[words] = judged.count(True)
     best = sorted(stand, key=lambda words: -stand[words])
     told = ", ".join(f"{stand[words]} with {words}" for words in best)
     roll, pitch = (
@@ -383,8 +385,7 @@ class SampleRecord:
     @classmethod
     def of(cls, sample: Sample) -> "SampleRecord":
         """The record of a sample."""
-        values = dict(zip(NAMES, sample.values.tolist(), strict=True))
-        return cls(seed=sample.seed, index=sample.index, values=values)
+        return cls(seed=sample.seed, index=sample.index, values=sample.by_name)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -408,3 +409,18 @@ class Validated:
         failed = any(run.ocs and run.passed is not True for run in self.validation)
         certified = None if self.monte_carlo is None else self.monte_carlo.certificate
         return 1 if failed or (certified is not None and certified.verdict == "falls short") else 0
+
+    def __repr__(self) -> str:
+        flown = [run.passed for run in self.validation if run.ocs]
+        told = f"{flown.count(True)} of {len(flown)} flights pass"
+        if self.monte_carlo is not None:
+            found = self.monte_carlo.success
+            told += f"; {found.passed:,} of {found.flown:,} robots as they might be built"
+            if self.monte_carlo.certificate is not None:
+                told += f", {self.monte_carlo.certificate.verdict}"
+        return f"<Validated {self.robot}: {told}>"
+
+    def _repr_html_(self) -> str:
+        from ocs_design import as_html  # noqa: PLC0415 - the report stands above
+
+        return as_html(self)

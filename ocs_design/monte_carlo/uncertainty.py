@@ -3,19 +3,20 @@
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.device import SIDES, Device
+from ocs_design.device.device import Device
+from ocs_design.device.layout import Layout
 from ocs_design.device.naming import PREFIX
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.uncertainty import (
     Distribution,
     UncertaintySection,
     complete_uncertainty,
+    parts_of,
     spreads,
 )
 from ocs_design.robot.mujoco_bodies import quaternion
@@ -23,47 +24,35 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
 from ocs_design.simulation.launch import Push
-from ocs_design.simulation.scene import FLYWHEELS
 from ocs_design.simulation.schedule import SURE
+from ocs_design.simulation.wheel_law import USED
 from ocs_design.simulation.world import World
 
-PARTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "inertia_error": ("x", "y", "z"),
-        "com_error": ("x", "y", "z"),
-        "incidence_error": SIDES,
-        "torque_constant_error": SIDES,
-        "resistance_error": SIDES,
-        "coulomb_friction": SIDES,
-        "viscous_friction": SIDES,
-        "attitude_bias": ("roll", "pitch"),
-        "gyro_bias": ("x", "y", "z"),
-        "takeoff_rate": ("roll", "pitch"),
-    }
-)
-"""Keys of `[reality]` that are drawn more than once."""
-
 KEYS = tuple(spreads())
-NAMES = tuple(f"{key}.{part}" if part else key for key in KEYS for part in PARTS.get(key, ("",)))
-"""Every number that is drawn for a sample, in order."""
+
+
+def quantities(layout: Layout) -> tuple[str, ...]:
+    """Every number that is drawn for a sample of a device with this layout, in order."""
+    parts = ((key, part) for key in KEYS for part in parts_of(key, layout.names))
+    return tuple(f"{key}.{part}" if part else key for key, part in parts)
 
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """The distribution of every key of `[reality]`, nothing left open."""
+    """The distribution of every key of `[reality]`, nothing left open, and whose wheels it is of.
+
+    Attributes:
+        spreads: by key. layout: of the device.
+    """
 
     spreads: Mapping[str, Distribution]
+    layout: Layout
 
     @classmethod
     def of(cls, stated: UncertaintySection, robot: Robot, device: Device) -> "Uncertainty":
         """What is stated, and the defaults in place of the rest."""
         complete = complete_uncertainty(stated, standing_height(robot), device.motor)
-        return cls({key: getattr(complete, key) for key in KEYS})
-
-    @property
-    def by_name(self) -> Mapping[str, Distribution]:
-        """Distribution of every number that is drawn, in the order of `NAMES`."""
-        return {name: self.spreads[key_of(name)] for name in NAMES}
+        return cls({key: getattr(complete, key) for key in KEYS}, device.layout)
 
     def written(self) -> Mapping[str, str]:
         """Text that differs between any two sets of distributions (SI)."""
@@ -71,35 +60,44 @@ class Uncertainty:
 
 
 def key_of(name: str) -> str:
-    """The key of `[reality]` that one of `NAMES` is drawn from."""
+    """The key of `[reality]` that one of `quantities` is drawn from."""
     return name.partition(".")[0]
 
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """What was drawn, in the order of `NAMES`.
+    """What was drawn.
 
     Attributes:
         seed, index: which the values follow from, whatever else is drawn with them.
-        values: SI, shape (len(NAMES),).
+        layout: of the device.
+        values: SI, in the order of `quantities`, shape (numbers,).
     """
 
     seed: int
     index: int
+    layout: Layout
     values: FloatArray
 
     @classmethod
     def draw(cls, uncertainty: Uncertainty, seed: int, index: int) -> "Sample":
         """Sample `index` of `seed`, by a counter-based generator of its own."""
+        names = quantities(uncertainty.layout)
         generator = np.random.Generator(np.random.Philox(_sequence(seed, index)))
-        parts = generator.random(len(NAMES)).tolist()
-        spreads = uncertainty.by_name.values()
-        values = [spread.at(part) for spread, part in zip(spreads, parts, strict=True)]
-        return cls(seed, index, np.array(values))
+        values = [
+            uncertainty.spreads[key_of(name)].at(part)
+            for name, part in zip(names, generator.random(len(names)).tolist(), strict=True)
+        ]
+        return cls(seed, index, uncertainty.layout, np.array(values))
+
+    @property
+    def by_name(self) -> Mapping[str, float]:
+        """The values by name."""
+        return dict(zip(quantities(self.layout), self.values.tolist(), strict=True))
 
     def of(self, key: str) -> FloatArray:
         """All parts of a key of `[reality]`, shape (parts,)."""
-        return self.values[_PLACES[key]]
+        return np.array([value for name, value in self.by_name.items() if key_of(name) == key])
 
     def only(self, key: str) -> float:
         """Value of a key that has no parts."""
@@ -114,17 +112,8 @@ def _sequence(seed: int, *key: int) -> np.random.SeedSequence:
     return np.random.SeedSequence(seed, spawn_key=key)
 
 
-_ENDS = np.cumsum([len(PARTS.get(key, ("",))) for key in KEYS]).tolist()
-_PLACES = {
-    key: slice(end - len(PARTS.get(key, ("",))), end) for key, end in zip(KEYS, _ENDS, strict=True)
-}
-
-
 PUSH_OFF_END = 5e-3
 """Time in which a sample's rate at take-off comes about, once it is known to fly [s]."""
-
-_TURNS_WITH_INCIDENCE = np.array([-1.0, 1.0])
-"""About z of B: a larger incidence turns the left axis clockwise as seen from above."""
 
 
 def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float) -> World:
@@ -146,10 +135,9 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float
     model.body_inertia[own] *= 1.0 + sample.only("mass_error")
     base = quaternions.matrix(world.chain.end)
     _alter_trunk(model, world.addresses.trunk, base, sample)
-    errors = sample.of("incidence_error") * _TURNS_WITH_INCIDENCE
-    for name, error in zip(FLYWHEELS, errors, strict=True):
-        body = model.body(name).id
-        turn = quaternions.from_axis_angle(base[:, 2], error)
+    feet, errors = base @ sample.layout.feet(world.body.axes), sample.of("incidence_error")
+    for body, foot, error in zip(world.addresses.flywheels, feet.T, errors, strict=True):
+        turn = quaternions.from_axis_angle(foot, error)
         model.body_quat[body] = quaternions.product(turn, model.body_quat[body])
     model.geom_friction[:, 0] = sample.only("contact_friction")
     # The real motor's limits are those of its drive; friction adds to them when it brakes.
@@ -168,9 +156,12 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float
         stream=sample.noise(flight),
         torque_gain=constant,
         # V = R i + k_t w (docs/theory.md, The motor).
-        no_load_speed=law.no_load_speed * voltage / constant,
+        no_load_speed=law.no_load_speed / USED * voltage / constant,
         line_slope=law.line_slope * resistance / constant**2,
         torque_limit=law.torque_limit * constant,
+        copper=law.copper * resistance / constant**2,
+        efficiency=law.efficiency.item(),
+        power_max=law.power_max.item() / USED,
         coulomb=sample.of("coulomb_friction"),
         viscous=sample.of("viscous_friction"),
         air=air,

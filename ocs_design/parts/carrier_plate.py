@@ -3,13 +3,14 @@
 One flat plate of aluminium across the trunk: a ring under each foot, around the circle of its
 screws, whose threads are in it, and a neck between both rings. Four screws in the neck hold it on
 the trunk, each through a sleeve where the trunk lies lower there. Its axes are those of the base
-frame B, its origin the middle of its underside.
+frame B, its origin the middle of its underside. Several pairs of modules, one behind the other,
+have as many equal plates at one height, each with screws of its own; together they are one body.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import acos, asin, pi, sqrt, tan
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
@@ -47,6 +48,8 @@ _SECTIONS = 101
 """Sections between a screw and the middle of a foot whose stress is looked at."""
 
 Point: TypeAlias = tuple[float, float]
+
+Hole = TypeVar("Hole", Point, float)
 
 
 FILLET = 10.0e-3
@@ -93,11 +96,13 @@ class DogBone:
         radius: of the discs [m].
         half_length: from the middle to either end, along y [m].
         neck: half of the neck's width, at most the radius [m].
+        x: of its middle [m].
     """
 
     radius: float
     half_length: float
     neck: float
+    x: float = 0.0
 
     @property
     def across(self) -> float:
@@ -133,7 +138,7 @@ class DogBone:
 
     @property
     def moments(self) -> MassMoments[float]:
-        """Moments about its middle, of unit density: four times those of a quarter.
+        """Moments about the origin, of unit density: about its middle four times a quarter's.
 
         int x dy, int x^3 / 3 dy and int x y^2 dy along the neck, x = w, along the rounding, x = w +
         f - q(s) with s = y - y_0, and along the disc, x = q(s) with s = y - c; see `_Circle`.
@@ -149,21 +154,22 @@ class DogBone:
         second += a * ((low + end) ** 3 - low**3) / 3.0 - gone.about(low)
         disc = _Circle(r, top - c, r)
         area, cubes, second = area + disc.one, cubes + disc.cube, second + disc.about(c)
-        return flat(4.0 * area, 4.0 / 3.0 * cubes, 4.0 * second)
+        area *= 4.0
+        return flat(area, 4.0 / 3.0 * cubes + area * self.x**2, 4.0 * second, x=self.x * area)
 
     def outline(self) -> Outline:
         """The neck's sides, and the discs between their roundings."""
-        (x, y), low = self.meets, self.straight
+        (x, y), low, middle = self.meets, self.straight, np.array([self.x, 0.0])
         if self.neck >= self.radius:
             corners = [[x, -low], [x, low], [-x, low], [-x, -low]]
-            return Outline(np.array(corners), np.array([0.0, 1.0, 0.0, 1.0]))
+            return Outline(np.array(corners) + middle, np.array([0.0, 1.0, 0.0, 1.0]))
         right = [[self.neck, -low], [self.neck, low], [x, y]]
         corners = [*right, *([-along, across] for along, across in reversed(right[1:]))]
         corners += [[-self.neck, -low], [-x, -y], [x, -y]]
         angle = acos((self.neck + self.fillet) / (self.radius + self.fillet))
         inward, around = -tan(angle / 4.0), tan((pi + 2.0 * angle) / 4.0)
         bulges = [0.0, inward, around, inward, 0.0, inward, around, inward]
-        return Outline(np.array(corners), np.array(bulges))
+        return Outline(np.array(corners) + middle, np.array(bulges))
 
     def half_width(self, across: FloatArray) -> FloatArray:
         """Half its width at some distances from its middle along y, 0 beyond its ends [m]."""
@@ -216,19 +222,21 @@ class _Circle:
 
 @dataclass(frozen=True)
 class CarrierPlate:
-    """Plate on the trunk that both feet stand on.
+    """Plate on the trunk that both feet stand on, or one plate for each pair of feet.
 
     Attributes:
-        position: of the middle of its underside in B [m].
+        position: of the middle of its underside, or of all their undersides, in B [m].
         radius, half_length, neck: of its outline; see `DogBone` [m].
         thickness: [m].
         across: of the middle of each foot from its own, along y to both sides [m].
         window: radius of the hole under each foot, 0: none [m].
-        feet: of the holes with threads for the feet's screws, x and y from its middle [m].
+        feet: of the holes with threads for the feet's screws, x and y from its middle, as many for
+            each plate, one plate after the other [m].
         trunk: of the holes for the trunk's screws, likewise [m].
         sleeves: length of the sleeve under each of those, 0: none [m].
         thread, foot_thread: of both kinds of screws.
         material: name. density: [kg/m^3].
+        rows: forward coordinate of the middle of each plate from the common one [m].
     """
 
     position: tuple[float, float, float]
@@ -245,11 +253,40 @@ class CarrierPlate:
     foot_thread: str = "M3"
     material: str = MATERIAL
     density: float = DENSITY
+    rows: tuple[float, ...] = (0.0,)
 
     @property
     def shape(self) -> DogBone:
-        """Its outline, without holes."""
+        """Its outline about its own middle, without holes."""
         return DogBone(self.radius, self.half_length, self.neck)
+
+    @property
+    def shapes(self) -> tuple[DogBone, ...]:
+        """Outline of each plate about the common middle, without holes."""
+        return tuple(replace(self.shape, x=row) for row in self.rows)
+
+    @property
+    def each(self) -> tuple["CarrierPlate", ...]:
+        """Every plate on its own, with the screws that are its own."""
+        x, y, z = self.position
+        return tuple(
+            replace(
+                self,
+                position=(x + row, y, z),
+                feet=tuple((along - row, across) for along, across in self._own(self.feet, index)),
+                trunk=tuple(
+                    (along - row, across) for along, across in self._own(self.trunk, index)
+                ),
+                sleeves=self._own(self.sleeves, index),
+                rows=(0.0,),
+            )
+            for index, row in enumerate(self.rows)
+        )
+
+    def _own(self, holes: tuple[Hole, ...], index: int) -> tuple[Hole, ...]:
+        """What of the holes is of one plate."""
+        count = len(holes) // len(self.rows)
+        return holes[index * count : (index + 1) * count]
 
     @property
     def screw(self) -> Screw:
@@ -287,7 +324,7 @@ class CarrierPlate:
         )
 
     def net_width(self, across: FloatArray) -> FloatArray:
-        """Width of its sections at some y less the trunk's screw holes and its windows [m]."""
+        """Width of one plate's sections at some y less screw holes and its windows [m]."""
         whole = 2.0 * self.shape.half_width(across)
         for middle in (self.across, -self.across):
             whole -= 2.0 * _chord(self.window, across - middle)
@@ -307,6 +344,8 @@ class CarrierPlate:
             mass: of a module [kg].
             height: of the module's middle above the plate [m].
         """
+        if len(self.rows) > 1:
+            return max(plate.stress(mass, height) for plate in self.each)
         start = max(y for _, y in self.trunk)
         across = np.linspace(start, self.across, _SECTIONS)
         widths, arms = self.net_width(across), self.across - across
@@ -328,6 +367,8 @@ class CarrierPlate:
         Args:
             mass: of a module [kg].
         """
+        if len(self.rows) > 1:
+            return min(plate.frequency(mass) for plate in self.each)
         start = max(y for _, y in self.trunk)
         across = np.linspace(start, self.across, _SECTIONS)
         second = self.net_width(across) * self.thickness**3 / 12.0
@@ -367,7 +408,7 @@ def _chord(radius: float, off: FloatArray) -> FloatArray:
 
 
 def plate_part(plate: CarrierPlate) -> Part[float]:
-    """The plate alone with its holes, in its own frame."""
+    """The plate, or all plates in their places, with its holes, in its own frame."""
     kinds = (
         (plate.feet, screw(plate.foot_thread).tapping_drill),
         (plate.trunk, plate.screw.clearance_hole),
@@ -379,10 +420,12 @@ def plate_part(plate: CarrierPlate) -> Part[float]:
     ]
     if plate.window > 0.0:
         holes += [
-            Prism(Disc(plate.window, (0.0, side * plate.across)), 0.0, plate.thickness)
+            Prism(Disc(plate.window, (row, side * plate.across)), 0.0, plate.thickness)
+            for row in plate.rows
             for side in (1.0, -1.0)
         ]
-    return Part("plate", plate.density, (Prism(plate.shape, 0.0, plate.thickness),), tuple(holes))
+    solids = tuple(Prism(shape, 0.0, plate.thickness) for shape in plate.shapes)
+    return Part("plate", plate.density, solids, tuple(holes))
 
 
 def sleeve_part(plate: CarrierPlate, length: float) -> Part[float]:

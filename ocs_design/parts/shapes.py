@@ -144,8 +144,26 @@ class ArcSlot(Generic[Real]):
         return Outline(np.array(points), np.array([quarter, 1.0, -quarter, 1.0]))
 
 
+class _Stemmed(Generic[Real]):
+    """A disc with stems: `radius` of the disc, `side` half of a stem's width [m]."""
+
+    radius: Real
+    side: Real | float
+
+    @cached_property
+    def _root(self) -> Real:
+        """Distance of a stem's root from the disc's middle, along it [m]."""
+        root: Real = (self.radius**2 - self.side**2) ** 0.5
+        return root
+
+    @cached_property
+    def _beside(self) -> Real:
+        """Half of the angle that a stem takes of the disc [rad]."""
+        return arcsine(self.side / self.radius)
+
+
 @dataclass(frozen=True, eq=False)
-class Keyhole(Generic[Real]):
+class Keyhole(_Stemmed[Real]):
     """A disc on the y axis, and a stem from it towards higher y.
 
     Attributes:
@@ -184,20 +202,9 @@ class Keyhole(Generic[Real]):
         around = tan((pi - asin(s / self.radius)) / 2.0)
         return Outline(np.array(points), np.array([0.0, 0.0, 0.0, around]))
 
-    @cached_property
-    def _root(self) -> Real:
-        """Distance of the stem's root from the disc's middle [m]."""
-        root: Real = (self.radius**2 - self.side**2) ** 0.5
-        return root
-
-    @cached_property
-    def _beside(self) -> Real:
-        """Half of the angle that the stem takes of the disc [rad]."""
-        return arcsine(self.side / self.radius)
-
 
 @dataclass(frozen=True, eq=False)
-class Eared(Generic[Real]):
+class Eared(_Stemmed[Real]):
     """The disc of a band with its ears, which have straight sides and a round end.
 
     Attributes:
@@ -242,17 +249,6 @@ class Eared(Generic[Real]):
         """Corners of an ear on the x axis, from the band outwards and back [m], shape (4, 2)."""
         root, end, side = self._root, self.axis, self.side
         return np.array([[root, -side], [end, -side], [end, side], [root, side]])
-
-    @cached_property
-    def _root(self) -> Real:
-        """Distance of an ear's root from the middle, along it [m]."""
-        root: Real = (self.radius**2 - self.side**2) ** 0.5
-        return root
-
-    @cached_property
-    def _beside(self) -> Real:
-        """Half of the angle that an ear takes of the band [rad]."""
-        return arcsine(self.side / self.radius)
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.device.layout import PAIR
 from ocs_design.device.records import Clearance, OcsDesign, OcsRecord, RobotRecord
 from ocs_design.report.quantities import (
     degrees,
@@ -25,6 +26,18 @@ _NO_MASS = 1e-9
 """Mass below which a part of a module is not listed [kg]."""
 
 _COUNTS = ("no flywheels", "one flywheel", "two flywheels", "three flywheels", "four flywheels")
+
+FIRST_FACTS = {
+    "mass of a module": "module",
+    "carrier plate": "plate",
+    "incidence alpha*": "alpha*",
+    "layout": "layout",
+    "rim": "rim",
+    "motor": "motor",
+    "gear": "gear",
+    "drive at the wheel": "drive",
+}
+"""Facts of the device at a first look, and the short names that they have there."""
 
 
 def robot_facts(robot: RobotRecord) -> Rows:
@@ -107,7 +120,10 @@ def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     alone = ocs.incidence_by_criterion_robot_alone.get(chosen)
     if alone is not None:
         chosen += f"; {degrees(alone)} for the robot alone"
-    yield "incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"
+    if ocs.axes == PAIR:
+        yield "incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"
+    else:
+        yield "layout", layout_text(ocs)
     outer, inner, height = (
         f"{1e3 * length:.2f}" for length in (wheel.outer_radius, wheel.inner_radius, wheel.height)
     )
@@ -149,7 +165,9 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
     if plate is not None:
         sizes = 2.0 * plate.radius, 2.0 * plate.half_length, plate.thickness
         text = " x ".join(tenths(length) for length in sizes)
-        yield "carrier plate", f"{grams(plate.mass)} with its screws, {text} mm"
+        count = len(plate.rows)
+        name, its = ("carrier plate", "its") if count == 1 else (f"{count} carrier plates", "their")
+        yield name, f"{grams(plate.mass)} with {its} screws, {text} mm"
     yield "total mass", f"{grams(ocs.mass_total)} ({share_of_robot(design)})"
     controllers = len(ocs.modules) * ocs.motor.controller_mass
     if controllers > _NO_MASS:
@@ -159,7 +177,7 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
 
 
 def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
-    yield "motor", motor.name
+    yield "motor", motor.full_name
     if motor.bus_voltage is None:
         return
     if motor.gear != DIRECT.name:
@@ -194,6 +212,11 @@ def _nearest(clearance: Clearance | None) -> str:
     gap = millimetres(abs(clearance.distance))
     how = f"{gap} away" if clearance.distance >= 0.0 else f"overlapping by {gap}"
     return f"{clearance.part}, {how}"
+
+
+def layout_text(ocs: OcsRecord) -> str:
+    """How the axes lie, as in "pyramid at 35.3 deg"."""
+    return f"{ocs.layout} at {degrees(ocs.incidence)}" if ocs.incidence else ocs.layout
 
 
 def criterion_table(ocs: OcsRecord) -> Table:

@@ -78,25 +78,27 @@ def _flight_row(run: ValidationRecord) -> tuple[Cell, ...]:
     )
 
 
-def short_verdict(run: ValidationRecord, *, turns: bool) -> Toned:
+def short_verdict(run: ValidationRecord, *, kind: str) -> Toned:
     """Verdict with the angle that it rests on.
 
     Args:
         run: to judge.
-        turns: whether it is a flip, which is judged by the angle that it turned by.
+        kind: of the maneuver: a flip is judged by the angle that it turned by, a turn by heading.
     """
     word = (_WITH if run.ocs else _WITHOUT)[run.passed]
     found = run.metrics
     if run.passed is None or not found:
         return word
-    if turns:
-        angle, kind = abs(found["turned_angle"] or 0.0), " turned"
+    if kind == "flip":
+        angle, what = abs(found["turned_angle"] or 0.0), " turned"
     elif found["touchdown_time"] == found["lift_off_time"]:
         # Pushed as it stands.
-        angle, kind = float(off_level(*_angles(found, "{}_swing"))), " swing"
+        angle, what = float(off_level(*_angles(found, "{}_swing"))), " swing"
     else:
-        angle, kind = float(off_level(*_angles(found, "touchdown_{}"))), ""
-    return Toned(f"{word.text:<5} {degrees_number(angle):>5}{kind}", word.tone)
+        angle, what = float(off_level(*_angles(found, "touchdown_{}"))), ""
+        if kind == "turn":
+            what = f", heading {degrees_number(found['heading_drift'] or 0.0)}"
+    return Toned(f"{word.text:<5} {degrees_number(angle):>5}{what}", word.tone)
 
 
 def run_sentence(run: ValidationRecord, *, with_note: bool = True) -> str:

@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Sequence
 
 from ocs_design.common.units import ceiled, floored, significant
-from ocs_design.device.records import OcsDesign, PriceRecord, ReserveRecord
+from ocs_design.device.records import SAVES_NOTHING, OcsDesign, PriceRecord, ReserveRecord
 from ocs_design.report.quantities import degrees_number, grams, inertia_number, quantity, rpm
 from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, listed
 from ocs_design.sizing.limits import LIMITS, TIME
-from ocs_design.sizing.margins import Margin
+from ocs_design.sizing.margins import RMS_CURRENT, Margin
 from ocs_design.sizing.selection.device import (
     HOLED_STRESS,
     HOUSING,
@@ -19,7 +19,7 @@ from ocs_design.sizing.selection.device import (
 )
 
 _SHARE = 0.005
-"""Least share of a variance that is shown."""
+"""Least share of the reserve that is shown."""
 
 _NOTHING = 5e-6
 """Less mass than is shown [kg]."""
@@ -143,7 +143,7 @@ def tightest(design: OcsDesign) -> Rows:
     """What is used of each limit, the most first: per cent, and which they are."""
     used: dict[tuple[int, str], list[Margin]] = {}
     for margin in recorded_margins(design):
-        if margin.factor is not None:
+        if margin.factor is not None and not _heats(margin):
             percent = int(ceiled(100.0 / margin.factor, 0))
             used.setdefault((percent, margin.scenario), []).append(margin)
     return tuple(
@@ -152,8 +152,23 @@ def tightest(design: OcsDesign) -> Rows:
     )
 
 
+def _heats(margin: Margin) -> bool:
+    """Whether it is a current above the rating for hours, for which a pause is stated."""
+    return margin.name == RMS_CURRENT and margin.factor is not None and margin.factor < 1.0
+
+
+def heat(design: OcsDesign) -> str:
+    """The current above what the motor bears for hours, and the pause after it; empty if none."""
+    hot = [each for each in recorded_margins(design) if _heats(each)]
+    return "; ".join(
+        f"{quantity(each.demand, each.unit)} rms in {each.scenario} "
+        f"(continuous rating {quantity(each.capacity or 0.0, each.unit)}), {each.note}"
+        for each in hot
+    )
+
+
 def _told(margins: Sequence[Margin], percent: int) -> str:
-    """Where it is so, and what helps where it is too much."""
+    """Place where it is so, and what helps where it is too much."""
     notes = [each.note for each in margins] if percent > _ROUNDED else []
     told = "; ".join(filter(None, [margins[0].scenario, *notes]))
     return f" ({told})" if told else ""
@@ -189,7 +204,7 @@ def lighter(design: OcsDesign) -> Rows:
 
 
 def alternatives_table(design: OcsDesign) -> Table:
-    """What one change of the question would give each; without rows where none was looked for."""
+    """What one change of the question would give each, but for those that save nothing."""
     return Table(
         columns("<change", "mass", "<motor", "<note"),
         tuple(
@@ -200,8 +215,15 @@ def alternatives_table(design: OcsDesign) -> Table:
                 each.note,
             )
             for each in design.alternatives
+            if each.note != SAVES_NOTHING
         ),
     )
+
+
+def alternatives_note(design: OcsDesign) -> str:
+    """The changes that save nothing; empty if all do."""
+    vain = [each.change for each in design.alternatives if each.note == SAVES_NOTHING]
+    return f"These save nothing: {'; '.join(vain)}." if vain else ""
 
 
 def lighter_table(design: OcsDesign) -> Table:
@@ -272,7 +294,7 @@ def saving_notes(design: OcsDesign) -> str:
 def reserve_table(kept: ReserveRecord) -> Table:
     """Share of each uncertain quantity in what robots need, and what knowing it would save."""
     return Table(
-        columns("<key of [reality]", "share of the variance", "known exactly, it saves"),
+        columns("<key of [reality]", "share of the reserve", "known exactly, it saves"),
         tuple(
             (cost.key, f"{100.0 * cost.share:.0f} %", grams(max(cost.mass, 0.0)))
             for cost in kept.costs
@@ -296,7 +318,9 @@ def reserve_note(kept: ReserveRecord, mass: float) -> str:
 def _curve(kept: ReserveRecord) -> str:
     """How the mass goes with the reliability; one sentence where it does not."""
     masses = [mass for _, mass in kept.curve]
-    if masses and max(masses) - min(masses) < _NOTHING:
+    if not masses:
+        return ""
+    if max(masses) - min(masses) < _NOTHING:
         return f"The nominal device already has it: nothing up to {100.0 * kept.curve[-1][0]:g} %."
     curve = ", ".join(f"{grams(mass)} for {100.0 * level:g} %" for level, mass in kept.curve)
     return f"The same motor and material weigh {curve}."

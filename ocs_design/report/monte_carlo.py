@@ -52,12 +52,10 @@ def success_table(record: MonteCarloRecord) -> Table:
 
 
 def certificate_line(found: ReliabilityRecord) -> str:
-    """What was asked for and what is sure, short enough for the first line."""
-    low, high = found.whole_interval
-    return (
-        f"{100.0 * found.asked:.4g} % asked: {found.verdict}, {found.whole:,} of "
-        f"{found.samples:,} pass, {floored(100.0 * low, 1)} .. {ceiled(100.0 * high, 1)} %"
-    )
+    """What was asked for and how sure it is, short enough for the first line."""
+    words = {"certified": "certified for", "falls short": "falls short of"}
+    verdict = words.get(found.verdict, "undecided about")
+    return f"{verdict} {100.0 * found.asked:.4g} %: {found.whole:,} of {found.samples:,} pass"
 
 
 def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:
@@ -68,6 +66,11 @@ def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:
         f"Robots as they might be built flew all maneuvers, one after the other, until it was "
         f"clear on which side they are: one of {worse} or worse would be certified in at most 5 of "
         f"100 cases, one of {asked} or better found to fall short in as many (Wald 1945)"
+    )
+    low, high = found.whole_interval
+    yield (
+        f"By these {found.samples:,} alone, between {floored(100.0 * low, 1)} and "
+        f"{ceiled(100.0 * high, 1)} % of robots pass (95 % interval)"
     )
     last = found.first + found.samples - 1
     yield (

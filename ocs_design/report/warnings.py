@@ -7,6 +7,7 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import BY_CONVENTION, DIRECT
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.device.layout import PAIR
 from ocs_design.device.records import DemandRecord, ManeuverRecord, OcsDesign, OcsRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.flights import flight_remarks
@@ -179,7 +180,7 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
     whole = TiltInertia.of(design.ocs.total_inertia)
     for demand in design.requirement.demands:
         axis = _only_axis(maneuvers.get(demand.source))
-        if axis is not None:
+        if axis is not None and design.ocs.axes == PAIR:
             yield from _coupling(demand, axis, float(whole.drift[1 - axis]))
 
 

@@ -14,17 +14,24 @@ from ocs_design.requirement.maneuver import (
     Flip,
     Maneuver,
     Requirement,
+    TurnTo,
     Unforeseen,
 )
 from ocs_design.requirement.specification import (
+    ALL_LAYOUTS,
     ALUMINIUM_WEB,
     AUTO,
     LIGHTENINGS,
     LIGHTEST,
+    MORE_PAIRS,
     NO_MOTOR,
     NO_WEB,
+    PAIR,
+    PYRAMID,
     STEEL,
+    WHEELS,
     FlywheelSection,
+    OcsSection,
     Specification,
 )
 from ocs_design.robot.robot import Robot
@@ -58,6 +65,8 @@ def contradictions(specification: Specification) -> Iterator[str]:
         yield "robot: state either a file or mass and inertia, not both"
 
     yield from without_motor(specification)
+    yield from _axes_and_places(specification.ocs)
+    yield from _of_a_pair(specification)
     holes = flywheel.balancing_holes
     if holes is not None and holes != 0 and not FEWEST_HOLES <= holes <= MOST_HOLES:
         yield f"flywheel.balancing_holes: {holes} is not {FEWEST_HOLES} to {MOST_HOLES}, or 0"
@@ -79,13 +88,53 @@ def contradictions(specification: Specification) -> Iterator[str]:
     yield from _too_short_flights(specification.maneuvers)
 
 
+def _axes_and_places(stated: OcsSection) -> Iterator[str]:
+    """Axes by hand that are none, and places that are not one for each wheel, one line each."""
+    places = 1 if stated.layout in {None, PAIR, ALL_LAYOUTS} else WHEELS[stated.layout]
+    if stated.axes is not None:
+        if stated.layout is not None:
+            yield "ocs.axes: by hand, so leave out ocs.layout"
+        rows = [stated.axes[first : first + 3] for first in range(0, len(stated.axes), 3)]
+        if not all(map(any, rows)):
+            yield "ocs.axes: an axis of length 0 has no direction"
+        places = len(rows)
+    if stated.position is not None and len(stated.position) != 3 * places:
+        yield (
+            f"ocs.position: {3 * places} coordinates state the places of this layout's wheels, "
+            f"not {len(stated.position)}"
+        )
+
+
+def _of_a_pair(specification: Specification) -> Iterator[str]:
+    """What only two incident wheels have, where other axes are asked for, one line each."""
+    stated = specification.ocs
+    layout = stated.layout if stated.axes is None else "by hand"
+    if layout in {None, PAIR, ALL_LAYOUTS}:
+        return
+    pairs = layout in MORE_PAIRS
+    if stated.alpha is not None and not pairs and layout != PYRAMID:
+        yield f"ocs.alpha: says nothing where ocs.layout is {layout!r}"
+    if stated.alpha_criterion and not pairs:
+        yield f"ocs.alpha_criterion: of pairs only, and ocs.layout is {layout!r}"
+    if stated.co_design:
+        yield f"ocs.co_design: of a pair only, and ocs.layout is {layout!r}"
+    if specification.motor.name == NO_MOTOR:
+        yield f"ocs.layout: {layout!r} needs a motor: motor.name is {NO_MOTOR!r}"
+    for maneuver in specification.maneuvers:
+        if maneuver.incidence is not None and not pairs:
+            yield (
+                f"maneuver.{maneuver.name}: only pairs are turned to another incidence by hand, "
+                f"and ocs.layout is {layout!r}"
+            )
+
+
 def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
     """Jumps that end before what they are for."""
     for maneuver in maneuvers:
         match maneuver:
             case Disturbance(onset=needed):
                 what = "its torque starts"
-            case Flip(duration=needed):
+            case Flip(duration=needed) | TurnTo(duration=needed):
                 what = "its turn ends"
             case _:
                 continue
@@ -245,6 +294,8 @@ def _zeros(maneuver: Maneuver) -> str:
             return "roll and pitch are 0"
         case Flip(angle=0.0):
             return "angle is 0"
+        case TurnTo(roll=0.0, pitch=0.0, yaw=0.0, rate=(0.0, 0.0, _)):
+            return "roll, pitch and yaw, and the rates about roll and pitch are 0"
         case Unforeseen(torque=(0.0, 0.0, _)):
             return "torque about roll and pitch is 0"
         case _:

@@ -52,15 +52,16 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
     specified = specification.motor
     if specified.name == NO_MOTOR:
         return None
-    limit = specified.torque_max or inf
+    limit, supply = specified.torque_max or inf, specified_supply(specification, robot)
+    offered = _motors(specification, supply.voltage)
     return MotorChoice(
-        motors=tuple(_controlled(each, specification) for each in _motors(specification)),
+        motors=tuple(_controlled(each, specification) for each in offered),
         gears=tuple(
             replace(stage, torque_max=min(stage.torque_max, limit))
             for stage in _gears(specification)
         ),
         materials=_materials(specification.flywheel.material or STEEL),
-        supply=specified_supply(specification, robot),
+        supply=supply,
         wheel_speed_max=specification.requirement.wheel_speed_max,
     )
 
@@ -105,11 +106,12 @@ def unknown_names(specification: Specification) -> Iterator[str]:
             yield f"{path}: {error.message}. {error.hint}"
 
 
-def _motors(specification: Specification) -> tuple[Motor, ...]:
-    """Motors to choose from: all that are named, else those that can be built with.
+def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, ...]:
+    """Motors to choose from: all that are named, else those to build with at this supply [V].
 
     Raises:
-        SpecificationError: a name is in no list, or none of the motors can be built with.
+        SpecificationError: a name is in no list, or none of the motors can be built with, or none
+            of these is rated for the supply.
     """
     specified = specification.motor
     file = _path(specified.motors)
@@ -128,12 +130,26 @@ def _motors(specification: Specification) -> tuple[Motor, ...]:
             hint="Fill in the figures (docs/catalogue.md#what-a-builder-needs), name the motor "
             "with --motor, or see what any motor would do with --motors-any",
         )
-    return complete
+    rated = tuple(found for found in complete if _highest_voltage(found) >= voltage)
+    if not rated:
+        highest = max(complete, key=_highest_voltage)
+        raise SpecificationError(
+            f"no motor that can be built with is rated for {voltage:g} V: {highest.name}, at "
+            f"{_highest_voltage(highest):g} V, comes closest",
+            hint="Lower --bus-voltage, or name the motor with --motor if its maker allows more",
+        )
+    return rated
+
+
+def _highest_voltage(found: Motor) -> float:
+    """Highest supply that the maker of a complete motor allows [V]."""
+    return found.voltage_max or found.rated_voltage or 0.0
 
 
 def any_motors(specification: Specification) -> tuple[Motor, ...]:
-    """Every motor on offer, those that nobody can build with among them."""
-    return _motors(replace(specification, motor=replace(specification.motor, any=True)))
+    """Every motor on offer with its controller, those that nobody can build with among them."""
+    offered = _motors(replace(specification, motor=replace(specification.motor, any=True)))
+    return tuple(_controlled(each, specification) for each in offered)
 
 
 def highest_rated_voltage(specification: Specification) -> float | None:

@@ -5,7 +5,7 @@ lengths go with the standing height L of the trunk, times with sqrt(L / g), spee
 and a torque that turns both alike with I / T^2.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import inf, pi, radians, sqrt
 from types import MappingProxyType
@@ -17,11 +17,13 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.maneuver import (
     STANDARD_GRAVITY,
+    Catch,
     Disturbance,
     Drop,
     Flip,
     Maneuver,
     Shove,
+    TurnTo,
 )
 from ocs_design.requirement.specification import RequirementSection
 from ocs_design.requirement.values import did_you_mean
@@ -240,18 +242,20 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
     upward = disturbance.takeoff_velocity[1]
     for height in asked.jump_height or (upward**2 / (2.0 * gravity),):
         jump = _jump(disturbance, height)
-        of_jump = f", in a vertical jump of {height:.3g} m"
-        if asked.jump_height is None:
-            of_jump += " (the paper's, scaled)"
+        assumed = " (the paper's, scaled)" if asked.jump_height is None else ""
+        of_jump = f", in a vertical jump of {height:.3g} m{assumed}"
         for kick in asked.kick or ():
             kicked, told = _kicked(kick, jump, robot)
             add(kicked, of_jump, told)
-        if asked.jump_height and asked.kick is None and asked.flip is None:
+        if asked.jump_height and not any((asked.kick, asked.flip, asked.turn, asked.catch)):
             add(jump, f"{of_jump}; the torque is that of the paper's first test, scaled")
+    share = back_flip.duration / back_flip.flight_time
+    heights = back_flip.jump_height, upward**2 / (2.0 * gravity)
+    for turn in _turns(asked, gravity, share, heights):
+        add(turn, "")
     for height in asked.jump_height or (back_flip.jump_height,):
         for angle in asked.flip or ():
             flip = replace(back_flip, name="flip", gravity=gravity, jump_height=height, angle=angle)
-            share = back_flip.duration / back_flip.flight_time
             note = f", {share:.0%} of the flight as in the paper"
             if asked.jump_height is None:
                 note += "; the jump's height is the paper's, scaled"
@@ -268,6 +272,49 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
                     note += "; the height is the paper's, scaled"
                 add(fall, note)
     return Worded(tuple(maneuvers), tuple(notes))
+
+
+def _turns(
+    asked: RequirementSection, gravity: float, share: float, heights: tuple[float, float]
+) -> Iterator[TurnTo]:
+    """Turns and stops that are asked for, in every jump.
+
+    Args:
+        asked: see `worded_maneuvers`. gravity: [m/s^2].
+        share: of its flight that a turn takes where its time or its jump is not stated.
+        heights: of the jump of a turn and of a stop, where neither is [m].
+    """
+    for height in asked.jump_height or (None,):
+        for to in asked.turn or ():
+            duration, jump = _jump_for(to.duration, height, heights[0], share, gravity)
+            yield TurnTo(
+                name="turn",
+                gravity=gravity,
+                roll=to.roll,
+                pitch=to.pitch,
+                yaw=to.yaw,
+                duration=duration,
+                jump_height=jump,
+            )
+        for begun in asked.catch or ():
+            duration, jump = _jump_for(begun.duration, height, heights[1], share, gravity)
+            yield Catch(
+                name="catch",
+                gravity=gravity,
+                rate=(begun.roll, begun.pitch, begun.yaw),
+                duration=duration,
+                jump_height=jump,
+            )
+
+
+def _jump_for(
+    duration: float | None, height: float | None, default: float, share: float, gravity: float
+) -> tuple[float, float]:
+    """Duration of a turn and height of its jump [s, m], of which both, one or none is stated."""
+    if duration is None:
+        height = default if height is None else height
+        return share * sqrt(8.0 * height / gravity), height
+    return duration, gravity * (duration / share) ** 2 / 8.0 if height is None else height
 
 
 def _jump(like: Disturbance, height: float) -> Disturbance:
@@ -289,21 +336,20 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     """A kick during this jump, and how it was understood.
 
     A force on a free robot turns it about its centre of mass with the angular impulse r x p, and
-    moves that by p / m. Both are those of the robot without the device, whose joints hold.
+    moves that by p / m. Here both are those of the robot without the device, whose joints hold.
     """
     point = np.array(_point(kick.point, robot))
     sideways = np.array([0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0])
     along = sideways if kick.along is None else np.array(kick.along)
     impulse = kick.impulse * along / np.linalg.norm(along)
-    # Without the rounding errors of zeros.
-    turned = np.round(np.cross(point - robot.com, impulse), 12) + 0.0
-    moved = impulse / robot.mass
     kicked = replace(
         jump,
         name="kick",
-        torque=tuple((turned / jump.duration).tolist()),
-        velocity_change=tuple(moved.tolist()),
-    )
+        impulse=tuple(impulse.tolist()),
+        point=tuple(point.tolist()),
+    ).on(robot.mass_properties)
+    turned = np.multiply(kicked.torque, kicked.duration)
+    moved = np.linalg.norm(kicked.velocity_change)
     where = ", ".join(f"{1e3 * each:.3g}" for each in point)
     direction = ", ".join(f"{each:.3g}" for each in along)
     default = " (from the side: no direction is stated)" if kick.along is None else ""
@@ -314,14 +360,14 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     heading = f", whose part about z turns it by {rate}: no wheel stops that"
     return kicked, (
         f"{kick.impulse:.3g} N s at {named}({where}) mm along ({direction}){default}, as angular "
-        f"impulse ({roll}, {pitch}, {yaw}) N m s about the centre of mass"
-        f"{heading if spin > _TURNS else ''}, and {np.linalg.norm(moved):.3g} m/s; "
+        f"impulse ({roll}, {pitch}, {yaw}) N m s about the centre of mass without a device"
+        f"{heading if spin > _TURNS else ''}, and {moved:.3g} m/s; "
         f"{jump.onset:.3g} s after lift-off, for {jump.duration:.3g} s"
     )
 
 
 def _point(point: Vector3 | str, robot: Robot) -> Vector3:
-    """Where a kick hits, in B [m].
+    """Point that a kick hits, in B [m].
 
     Raises:
         SpecificationError: no link has this name.
@@ -366,6 +412,24 @@ def example_shove(robot: Robot, gravity: float = STANDARD_GRAVITY) -> Shove:
         torque=like.torque,
         duration=2.0 * like.duration,
         settling=0.5 * time,
+    )
+
+
+def example_turns(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[TurnTo, Catch]:
+    """A quarter of a turn of the heading on the Moon, and a stop: figures to start from.
+
+    Args:
+        robot: to scale to. gravity: of the stop [m/s^2].
+    """
+    time, on_earth = (Scale.of(robot).time(each) for each in (gravity, STANDARD_GRAVITY))
+    quarter, jump = _jump_for(3.0 * on_earth, None, 0.0, 0.9, LUNAR_GRAVITY)
+    stop, hop = _jump_for(0.5 * time, None, 0.0, 0.9, gravity)
+    rate = (0.2 / time, 0.5 / time, 0.0)
+    return (
+        TurnTo(
+            name="turn", gravity=LUNAR_GRAVITY, yaw=pi / 2.0, duration=quarter, jump_height=jump
+        ),
+        Catch(name="catch", gravity=gravity, rate=rate, duration=stop, jump_height=hop),
     )
 
 

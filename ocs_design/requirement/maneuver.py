@@ -5,8 +5,9 @@ They are the `[[maneuver]]` tables of a specification.
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, field, fields
-from math import sqrt
+from dataclasses import MISSING, dataclass, field, fields, replace
+from enum import StrEnum
+from math import pi, remainder, sqrt
 from types import MappingProxyType
 from typing import Any
 
@@ -19,14 +20,18 @@ from ocs_design.common.units import Dimension, format_quantity
 from ocs_design.requirement.values import (
     HEIGHT,
     INCIDENCE,
+    SPIN,
     TILT,
     TURN,
+    YAW,
+    Choice,
     Quantities,
     Quantity,
     Sign,
     Text,
     Value,
 )
+from ocs_design.robot.mass import MassProperties
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +171,8 @@ class Disturbance(Unforeseen):
         duration: of the torque [s].
         velocity_change: of the centre of mass by a force of the same duration, in B [m/s], shape
             (3,); the torque is then the one about the centre of mass.
+        impulse: of that force, where torque and change of velocity are to follow from it (`on`),
+            in B [N s], shape (3,). point: where it hits the trunk, in B [m], shape (3,).
     """
 
     takeoff_velocity: tuple[float, float]
@@ -173,6 +180,20 @@ class Disturbance(Unforeseen):
     onset: float
     duration: float
     velocity_change: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    impulse: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def on(self, body: MassProperties) -> "Disturbance":
+        """The same on this body: the angular impulse r x p about its centre of mass, and p / m."""
+        if not any(self.impulse):
+            return self
+        # Without the rounding errors of zeros.
+        turned = np.round(np.cross(np.subtract(self.point, body.com), self.impulse), 12) + 0.0
+        return replace(
+            self,
+            torque=tuple((turned / self.duration).tolist()),
+            velocity_change=tuple((np.array(self.impulse) / body.mass).tolist()),
+        )
 
     @property
     def time_left(self) -> float:
@@ -352,6 +373,142 @@ class Flip(Reorientation):
         )
 
 
+class End(StrEnum):
+    """What must hold when a turn ends; about the axes that the wheels reach it ends at rest.
+
+    Attributes:
+        LEVEL: the trunk is upright, whatever its heading.
+        ATTITUDE: it has the attitude that is stated, heading included.
+        AT_REST: it turns no more, whatever its attitude.
+    """
+
+    LEVEL = "level"
+    ATTITUDE = "attitude"
+    AT_REST = "at rest"
+
+
+LOOP_SHARE = 0.75
+"""Of a loop of the tilt, in that share of its time: what it asks of wheels and motors."""
+
+_ENDS: Mapping[str, str] = {
+    End.LEVEL: ", any heading,",
+    End.ATTITUDE: "",
+    End.AT_REST: " or any attitude",
+}
+
+
+def loop_length(heading: float) -> float:
+    """Shortest way of a trunk's vertical that changes the heading [rad], `sqrt(h (4 pi - h))`.
+
+    A trunk whose wheels do not reach the vertical turns its heading h by the solid angle that its
+    z axis goes round, and of all ways round a circle is the shortest: the isoperimetric inequality
+    of the sphere (docs/theory.md, Yaw by two wheels).
+
+    Args:
+        heading: within a turn [rad].
+    """
+    return sqrt(abs(heading) * (4.0 * pi - abs(heading)))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TurnTo(Reorientation):
+    """A turn of the trunk in a vertical jump, from level to any attitude, heading included.
+
+    Attributes:
+        jump_height: of the centre of mass over its height at lift-off [m].
+        roll, pitch, yaw: of the attitude at the end, reached from level by yaw, then pitch, then
+            roll [rad].
+        duration: from lift-off [s].
+        rate: of the trunk at lift-off, in B [rad/s], shape (3,).
+        wheel_speed: of all wheels at lift-off [rad/s].
+        end: see `End`.
+        estimate: factor on what closed forms ask for; above 1 where a plan was found to need more.
+    """
+
+    jump_height: float
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+    duration: float
+    rate: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    wheel_speed: float = 0.0
+    end: str = End.ATTITUDE
+    estimate: float = 1.0
+
+    @property
+    def turn(self) -> FloatArray:
+        """Roll and pitch [rad], shape (2,), with what a change of heading asks of two wheels.
+
+        On a circle of `loop_length` each axis turns by 2 / pi of it, at a rate that is steady but
+        for its start and end. It goes round, too, which takes torque: `LOOP_SHARE` of it, in that
+        share of the time, asks for 1.15 to 1.25 of the wheels that planned turns need, unless they
+        are at the limit of their torque (docs/theory.md, Yaw by two wheels).
+        """
+        tilt = self._tilt
+        return np.asarray(self.estimate * self._share * (tilt + np.copysign(self._loop, tilt)))
+
+    @property
+    def _share(self) -> float:
+        return LOOP_SHARE if self._loop else 1.0
+
+    @property
+    def _tilt(self) -> FloatArray:
+        return np.array([self.roll, self.pitch])
+
+    @property
+    def _loop(self) -> float:
+        """Share of a change of heading on roll and on pitch [rad]."""
+        return loop_length(remainder(self.yaw, 2.0 * pi)) * 2.0 / pi
+
+    @property
+    def flight_time(self) -> float:
+        """Until a rigid robot lands where it took off [s]."""
+        return sqrt(8.0 * self.jump_height / self.gravity)
+
+    def time(self, standing_height: float) -> float:
+        """Time as specified [s]."""
+        del standing_height
+        return self.duration
+
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """That of the tilt, half the time up and half down, of the loop and of the rate."""
+        del standing_height
+        peak = 2.0 * self._tilt + np.copysign(self._loop, self._tilt)
+        turning = self.estimate * np.abs(inertia.momentum(peak)) / self.duration
+        return np.asarray(turning + np.abs(self._begun(inertia)))
+
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+        """The turn, and the momentum at lift-off, which the wheels hold till touchdown."""
+        turned = super().slew(inertia, standing_height)
+        return Slew(turned.swept, self._begun(inertia), self._share * turned.duration)
+
+    def _begun(self, inertia: TiltInertia) -> FloatArray:
+        return self.estimate * inertia.momentum(np.array(self.rate[:2]))
+
+    @property
+    def summary(self) -> str:
+        """Attitude, rate, time, jump and gravity."""
+        angles = {"roll": self.roll, "pitch": self.pitch, "yaw": self.yaw}
+        asked = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
+        told = f"turns to {' and '.join(asked) or 'level'}"
+        if any(self.rate):
+            told += f" from rates of {_row(tuple(np.degrees(self.rate).tolist()))} deg/s"
+        if self.wheel_speed:
+            told += f" with wheels at {format_quantity(self.wheel_speed, 'rpm')}"
+        return (
+            f"{told}{_ENDS[self.end]} in {self.duration:.3g} s, "
+            f"in a jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
+        )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Catch(TurnTo):
+    """A stop of a trunk that turns as it leaves the ground."""
+
+    rate: tuple[float, float, float]
+    end: str = End.LEVEL
+
+
 @dataclass(frozen=True)
 class ManeuverReserve:
     """What a device keeps for a maneuver that is not quite as designed.
@@ -388,6 +545,18 @@ class Requirement:
     standing_height: float
     reserves: Mapping[str, ManeuverReserve] = field(default_factory=dict)
     free: bool = False
+
+    def on(self, body: MassProperties) -> "Requirement":
+        """The same of this body, which forces turn about its centre of mass (`Disturbance.on`)."""
+        hit = (each.on(body) if isinstance(each, Disturbance) else each for each in self.maneuvers)
+        return replace(self, maneuvers=tuple(hit))
+
+    @property
+    def kicks(self) -> FloatArray:
+        """Angular impulses of forces about roll and pitch [N m s], shape (n, 2)."""
+        hit = (each for each in self.maneuvers if isinstance(each, Disturbance))
+        found = [np.multiply(each.torque[:2], each.duration) for each in hit if any(each.impulse)]
+        return np.reshape(found, (-1, 2))
 
     def slew(self, maneuver: Maneuver, inertia: TiltInertia, *, begun: bool = False) -> Slew:
         """What a motor must do for a maneuver with its reserve (`Maneuver.slew`).
@@ -434,6 +603,18 @@ _TIME = Quantity(Dimension.TIME)
 _LONGEST_STRIDE = 5.0
 """[s]: a giraffe's takes one; a robot is watched for several."""
 
+_TURN: Mapping[str, Value[Any]] = {
+    **_COMMON,
+    "jump_height": HEIGHT,
+    "roll": TURN,
+    "pitch": TURN,
+    "yaw": YAW,
+    "duration": _TIME,
+    "rate": Quantities(Dimension.ANGULAR_SPEED, (3,)),
+    "wheel_speed": SPIN,
+    "end": Choice(tuple(End)),
+}
+
 MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     {
         "disturbance": ManeuverKind(
@@ -445,6 +626,8 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
                 "onset": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE),
                 "duration": _TIME,
                 "velocity_change": Quantities(Dimension.SPEED, (3,)),
+                "impulse": Quantities(Dimension.IMPULSE, (3,)),
+                "point": Quantities(Dimension.LENGTH, (3,)),
             },
         ),
         "shove": ManeuverKind(
@@ -470,6 +653,8 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
                 "duration": _TIME,
             },
         ),
+        "turn": ManeuverKind(TurnTo, _TURN),
+        "catch": ManeuverKind(Catch, _TURN),
     }
 )
 """Every kind by the word that `kind` takes."""

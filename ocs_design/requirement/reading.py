@@ -1,5 +1,6 @@
 """Reads specification files, strictly: all faults at once, each with its key's path."""
 
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -7,7 +8,7 @@ from reprlib import repr as shortened
 from typing import Any
 
 from ocs_design.common.errors import SpecificationError
-from ocs_design.common.files import TextKind, safe_name
+from ocs_design.common.files import AnyPath, TextKind, safe_name
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.maneuver import (
     MANEUVER_KINDS,
@@ -23,12 +24,13 @@ _FILE = TextKind(
 )
 
 
-def read_specification(path: Path) -> Specification:
+def read_specification(path: AnyPath) -> Specification:
     """The specification in a TOML file; files that it names are taken from its own folder.
 
     Raises:
         SpecificationError: it cannot be read, is not TOML, or has faults, all of which are listed.
     """
+    path = Path(path)
     content = _FILE.read(path)
     if content.lstrip().startswith("<"):
         raise SpecificationError(
@@ -56,7 +58,52 @@ def parse_specification(text: str, name: str) -> Specification:
     Raises:
         SpecificationError: see `read_specification`.
     """
-    content = _FILE.parse_toml(text, name)
+    return _checked(_FILE.parse_toml(text, name), name)
+
+
+def specify(robot: AnyPath | None = None, /, **tables: object) -> Specification:
+    """The specification that a file with these tables would state.
+
+    Files that it names are taken from the working directory.
+
+    Args:
+        robot: its file; None: `robot` has it, or mass and inertia in place of a file.
+        tables: sections as dictionaries and `maneuver` as a list of them, with the keys and values
+            of the specification file: `flywheel={"r_max": "30mm"}`.
+
+    Raises:
+        SpecificationError: all faults, each with its key's path.
+    """
+    content = {name: _plain(value) for name, value in tables.items()}
+    own = content.setdefault("robot", {})
+    if robot is not None and isinstance(own, dict):
+        content["robot"] = {**own, "file": os.fspath(robot)}
+    return _checked(content, "the specification")
+
+
+def specification_of(source: Specification | AnyPath) -> Specification:
+    """A specification as it is, from its TOML file, or of a robot's file with nothing else stated.
+
+    Raises:
+        SpecificationError: the file of a specification cannot be read, or has faults.
+    """
+    if isinstance(source, Specification):
+        return source
+    is_toml = Path(source).suffix.lower() == ".toml"
+    return read_specification(source) if is_toml else specify(source)
+
+
+def _plain(value: object) -> object:
+    """Value as a TOML file would have it: paths as text, tuples as lists."""
+    if isinstance(value, Mapping):
+        return {name: _plain(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
+
+
+def _checked(content: Mapping[str, object], name: str) -> Specification:
+    """The specification with this content; `name` says whose it is."""
     faults = Faults()
     specification = _specification(content, faults)
     faults.extend(contradictions(specification))

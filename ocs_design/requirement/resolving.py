@@ -40,7 +40,9 @@ from ocs_design.requirement.specification import (
     EQUAL_RATE,
     FINGERS,
     LIGHTENING,
+    MORE_PAIRS,
     NO_WEB,
+    PAIR,
     PROJECTIONS,
     RELIABILITY,
     STEEL,
@@ -78,7 +80,7 @@ def default_specification(
         requirement=RequirementSection(
             gravity=STANDARD_GRAVITY, maneuvers="paper", reliability=RELIABILITY
         ),
-        ocs=OcsSection(alpha_criterion=EQUAL_RATE, co_design=False, guard=FINGERS),
+        ocs=OcsSection(layout=PAIR, alpha_criterion=EQUAL_RATE, co_design=False, guard=FINGERS),
         flywheel=FlywheelSection(
             material=STEEL,
             web=DISC,
@@ -208,7 +210,9 @@ def _assumptions(
         paper = requirement.maneuvers[: -len(worded.maneuvers) or None]
         yield from (f"{item.name}: {item.summary}." for item in paper)
     yield from worded.notes
-    if specification.ocs.alpha is None and specification.ocs.alpha_criterion is None:
+    stated = specification.ocs
+    pairs = stated.axes is None and stated.layout in {None, PAIR, *MORE_PAIRS}
+    if pairs and stated.alpha is None and stated.alpha_criterion is None:
         yield "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate)."
 
     lengths = [
@@ -340,6 +344,12 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         SpecificationError: keys that contradict each other or the robot; all are listed.
     """
     flywheel, asked = specification.flywheel, specification.requirement
+    if robot.standing_height is not None and robot.standing_height <= 0.0:
+        raise SpecificationError(
+            f"the frame of the trunk {robot.trunk!r} is {-1e3 * robot.standing_height:.0f} mm "
+            "below the feet of the standing robot: nothing can be scaled to its height",
+            hint="Name a link above the legs with --trunk",
+        )
     envelope = default_envelope(robot)
     for key, limit in LIMIT_OF_KEY.items():
         specified = getattr(flywheel, key)
@@ -355,7 +365,7 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         wheel_speed_max=asked.wheel_speed_max or WHEEL_SPEED_MAX,
         spin_inertia=asked.spin_inertia,
         standing_height=standing_height(robot),
-    )
+    ).on(robot.mass_properties)
     faults = tuple(unfit_for_robot(specification, robot, robot_size, requirement, envelope))
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)

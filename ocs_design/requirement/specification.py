@@ -36,7 +36,17 @@ from ocs_design.requirement.values import (
     Text,
     WordOr,
 )
-from ocs_design.requirement.words import FLIP, GRAVITY, Kick, KickText, Tilt, TiltText
+from ocs_design.requirement.words import (
+    CATCH_TEXT,
+    FLIP,
+    GRAVITY,
+    TURN_TEXT,
+    About,
+    Kick,
+    KickText,
+    Tilt,
+    TiltText,
+)
 
 Section = TypeVar("Section")
 
@@ -48,6 +58,27 @@ CRITERIA = (LIGHTEST, "equal-rate", "weighted", "simultaneous", "pitch-only", "r
 
 EQUAL_RATE = CRITERIA[1]
 """Criterion of the incidence where none is stated: alpha* = atan(Ixx / Iyy), as in the paper."""
+
+PAIR, PYRAMID = "pair", "pyramid"
+MORE_PAIRS = ("double-pair", "triple-pair")
+"""What is tried in turn where none is stated and no motor is strong enough for a pair."""
+
+WHEELS = {
+    "single": 1,
+    PAIR: 2,
+    **dict(zip(MORE_PAIRS, (4, 6), strict=True)),
+    "triad": 3,
+    "orthogonal": 3,
+    PYRAMID: 4,
+}
+LAYOUTS = tuple(WHEELS)
+"""How the wheels' axes may lie to each other (docs/layouts.md)."""
+
+_OF_WHEELS = tuple(3 * wheels for wheels in range(1, 7))
+"""Three numbers for each of one to six wheels."""
+
+ALL_LAYOUTS = "all"
+"""Compare them instead (`size --layout all`)."""
 
 STEEL = "steel"
 """In place of a material's name: the steel of the catalogue with which the device is lightest."""
@@ -127,7 +158,7 @@ class RobotSection:
     ] = None
 
 
-WORDS = ("jump_height", "kick", "fall", "tilt", "flip")
+WORDS = ("jump_height", "kick", "fall", "tilt", "flip", "turn", "catch")
 """Keys of `[requirement]` that ask for a maneuver (`froude.worded_maneuvers`)."""
 
 
@@ -158,6 +189,13 @@ class RequirementSection:
     flip: Annotated[tuple[float, ...] | None, Key(Several(FLIP), "turn in pitch during a jump")] = (
         None
     )
+    turn: Annotated[
+        tuple[About, ...] | None, Key(Several(TURN_TEXT), "turn to any attitude during a jump")
+    ] = None
+    catch: Annotated[
+        tuple[About, ...] | None,
+        Key(Several(CATCH_TEXT), "rates at lift-off that the wheels stop"),
+    ] = None
     maneuvers: Annotated[
         str | None,
         Key(Choice(("paper", "none")), "the paper's three beside what else is asked, or none"),
@@ -180,16 +218,31 @@ class RequirementSection:
 class OcsSection:
     """`[ocs]`: how the device sits on the trunk, and what it may weigh [rad, m, kg]."""
 
-    alpha: Annotated[float | None, Key(INCIDENCE, "incidence of the wheel axes")] = None
+    layout: Annotated[
+        str | None, Key(Choice((*LAYOUTS, ALL_LAYOUTS)), "how the wheels' axes lie")
+    ] = None
+    axes: Annotated[
+        tuple[float, ...] | None,
+        Key(
+            Quantities(Dimension.RATIO, _OF_WHEELS),
+            "directions of the wheels' axes by hand, in place of a layout: x, y, z of each",
+        ),
+    ] = None
+    alpha: Annotated[
+        float | None, Key(INCIDENCE, "incidence of a pair's axes, or elevation of a pyramid's")
+    ] = None
     alpha_criterion: Annotated[str | None, Key(Choice(CRITERIA), "how the incidence is chosen")] = (
         None
     )
     position: Annotated[
         tuple[float, ...] | None,
-        Key(Quantities(Dimension.LENGTH, (3,)), "centre of the left wheel on the trunk: x, y, z"),
+        Key(
+            Quantities(Dimension.LENGTH, _OF_WHEELS),
+            "centre of a pair's left wheel on the trunk: x, y, z; of other layouts, of each wheel",
+        ),
     ] = None
     mass_max: Annotated[
-        float | None, Key(Quantity(Dimension.MASS), "largest mass of the device, both modules")
+        float | None, Key(Quantity(Dimension.MASS), "largest mass of the device, all modules")
     ] = None
     lighter_by: Annotated[
         float | None,
@@ -339,6 +392,10 @@ class ValidationSection:
     ] = None
 
 
+LONGEST_REPR = 200
+"""Characters of what is stated that are shown."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Specification:
     """Everything that a user stated; see the sections.
@@ -371,6 +428,18 @@ class Specification:
     def asks_nothing(self) -> bool:
         """Whether the paper's three hold though nobody asked for them."""
         return self.takes_default_maneuvers and self.requirement.maneuvers is None
+
+    def __repr__(self) -> str:
+        stated = [
+            f"{section}.{name}={value!r}"
+            for section in SECTIONS
+            for name, value in vars(getattr(self, section)).items()
+            if value is not None
+        ]
+        stated += [f"maneuver {each.name}" for each in self.maneuvers]
+        text = ", ".join(stated) or "nothing stated"
+        more = " ..." if len(text) > LONGEST_REPR else ""
+        return f"<Specification: {text[:LONGEST_REPR]}{more}>"
 
 
 SECTIONS: Mapping[str, type] = {

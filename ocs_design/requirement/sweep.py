@@ -10,7 +10,15 @@ from typing import Any
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension, round_outwards, si_unit
 from ocs_design.requirement.froude import default_bus_voltage
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove, kind_of
+from ocs_design.requirement.maneuver import (
+    Disturbance,
+    Drop,
+    Flip,
+    Maneuver,
+    Shove,
+    TurnTo,
+    kind_of,
+)
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.values import Quantities, Quantity
@@ -31,7 +39,7 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
         case Drop():
             fall = (maneuver.height - standing_height) * factor**2
             return replace(maneuver, height=standing_height + fall)
-        case Flip():
+        case Flip() | TurnTo():
             duration = maneuver.duration * factor
             higher = max(_LONGER_THAN_ITS_TURN * duration / maneuver.flight_time, 1.0) ** 2
             return replace(maneuver, duration=duration, jump_height=maneuver.jump_height * higher)

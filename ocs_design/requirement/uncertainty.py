@@ -8,7 +8,7 @@ is stated, and what it rests on, is data: `reality.toml`.
 import math
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cache
 from math import inf, isfinite, pi, sqrt
@@ -247,6 +247,38 @@ class UncertaintySection:
         Distribution | None,
         Key(_RATE, "that a push-off leaves about roll and pitch beyond what it was planned to"),
     ] = None
+
+
+_SPACE, _TILT = ("x", "y", "z"), ("roll", "pitch")
+
+_PARTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "inertia_error": _SPACE,
+        "com_error": _SPACE,
+        "attitude_bias": _TILT,
+        "gyro_bias": _SPACE,
+        "takeoff_rate": _TILT,
+    }
+)
+
+_OF_EACH_WHEEL = frozenset(
+    {
+        "incidence_error",
+        "torque_constant_error",
+        "resistance_error",
+        "coulomb_friction",
+        "viscous_friction",
+    }
+)
+
+
+def parts_of(key: str, wheels: Sequence[str]) -> tuple[str, ...]:
+    """What a key is drawn for, each by itself; `("",)` where it is drawn once.
+
+    Args:
+        key: of `[reality]`. wheels: names of the device's modules.
+    """
+    return tuple(wheels) if key in _OF_EACH_WHEEL else _PARTS.get(key, ("",))
 
 
 DEFAULTS = Path(__file__).with_name("reality.toml")

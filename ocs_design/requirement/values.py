@@ -172,8 +172,16 @@ class Quantities(Value[tuple[float, ...]]):
     @property
     def takes(self) -> str:
         """What may be written, in words (`Value.takes`)."""
-        count = " or ".join(map(str, self.counts))
-        return f"{count} of {Quantity(self.dimension).takes}"
+        return f"{self._wanted} of {Quantity(self.dimension).takes}"
+
+    @property
+    def _wanted(self) -> str:
+        few = (
+            self.counts
+            if len(self.counts) < 4
+            else (f"{self.counts[0]}, {self.counts[1]}, ...", self.counts[-1])
+        )
+        return " or ".join(map(str, few))
 
     def read(self, raw: object, where: str) -> tuple[float, ...]:
         """Value that `raw` stands for (`Value.read`)."""
@@ -184,9 +192,8 @@ class Quantities(Value[tuple[float, ...]]):
                 hint="Write decimals with a point, as in 0.03,0.05,0.07.",
             )
         if not isinstance(entries, (list, tuple)) or len(entries) not in self.counts:
-            wanted = " or ".join(map(str, self.counts))
             count = f", not {len(entries)}" if isinstance(entries, (list, tuple)) else ""
-            raise QuantityError(f"{where}: needs {wanted} values{count}, as in 0.1,0,0")
+            raise QuantityError(f"{where}: needs {self._wanted} values{count}, as in 0.1,0,0")
         return tuple(
             parse_quantity(entry, self.dimension, f"{where}[{index}]")
             for index, entry in enumerate(entries)
@@ -477,6 +484,9 @@ TURN = angle(Sign.ANY, MOST_TURNS * 2.0 * pi, ONE_TURN)
 
 TILT = angle(Sign.ANY, pi, pi / 2)
 """Upside down at most."""
+
+YAW = angle(Sign.ANY, 2.0 * pi, ONE_TURN)
+SPIN = Quantity(Dimension.ANGULAR_SPEED, Sign.ANY, most_bare=FASTEST_BARE, likely="rpm")
 
 
 @dataclass(frozen=True)

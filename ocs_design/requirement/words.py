@@ -1,4 +1,4 @@
-"""What a user says of a maneuver in one text: a kick, a tilt, a flip, a planet."""
+"""What a user says of a maneuver in one text: a kick, a tilt, a turn, a planet."""
 
 import re
 from collections.abc import Mapping
@@ -13,6 +13,8 @@ from ocs_design.requirement.values import (
     MOST_TURNS,
     ONE_TURN,
     TILT,
+    TURN,
+    YAW,
     NamedQuantity,
     Quantities,
     Quantity,
@@ -147,6 +149,83 @@ class TiltText(Value[Tilt]):
                 f"{where}: {shortened(raw)} is no tilt", hint="Write '20deg' or '20deg roll'."
             )
         return Tilt(found.get("roll", 0.0), found.get("pitch", 0.0))
+
+
+@dataclass(frozen=True)
+class About:
+    """Angles or rates about roll, pitch and yaw, and in what time.
+
+    Attributes:
+        roll, pitch, yaw: [rad] or [rad/s].
+        duration: [s]; None: not stated.
+        unit: of the three.
+    """
+
+    roll: float
+    pitch: float
+    yaw: float
+    duration: float | None
+    unit: str
+
+    def __str__(self) -> str:
+        axes = {"roll": self.roll, "pitch": self.pitch, "yaw": self.yaw}
+        said = " ".join(f"{axis} {value!r} {self.unit}" for axis, value in axes.items())
+        return said if self.duration is None else f"{said} in {self.duration!r} s"
+
+
+@dataclass(frozen=True)
+class AboutText(Value[About]):
+    """Angles or rates, each with its axis before or behind it, and a time behind all.
+
+    Attributes:
+        values: how the value of each axis is read. unit: that it is in once read.
+        example: of such a text.
+    """
+
+    values: Mapping[str, Quantity]
+    unit: str
+    example: str
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return f"as in {self.example!r}"
+
+    def read(self, raw: object, where: str) -> About:
+        """Value that `raw` stands for (`Value.read`)."""
+        said, _, time = raw.partition(" in ") if isinstance(raw, str) else ("", "", "")
+        parts = [part.strip() for part in re.split(r"\b(roll|pitch|yaw)\b", said, flags=re.I)]
+        # The axis stands before its value, or behind it.
+        before = not parts[0]
+        axes, stated = parts[1::2], parts[2::2] if before else parts[:-1:2]
+        rest = "" if before else parts[-1]
+        words = [axis.casefold() for axis in axes]
+        if not axes or rest or not all(stated) or len(set(words)) < len(words):
+            raise SpecificationError(
+                f"{where}: {shortened(raw)} does not say how far about which axis",
+                hint=f"Write {self.example!r}.",
+            )
+        found = {
+            axis: self.values[axis].read(value, f"{where}, {axis}")
+            for axis, value in zip(words, stated, strict=True)
+        }
+        return About(
+            **{axis: found.get(axis, 0.0) for axis in self.values},
+            duration=Quantity(Dimension.TIME).read(time, f"{where}, in") if time else None,
+            unit=self.unit,
+        )
+
+
+TURN_TEXT = AboutText(
+    MappingProxyType({"roll": TURN, "pitch": TURN, "yaw": YAW}), "rad", "yaw 90deg in 2.9s"
+)
+CATCH_TEXT = AboutText(
+    MappingProxyType(
+        dict.fromkeys(("roll", "pitch", "yaw"), Quantity(Dimension.ANGULAR_SPEED, Sign.ANY))
+    ),
+    "rad/s",
+    "roll 20deg/s pitch 45deg/s in 0.5s",
+)
 
 
 def _row(text: str, dimension: Dimension, where: str) -> Vector3:

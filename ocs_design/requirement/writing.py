@@ -33,7 +33,7 @@ from ocs_design.requirement.values import (
     Value,
     WordOr,
 )
-from ocs_design.requirement.words import Kick, Tilt
+from ocs_design.requirement.words import About, Kick, Tilt
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
@@ -89,7 +89,7 @@ def _with_files(specification: Specification, renamed: Callable[[str], str]) -> 
     """`-` is standard input."""
 
     def path(file: str | None) -> str | None:
-        """Under its new name."""
+        """Path under its new name."""
         return file if file is None or file == "-" else renamed(file)
 
     robot, motor, reality = specification.robot, specification.motor, specification.reality
@@ -123,6 +123,8 @@ def written(  # noqa: PLR0911
             return _text(value.written(told))
         case Several(each=each), Sequence():
             return f"[{', '.join(written(entry, each, figures) for entry in value)}]"
+        case Quantities(dimension=Dimension.RATIO), Sequence():
+            return _plain(tuple(value))
         case Quantities(dimension=dimension), Sequence():
             return written(value, Several(Quantity(dimension)), figures)
         case _, float() if figures is Figures.ROUNDED:
@@ -154,7 +156,7 @@ def _plain(value: object) -> str:
     match value:
         case bool():
             return str(value).lower()
-        case str() | Kick() | Tilt():
+        case str() | Kick() | Tilt() | About():
             return _text(str(value))
         case tuple():
             return f"[{', '.join(map(_plain, value))}]"
@@ -263,11 +265,29 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "Of each fall, nose down; roll: to the right.", "not asked", '"20 deg"'
         ),
         "requirement.flip": KeyNote("A whole turn, or an angle of pitch.", "not asked", '"back"'),
+        "requirement.turn": KeyNote(
+            "To an attitude, heading included, in a time.", "not asked", '"yaw 90 deg in 2.9 s"'
+        ),
+        "requirement.catch": KeyNote(
+            "Rates of the trunk at lift-off; to be level in a time.",
+            "not asked",
+            '"roll 20 deg/s pitch 45 deg/s in 0.5 s"',
+        ),
         "requirement.maneuvers": KeyNote(
             "paper: beside a rate_change or a spin_inertia; leave it out where you state your own."
         ),
         "requirement.reliability": KeyNote(
             "0.5: sized for a robot just as its file says; more keeps a reserve for [reality]."
+        ),
+        "ocs.layout": KeyNote(
+            "double-pair, triple-pair: four and six wheels at a pair's axes; single: on pitch; "
+            "triad: three in the horizontal plane; orthogonal: x, y, z; pyramid: four. "
+            "All but pairs and pyramid have no angle.",
+        ),
+        "ocs.axes": KeyNote(
+            "x, y, z of each wheel's axis, of any length; in place of a layout.",
+            "as the layout says",
+            "[0, 1, 0, 1, 0, 0]",
         ),
         "ocs.alpha": KeyNote(
             "Where mounts for one angle exist already.", "by the criterion below", '"40 deg"'
@@ -276,7 +296,7 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "equal-rate is the paper's: the same change of rate about either axis; lightest: any.",
         ),
         "ocs.position": KeyNote(
-            "In the trunk's frame; the right wheel is mirrored in y.",
+            "In the trunk's frame; a pair's right wheel is mirrored in y.",
             "found, free of the robot's own parts",
             '["0 mm", "50 mm", "70 mm"]',
         ),
@@ -393,6 +413,8 @@ MANEUVER_NOTES: Mapping[str, str] = MappingProxyType(
         "disturbance": "A jump in which something hits the trunk; to stay level until touchdown.",
         "shove": "A torque on the trunk of a robot that stands or trots; to be at rest soon.",
         "drop": "A fall from rest with the trunk tilted; to be level before touchdown.",
+        "turn": "A turn to any attitude during a vertical jump, heading included.",
+        "catch": "A stop of a trunk that turns as it leaves the ground.",
         "flip": "A turn in pitch during a vertical jump; a back-flip is negative.",
     }
 )
@@ -408,8 +430,20 @@ FIELD_NOTES: Mapping[str, str] = MappingProxyType(
         "onset": "after lift-off",
         "duration": "of the torque",
         "flip.duration": "of the turn, from lift-off",
+        "turn.duration": "of the turn, from lift-off",
+        "catch.duration": "from lift-off until it is stopped",
+        "turn.roll": "at the end, reached by yaw, then pitch, then roll",
+        "turn.pitch": "at the end",
+        "catch.roll": "at the end, where end is attitude",
+        "catch.pitch": "at the end",
+        "yaw": "at the end",
+        "rate": "of the trunk at lift-off, about its x, y and z",
+        "wheel_speed": "of all wheels at lift-off",
+        "end": "level, attitude (with its heading) or at rest",
         "settling": "from the end of the torque to rest",
         "velocity_change": "of the centre of mass, by a force beside the torque",
+        "impulse": "of a force, from which torque and velocity_change follow",
+        "point": "of the trunk that the force hits",
         "stride": "of a trot on the spot; 0: the robot stands",
         "height": "of the trunk over the ground",
         "roll": "at release",

@@ -64,7 +64,7 @@ _LEG_WORDS = re.compile(
 )
 _ARM_WORDS = re.compile(
     r"arm(?!ature)|hand(?!le)|finger|wrist|elbow|gripper|thumb|palm|wing|antenna|head|neck|tail|jaw|"
-    r"haltere|claw_?[lr]|rotor|propeller|labrum",
+    r"haltere|claw_?[lr]|rotor|propeller|labrum|flipper|fin(?!ger|al)",
     re.IGNORECASE,
 )
 _HANDS = re.compile(r"hand(?!le)|palm|gripper|wrist", re.IGNORECASE)

@@ -20,6 +20,7 @@ from ocs_design.robot.links import (
     Link,
     Warnings,
     check_number_of_links,
+    listed,
     make_tree,
 )
 from ocs_design.robot.mass import MassProperties
@@ -36,41 +37,66 @@ from ocs_design.robot.tree import (
     joint_motion,
 )
 
-_FREE = mujoco.mjtJoint.mjJNT_FREE
 
+def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -> int:
+    """Index of the floating base: the child of the world that is the robot.
 
-def find_base(model: mujoco.MjModel, warnings: Warnings) -> int:
-    """Index of the floating base: the body with a free joint, of several the robot's.
+    A robot is told from the objects around it by its actuators, or by having joints and a free
+    joint. Where no child of the world has those, it is the one with joints, then the one that
+    moves at all, then the only one. In a world where nothing is free the robot's own joints to the
+    world, if any, are dropped.
 
-    A robot is told from a loose object by its joints, then by its mass. In a world where nothing
-    is free the robot's own joints to the world, if any, are dropped.
+    Args:
+        model: compiled.
+        named: links that the user named; the robot is what the first of them is part of.
+        warnings: takes what else moves.
+
+    Raises:
+        RobotError: there is none, or several may be the robot and none is named.
     """
-    candidates = [
+    roots = [
         body
         for body in range(1, model.nbody)
         if model.body_parentid[body] == 0 and model.body_mocapid[body] < 0
     ]
-    if not candidates:
+    if not roots:
         raise RobotError("the model has no bodies", hint="check that this is the robot's file")
-
-    def rank(body: int) -> tuple[bool, float]:
-        """Whether something below the body moves, and the mass of it all [kg]."""
-        moves = any(model.body_jntnum[each] for each in bodies_of(model, body) if each != body)
-        return moves, float(model.body_subtreemass[body])
-
-    # A free joint is the only one of its body.
-    free = [
-        body
-        for body in candidates
-        if model.body_jntnum[body] and model.jnt_type[model.body_jntadr[body]] == _FREE
-    ]
-    base = max(free or candidates, key=rank)
-    if not free:
+    moved = model.body_rootid[model.jnt_bodyid]
+    moving = set(moved.tolist())
+    jointed = set(moved[model.jnt_bodyid != moved].tolist())
+    free = set(moved[model.jnt_type == mujoco.mjtJoint.mjJNT_FREE].tolist())
+    kinds = (_driven_roots(model) | (jointed & free), jointed, moving, set(roots))
+    candidates = next(
+        found for kind in kinds if (found := [each for each in roots if each in kind])
+    )
+    known = {model.body(body).name: int(model.body_rootid[body]) for body in range(1, model.nbody)}
+    stated = [known[name] for name in named if known.get(name) in roots]
+    if len(candidates) > 1 and not stated:
+        names = [model.body(body).name for body in candidates]
+        what = "move on their own" if moving else "are in the file"
+        raise RobotError(
+            f"which one is the robot is not clear: {len(names)} things {what}: {listed(names)}",
+            hint=f"say which: {'; or '.join(f'--trunk {name}' for name in names[:3])}. The others "
+            "are left out; what is one robot must be one body of the world, with the rest below it",
+        )
+    base = (stated or candidates)[0]
+    if base not in free:
         warnings.add("no body has a free joint: taken as the floating base", model.body(base).name)
-    for body in free:
-        if body != base:
-            warnings.add("other free bodies, left out", model.body(body).name)
+    for body in roots:
+        if body != base and body in moving:
+            warnings.add("beside the robot, left out", model.body(body).name)
     return base
+
+
+def _driven_roots(model: mujoco.MjModel) -> set[int]:
+    """Children of the world of which some actuator moves a joint; muscles and tendons count."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_tendon(model, data)
+    mujoco.mj_transmission(model, data)
+    degrees = data.moment_colind[data.actuator_moment != 0.0]
+    return set(model.body_rootid[model.dof_bodyid[degrees]].tolist())
 
 
 def bodies_of(model: mujoco.MjModel, base: int) -> Sequence[int]:
@@ -223,15 +249,32 @@ def shapes_of(model: mujoco.MjModel, body: int) -> Iterator[Shape]:
         )
 
 
+_TRAVELS = {int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_SLIDE)}
+"""Joints by which a base gets off its place; one that only turns is that of an arm."""
+
 _LOOPS = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
+_LOOP = (
+    "closed chains are cut open where connect or weld closes them; the legs move as if open, and "
+    "the loop is not enforced"
+)
+_TIE = "what connect or weld ties the robot to is let go, its mass left out"
 
 
-def read_mjcf(content: bytes, folder: Path | None) -> Tree:
+def _tied_roots(model: mujoco.MjModel, equality: int) -> set[int]:
+    """Children of the world, or the world itself (0), that a connect or weld ties together."""
+    ends = [model.eq_obj1id[equality], model.eq_obj2id[equality]]
+    if model.eq_objtype[equality] == mujoco.mjtObj.mjOBJ_SITE:
+        ends = model.site_bodyid[ends]
+    return set(model.body_rootid[ends].tolist())
+
+
+def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) -> Tree:
     """The robot of an MJCF model; what else stands in its world is left out.
 
     Args:
         content: the file, unzipped.
         folder: that includes and meshes are relative to; None for the current folder.
+        named: links that the user named, to tell the robot from what else is in the model.
     """
     warnings = Warnings()
     lost: Lost = []
@@ -247,7 +290,7 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
         ) from error
     check_number_of_links(model.nbody)
     _check_numbers(model)
-    base = find_base(model, warnings)
+    base = find_base(model, named, warnings)
     links: dict[str, Link] = {}
     children: dict[str, list[Connection]] = {}
     for body in bodies_of(model, base):
@@ -260,12 +303,10 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
             # In front of the last of several joints stand links without mass.
             links.setdefault(connection.child, Link(connection.child, None))
     for index in np.flatnonzero(np.isin(model.eq_type, _LOOPS)):
-        name = model.eq(index).name or str(index)
-        warnings.add(
-            "closed chains are cut open where connect or weld closes them; the legs move as if "
-            "open, and the loop is not enforced",
-            name,
-        )
+        ends = _tied_roots(model, int(index))
+        if base in ends:
+            name = model.eq(index).name or str(index)
+            warnings.add(_LOOP if ends == {base} else _TIE, name)
     tree = make_tree(spec.modelname, model.body(base).name, links, children, warnings)
     # Each keyframe has values of the tree's joints among others.
     addresses = {name: int(model.jnt_qposadr[model.joint(name).id]) for name in tree.joints}
@@ -279,7 +320,7 @@ def read_mjcf(content: bytes, folder: Path | None) -> Tree:
         tree,
         named_postures=keyframes,
         warnings=warnings.sentences(),
-        floats=bool(model.body_jntnum[base]),
+        floats=bool(set(model.jnt_type[model.jnt_bodyid == base].tolist()) & _TRAVELS),
     )
 
 

@@ -17,7 +17,7 @@ MOST_PACKAGES = 3
 
 
 def roots_of(file: Path) -> tuple[Path, ...]:
-    """A robot file's own folder and the nearest ROS package or repository around it.
+    """A robot file's own folder, and the ROS package, repository and Python package around it.
 
     A workspace may be installed by links: the folders of the file that a link leads to count too.
     """
@@ -30,6 +30,7 @@ def roots_of(file: Path) -> tuple[Path, ...]:
             if (above / "package.xml").is_file() or (above / ".git").exists()
         )
         roots.extend(islice(marked, 1))
+        roots += [above for above in folder.parents if (above / "__init__.py").is_file()][-1:]
     return tuple(roots)
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.common.errors import MissingToolError, RobotError
+from ocs_design.common.files import AnyPath
 from ocs_design.common.units import format_quantity
 from ocs_design.robot.checks import plausibility_warnings
 from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
@@ -135,21 +136,28 @@ _NO_ROBOTS: Mapping[str, tuple[str, str]] = {
 _ROBOT = re.compile(rb"<(link|mujoco)\b")
 
 
-def load(source: str | Path, *, package_paths: Mapping[str, Path] | None = None) -> Loaded:
+def load(
+    source: AnyPath,
+    *,
+    package_paths: Mapping[str, AnyPath] | None = None,
+    named: Sequence[str] = (),
+) -> Loaded:
     """Read a URDF, xacro or MJCF, gzipped or not, from a path or from standard input (`-`).
 
     Args:
         source: a path, or `-`.
         package_paths: folder of each package that `package://` addresses name.
+        named: links that the user named, to tell the robot from what else is in an MJCF model.
     """
     read = read_source(source)
     try:
-        return _load(read, package_paths or {})
+        folders = {name: Path(path) for name, path in (package_paths or {}).items()}
+        return _load(read, folders, named)
     except (RobotError, MissingToolError) as error:
         raise type(error)(f"{read.shown}: {error.message}", hint=error.hint) from error
 
 
-def _load(read: Source, package_paths: Mapping[str, Path]) -> Loaded:
+def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str]) -> Loaded:
     folder = read.folder or Path.cwd()
     content = read.content
     other = _NO_ROBOTS.get(Path(read.path_text).suffix.lower())
@@ -160,7 +168,7 @@ def _load(read: Source, package_paths: Mapping[str, Path]) -> Loaded:
     if root.tag == "mujoco":
         from ocs_design.robot.mjcf import read_mjcf  # noqa: PLC0415 - MuJoCo takes 0.3 s
 
-        tree = read_mjcf(content, folder)
+        tree = read_mjcf(content, folder, named)
         unseen = any(
             shape.kind is ShapeKind.MESH and shape.mesh is None
             for body in tree.bodies
@@ -184,13 +192,13 @@ def _load(read: Source, package_paths: Mapping[str, Path]) -> Loaded:
 
 
 def read_robot(
-    source: str | Path,
+    source: AnyPath,
     *,
     trunk: str | None = None,
     legs: Sequence[str] | None = None,
     posture: str | None = None,
     joints: Mapping[str, float] | None = None,
-    package_paths: Mapping[str, Path] | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
 ) -> Robot:
     """Read a robot and measure it in its nominal posture.
 
@@ -202,10 +210,11 @@ def read_robot(
         joints: values of single joints [rad or m] that replace the posture's.
         package_paths: folder of each package that `package://` addresses name.
     """
-    loaded = load(source, package_paths=package_paths)
+    named = [*([] if trunk is None else [trunk]), *(legs or ())]
+    loaded = load(source, package_paths=package_paths, named=named)
     tree = loaded.tree
-    for name in (trunk, *(legs or ())):
-        if name is not None and name not in tree.body_of_link:
+    for name in named:
+        if name not in tree.body_of_link:
             raise unknown_name("link", name, tree.body_of_link)
     recognition = recognise(tree, trunk=trunk, legs=legs)
     found = recognition.reading.legs

@@ -65,6 +65,8 @@ class Doubt:
 
 _STATED = (Sign("stated", "", holds=True),)
 
+_FIXED = "the robot is fixed to the world in its file"
+
 NAMES = "their names are those of legs"
 SPINE = (
     "the legs branch from several bodies, with joints between them (a spine), which are held where "
@@ -199,8 +201,10 @@ def recognise(
         body = tree.body_of_link[trunk]
         readings = [anatomy.on_trunk(each, trunk, body) for each in readings]
     likely = [each for each in readings if each.confidence >= _LIKELY]
-    # Limbs that are named as arms and do not convince are arms.
-    arms = all(_speaks(each, NAMES) is False for each in likely)
+    # Limbs that are named as arms and do not convince are arms; those named as legs are not.
+    arms = not any(_speaks(each, NAMES) for each in readings) and all(
+        _speaks(each, NAMES) is False for each in likely
+    )
     none = anatomy.without_legs(trunk, likely=not arms)
     best = _best(readings, usual) if readings else none
     if best.confidence >= SURE and best.legs:
@@ -268,6 +272,14 @@ class _Readings(Anatomy):
         for up in ups:
             limbs = self.limbs(up)
             sets = [each for each in sets_of(limbs) if self.may_stand(each, up)]
+            # Legs that are not alike, such as a prosthesis, are told by their names alone.
+            called = [limb for limb in limbs if self.names([limb])]
+            bases = {each[0].base for each in sets}
+            called = [limb for limb in called if not bases & bodies_of(self.tree, limb)]
+            for base in sorted({limb.base for limb in called}):
+                unlike = [limb for limb in called if limb.base == base]
+                if len(unlike) > 1 and unlike not in sets:
+                    sets.append(unlike)
             sets = [self.one_of_each_pair(each, up) for each in sets]
             for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
                 feet = frozenset(limb.last for limb in chosen)
@@ -307,7 +319,6 @@ class _Readings(Anatomy):
                 "the trunk is the root of the file",
                 f"'{name}' is not the root of the file",
                 body == 0,
-                0.5,
             ),
             Sign(
                 "the trunk has a third of the mass",
@@ -319,7 +330,10 @@ class _Readings(Anatomy):
         if trunk is not None:
             return Reading(name, (), signs[:1])
         chain = len(self.tree.bodies) > 2 and all(len(each) < 2 for each in self.children.values())
-        doubts = (Doubt("the robot is one chain, as an arm is", 0.6),) if chain and body else ()
+        doubts = (
+            *((Doubt("the robot is one chain, as an arm is", 0.6),) if chain and body else ()),
+            *((Doubt(_FIXED, 0.75),) if self.floats() is False else ()),
+        )
         return Reading(name, (), signs, doubts)
 
     def on_trunk(self, reading: Reading, trunk: str, body: int) -> Reading:
@@ -470,22 +484,29 @@ class _Readings(Anatomy):
                 self.balanced(chosen, up, reach),
             ),
             Sign(NAMES, "their names are rather those of arms", self.names(chosen), 1.5),
-            Sign(
-                "the robot is free in its file",
-                "the robot is fixed to the world in its file",
-                self.floats(),
-            ),
+            Sign("the robot is free in its file", _FIXED, self.floats()),
         )
         doubts: list[Doubt] = []
-        doubts = []
         if len({limb.base for limb in chosen}) > 1:
             doubts.extend(_SPINE)
         if self.share_hips(chosen, up):
             doubts.append(Doubt(CLOSED, 0.5))
+        if self.names(chosen) is False:
+            doubts.append(Doubt("limbs of such names are seldom legs", 0.9))
         if all(limb.hinges == 1 for limb in chosen):
             doubts.append(Doubt("each has a single joint", 0.75))
         if not several and not (signs[-2].holds or signs[-1].holds):
             doubts.append(Doubt("one limb may as well be an arm", 0.6))
+        left_out = [
+            self.tree.bodies[limb.last].name
+            for limb in self.limbs(up)
+            if limb.last not in inside
+            and any((limb.base, limb.hinges) == (each.base, each.hinges) for each in chosen)
+            and self.names([limb]) is True
+        ]
+        if left_out and not self.share_hips(chosen, up):
+            what = f"limbs that reach less deep are named as legs too: {listed(left_out)}"
+            doubts.append(Doubt(what, 0.75))
         rivals = [
             rival
             for rival in sets

@@ -125,3 +125,9 @@ class Robot:
     def gyration_radius(self) -> float:
         """Radius of gyration sqrt(trace(I) / m) [m]: a length that needs no geometry."""
         return float(np.sqrt(np.trace(self.inertia) / self.mass))
+
+    def __repr__(self) -> str:
+        return (
+            f"<Robot {self.name}: {self.mass:.4g} kg, {len(self.tree.joints)} joints, "
+            f"{len(self.legs)} legs, trunk {self.trunk}, posture {self.posture_name}>"
+        )

@@ -3,6 +3,7 @@
 import gzip
 import hashlib
 import io
+import os
 import sys
 import zlib
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from ocs_design.common.errors import RobotError
+from ocs_design.common.files import AnyPath
 
 STANDARD_INPUT = "-"
 MAX_BYTES = 64 * 2**20
@@ -41,9 +43,9 @@ class Source:
         return _shown(self.path_text)
 
 
-def read_source(source: str | Path) -> Source:
+def read_source(source: AnyPath) -> Source:
     """Bytes of the file at a path, or of standard input for `-`."""
-    path_text = str(source)
+    path_text = os.fspath(source)
     if path_text == STANDARD_INPUT:
         if sys.stdin is None or sys.stdin.isatty():
             raise RobotError(

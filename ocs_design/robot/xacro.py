@@ -11,6 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ocs_design.common.errors import MissingToolError, RobotError
+from ocs_design.common.installing import extra_command
 
 SECONDS = 5.0
 """Longest processor time of an expansion, half of its longest duration; large robots take one."""
@@ -40,7 +41,7 @@ def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) 
     if hidden or find_spec("xacro") is None:
         raise MissingToolError(
             "the file is a xacro that has not been expanded, and xacro is not installed",
-            hint="pip install 'ocs-design[xacro]', or: xacro robot.urdf.xacro > robot.urdf",
+            hint=f"{extra_command('xacro')}, or: xacro robot.urdf.xacro > robot.urdf",
         )
     job = {
         "path": sys.path,

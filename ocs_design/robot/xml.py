@@ -13,6 +13,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
+from ocs_design.common.installing import extra_command
 from ocs_design.robot.links import Warnings
 from ocs_design.robot.tree import LARGEST_NUMBER
 
@@ -128,7 +129,7 @@ def unexpanded_xacro() -> RobotError:
     return RobotError(
         "the file is a xacro that has not been expanded",
         hint="expand it first: xacro robot.urdf.xacro > robot.urdf; "
-        "or: pip install 'ocs-design[xacro]', and it is expanded on reading",
+        f"or: {extra_command('xacro')}, and it is expanded on reading",
     )
 
 

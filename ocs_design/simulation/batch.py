@@ -13,7 +13,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import Drives, Sensing
 from ocs_design.simulation.schedule import FlightClock, LegReferences, Pushes, References
-from ocs_design.simulation.wheel_law import WheelBrake, WheelLaw
+from ocs_design.simulation.wheel_law import Target, WheelBrake, WheelLaw
 from ocs_design.simulation.world import World, start_states
 
 
@@ -25,8 +25,9 @@ class Recording:
         time: [s], shape (k,).
         attitude: of the trunk, quaternions (k, n, 4).
         rate: of the trunk in B [rad/s], (k, n, 3).
-        wheel_speed: relative to the trunk [rad/s], (k, n, 2).
-        wheel_torque: of the motors on the wheels, held until the next instant [N m], (k, n, 2).
+        wheel_speed: relative to the trunk [rad/s], (k, n, wheels).
+        wheel_torque: of the motors on the wheels, held until the next instant [N m],
+            (k, n, wheels).
         com: centre of mass in the world [m], (k, n, 3).
         momentum: angular, about the centre of mass, in the world [N m s], (k, n, 3).
         impulse: of the outer torque since the start, in the world [N m s], (k, n, 3).
@@ -60,7 +61,12 @@ class Recording:
 
 
 def empty_recording(
-    times: FloatArray, lengths: NDArray[np.int64], *, pose_stride: int = 0, nq: int = 0
+    times: FloatArray,
+    lengths: NDArray[np.int64],
+    *,
+    wheels: int,
+    pose_stride: int = 0,
+    nq: int = 0,
 ) -> Recording:
     """Nothing known yet, no impulse at the start; `nq` is the length of a pose."""
     k, n = len(times), len(lengths)
@@ -76,8 +82,8 @@ def empty_recording(
         time=times,
         attitude=unknown(4),
         rate=unknown(3),
-        wheel_speed=unknown(2),
-        wheel_torque=unknown(2),
+        wheel_speed=unknown(wheels),
+        wheel_torque=unknown(wheels),
         com=unknown(3),
         momentum=unknown(3),
         impulse=impulse,
@@ -113,6 +119,7 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
     whole = empty_recording(
         longest.time,
         np.empty(sum(map(len, places)), dtype=np.int64),
+        wheels=longest.wheel_speed.shape[2],
         pose_stride=longest.pose_stride,
         nq=longest.qpos.shape[2],
     )
@@ -156,7 +163,11 @@ class Batch:
         )
         times = self._period * np.arange(self._lengths[0])
         self._record = empty_recording(
-            times, self._lengths, pose_stride=pose_stride(pose_rate, self._period), nq=first.nq
+            times,
+            self._lengths,
+            wheels=len(worlds[0].wheels),
+            pose_stride=pose_stride(pose_rate, self._period),
+            nq=first.nq,
         )
         self._references = References(worlds, times, self._period)
         self._pushes = Pushes(worlds, times, self._period)
@@ -165,7 +176,7 @@ class Batch:
         self._law = WheelLaw.joined([world.law for world in worlds])
         # Sensors and drives are perfect in all of a batch or in none.
         own = [world.imperfections for world in worlds if world.imperfections is not None]
-        self._sensing = Sensing(own, self._lengths.tolist()) if own else None
+        self._sensing = Sensing(own, self._lengths.tolist(), self._period) if own else None
         self._drives = None
         if own:
             self._drives = Drives(
@@ -208,15 +219,19 @@ class Batch:
                     break
                 if k % _TELLING == 0:
                     progress(float(np.minimum(self._lengths, k).sum() / self._lengths.sum()))
-                torque = self._observe_and_decide(k, running, law)
-                self._advance(pool, data, k, torque)
+                asked = self._observe_and_decide(k, running, law)
+                self._advance(pool, data, k, self._driven(k, asked))
                 self._record_sensors(k, running)
+        return self._ended(data[0])
+
+    def _ended(self, last: mujoco.MjData) -> Recording:
+        """What happened, with what is known at the end; `last` is to work with."""
         missing = np.abs(self._state[:, 0] - self._lengths * self._period)
         finite = np.isfinite(self._state).all(axis=1)
         self._record.stable[:] = finite & (missing < 0.5 * self._period)
         for index in np.flatnonzero(~self._record.stable).tolist():
             # What MuJoCo says to the last state as it takes one more step.
-            model, last = self._models[index], data[0]
+            model = self._models[index]
             mujoco.mj_resetData(model, last)
             mujoco.mj_setState(model, last, self._state[index], mujoco.mjtState.mjSTATE_FULLPHYSICS)
             last.ctrl[:] = self._control[index, -1]
@@ -237,10 +252,7 @@ class Batch:
             begin = end
 
     def _observe_and_decide(self, k: int, running: int, law: WheelLaw | None) -> FloatArray:
-        """Record trunk and wheels at instant `k`; torques on the wheels from then on.
-
-        Shape (n, 1, 2) where they are held for the control step, (n, hold, 2) where they are not.
-        """
+        """Record trunk and wheels at instant `k`; torques asked of the motors, (n, wheels)."""
         record, qpos, qvel = self._record, self._qpos[:running], self._qvel[:running]
         attitude, rate = self._chain.attitude(qpos), self._chain.rate(qpos, qvel)
         speed = qvel[:, self._wheels]
@@ -250,7 +262,7 @@ class Batch:
         if record.pose_stride and k % record.pose_stride == 0:
             record.qpos[k // record.pose_stride, :running] = qpos
         if law is None:
-            torque = np.zeros((running, 2))
+            asked = np.zeros((running, len(self._wheels)))
         else:
             steps = self._clock.steps(k, running)
             vertical = quaternions.vertical(attitude)
@@ -260,14 +272,35 @@ class Batch:
                 target = self._brake.added(target, speed, contact)
             if self._sensing is not None:
                 vertical, rate = self._sensing.measured(k, vertical, rate)
-            torque = law.torque(vertical, rate, speed, target, self._period)
+                attitude = self._sensing.attitude(k, attitude)
+            asked = self._decide(law, vertical, rate, speed, target, attitude=attitude)
             # The wheels wait for lift-off.
-            torque[steps < 0] = 0.0
-        acting = torque[:, None]
+            asked[steps < 0] = 0.0
+        return asked
+
+    def _driven(self, k: int, torque: FloatArray) -> FloatArray:
+        """Torques on the wheels from instant `k` on, which motors make of those asked for.
+
+        Shape (n, 1, wheels) where they are held for the control step, else (n, hold, wheels).
+        """
+        n, acting = len(torque), torque[:, None]
         if self._drives is not None:
-            torque, acting = self._drives.driven(k, torque, speed)
-        record.wheel_torque[k, :running] = torque
+            torque, acting = self._drives.driven(k, torque, self._record.wheel_speed[k, :n])
+        self._record.wheel_torque[k, :n] = torque
         return acting
+
+    def _decide(
+        self,
+        law: WheelLaw,
+        vertical: FloatArray,
+        rate: FloatArray,
+        speed: FloatArray,
+        target: Target,
+        *,
+        attitude: FloatArray,
+    ) -> FloatArray:
+        """Torques that the law asks for; see `WheelLaw.torque`."""
+        return law.torque(vertical, rate, speed, target, self._period, attitude=attitude)
 
     def _advance(
         self, pool: Rollout, data: list[mujoco.MjData], k: int, torque: FloatArray

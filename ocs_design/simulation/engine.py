@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import processors
+from ocs_design.export.physics import STEP
 from ocs_design.simulation.batch import Batch, Recording, joined
-from ocs_design.simulation.scene import STEP, WHEEL_JOINTS
 from ocs_design.simulation.world import World
 
 Progress = Callable[[float], None]
@@ -121,7 +121,7 @@ class Poses:
         bodies: names of the model's b bodies, the world left out.
         position: of their frames in the world [m], shape (n, b, 3).
         attitude: of their frames in the world, quaternions (w, x, y, z), shape (n, b, 4).
-        wheel_angle: of the left and the right wheel, all turns counted [rad], shape (n, 2).
+        wheel_angle: of each wheel, all turns counted [rad], shape (n, wheels).
     """
 
     time: FloatArray
@@ -145,7 +145,7 @@ def poses_of(recording: Recording, index: int, world: World) -> Poses | None:
         data.qpos[:] = pose
         mujoco.mj_kinematics(model, data)
         position[k], attitude[k] = data.xpos[1:], data.xquat[1:]
-    wheels = [int(model.joint(name).qposadr[0]) for name in WHEEL_JOINTS]
+    wheels = model.jnt_qposadr[model.dof_jntid[list(world.addresses.wheels)]]
     return Poses(
         time=time,
         qpos=qpos,

@@ -17,7 +17,8 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Flywheel
 from ocs_design.parts.printed import CLEARANCE
-from ocs_design.simulation.wheel_law import clipped
+from ocs_design.simulation import quaternions
+from ocs_design.simulation.wheel_law import clipped, within_supply
 
 _SENSED = 5
 """Numbers that noise is added to at each instant: two of attitude, three of rate."""
@@ -31,9 +32,10 @@ class Imperfections:
         attitude_bias: of measured roll and pitch [rad], shape (2,). gyro_bias: [rad/s], (3,).
         attitude_noise, gyro_noise: standard deviation of each measurement [rad], [rad/s].
         stream: that the noise is drawn from; equal streams give equal noise.
-        torque_gain: torque given over torque commanded, by each motor, shape (2,).
-        no_load_speed, line_slope, torque_limit: of each real motor, see `MotorLimits`, (2,).
-        coulomb, viscous: friction of each wheel [N m], [N m s/rad], shape (2,).
+        torque_gain: torque given over torque commanded, by each of m motors, shape (m,).
+        no_load_speed, line_slope, torque_limit: of each real motor, see `MotorLimits`, (m,).
+        copper: likewise. efficiency: of its gear. power_max: of the supply, of all motors [W].
+        coulomb, viscous: friction of each wheel [N m], [N m s/rad], shape (m,).
         air: drag of a wheel in its housing, the same for all worlds of a batch.
         air_factor: times that.
         delay: from measurement to torque, in steps of the physics.
@@ -48,6 +50,9 @@ class Imperfections:
     no_load_speed: FloatArray
     line_slope: FloatArray
     torque_limit: FloatArray
+    copper: FloatArray
+    efficiency: float
+    power_max: float
     coulomb: FloatArray
     viscous: FloatArray
     air: "AirDrag"
@@ -77,11 +82,15 @@ class AirDrag:
 class Sensing:
     """What n trunks measure."""
 
-    def __init__(self, imperfections: Sequence[Imperfections], lengths: Sequence[int]) -> None:
-        """Sensors of worlds that run for so many control steps each."""
+    def __init__(
+        self, imperfections: Sequence[Imperfections], lengths: Sequence[int], period: float
+    ) -> None:
+        """Sensors of worlds that run for so many control steps each, of `period` [s]."""
         self._errors = np.zeros((max(lengths), len(lengths), _SENSED))
         for world, (own, length) in enumerate(zip(imperfections, lengths, strict=True)):
             self._errors[:length, world] = own.noise(length)
+        # No gravity tells the heading: it is what the gyroscope adds up to.
+        self._heading = period * np.cumsum(self._errors[:, :, -1], axis=0)
 
     def measured(
         self, k: int, vertical: FloatArray, rate: FloatArray
@@ -102,9 +111,18 @@ class Sensing:
         seen = np.stack([x - z * pitch, y + z * roll, z + x * pitch - y * roll], axis=1)
         return seen, rate + error[:, 2:]
 
+    def attitude(self, k: int, attitude: FloatArray) -> FloatArray:
+        """Attitudes that the first n worlds believe in, quaternions (n, 4); see `measured`."""
+        n = len(attitude)
+        error = np.column_stack([self._errors[k, :n, :2], self._heading[k, :n]])
+        half = np.column_stack([np.ones(n), 0.5 * error])
+        believed = quaternions.product(attitude, half)
+        length: FloatArray = np.linalg.norm(believed, axis=1, keepdims=True)
+        return believed / length
+
 
 class Drives:
-    """What n pairs of motors make of their commands."""
+    """What the m motors of each of n worlds make of their commands."""
 
     def __init__(
         self,
@@ -125,20 +143,24 @@ class Drives:
         """
         self._air = imperfections[0].air
         self._gain = (response * hold * step)[:, None]
-        self._torque_gain, self._line, self._slope, self._limit, self._coulomb, self._viscous = (
+        self._torque_gain, self._line, self._slope, self._limit = (
             np.stack([getattr(own, name) for own in imperfections])
-            for name in (
-                *("torque_gain", "no_load_speed", "line_slope", "torque_limit"),
-                *("coulomb", "viscous"),
-            )
+            for name in ("torque_gain", "no_load_speed", "line_slope", "torque_limit")
         )
-        self._air_factor = np.array([[own.air_factor] for own in imperfections])
+        self._copper, self._coulomb, self._viscous = (
+            np.stack([getattr(own, name) for own in imperfections])
+            for name in ("copper", "coulomb", "viscous")
+        )
+        self._air_factor, self._efficiency, self._power = (
+            np.array([[getattr(own, name)] for own in imperfections])
+            for name in ("air_factor", "efficiency", "power_max")
+        )
         delay = np.array([own.delay for own in imperfections])
         whole, part = np.divmod(delay, hold)
         # Before a part of a control step has passed, the command before the last still holds.
         self._back = whole[:, None] + (np.arange(hold) < part[:, None])
         self._before = int(self._back.max())
-        self._commands = np.zeros((self._before + instants, len(delay), 2))
+        self._commands = np.zeros((self._before + instants, *self._coulomb.shape))
         self._worlds = np.arange(len(delay))[:, None]
 
     def driven(
@@ -148,12 +170,12 @@ class Drives:
 
         Args:
             k: control instant.
-            command: of the law to the first n pairs of motors at that instant [N m], (n, 2).
-            speed: of the wheels then [rad/s], shape (n, 2).
+            command: of the law to the motors of the first n worlds at that instant [N m], (n, m).
+            speed: of the wheels then [rad/s], shape (n, m).
 
         Returns:
-            Mean over the control step, shape (n, 2), and of every step of the physics,
-            shape (n, hold, 2).
+            Mean over the control step, shape (n, m), and of every step of the physics,
+            shape (n, hold, m).
         """
         n = len(command)
         self._commands[self._before + k, :n] = command
@@ -166,6 +188,22 @@ class Drives:
             no_load_speed=self._line[:n, None],
             torque_limit=self._limit[:n, None],
         )
+        if np.isfinite(self._power[:n]).any():
+            # The law limits what it commands by the nominal motor's power, the supply the real one.
+            motor = np.stack(
+                [
+                    within_supply(
+                        each,
+                        speed,
+                        gain=self._gain[:n],
+                        copper=self._copper[:n],
+                        efficiency=self._efficiency[:n],
+                        power_max=self._power[:n],
+                    )
+                    for each in motor.transpose(1, 0, 2)
+                ],
+                axis=1,
+            )
         # So written, the mean of equal torques is that torque to the last bit.
         mean = motor[:, 0] + (motor - motor[:, :1]).mean(axis=1)
         # Friction is implicit: it brings a wheel to rest at most, and one at rest stays so until

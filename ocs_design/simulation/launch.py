@@ -7,12 +7,11 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
-from ocs_design.robot.mujoco_bodies import quaternion
+from ocs_design.export.physics import set_trunk
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove, TurnTo
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.rotations import rotation_about
 from ocs_design.simulation.reference import LEVEL, Profile, Quintic, Turn
-from ocs_design.simulation.scene import lowest_point
 
 ROLL, PITCH = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 
@@ -24,12 +23,21 @@ class Push:
     Attributes:
         acceleration: of all of the robot by a force beside it, in B [m/s^2], shape (3,): on each
             body in proportion to its mass, so that it turns nothing.
+        force: in B [N], shape (3,); where it is not zero, torque and acceleration are those that
+            it has on the robot which flies (`of_force`). point: that it hits, in B [m], shape (3,).
     """
 
     torque: FloatArray
     onset: float
     duration: float
     acceleration: FloatArray = field(default_factory=lambda: np.zeros(3))
+    force: FloatArray = field(default_factory=lambda: np.zeros(3))
+    point: FloatArray = field(default_factory=lambda: np.zeros(3))
+
+    def of_force(self, mass: float, com: FloatArray) -> "Push":
+        """The torque about the centre of mass of a body [kg; in B, m], and its acceleration."""
+        arm = self.point - com
+        return replace(self, torque=np.cross(arm, self.force), acceleration=self.force / mass)
 
     def share(self, starts: FloatArray, period: float) -> FloatArray:
         """Part of each control step, from `starts`, in which it acts: its impulse is exact."""
@@ -49,9 +57,11 @@ class Launch:
     Attributes:
         rotation: of the trunk in the world, shape (3, 3).
         height: of the trunk frame's origin [m]; None: the feet just clear of the ground.
-        velocity: of the whole robot, which does not turn [m/s], shape (3,).
+        velocity: of its centre of mass [m/s], shape (3,).
         turn: what the trunk should do.
         push: what hits it.
+        rate: of the whole robot, in B [rad/s], shape (3,).
+        wheel_speed: of all wheels [rad/s].
     """
 
     rotation: FloatArray
@@ -59,6 +69,8 @@ class Launch:
     velocity: FloatArray
     turn: Turn
     push: Push
+    rate: FloatArray = field(default_factory=lambda: np.zeros(3))
+    wheel_speed: float = 0.0
 
 
 def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Launch:
@@ -77,6 +89,8 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
                 maneuver.onset,
                 maneuver.duration,
                 np.array(maneuver.velocity_change) / maneuver.duration,
+                np.array(maneuver.impulse) / maneuver.duration,
+                np.array(maneuver.point),
             )
             return Launch(np.eye(3), None, np.array([forward, 0.0, up]), LEVEL, push)
         case Shove():
@@ -100,6 +114,15 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
             up = np.sqrt(2.0 * maneuver.gravity * maneuver.jump_height)
             turn = Turn(PITCH, 0.0, maneuver.angle, maneuver.duration, Quintic())
             return Launch(np.eye(3), None, np.array([0.0, 0.0, up]), turn, NO_PUSH)
+        case TurnTo():
+            up = maneuver.gravity * maneuver.flight_time / 2.0
+            vector = np.array([maneuver.roll, maneuver.pitch, 0.0])
+            angle = float(np.linalg.norm(vector))
+            turn = LEVEL
+            if angle > 0.0:
+                turn = Turn(vector / angle, 0.0, angle, maneuver.duration, Quintic())
+            rate, spin = np.array(maneuver.rate), maneuver.wheel_speed
+            return Launch(np.eye(3), None, np.array([0.0, 0.0, up]), turn, NO_PUSH, rate, spin)
         case _:
             raise TypeError(f"no launch is known for a {type(maneuver).__name__}")
 
@@ -137,39 +160,20 @@ _CLEARANCE = 1e-3
 """Gap under the feet at lift-off, over the standing height."""
 
 
-def stand(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    """Put the level trunk at the origin in the nominal posture; its height over its feet [m].
-
-    Zero for a robot that has nothing to stand on: its file gives it no shape.
-    """
-    for name, value in robot.posture.items():
-        data.qpos[model.joint(name).qposadr[0]] = value
-    _set_trunk(robot, model, data, np.eye(3), 0.0)
-    mujoco.mj_forward(model, data)
-    lowest = lowest_point(model, data)
-    return -lowest if np.isfinite(lowest) else 0.0
-
-
 def place(
     robot: Robot, model: mujoco.MjModel, data: mujoco.MjData, start: Launch, standing: float
 ) -> None:
     """Write the start of a flight into `data`."""
     height = standing * (1.0 + _CLEARANCE) if start.height is None else start.height
-    _set_trunk(robot, model, data, start.rotation, height)
+    set_trunk(robot, model, data, start.rotation, height)
     free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
     first = int(model.jnt_dofadr[free])
     data.qvel[first : first + 3] = start.velocity
-
-
-def _set_trunk(
-    robot: Robot, model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatArray, height: float
-) -> None:
-    """Move the floating base so that the trunk's frame stands over the origin as told."""
-    index = robot.tree.body_of_link[robot.trunk]
-    in_body = robot.tree.bodies[index].links[robot.trunk]
-    in_root = robot.tree.placements(robot.posture)[index] @ in_body
-    base = rotation @ in_root.rotation.T
-    free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
-    first = int(model.jnt_qposadr[free])
-    data.qpos[first : first + 3] = np.array([0.0, 0.0, height]) - base @ in_root.position
-    data.qpos[first + 3 : first + 7] = quaternion(base)
+    if start.rate.any():
+        mujoco.mj_forward(model, data)
+        # All turn about the centre of mass as one; the free joint's rate is in its own body.
+        base = np.array(data.xmat[model.jnt_bodyid[free]]).reshape(3, 3)
+        rate = start.rotation @ start.rate
+        arm = data.xpos[model.jnt_bodyid[free]] - data.subtree_com[0]
+        data.qvel[first : first + 3] += np.cross(rate, arm)
+        data.qvel[first + 3 : first + 6] = base.T @ rate

@@ -10,10 +10,9 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.device import SIDES
+from ocs_design.export.physics import lowest_point
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.batch import Recording
-from ocs_design.simulation.scene import lowest_point
 from ocs_design.simulation.world import World
 
 UPRIGHT_TILT = np.radians(45.0)
@@ -32,18 +31,19 @@ _AT_REST = np.radians(1.0)
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Time series of one run; every array has the instants first.
+    """Time series of one run with n wheels; every array has the instants first.
 
     Attributes:
         time: [s], shape (k,).
         com: centre of mass in the world [m], (k, 3).
         roll, pitch, yaw: of the trunk [rad], pitch and yaw unwrapped, (k,).
         rate: of the trunk in B [rad/s], (k, 3).
-        wheel_speed: relative to the trunk [rad/s], (k, 2).
-        wheel_torque: of the motors [N m], (k, 2).
-        torque_lowest, torque_highest: that the motors can give at these speeds [N m], (k, 2); None
+        wheel_speed: relative to the trunk [rad/s], (k, n).
+        wheel_torque: of the motors [N m], (k, n).
+        torque_lowest, torque_highest: that the motors can give at these speeds [N m], (k, n); None
             where that is not limited.
         contact: whether anything touches the floor, (k,).
+        wheels: their names.
         bus_power: of all motors together, drawn (+) or fed back (-), where it is largest in size
             from this instant to the next [W], (k,); None: the winding or the supply is not known.
         bus_current: likewise, at the voltage of the supply [A], (k,).
@@ -60,6 +60,7 @@ class Series:
     torque_lowest: FloatArray | None
     torque_highest: FloatArray | None
     contact: FloatArray
+    wheels: tuple[str, ...]
     bus_power: FloatArray | None = None
     bus_current: FloatArray | None = None
 
@@ -73,21 +74,20 @@ class Series:
             "pitch_rad": self.pitch,
             "yaw_rad": self.yaw,
             **{f"rate_{axis}_rad_s": self.rate[:, i] for i, axis in enumerate(axes)},
-            **_of_wheels("wheel_speed_{}_rad_s", self.wheel_speed),
-            **_of_wheels("wheel_torque_{}_nm", self.wheel_torque),
-            **_of_wheels("wheel_torque_lowest_{}_nm", self.torque_lowest),
-            **_of_wheels("wheel_torque_highest_{}_nm", self.torque_highest),
+            **self._of_wheels("wheel_speed_{}_rad_s", self.wheel_speed),
+            **self._of_wheels("wheel_torque_{}_nm", self.wheel_torque),
+            **self._of_wheels("wheel_torque_lowest_{}_nm", self.torque_lowest),
+            **self._of_wheels("wheel_torque_highest_{}_nm", self.torque_highest),
             **_known("bus_power_w", self.bus_power),
             **_known("bus_current_a", self.bus_current),
             "contact": self.contact,
         }
 
-
-def _of_wheels(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
-    """One column a wheel; none where there is nothing to tell."""
-    if values is None:
-        return {}
-    return {name.format(side): values[:, i] for i, side in enumerate(SIDES)}
+    def _of_wheels(self, name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
+        """One column a wheel; none where there is nothing to tell."""
+        if values is None:
+            return {}
+        return {name.format(wheel): values[:, i] for i, wheel in enumerate(self.wheels)}
 
 
 def _known(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
@@ -171,6 +171,7 @@ def series_of(recording: Recording, index: int, world: World) -> Series:
         torque_lowest=lowest,
         torque_highest=highest,
         contact=recording.contact[ran, index].astype(np.float64),
+        wheels=world.wheels,
         bus_power=power,
         bus_current=current,
     )

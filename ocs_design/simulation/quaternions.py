@@ -36,6 +36,15 @@ def conjugate(quaternion: FloatArray) -> FloatArray:
     return inverse
 
 
+def rotation_vector(quaternion: FloatArray) -> FloatArray:
+    """Axis times angle of a turn, at most half a turn [rad], shape (..., 3)."""
+    shorter = np.where(quaternion[..., :1] < 0.0, -quaternion, quaternion)
+    sine = np.linalg.norm(shorter[..., 1:], axis=-1, keepdims=True)
+    angle = 2.0 * np.arctan2(sine, shorter[..., :1])
+    found: FloatArray = shorter[..., 1:] * angle / (sine + 1e-30)
+    return found
+
+
 def matrix(quaternion: FloatArray) -> FloatArray:
     """Rotation matrices, shape (..., 3, 3)."""
     w, x, y, z = (quaternion[..., i] for i in range(4))
@@ -50,7 +59,7 @@ def matrix(quaternion: FloatArray) -> FloatArray:
 def vertical(quaternion: FloatArray) -> FloatArray:
     """The world's upward direction in the turned frame, unit vectors (..., 3)."""
     w, x, y, z = (quaternion[..., i] for i in range(4))
-    found = np.empty((*quaternion.shape[:-1], 3))
+    found = np.empty_like(quaternion[..., :3])
     found[..., 0] = 2.0 * (x * z - w * y)
     found[..., 1] = 2.0 * (y * z + w * x)
     found[..., 2] = 1.0 - 2.0 * (x * x + y * y)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common.arrays import FloatArray
-from ocs_design.simulation.wheel_law import MotorLimits, WheelLaw
+from ocs_design.simulation.wheel_law import MotorLimits, RegulatedPlan, WheelLaw
 from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
@@ -193,7 +193,7 @@ def _stretched(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
 
 
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
-    """Largest share of the limits that both wheels need along the turn, from zero momentum.
+    """Largest share of the limits that the wheels need along the turn, from zero momentum.
 
     Of a gyrostat with no momentum, `I_tot w + h A W = 0` and `J w_dot = -g A tau`, g the reaction
     (see `Gyrostat`). The pseudo-inverse leaves out an axis that the wheels do not reach.
@@ -219,17 +219,19 @@ _LEVEL = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """What one trunk should do at k control instants; after the trajectory's end it stays level.
+    """What a trunk with m wheels should do at k control instants; after the end it is held.
 
     Attributes:
         vertical: the world's upward direction in B, unit vectors (k, 3).
-        rate: about roll and pitch in B [rad/s], (k, 2).
-        torque: what the motors give before any feedback [N m], (k, 2); see `Target.torque`.
+        rate: in B [rad/s], (k, 3).
+        torque: what the motors give before any feedback [N m], (k, m); see `Target.torque`.
+        plan: of a trajectory with gains, its instants in place of worlds; None: it has none.
     """
 
     vertical: FloatArray
     rate: FloatArray
     torque: FloatArray
+    plan: RegulatedPlan | None = None
 
 
 def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: float) -> Track:
@@ -258,10 +260,24 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     integral = whole[before] + part * (values[before] + _at(until, samples, values))
     given = np.diff(integral, axis=0) / period
 
+    held = _LEVEL if trajectory.gains is None else trajectory.vertical[-1]
+    ends = np.where(flying, vertical, held)
+    if trajectory.gains is not None and trajectory.attitude is not None:
+        attitude = _at(times, trajectory.time, trajectory.attitude)
+        gains = _at(times, trajectory.time, trajectory.gains.reshape(len(samples), -1))
+        plan = RegulatedPlan(
+            attitude / np.linalg.norm(attitude, axis=1, keepdims=True),
+            rate,
+            speed,
+            given,
+            gains.reshape(len(times), *trajectory.gains.shape[1:]),
+            flying[:, 0],
+        )
+        return Track(ends, rate, np.zeros_like(given), plan)
     # The law adds the gyroscopic torque of the motion that it sees; that of the motion that was
     # planned is in the planned torque already.
     planned = law.gyroscopic(rate, speed) @ law.torque_map[0, :, 2:].T
-    return Track(np.where(flying, vertical, _LEVEL), rate[:, :2], given - planned)
+    return Track(ends, rate, given - planned)
 
 
 def _at(times: FloatArray, samples: FloatArray, values: FloatArray) -> FloatArray:

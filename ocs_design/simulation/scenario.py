@@ -14,6 +14,7 @@ from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
+from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.engine import Poses, Progress, poses_of, simulate
 from ocs_design.simulation.metrics import (
     Metrics,
@@ -80,16 +81,33 @@ class Run:
     level: bool | None = None
     stands: bool | None = None
 
+    def __repr__(self) -> str:
+        return f"<Run {self.scenario} {'with' if self.ocs else 'without'} device: {self.reason}>"
+
 
 @dataclass(frozen=True, eq=False)
-class _Flight:
-    """One world, flown; `metrics` as in `Run`, `objection` as in `judge`."""
+class Flown:
+    """One world, flown: its place in a recording, and `metrics` as in `Run`."""
 
     world: World
-    objection: str
+    recording: Recording
+    place: int
     metrics: Metrics | None
-    series: Series
-    poses: Poses | None
+
+    @property
+    def objection(self) -> str:
+        """Why the flight says nothing, see `judge`; empty if nothing is against it."""
+        return objection(self.world) or breakdown(self.recording, self.place)
+
+    @property
+    def series(self) -> Series:
+        """Series of time."""
+        return series_of(self.recording, self.place, self.world)
+
+    @property
+    def poses(self) -> Poses | None:
+        """Poses to show the flight again; None if none were recorded."""
+        return poses_of(self.recording, self.place, self.world)
 
 
 def run_scenarios(
@@ -125,7 +143,7 @@ def run_scenarios(
             (Wheels.ACTIVE, Wheels.ABSENT), starts.get(maneuver.name, BALLISTIC), strict=True
         )
     ]
-    flights = _fly(worlds, chosen, progress)
+    flights = fly(worlds, chosen, progress)
     pairs = list(zip(flights[::2], flights[1::2], strict=True))
     unclear = refusal(robot)
 
@@ -140,7 +158,7 @@ def run_scenarios(
         builder.level_landing(maneuvers[i], starts.get(maneuvers[i].name, BALLISTIC).carrying)
         for i in doubtful
     ]
-    for index, flight in zip(doubtful, _fly(landings, chosen), strict=True):
+    for index, flight in zip(doubtful, fly(landings, chosen), strict=True):
         can_stand[index] = stands(flight.metrics)
 
     runs = []
@@ -188,9 +206,7 @@ HALVINGS = 2
 """How often the step of the physics is halved at most; each leaves a sixteenth of the error."""
 
 
-def _fly(
-    worlds: Sequence[World], options: Options, progress: Progress | None = None
-) -> list[_Flight]:
+def fly(worlds: Sequence[World], options: Options, progress: Progress | None = None) -> list[Flown]:
     """Fly them; whose angular momentum is off by more than the gate, again with half the step."""
     flights = _flown(worlds, options, progress)
     for _ in range(HALVINGS):
@@ -198,8 +214,8 @@ def _fly(
             (index, flight.metrics.momentum_error)
             for index, flight in enumerate(flights)
             if flight.metrics is not None
-            and not flight.objection
             and flight.metrics.momentum_error > MOMENTUM_GATE
+            and not flight.objection
         ]
         again = [_finer(flights[i].world, worlds[i].note, error) for i, error in coarse]
         for (index, _error), flight in zip(coarse, _flown(again, options), strict=True):
@@ -209,19 +225,22 @@ def _fly(
 
 def _finer(world: World, note: str, error: float) -> World:
     """World with half the step, and its own note with what that is for."""
-    model = copy(world.model)
+    model, drives = copy(world.model), world.imperfections
     model.opt.timestep /= 2.0
     step = 1e3 * model.opt.timestep
     why = (
         f"flown again in steps of {step:g} ms: at {2.0 * step:g} ms its angular momentum was off "
         f"by {error:.1e}"
     )
-    return replace(world, model=model, note="; ".join(filter(None, (note, why))))
+    if drives is not None:
+        drives = replace(drives, delay=2 * drives.delay)
+    note = "; ".join(filter(None, (note, why)))
+    return replace(world, model=model, imperfections=drives, note=note)
 
 
 def _flown(
     worlds: Sequence[World], options: Options, progress: Progress | None = None
-) -> list[_Flight]:
+) -> list[Flown]:
     if not worlds:
         return []
     recording = simulate(
@@ -232,13 +251,7 @@ def _flown(
         progress=progress,
     )
     return [
-        _Flight(
-            world,
-            objection(world) or breakdown(recording, index),
-            measure(recording, index, world),
-            series_of(recording, index, world),
-            poses_of(recording, index, world),
-        )
+        Flown(world, recording, index, measure(recording, index, world))
         for index, world in enumerate(worlds)
     ]
 

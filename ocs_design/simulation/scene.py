@@ -1,83 +1,35 @@
-"""Robot, device, joint drives and floor as one compiled MuJoCo model.
+"""Robot, device, joint drives and floor as one compiled MuJoCo model."""
 
-A model that was tuned for speed stops its solver after one iteration; one for learning clamps every
-command to one; and a class of defaults of the file holds for whatever is added to it.
-
-Legs carry the robot, so their stiffness comes from its weight and their damping from its Froude
-time: `kp = m g L / 2`, `kd = kp sqrt(L / g) / 2` with the length L of the leg. Its joints then give
-way by about a fifth of a radian where it stands. Stiffer or less damped legs throw most quadrupeds
-over after a level landing, softer ones let the heavy ones sink.
-
-All other joints, arms, fingers, neck and waist, are held where they are. They would have to be held
-by drives that nobody knows, some of them turn links that their file gives next to no inertia, and
-none of them matters to whether a robot lands level.
-"""
-
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 
 import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.device import SIDES, Device
-from ocs_design.device.naming import PREFIX
+from ocs_design.device.device import Device
+from ocs_design.device.naming import flywheel_names, joint_names
 from ocs_design.export.attach import attach_device
+from ocs_design.export.physics import (
+    HELD,
+    add_drives,
+    flight_options,
+    hold_other_joints,
+    meet_no_link,
+)
 from ocs_design.parts.moments import Carrier
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Joint
-
-_OF_CONTACT = {"cone", "impratio"}
-"""Options that say what friction is like."""
-
-_OF_ACTUATOR = (
-    *("gear", "gainprm", "biasprm", "dynprm", "dyntype", "actdim", "actearly", "delay", "nsample"),
-    *("ctrllimited", "ctrlrange", "forcelimited", "forcerange", "actlimited", "actrange"),
-    *("armature", "damping", "cranklength", "lengthrange", "inheritrange"),
-)
-
-
-def plain_options(spec: mujoco.MjSpec) -> None:
-    """All options but those of contact as MuJoCo has them."""
-    plain = mujoco.MjSpec().option
-    _copy(plain, spec.option, (name for name in dir(plain) if name not in _OF_CONTACT))
-
-
-def plain_actuator(actuator: "mujoco.MjsActuator") -> None:
-    """Nothing of the file's defaults; type, transmission and names stay."""
-    _copy(mujoco.MjSpec().add_actuator(), actuator, _OF_ACTUATOR)
-
-
-def _copy(source: object, target: object, names: Iterable[str]) -> None:
-    for name in names:
-        value = getattr(source, name)
-        if isinstance(value, np.ndarray):
-            getattr(target, name)[:] = value
-        elif not name.startswith("_") and not callable(value):
-            setattr(target, name, value)
-
 
 FLOOR = "ocs_floor"
 
-_Geom = mujoco.mjtGeom
-
 
 def add_floor(spec: mujoco.MjSpec) -> None:
-    """A plane at z = 0 that meets every geom of the robot, while these do not meet each other.
-
-    Neighbouring links overlap in most robot files; only contact with the floor is of interest here,
-    and it begins where they meet, not a margin before.
-    """
-    for geom in spec.geoms:
-        geom.margin = geom.gap = 0.0
-        geom.conaffinity = int(bool(geom.contype or geom.conaffinity))
-        geom.contype = 0
+    """A plane at z = 0 that meets every geom of the robot, while these do not meet each other."""
+    meet_no_link(spec)
     spec.worldbody.add_geom(
         name=FLOOR,
-        type=_Geom.mjGEOM_PLANE,
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[0, 0, 1],
         contype=1,
         conaffinity=0,
@@ -86,183 +38,9 @@ def add_floor(spec: mujoco.MjSpec) -> None:
     )
 
 
-def lowest_point(model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    """Height of the lowest point of everything that can touch the floor [m]; inf if nothing can."""
-    touching = np.flatnonzero((model.geom_conaffinity & 1) & (model.geom_bodyid > 0))
-    heights = []
-    for geom in touching.tolist():
-        # Support of the geom downwards; `up` is the world's vertical in the geom's frame.
-        up: FloatArray = data.geom_xmat[geom].reshape(3, 3)[2]
-        size = model.geom_size[geom]
-        across = np.sqrt(max(0.0, 1.0 - up[2] ** 2))
-        match model.geom_type[geom]:
-            case _Geom.mjGEOM_SPHERE:
-                reach = size[0]
-            case _Geom.mjGEOM_CAPSULE:
-                reach = size[0] + size[1] * abs(up[2])
-            case _Geom.mjGEOM_CYLINDER:
-                reach = size[0] * across + size[1] * abs(up[2])
-            case _Geom.mjGEOM_BOX:
-                reach = size @ np.abs(up)
-            case _Geom.mjGEOM_ELLIPSOID:
-                reach = np.linalg.norm(size * up)
-            case _Geom.mjGEOM_MESH:
-                first = model.mesh_vertadr[model.geom_dataid[geom]]
-                count = model.mesh_vertnum[model.geom_dataid[geom]]
-                reach = -(model.mesh_vert[first : first + count] @ up).min()
-            case _:
-                reach = model.geom_rbound[geom]
-        heights.append(float(data.geom_xpos[geom, 2] - reach))
-    return min(heights, default=np.inf)
-
-
-DRIVE = "ocs_drive_"
-"""Prefix of the names of the joint drives."""
-
-HELD = 1e6
-"""Armature of a held joint [kg m^2 or kg]: 1 N m over a second moves it by 1e-6 rad/s."""
-
-LEG_STIFFNESS = 0.5
-LEG_DAMPING = 0.5
-STABLE_SHARE = 0.5
-"""Of the explicit Runge-Kutta limit: largest `eigenvalue(M^-1 K_d) dt`."""
-
-
-@dataclass(frozen=True, eq=False)
-class DriveGains:
-    """Gains of every leg joint, in the order of `leg_joints`.
-
-    Attributes:
-        stiffness: [N m/rad]. damping: of the drive [N m s/rad].
-        friction: viscous, of the joint itself [N m s/rad].
-    """
-
-    stiffness: FloatArray
-    damping: FloatArray
-    friction: FloatArray
-
-
-def leg_joints(robot: Robot) -> list[str]:
-    """Names of the joints that are driven."""
-    in_legs = {joint for leg in robot.legs for joint in leg.joints}
-    return [name for name in robot.tree.joints if name in in_legs]
-
-
-def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """One drive for each leg joint, limited to its effort; gains follow after compiling."""
-    for name in leg_joints(robot):
-        limit = effort_limit(robot.tree.joints[name])
-        drive = spec.add_actuator(
-            name=DRIVE + name,
-            target=name,
-            trntype=mujoco.mjtTrn.mjTRN_JOINT,
-            gaintype=mujoco.mjtGain.mjGAIN_FIXED,
-            biastype=mujoco.mjtBias.mjBIAS_AFFINE,
-        )
-        plain_actuator(drive)
-        if np.isfinite(limit):
-            drive.forcelimited = 1
-            drive.forcerange = [-limit, limit]
-
-
-def hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """Hold every joint that is in no leg, by inertia; nothing else need then be computed for it."""
-    driven = leg_joints(robot)
-    for name in robot.tree.joints:
-        if name not in driven:
-            joint = spec.joint(name)
-            joint.armature, joint.frictionloss = HELD, 0.0
-            joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
-
-
-def effort_limit(joint: Joint) -> float:
-    """[N m or N]; files write 0 where the author left it open."""
-    return joint.effort if joint.effort > 0.0 else np.inf
-
-
-def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
-    """Give the drives of a compiled model their gains, for the posture that `data` is in."""
-    names = leg_joints(robot)
-    if not names:
-        return
-    actuators = [model.actuator(DRIVE + name).id for name in names]
-    gains = drive_gains(model, data, robot)
-    model.actuator_gainprm[actuators, 0] = gains.stiffness
-    model.actuator_biasprm[actuators, 1] = -gains.stiffness
-    model.actuator_biasprm[actuators, 2] = -gains.damping
-    model.dof_damping[_dofs(model, names)] = gains.friction
-
-
-def standing_torques(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> FloatArray:
-    """What the drives give while the robot stands level as it is in `data` [N m], shape (nu,).
-
-    Gravity's generalised forces `g(q) = tau + sum_i J_i^T f_i`: the rows of the floating base give
-    the smallest vertical forces f_i on the feet, those of the joints the torques.
-    """
-    torque = np.zeros(model.nu)
-    if not robot.legs:
-        return torque
-    mujoco.mj_forward(model, data)
-    pull, floats = data.qfrc_bias, model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)
-    first = int(model.jnt_dofadr[floats][0])
-    free = slice(first, first + 6)
-    columns = []
-    for leg in robot.legs:
-        body = model.body(robot.tree.bodies[leg.body].name).id
-        sole = data.xpos[body] + data.xmat[body].reshape(3, 3) @ leg.foot
-        sole[2] -= leg.foot_radius
-        jacobian = np.empty((3, model.nv))
-        mujoco.mj_jac(model, data, jacobian, None, sole, body)
-        columns.append(jacobian[2])
-    lifts = np.stack(columns, axis=1)
-    forces = np.linalg.lstsq(lifts[free], pull[free], rcond=None)[0]
-    names = leg_joints(robot)
-    actuators = [model.actuator(DRIVE + name).id for name in names]
-    torque[actuators] = (pull - lifts @ np.maximum(forces, 0.0))[_dofs(model, names)]
-    return torque
-
-
-def drive_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> DriveGains:
-    """Gains from physics, lowered where the explicit step could not follow them.
-
-    Runge-Kutta of order four is stable for `|lambda| dt < 2.78` on the real axis and 2.82 on the
-    imaginary one (Hairer and Wanner, Solving ODEs II, section IV.2). The friction that a file
-    states counts as well: on a link that it gives next to no inertia none would be slow enough.
-    """
-    length_of = {joint: leg.length for leg in robot.legs for joint in leg.joints}
-    names = leg_joints(robot)
-    lengths = np.array([length_of[name] for name in names])
-    stiffness = LEG_STIFFNESS * robot.mass * STANDARD_GRAVITY * lengths
-    damping = LEG_DAMPING * stiffness * np.sqrt(lengths / STANDARD_GRAVITY)
-    dofs = _dofs(model, names)
-    inverse = np.empty((model.nv, model.nv))
-    mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
-    mobility, step = inverse[np.ix_(dofs, dofs)], model.opt.timestep
-
-    # First each joint alone, which feels the inertia `1 / (M^-1)_jj`, then all together.
-    felt = 1.0 / np.diag(mobility)
-    friction = np.minimum(model.dof_damping[dofs], STABLE_SHARE * felt / step)
-    damping = np.minimum(damping + friction, STABLE_SHARE * felt / step) - friction
-    stiffness = np.minimum(stiffness, (STABLE_SHARE / step) ** 2 * felt)
-    root = np.sqrt(damping + friction)
-    fastest = np.linalg.eigvalsh(root[:, None] * mobility * root).max() * step
-    relax = min(1.0, 2.0 * STABLE_SHARE / fastest) if fastest > 0.0 else 1.0
-    return DriveGains(stiffness * relax, damping * relax, friction * relax)
-
-
-def _dofs(model: mujoco.MjModel, names: Sequence[str]) -> list[int]:
-    return [int(model.joint(name).dofadr[0]) for name in names]
-
-
-STEP = 1e-3
-"""Time step of the physics [s] (paper, table 1); a joint drive of 1 kHz can follow it."""
-
 JUMP_STEP = 5e-4
 """Time step where legs push off [s]. As they brake after lift-off they turn at 10 to 30 rad/s, and
 Runge-Kutta at 1 ms loses up to 4e-6 of the angular momentum; at half of that, twenty times less."""
-
-WHEEL_JOINTS = tuple(f"{PREFIX}{side}" for side in SIDES)
-FLYWHEELS = tuple(f"{joint}_flywheel" for joint in WHEEL_JOINTS)
 
 
 class Wheels(StrEnum):
@@ -283,11 +61,7 @@ class Sensor(StrEnum):
 
 
 def robot_scene(robot: Robot) -> mujoco.MjSpec:
-    """The bare robot on a floor, its legs on drives, with sensors; free to fall.
-
-    Runge-Kutta, because Euler and implicitfast drift with fast wheels (docs/theory.md, Numerics of
-    fast wheels); the dense Jacobian, because MuJoCo 4.0's sparse Newton solver has a fault.
-    """
+    """The bare robot on a floor, its legs on drives, with sensors; free to fall."""
     spec = build_spec(robot, visuals=False).spec
     # The robot's own control has no part in the flights.
     for element in [*spec.actuators, *spec.sensors, *spec.keys]:
@@ -306,13 +80,7 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
         (Sensor.TRUNK, kind.mjSENS_FRAMEPOS, object_kind.mjOBJ_XBODY, trunk, [0, 0, 0]),
     ):
         spec.add_sensor(name=name, type=measured, objtype=of, objname=target, intprm=parameters)
-    plain_options(spec)
-    spec.option.timestep = STEP
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
-    spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    # At the default 1e-8 the solver stops early on a warm start, and what is left of the residual
-    # pushes the floating base: 5e-5 of the momentum per second on a robot with joints at limits.
-    spec.option.tolerance = 1e-12
+    flight_options(spec)
     # A state that is not finite must stay so and be reported, not be reset to the start.
     spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     return spec
@@ -336,18 +104,18 @@ def compile_scene(
             carrier=Carrier(1e-9, 1e-12, 1e-12) if carrier.mass > 0.0 else carrier,
         )
     attach_device(spec, robot, device)
-    for name in FLYWHEELS:
+    for name in flywheel_names(device):
         for geom in spec.body(name).geoms:
             geom.contype, geom.conaffinity = 0, 1
     spec.option.gravity = [0.0, 0.0, -gravity]
     if wheels is not Wheels.ACTIVE:
-        for name in WHEEL_JOINTS:
+        for name in joint_names(device):
             spec.joint(name).armature = HELD
     model = spec.compile()
     if wheels is Wheels.ABSENT:
         # Only now: a geom that touches nothing would be compiled to other sizes, and the worlds
         # of a batch share their working memory.
-        flywheels = [model.body(name).id for name in FLYWHEELS]
+        flywheels = [model.body(name).id for name in flywheel_names(device)]
         model.geom_conaffinity[np.isin(model.geom_bodyid, flywheels)] = 0
     return model
 

@@ -6,16 +6,17 @@ sum. Unlike the wheels' law it needs no feedback from the batch, and changes at 
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.reference import track
-from ocs_design.simulation.scene import DRIVE
-from ocs_design.simulation.wheel_law import Target
+from ocs_design.simulation.wheel_law import RegulatedPlan, Target
 from ocs_design.simulation.world import World
 
 _EARLIEST = 0.5
@@ -113,7 +114,7 @@ def _commands(world: World) -> FloatArray:
     model, legs = world.model, world.legs
     times = np.arange(0.0, legs.time[-1] + model.opt.timestep, model.opt.timestep)
     commands = np.tile(world.ctrl, (len(times) + 1, 1))
-    actuators = [model.actuator(DRIVE + name).id for name in legs.joints]
+    actuators = [model.actuator(name).id for name in legs.joints]
     stiffness = model.actuator_gainprm[actuators, 0]
     damping = -model.actuator_biasprm[actuators, 2]
     position, velocity, torque = (
@@ -137,10 +138,13 @@ class References:
         angle = np.stack([world.turn.angle(times) for world in worlds], axis=1)
         rates = np.stack([world.turn.rate(later) for world in worlds], axis=1)[..., None]
         self._vertical = quaternions.vertical(quaternions.from_axis_angle(axis, angle))
-        self._rate = rates[:-1] * axis[:, :2]
+        self._rate = rates[:-1] * axis
         # The mean over the step that the torque is held for brings the rate to where it should be.
-        self._acceleration = np.diff(rates, axis=0) / period * axis[:, :2]
-        self._torque = np.zeros((len(times), len(worlds), 2))
+        self._acceleration = np.diff(rates, axis=0) / period * axis
+        self._torque = np.zeros((len(times), len(worlds), len(worlds[0].wheels)))
+        # Where each world's regulated plan begins among the rows of all; samples share theirs.
+        plans: dict[int, RegulatedPlan] = {}
+        self._first_row = np.full(len(worlds), NEVER)
         for index, world in enumerate(worlds):
             if world.trajectory is not None:
                 # Its torque holds its acceleration.
@@ -149,17 +153,37 @@ class References:
                 self._rate[:, index] = planned.rate
                 self._acceleration[:, index] = 0.0
                 self._torque[:, index] = planned.torque
+                if planned.plan is not None:
+                    plans[id(world.trajectory)] = planned.plan
+                    self._first_row[index] = len(times) * list(plans).index(id(world.trajectory))
+        self._plans = RegulatedPlan.joined(list(plans.values())) if plans else None
 
     def at(self, steps: Steps) -> Target:
         """References of the worlds in the air, each so many control steps after its lift-off."""
-        rows = np.maximum(steps, 0), np.arange(len(steps))
+        rows, plan = (np.maximum(steps, 0), np.arange(len(steps))), None
+        if self._plans is not None:
+            first = self._first_row[: len(steps)]
+            plan = self._plans.take(np.maximum(first, 0) + rows[0])
+            plan = replace(plan, holds=plan.holds & (first != NEVER))
         return Target(
             self._vertical[rows],
             self._rate[rows],
             self._acceleration[rows],
             self._torque[rows],
             np.zeros(len(steps), dtype=np.bool_),
+            plan,
         )
+
+
+def _mass_and_com(world: World) -> tuple[float, FloatArray]:
+    """Mass of all that flies [kg], and its centre of mass at the start in B [m], shape (3,)."""
+    model, data, trunk = world.model, mujoco.MjData(world.model), world.addresses.trunk
+    data.qpos[:] = world.qpos
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    origin = data.xpos[trunk] + data.xmat[trunk].reshape(3, 3) @ world.chain.origin
+    to_world = quaternions.matrix(world.chain.attitude(world.qpos))
+    return float(model.body_mass.sum()), (data.subtree_com[0] - origin) @ to_world
 
 
 class Pushes:
@@ -168,7 +192,8 @@ class Pushes:
     def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
         self._pushed = np.zeros((len(times), len(worlds), 2, 3))
         for index, world in enumerate(worlds):
-            for push in world.pushes:
+            for given in world.pushes:
+                push = given.of_force(*_mass_and_com(world)) if given.force.any() else given
                 share = push.share(times, period)[:, None, None]
                 self._pushed[:, index] += share * np.stack([push.torque, push.acceleration])
         acting = np.flatnonzero(self._pushed.any(axis=(1, 2, 3)))

@@ -6,9 +6,11 @@ from math import remainder, tau
 
 import numpy as np
 
-from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
+from ocs_design.export.physics import STEADY_LEGS
+from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove, TurnTo
+from ocs_design.simulation import quaternions
 from ocs_design.simulation.metrics import UPRIGHT_TILT, Metrics
-from ocs_design.simulation.world import STEADY_LEGS
+from ocs_design.sizing.trajectory.boundary import boundary
 
 LANDING_TOLERANCE = np.radians(5.0)
 """Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
@@ -80,7 +82,7 @@ def judge(
         return verdict
     return replace(
         verdict,
-        level=None if shoved else not _landing_failure(metrics),
+        level=None if shoved else not _landing_failure(metrics, maneuver),
         stands=None if can_stand is None else metrics.upright_at_end,
     )
 
@@ -91,6 +93,8 @@ def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None, legs: i
     if failure is not None:
         return failure
     landing, final = f"touches down at {_tilt(metrics)}", _final_tilt(metrics)
+    if isinstance(maneuver, TurnTo):
+        landing += f", heading turned by {_degrees(float(np.degrees(metrics.heading_drift)))} deg"
     if can_stand is None:
         ending = "; without legs there is nothing to stand on"
     elif not can_stand:
@@ -119,7 +123,7 @@ def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
         falls = "not judged: the legs do not keep the robot up, not even unshoved"
         return Verdict(None, falls, Fault.UNSOUND)
     # What a shove has for touchdown is the instant that it begins.
-    if _landing_failure(metrics):
+    if _off_level(metrics):
         leans = (
             f"not judged: the robot does not stand level by itself: it leans by {_tilt(metrics)} "
             f"before the shove"
@@ -190,7 +194,14 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
         turned, asked = np.degrees([metrics.turned_angle, maneuver.angle])
         failure = f"turns {_degrees(turned)} of {asked:.0f} deg before touchdown"
         return Verdict(False, failure, Fault.TURN)
-    if failure := _landing_failure(metrics):
+    _, _, heading = landing_attitude(maneuver)
+    if heading is not None:
+        turned = metrics.heading_drift
+        if abs(remainder(turned - heading, tau)) > LANDING_TOLERANCE:
+            made, asked = (_degrees(float(np.degrees(angle))) for angle in (turned, heading))
+            failure = f"touches down with its heading turned by {made} of {asked} deg"
+            return Verdict(False, failure, Fault.TURN)
+    if failure := _landing_failure(metrics, maneuver):
         if isinstance(maneuver, Flip) and abs(remainder(maneuver.angle, tau)) > LANDING_TOLERANCE:
             asked = _degrees(float(np.degrees(maneuver.angle)))
             failure += f": a turn of {asked} deg does not end level, one of 360deg does"
@@ -198,8 +209,34 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     return None
 
 
-def _landing_failure(metrics: Metrics) -> str:
-    """What is wrong with the attitude at touchdown; empty if it is level."""
+def landing_attitude(maneuver: Maneuver) -> tuple[float, float, float | None]:
+    """Roll, pitch and heading that a trunk shall have at touchdown [rad]; None: any heading."""
+    if not isinstance(maneuver, TurnTo) or maneuver.end != End.ATTITUDE:
+        return 0.0, 0.0, None
+    attitude = boundary(maneuver, 0.0).final_attitude
+    roll, pitch = quaternions.tilt(attitude)
+    return float(roll), float(pitch), float(quaternions.heading(attitude))
+
+
+def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
+    """What is wrong with the attitude at touchdown; empty if it is level, or as asked."""
+    if isinstance(maneuver, TurnTo) and maneuver.end == End.AT_REST:
+        if metrics.touchdown_rate <= REST_RATE:
+            return ""
+        rate = np.degrees(metrics.touchdown_rate)
+        return f"touches down at {_tilt(metrics)}, turning at {rate:.0f} deg/s"
+    roll, pitch, _ = landing_attitude(maneuver)
+    if roll == pitch == 0.0:
+        return _off_level(metrics)
+    tilt = max(abs(metrics.touchdown_roll - roll), abs(metrics.touchdown_pitch - pitch))
+    if tilt <= LANDING_TOLERANCE:
+        return ""
+    asked = _angles(pitch, roll)
+    return f"touches down at {_tilt(metrics)}, not at {asked}"
+
+
+def _off_level(metrics: Metrics) -> str:
+    """What is wrong with the tilt at touchdown; empty if it is level."""
     tilt = max(abs(metrics.touchdown_roll), abs(metrics.touchdown_pitch))
     if tilt <= LANDING_TOLERANCE:
         return ""

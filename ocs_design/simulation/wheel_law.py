@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from ocs_design.actuation.drive import RESERVE, Drive, power_less_friction
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table
-from ocs_design.device.device import SIDES
 from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.simulation import quaternions
+from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
 
 
 def clipped(
@@ -123,9 +123,9 @@ _ENDLESS = 1e100
 """Stands for a power without limit: its products with others are finite [W]."""
 
 
-SUPPLY_USED = 0.99
-"""Share of the supply's power that the law uses: what else turns the wheels within a control step,
-as the trunk hits the ground, changes their power by less than the rest."""
+USED = 0.99
+"""Share of voltage and of the supply's power that the law uses: what else turns the wheels within a
+control step, as the trunk hits the ground, changes speed and power by less than the rest."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ class MotorLimits:
     """Limits of a motor at its wheel (docs/theory.md, What a motor can do).
 
     Attributes:
-        no_load_speed: w_0 [rad/s]; inf: not limited.
+        no_load_speed: where the line ends that friction leaves [rad/s]; inf: not limited.
         line_slope: speed lost per torque on the voltage line, w_0 / tau_s [rad/s/(N m)]; 0 where no
             stall torque is given: full torque up to w_0.
         torque_limit: at the current limit [N m]; inf: not limited.
@@ -155,15 +155,25 @@ class MotorLimits:
     voltage: float | None = None
 
     @classmethod
-    def of(cls, motor: Drive, supply: Supply | None = None) -> "MotorLimits":
-        """The limits of a catalogue or assumed motor; None: nothing is known of its supply."""
+    def of(cls, motor: Drive, supply: Supply | None = None, wheels: int = 1) -> "MotorLimits":
+        """The limits of a catalogue or assumed motor.
+
+        Args:
+            motor: see `Drive`.
+            supply: that feeds all motors; None: nothing is known of it.
+            wheels: how many motors it feeds.
+        """
         limit = np.inf if motor.torque_limit is None else motor.torque_limit
         top = np.inf if motor.speed_max is None else motor.speed_max
         line = cls(motor.no_load_speed, 0.0, limit, top)
         if motor.stall_torque is not None and np.isinf(motor.no_load_speed):
             line = cls(np.inf, 0.0, min(limit, motor.stall_torque), top)
         elif motor.stall_torque is not None:
-            line = replace(line, line_slope=motor.no_load_speed / motor.stall_torque)
+            line = replace(
+                line,
+                no_load_speed=motor.line_left * motor.no_load_speed,
+                line_slope=motor.no_load_speed / motor.stall_torque,
+            )
         if supply is None or motor.resistance is None or motor.torque_constant is None:
             return line
         per_current = motor.gear_ratio * motor.gear_efficiency * motor.torque_constant
@@ -171,9 +181,7 @@ class MotorLimits:
             line,
             copper=motor.resistance / per_current**2,
             efficiency=motor.gear_efficiency,
-            power_max=power_less_friction(
-                supply, len(SIDES), motor, line.torque_limit / per_current
-            ),
+            power_max=power_less_friction(supply, wheels, motor, line.torque_limit / per_current),
             voltage=supply.voltage,
         )
 
@@ -242,22 +250,25 @@ class Gains:
 
 @dataclass(frozen=True, eq=False)
 class WheelLaw(Table):
-    """The law's constants for n worlds; every array has the worlds first.
+    """The law's constants for n worlds of m wheels each; every array has the worlds first.
 
     Attributes:
         momentum_map: `[I_tot, h A]`, from trunk rate and wheel speeds to momentum,
-            shape (n, 3, 5).
+            shape (n, 3, 3 + m).
         torque_map: from roll and pitch acceleration and the gyroscopic torque to motor torques,
-            shape (n, 2, 5).
+            shape (n, m, 5).
+        heading_map: from yaw acceleration to motor torques, shape (n, m); zero where the wheels do
+            not span all three axes.
         stiffness, damping: `Gains`, shape (n,).
         standing_stiffness, standing_damping: in their place on the ground, shape (n,).
-        no_load_speed, line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
-        copper, efficiency: likewise. power_max: that the law uses [W], shape (n,).
+        line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
+        copper, efficiency: likewise. no_load_speed, power_max: that the law uses [rad/s, W], (n,).
         wheel_response: see `Gyrostat`, shape (n,).
     """
 
     momentum_map: FloatArray
     torque_map: FloatArray
+    heading_map: FloatArray
     stiffness: FloatArray
     damping: FloatArray
     no_load_speed: FloatArray
@@ -284,36 +295,40 @@ class WheelLaw(Table):
         """The law of one world (n = 1); `balances`: the wheels hold the attitude in stance too."""
         momentum_map = np.hstack([body.inertia, body.spin_inertia * body.axes])
         shared = body.axes.T / body.reaction if allocation is Allocation.TRANSPOSE else body.sharing
-        # `J w_dot = -g A tau - w x H`, g the reaction (see `Gyrostat`), solved for tau. The wheels
-        # cannot push about z, so its row is no command but says which yaw acceleration comes with
-        # the other two.
+        # `J w_dot = -g A tau - w x H`, g the reaction (see `Gyrostat`), solved for tau.
         J = body.actuated_inertia
-        yaw = J[:, 2:] / J[2, 2]
-        from_tilt = J[:, :2] - yaw @ J[2:, :2]
-        from_gyroscopic = np.eye(3) - yaw @ np.array([[0.0, 0.0, 1.0]])
+        from_tilt, from_gyroscopic, from_yaw = J[:, :2], np.eye(3), J[:, 2]
+        if np.linalg.matrix_rank(body.axes, OUT_OF_REACH) < len(J):
+            # The wheels cannot push about z, so its row is no command but says which yaw
+            # acceleration comes with the other two.
+            yaw = J[:, 2:] / J[2, 2]
+            from_tilt = J[:, :2] - yaw @ J[2:, :2]
+            from_gyroscopic = np.eye(3) - yaw @ np.array([[0.0, 0.0, 1.0]])
+            from_yaw = np.zeros(3)
         torque_map = -shared @ np.hstack([from_tilt, from_gyroscopic])
         return cls(
             momentum_map[None],
             torque_map[None],
+            (-shared @ from_yaw)[None],
             np.array([gains.stiffness]),
             np.array([gains.damping]),
-            np.array([limits.no_load_speed]),
+            np.array([USED * limits.no_load_speed]),
             np.array([limits.line_slope]),
             np.array([limits.torque_limit]),
             np.array([limits.speed_max]),
             np.array([limits.copper]),
             np.array([limits.efficiency]),
-            np.array([SUPPLY_USED * limits.power_max]),
+            np.array([USED * limits.power_max]),
             np.array([body.wheel_response]),
             np.array([gains.stiffness if balances else 0.0]),
             np.array([gains.damping]),
         )
 
     @classmethod
-    def off(cls) -> "WheelLaw":
+    def off(cls, wheels: int) -> "WheelLaw":
         """No torque, in one world."""
         one, none = np.ones(1), np.zeros(1)
-        maps = np.zeros((1, 3, 5)), np.zeros((1, 2, 5))
+        maps = np.zeros((1, 3, 3 + wheels)), np.zeros((1, wheels, 5)), np.zeros((1, wheels))
         return cls(*maps, none, none, one, one, none, one, none, one, np.inf * one, one, none, none)
 
     @property
@@ -328,41 +343,62 @@ class WheelLaw(Table):
         wheel_speed: FloatArray,
         target: "Target",
         period: float,
+        *,
+        attitude: FloatArray | None = None,
     ) -> FloatArray:
-        """Motor torque on each wheel [N m], shape (n, 2).
+        """Motor torque on each wheel [N m], shape (n, m).
 
         Args:
             vertical: the world's upward direction in B, unit vectors (n, 3).
             rate: of the trunk in B [rad/s], (n, 3).
-            wheel_speed: relative to the trunk [rad/s], (n, 2).
+            wheel_speed: relative to the trunk [rad/s], (n, m).
             target: where the trunk should be.
             period: for which the torque will be held [s].
+            attitude: quaternions (n, 4), where the target has a regulated plan.
         """
         error = tilt_error(vertical, target.vertical)
-        slip = target.rate - rate[:, :2]
+        slip = target.rate - rate
         stiffness = np.where(target.stands, self.standing_stiffness, self.stiffness)
         damping = np.where(target.stands, self.standing_damping, self.damping)
-        wanted = stiffness[:, None] * error + damping[:, None] * slip + target.acceleration
+        change = damping[:, None] * slip
+        wanted = stiffness[:, None] * error + change[:, :2] + target.acceleration[:, :2]
+        yaw = change[:, 2:] + target.acceleration[:, 2:]
         gyroscopic = self.gyroscopic(rate, wheel_speed)
         torque = np.einsum(
             "nij,nj->ni", self.torque_map, np.concatenate([wanted, gyroscopic], axis=1)
         )
-        gain = (self.wheel_response * period)[:, None]
-        possible = clipped(
-            torque + target.torque,
+        asked = torque + self.heading_map * yaw + target.torque
+        if target.plan is not None and attitude is not None:
+            planned = target.plan.torque(attitude, rate, wheel_speed)
+            asked = np.where(target.plan.holds[:, None], planned, asked)
+        return self.within_supply(
+            self.within_motors(asked, wheel_speed, period), wheel_speed, period
+        )
+
+    def within_motors(
+        self, torque: FloatArray, wheel_speed: FloatArray, period: float
+    ) -> FloatArray:
+        """Torques cut to what each motor can give, see `clipped`; shapes as of `torque`."""
+        return clipped(
+            torque,
             wheel_speed,
-            gain=gain,
+            gain=(self.wheel_response * period)[:, None],
             line_slope=self.line_slope[:, None],
             no_load_speed=self.no_load_speed[:, None],
             torque_limit=self.torque_limit[:, None],
             speed_max=self.speed_max[:, None],
         )
+
+    def within_supply(
+        self, torque: FloatArray, wheel_speed: FloatArray, period: float
+    ) -> FloatArray:
+        """Torques of the motors cut to what the supply can give, see the function of that name."""
         if np.isinf(self.power_max).all():
-            return possible
+            return torque
         return within_supply(
-            possible,
+            torque,
             wheel_speed,
-            gain=gain,
+            gain=(self.wheel_response * period)[:, None],
             copper=self.copper[:, None],
             efficiency=self.efficiency[:, None],
             power_max=self.power_max[:, None],
@@ -377,18 +413,48 @@ class WheelLaw(Table):
 
 
 @dataclass(frozen=True, eq=False)
+class RegulatedPlan(Table):
+    """Planned states of n worlds at one instant, and the gains that keep a trunk on them.
+
+    Attributes:
+        attitude: quaternions (n, 4). rate: in B [rad/s], (n, 3). wheel_speed: [rad/s], (n, m).
+        wheel_torque: of the motors [N m], (n, m).
+        gains: see `Trajectory`, (n, m, 6 + m).
+        holds: whether a world follows such a plan now, (n,).
+    """
+
+    attitude: FloatArray
+    rate: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    gains: FloatArray
+    holds: NDArray[np.bool_]
+
+    def torque(self, attitude: FloatArray, rate: FloatArray, speed: FloatArray) -> FloatArray:
+        """Planned torque less the gains times the errors [N m], shape (n, m)."""
+        off = quaternions.product(quaternions.conjugate(self.attitude), attitude)
+        error = np.concatenate(
+            [quaternions.rotation_vector(off), rate - self.rate, speed - self.wheel_speed], axis=1
+        )
+        taken_off: FloatArray = np.einsum("nij,nj->ni", self.gains, error)
+        return self.wheel_torque - taken_off
+
+
+@dataclass(frozen=True, eq=False)
 class Target:
     """Attitude and rate that n trunks should have at one instant.
 
     Attributes:
         vertical: the world's upward direction in B, unit vectors (n, 3). The heading
             is free.
-        rate, acceleration: about roll and pitch in B [rad/s, rad/s^2], shape (n, 2).
+        rate, acceleration: in B [rad/s, rad/s^2], shape (n, 3); about yaw they count where the
+            wheels span all three axes.
         torque: of the motors, on top of what the acceleration and the gyroscopic torque of the
-            moment ask for [N m], shape (n, 2).
+            moment ask for [N m], shape (n, m).
         stands: whether the feet are on the ground, shape (n,). Three legs and more then hold the
             attitude and the wheels only damp: whatever the stance leans by, wheels that push
             against it run up to their top speed and are of no use any more.
+        plan: that worlds follow with gains of their own in place of all this; None: none does.
     """
 
     vertical: FloatArray
@@ -396,16 +462,18 @@ class Target:
     acceleration: FloatArray
     torque: FloatArray
     stands: NDArray[np.bool_]
+    plan: RegulatedPlan | None = None
 
     def landed(self, contact: NDArray[np.bool_]) -> "Target":
         """Target with the worlds at rest whose feet are on the ground, as plans end there."""
-        left = ~contact[:, None]
+        left, plan = ~contact[:, None], self.plan
         return Target(
             self.vertical,
             self.rate * left,
             self.acceleration * left,
             self.torque * left,
             self.stands | contact,
+            None if plan is None else replace(plan, holds=plan.holds & ~contact),
         )
 
 
@@ -424,7 +492,8 @@ def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:
     axis = _cross(target, vertical)
     sine = np.sqrt((axis * axis).sum(axis=1))
     angle = np.arctan2(sine, (target * vertical).sum(axis=1))
-    error: FloatArray = axis[:, :2] * (angle / (sine + 1e-300))[:, None]
+    # Added, not taken for a largest: no branch, and representable in single precision too.
+    error: FloatArray = axis[:, :2] * (angle / (sine + 1e-30))[:, None]
     return error
 
 
@@ -477,6 +546,25 @@ class Desaturation:
         )
 
 
+def braking(
+    speed: FloatArray,
+    stood: FloatArray,
+    *,
+    settling: FloatArray,
+    damping: FloatArray,
+    torque_max: FloatArray,
+) -> FloatArray:
+    """Torque that brakes wheels while the robot stands [N m], shape (n, wheels).
+
+    Args:
+        speed: of the wheels [rad/s], shape (n, wheels).
+        stood: time on the ground [s], shape (n, 1).
+        settling, damping, torque_max: see `Desaturation`, shape (n, 1).
+    """
+    wanted = np.minimum(np.maximum(-damping * speed, -torque_max), torque_max)
+    return np.where(stood >= settling, wanted, 0.0)
+
+
 class WheelBrake:
     """Braking of the wheels of n worlds, with the time that each has stood."""
 
@@ -484,7 +572,7 @@ class WheelBrake:
         """Brakes of worlds that decide every `period` [s]."""
         idle = Desaturation(np.inf, 0.0, 0.0)
         rows = [idle if each is None else each for each in own]
-        self._settling = np.array([each.settling for each in rows])
+        self._settling = np.array([[each.settling] for each in rows])
         self._damping = np.array([[each.damping] for each in rows])
         self._largest = np.array([[each.torque_max] for each in rows])
         self._stood, self._period = np.zeros(len(rows)), period
@@ -493,11 +581,16 @@ class WheelBrake:
         """The target with the braking torque on top.
 
         Args:
-            target: of the first n worlds. speed: of their wheels [rad/s], shape (n, 2).
+            target: of the first n worlds. speed: of their wheels [rad/s], shape (n, m).
             contact: whether each has just touched the floor, shape (n,).
         """
         n = len(speed)
         self._stood[:n] = np.where(contact, self._stood[:n] + self._period, 0.0)
-        wanted = np.clip(-self._damping[:n] * speed, -self._largest[:n], self._largest[:n])
-        stands = (self._stood[:n] >= self._settling[:n])[:, None]
-        return replace(target, torque=target.torque + np.where(stands, wanted, 0.0))
+        torque = braking(
+            speed,
+            self._stood[:n, None],
+            settling=self._settling[:n],
+            damping=self._damping[:n],
+            torque_max=self._largest[:n],
+        )
+        return replace(target, torque=target.torque + torque)

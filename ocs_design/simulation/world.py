@@ -12,6 +12,14 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
+from ocs_design.device.naming import flywheel_names, joint_names
+from ocs_design.export.physics import (
+    STEADY_LEGS,
+    leg_joints,
+    set_gains,
+    stand,
+    standing_torques,
+)
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan, LegTrajectory
 from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Unforeseen
@@ -27,21 +35,15 @@ from ocs_design.simulation.launch import (
     level_launch,
     on_the_ground,
     place,
-    stand,
 )
 from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, Turn, fit_turn
 from ocs_design.simulation.scene import (
-    DRIVE,
     JUMP_STEP,
-    WHEEL_JOINTS,
     Sensor,
     Wheels,
     compile_scene,
-    leg_joints,
     locked_inertia,
     robot_scene,
-    set_gains,
-    standing_torques,
 )
 from ocs_design.simulation.trotting import waiting
 from ocs_design.simulation.wheel_law import (
@@ -78,13 +80,14 @@ class TrunkChain:
     Attributes:
         position, velocity: where the free joint starts in qpos and in qvel.
         links: from the base outwards; slides do not turn the trunk and are left out.
-        end: frame B in the last body, quaternion (4,).
+        end: frame B in the last body, quaternion (4,). origin: that of B there [m], shape (3,).
     """
 
     position: int
     velocity: int
     links: tuple[Link, ...]
     end: FloatArray
+    origin: FloatArray
 
     @classmethod
     def of(cls, robot: Robot, model: mujoco.MjModel) -> "TrunkChain":
@@ -105,13 +108,14 @@ class TrunkChain:
                 turn = quaternion(fixed)
                 links.append(Link(turn, body.joint.axis, position, velocity))
                 fixed = np.eye(3)
-        end = tree.bodies[tree.body_of_link[robot.trunk]].links[robot.trunk].rotation
+        end = tree.bodies[tree.body_of_link[robot.trunk]].links[robot.trunk]
         free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])
         return cls(
             int(model.jnt_qposadr[free]),
             int(model.jnt_dofadr[free]),
             tuple(links),
-            quaternion(fixed @ end),
+            quaternion(fixed @ end.rotation),
+            end.position,
         )
 
     def attitude(self, qpos: FloatArray) -> FloatArray:
@@ -144,22 +148,19 @@ PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
 """K_p and K_d of all robots where none are stated."""
 
 
-STEADY_LEGS = 3
-"""With so many a robot stands by itself."""
-
-
 @dataclass(frozen=True)
 class Addresses:
     """Addresses in the vectors of a model, equal for all worlds of a batch.
 
     Attributes:
         wheels: of the wheel joints in qvel. motors: of the wheel motors in ctrl.
-        trunk: index of the trunk's body.
+        flywheels, trunk: indices of the wheels' bodies and of the trunk's.
         contact, com, momentum, height: in the sensor data.
     """
 
-    wheels: tuple[int, int]
-    motors: tuple[int, int]
+    wheels: tuple[int, ...]
+    motors: tuple[int, ...]
+    flywheels: tuple[int, ...]
     trunk: int
     contact: int
     com: int
@@ -177,7 +178,7 @@ class World:
         ctrl: of the joint drives, which hold the nominal posture, shape (nu,).
         support: added to it while the feet bear the weight, so that the legs do not give way under
             it, shape (nu,); zero where a trot has torques of its own.
-        addresses: see `Addresses`. chain: see `TrunkChain`.
+        addresses: see `Addresses`. wheels: their names. chain: see `TrunkChain`.
         body: what the law believes in, measured on the model at the start.
         law: of the wheels. turn: what the trunk should do. pushes: what hits it.
         limits: of the motors; None where the wheels are not driven, or by no limited torque.
@@ -199,6 +200,7 @@ class World:
     ctrl: FloatArray
     support: FloatArray
     addresses: Addresses
+    wheels: tuple[str, ...]
     chain: TrunkChain
     body: Gyrostat
     law: WheelLaw
@@ -236,7 +238,7 @@ class WorldBuilder:
         self._gains = wheel_gains(robot) if gains is None else gains
         self._drop_profile = Quintic() if drop_profile is None else drop_profile
         self._desaturate = desaturate
-        self._limits = MotorLimits.of(device.motor, device.supply)
+        self._limits = MotorLimits.of(device.motor, device.supply, len(device.modules))
         self._scene = robot_scene(robot)
 
     def flight(
@@ -277,10 +279,10 @@ class WorldBuilder:
         data = mujoco.MjData(model)
         standing = stand(self._robot, model, data)
         set_gains(model, data, self._robot)
-        drives = [model.actuator(DRIVE + name).id for name in leg_joints(self._robot)]
+        drives = [model.actuator(name).id for name in leg_joints(self._robot)]
         support = np.zeros(model.nu)
         support[drives] = (
-            standing_torques(model, data, self._robot)[drives] / model.actuator_gainprm[drives, 0]
+            standing_torques(model, data, self._robot) / model.actuator_gainprm[drives, 0]
         )
         if legs is not None:
             # Only now: in every flight the drives are the same.
@@ -305,7 +307,7 @@ class WorldBuilder:
         fitted = FittedTurn(start.turn, "" if trajectory is None else trajectory.note)
         if active and trajectory is None:
             fitted = fit_turn(start.turn, body, self._limits)
-        law, desaturation = WheelLaw.off(), None
+        law, desaturation = WheelLaw.off(len(device.modules)), None
         if active:
             # One leg or two on the ground hold no attitude.
             balances = 0 < len(self._robot.legs) < STEADY_LEGS
@@ -318,18 +320,22 @@ class WorldBuilder:
         # Every leg drive at the nominal posture, the motors at zero.
         ctrl = np.zeros(model.nu)
         for name in leg_joints(self._robot):
-            ctrl[model.actuator(DRIVE + name).id] = self._robot.posture[name]
+            ctrl[model.actuator(name).id] = self._robot.posture[name]
         takes_off = bool(start.velocity.any())
         if legs is not None:
             start = on_the_ground(start, standing)
         place(self._robot, model, data, start, standing)
+        where = addresses(model, device)
+        if active:
+            data.qvel[list(where.wheels)] = start.wheel_speed
         return World(
             model=model,
             qpos=data.qpos.copy(),
             qvel=data.qvel.copy(),
             ctrl=ctrl,
             support=support if waits.legs is None else np.zeros(model.nu),
-            addresses=addresses(model),
+            addresses=where,
+            wheels=tuple(module.name for module in device.modules),
             chain=TrunkChain.of(self._robot, model),
             body=body,
             law=law,
@@ -362,13 +368,14 @@ def settling_time(robot: Robot, gravity: float) -> float:
     return Scale.of(robot).time(gravity)
 
 
-def addresses(model: mujoco.MjModel) -> Addresses:
-    """Looks everything up by name."""
-    left, right = WHEEL_JOINTS
+def addresses(model: mujoco.MjModel, device: Device) -> Addresses:
+    """Addresses by the names that the device has in the model."""
+    joints = joint_names(device)
     at = {sensor: int(model.sensor(sensor.value).adr[0]) for sensor in Sensor}
     return Addresses(
-        wheels=(int(model.joint(left).dofadr[0]), int(model.joint(right).dofadr[0])),
-        motors=(model.actuator(left).id, model.actuator(right).id),
+        wheels=tuple(int(model.joint(name).dofadr[0]) for name in joints),
+        motors=tuple(model.actuator(name).id for name in joints),
+        flywheels=tuple(model.body(name).id for name in flywheel_names(device)),
         trunk=int(model.sensor(Sensor.TRUNK.value).objid[0]),
         contact=at[Sensor.CONTACT],
         com=at[Sensor.COM],

@@ -12,24 +12,21 @@ from math import inf, isfinite
 
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.actuation.supply import Supply
-from ocs_design.catalogue.materials import strong_materials
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.device.bell_ring import ring_on_bell
-from ocs_design.device.records import Alternative, Owed
-from ocs_design.requirement.choices import any_motors
-from ocs_design.requirement.froude import BUS_VOLTAGES
+from ocs_design.device.records import SAVES_NOTHING, Alternative, Owed
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.resolving import Resolved
-from ocs_design.requirement.specification import AUTO, LIGHTEST, STEEL, Specification
+from ocs_design.requirement.specification import LIGHTEST, Specification
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.design import Choice, Designed, design_device, with_plate
-from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME
-from ocs_design.sizing.selection.device import device_of
+from ocs_design.sizing.design import Choice, Designed, design_device
+from ocs_design.sizing.limits import LIMITS, TIME
+from ocs_design.sizing.on_robot import with_plate
+from ocs_design.sizing.relaxations import relaxations
 from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
-from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.result import Candidate
-from ocs_design.sizing.selection.search import search_lightest
+from ocs_design.sizing.selection.select import lightest_below
 
 MORE_ROOM, MORE_TIME = 1.2, 1.1
 """Factors on r_max and on the time of every maneuver."""
@@ -126,7 +123,7 @@ def _answer(change: _Change, lighter: Candidate | None, choice: Choice) -> Alter
             change=change.text,
             mass_total=chosen.mass,
             motor=chosen.motor.name,
-            note="saves nothing",
+            note=SAVES_NOTHING,
         )
     return Alternative(
         change=change.text,
@@ -134,20 +131,6 @@ def _answer(change: _Change, lighter: Candidate | None, choice: Choice) -> Alter
         motor=lighter.motor.name,
         note="; ".join(_notes(change, lighter, choice.problem)),
     )
-
-
-def lightest_below(problem: SelectionProblem, below: float) -> Candidate | None:
-    """The lightest device, if there is one that is lighter than this [kg]."""
-    found = search_lightest(problem, below)
-    if not found.places:
-        return None
-    solved = found.devices[0]
-    if problem.incidence is None:
-        # There a search leaves up to 3 % of the mass.
-        point = refine(solved.candidates, solved.point)
-        better = replace(solved, point=point)
-        solved = better if better.mass[0] < solved.mass[0] else solved
-    return device_of(solved) if solved.mass[0] < below else None
 
 
 def _notes(change: _Change, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
@@ -168,42 +151,28 @@ def _notes(change: _Change, found: Candidate, asked: SelectionProblem) -> Iterat
 
 
 def _changes(specification: Specification, choice: Choice) -> Iterator[_Change]:
-    """Each relaxation that is none already, the question about it alone changed."""
-    chosen, stated = choice.chosen, specification.ocs
+    """Each relaxation, and more power, room and time: the question about it alone changed."""
+    chosen = choice.chosen
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
+    for each in relaxations(specification, problem):
+        yield _Change(each.text, each.problem(problem))
     asked = problem.requirement
-    if stated.alpha is None and stated.alpha_criterion != LIGHTEST:
-        free = replace(problem, incidence=None, requirement=replace(asked, free=True))
-        yield _Change("the incidence with which it is lightest", free)
-    if specification.flywheel.material in {None, STEEL}:
-        yield _Change("any material", replace(problem, materials=strong_materials()))
     turned = tuple(
         replace(maneuver, incidence=0.0)
         if isinstance(maneuver, Flip) and maneuver.incidence is None
         else maneuver
         for maneuver in asked.maneuvers
     )
-    if turned != asked.maneuvers:
+    if problem.layout.pairs and turned != asked.maneuvers:
         kept = dict(asked.reserves)
-        for each in turned:
-            if isinstance(each, Flip) and each.incidence == 0.0 and each.name in kept:
+        for flip in turned:
+            if isinstance(flip, Flip) and flip.incidence == 0.0 and flip.name in kept:
                 # At 0 deg no wheel takes up a rate of roll.
-                kept[each.name] = replace(kept[each.name], rate=(0.0, kept[each.name].rate[1]))
+                kept[flip.name] = replace(kept[flip.name], rate=(0.0, kept[flip.name].rate[1]))
         by_hand = replace(asked, maneuvers=turned, reserves=kept)
         yield _Change(
             "modules turned to 0 deg by hand for each flip", replace(problem, requirement=by_hand)
         )
-    if specification.motor.name in {None, AUTO} and not specification.motor.any:
-        every = any_motors(specification)
-        yield _Change("any motor of the catalogue", replace(problem, motors=every))
-    yield from _looser_limits(problem)
-
-
-def _looser_limits(problem: SelectionProblem) -> Iterator[_Change]:
-    """More voltage, power, room and time."""
-    more = min((v for v in BUS_VOLTAGES.values() if v > problem.bus_voltage), default=None)
-    if more is not None:
-        yield _Change(f"a supply of {more:g} V", with_limit(problem, BUS_VOLTAGE, more))
     if isfinite(problem.supply.power):
         endless = Supply(problem.supply.voltage, inf, inf)
         power = problem.supply.power
@@ -215,7 +184,7 @@ def _looser_limits(problem: SelectionProblem) -> Iterator[_Change]:
         f"r_max {format_quantity(radius, 'mm', 3)}, {MORE_ROOM - 1.0:.0%} more",
         with_limit(problem, room, radius),
     )
-    if problem.requirement.maneuvers:
+    if asked.maneuvers:
         yield _Change(
             f"{MORE_TIME - 1.0:.0%} more time for every maneuver",
             with_limit(problem, TIME, MORE_TIME),
@@ -228,7 +197,7 @@ def _constructions(designed: Designed) -> Iterator[Alternative]:
     if ring is not None:
         yield Alternative(
             change="a ring bonded around each motor's bell in place of the disc",
-            mass_total=designed.device.mass + 2.0 * ring.beyond,
+            mass_total=designed.device.mass + len(designed.device.modules) * ring.beyond,
             motor=designed.device.motor.name,
             note="housing as it is",
         )

@@ -7,8 +7,8 @@ from ocs_design.actuation.drive import Drive, DriveLine
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.device import SIDES, Device, Flywheel, Module, Web
-from ocs_design.device.layout import module_axes
+from ocs_design.device.device import Device, Flywheel, Module, Web
+from ocs_design.device.layout import PAIR, Layout
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import (
     NO_CUTS,
@@ -31,7 +31,7 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
     flywheel = _flywheel(cylinder, resolved.material, speed, rotor_share=0.0)
     return Device(
         sizing.incidence,
-        _modules(sizing.incidence, sizing.centers),
+        _modules(PAIR, sizing.incidence, sizing.centers),
         # To the last digit what was minimised.
         replace(flywheel, mass=rim.mass),
         Drive(
@@ -47,7 +47,7 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
 
 
 def assemble_selected(candidate: Candidate, supply: Supply) -> Device:
-    """Two modules as they were selected, fed by `supply`."""
+    """Modules as they were selected, fed by `supply`."""
     wheel = DrivenWheel(
         candidate.inner_radius,
         candidate.outer_radius,
@@ -61,7 +61,12 @@ def assemble_selected(candidate: Candidate, supply: Supply) -> Device:
         web_material=candidate.web_material,
     )
     device = assemble_driven(
-        wheel, candidate.carrier, candidate.incidence, candidate.centers, candidate.line
+        wheel,
+        candidate.carrier,
+        candidate.incidence,
+        candidate.centers,
+        candidate.line,
+        layout=candidate.layout,
     )
     return replace(
         device,
@@ -77,15 +82,18 @@ def assemble_driven(
     incidence: float,
     centers: FloatArray,
     line: DriveLine | None = None,
+    *,
+    layout: Layout = PAIR,
 ) -> Device:
-    """Two modules with a motor of the catalogue each.
+    """Modules with a motor of the catalogue each.
 
     Args:
         wheel: rim, motor, gear and supply of each.
         carrier: what of each stands still.
-        incidence: of the wheel axes [rad].
-        centers: of the left and the right wheel in B [m], shape (2, 3).
+        incidence: of the wheel axes, or the layout's angle [rad].
+        centers: of the wheels in B [m], shape (n, 3).
         line: what the drive may do at the wheel; None: all that motor and gear can.
+        layout: of the wheels.
 
     Raises:
         OcsError: the motor lacks a figure that every drive needs.
@@ -96,7 +104,7 @@ def assemble_driven(
     speed = min(motor.no_load_speed, motor.speed_max or math.inf)
     return Device(
         incidence,
-        _modules(incidence, centers),
+        _modules(layout, incidence, centers),
         _flywheel(
             cylinder,
             wheel.material,
@@ -108,15 +116,13 @@ def assemble_driven(
         ),
         motor,
         carrier,
+        layout=layout,
     )
 
 
-def _modules(incidence: float, centers: FloatArray) -> tuple[Module, Module]:
-    left, right = (
-        Module(name, axis, center)
-        for name, axis, center in zip(SIDES, module_axes(incidence).T, centers, strict=True)
-    )
-    return left, right
+def _modules(layout: Layout, incidence: float, centers: FloatArray) -> tuple[Module, ...]:
+    each = zip(layout.names, layout.axes(incidence).T, centers, strict=True)
+    return tuple(Module(name, axis, center) for name, axis, center in each)
 
 
 def _flywheel(

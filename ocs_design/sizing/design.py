@@ -1,27 +1,29 @@
 """From a resolved specification to a device, by the bound alone or with a real motor."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.device import Device
-from ocs_design.device.joints import burst_of
-from ocs_design.device.layout import Criterion
+from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records import ReserveRecord
-from ocs_design.device.solids import foot_of
-from ocs_design.parts.foot import plate_thickness
+from ocs_design.requirement.maneuver import Requirement
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import CONTAINING, LIGHTEST, Specification
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_sizing import size_device
-from ocs_design.sizing.footing import Footing, footing_under, stand_on_trunk
+from ocs_design.sizing.footing import stand_on_trunk
 from ocs_design.sizing.limits import DEVICE_MASS
+from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
 from ocs_design.sizing.placement import specified_place
 from ocs_design.sizing.reserve import Reality, Reserve, account
-from ocs_design.sizing.selection.device import braked, of_parts, with_demands
+from ocs_design.sizing.selection.device import braked, with_demands
 from ocs_design.sizing.selection.problem import (
     SelectionProblem,
     selection_problem,
@@ -29,11 +31,7 @@ from ocs_design.sizing.selection.problem import (
 )
 from ocs_design.sizing.selection.result import Candidate, Selection
 from ocs_design.sizing.selection.select import (
-    at_own_incidence,
     device_at,
-    lightest_by,
-    same_parts,
-    select_by,
 )
 from ocs_design.sizing.sized import Sized, sized_by_bound, sized_selection
 
@@ -42,15 +40,6 @@ if TYPE_CHECKING:
 
 BY_HAND = "by hand"
 """Criterion of an incidence, or source of a spin inertia, that the user gave."""
-
-
-_FOOTINGS_MAX, _RINGS_MAX = 6, 16
-
-_SETTLED = 1e-3
-"""Change of a plate's mass over its device's that is none: a device's follows by a hundredth."""
-
-_TOO_THICK = 0.2e-3
-"""Of feet that are left as they are [m]: 0.5 g each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +66,8 @@ class Designed:
         device: see `Device`. sized: see `Sized`.
         criterion: that the incidence goes by.
         choice: None where no motor was wanted.
-        reserve: that it keeps; None likewise. kept: what that comes to, and costs; None without
-            maneuvers too.
+        reserve: that it keeps; None likewise. account: of what that comes to, and costs.
+        requirement: what the robot is asked for with this device on it; None: not settled yet.
     """
 
     device: Device
@@ -86,7 +75,21 @@ class Designed:
     criterion: str
     choice: Choice | None
     reserve: Reserve | None = None
-    kept: ReserveRecord | None = None
+    account: Callable[[], ReserveRecord | None] = lambda: None
+    requirement: Requirement | None = None
+
+    @cached_property
+    def kept(self) -> ReserveRecord | None:
+        """What the reserve comes to, and costs: as long to find as the device.
+
+        None without a motor or maneuvers.
+        """
+        return self.account()
+
+
+KICK_ROUNDS, _KICK_SETTLED = 3, 0.01
+"""How often a device is sized anew for kicks about the centre of mass that it leads to, and change
+of their angular impulse, over the largest, that is none."""
 
 
 def design_device(
@@ -99,6 +102,10 @@ def design_device(
 ) -> Designed:
     """The lightest device that meets the specification.
 
+    A kick turns the robot about a centre of mass that the device has a part in, so that a device is
+    sized for the kicks on robot and device before it, then by secants. Where they do not settle,
+    the lightest device stands that was sized for no less than it has to bear.
+
     Args:
         specification: what was stated. robot: that carries it. resolved: what was meant.
         advise: see `select`.
@@ -108,6 +115,44 @@ def design_device(
         Infeasible: there is none.
         UsageError: nothing is asked for, or a limit is no positive number.
     """
+    tried: list[tuple[float, float, Designed]] = []
+    before: tuple[FloatArray, FloatArray] | None = None
+    com = robot.com
+    for _ in range(1 + KICK_ROUNDS):
+        try:
+            designed = _designed(specification, robot, resolved, advise=advise, reserve=reserve)
+        except Infeasible:
+            if all(short > 0.0 for short, _, _ in tried):
+                raise
+            break
+        whole, asked = designed.sized.total, resolved.requirement
+        own = asked.on(whole)
+        most, change = np.abs(own.kicks).max(initial=0.0), np.abs(own.kicks - asked.kicks)
+        settled = change.max(initial=0.0) <= _KICK_SETTLED * most
+        short = max(most - (1.0 + _KICK_SETTLED) * np.abs(asked.kicks).max(initial=0.0), 0.0)
+        designed = replace(designed, requirement=own)
+        if settled:
+            return designed
+        tried.append((short, designed.device.mass, designed))
+        found, off = whole.com, whole.com - com
+        com = found
+        if before is not None:
+            bend = off - before[1]
+            com = found - (found - before[0]) * (off @ bend) / (bend @ bend)
+        before = found, off
+        resolved = replace(resolved, requirement=asked.on(replace(whole, com=com)))
+    return min(tried, key=lambda each: each[:2])[2]
+
+
+def _designed(
+    specification: Specification,
+    robot: Robot,
+    resolved: Resolved,
+    *,
+    advise: bool,
+    reserve: Reserve | None,
+) -> Designed:
+    """The device for what is resolved; see `design_device`."""
     problem = selection_problem(specification, robot, resolved)
     if problem is None:
         designed = _by_bound(specification, robot, resolved)
@@ -120,7 +165,7 @@ def design_device(
     if most is None or device.mass <= most:
         return designed
     raise Infeasible(
-        f"The lightest device that does everything weighs {DEVICE_MASS.figure(device.mass)}, both "
+        f"The lightest device that does everything weighs {DEVICE_MASS.figure(device.mass)}, all "
         f"modules: ocs.mass_max allows {DEVICE_MASS.figure(most)}.",
         binding=[DEVICE_MASS.name],
         required_spin_inertia=device.flywheel.spin_inertia,
@@ -148,11 +193,11 @@ def _by_selection(
         ballistic=specification.validation.ballistic is True,
     )
     asked = problem.requirement
-    problem, selection, reserve, nominal = _on_its_footing(
+    problem, selection, reserve, nominal = on_its_footing(
         problem, criterion, robot, (reality, reserve), advise=advise
     )
     if specification.ocs.guard == CONTAINING:
-        problem, selection = _in_rings(problem, selection.best, criterion, robot)
+        problem, selection = in_rings(problem, selection.best, criterion, robot)
         best = selection.best
         nominal = device_at(replace(problem, requirement=asked), best, best.incidence) or best
     if criterion is not None:
@@ -161,6 +206,7 @@ def _by_selection(
     best = with_demands(problem, selection.best)
     selection = replace(selection, ranking=(best, *selection.ranking[1:]))
     choice = Choice(problem, selection, best, None)
+    stated = problem.layout != PAIR or specification.ocs.alpha is not None
     if specification.ocs.co_design:
         # CasADi takes a third of a second to import.
         from ocs_design.sizing.trajectory.co_design import co_design  # noqa: PLC0415
@@ -181,208 +227,12 @@ def _by_selection(
     designed = Designed(
         device=assemble_selected(choice.chosen, problem.supply),
         sized=sized_selection(problem, choice.chosen),
-        criterion=BY_HAND if specification.ocs.alpha is not None else name,
+        criterion=BY_HAND if stated else name,
         choice=choice,
         reserve=reserve,
-        kept=account(reserve, reality, problem, chosen, resized, nominal=least.mass),
+        account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least.mass),
     )
     return _on_trunk(designed, robot)
-
-
-def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) -> Candidate:
-    """A selected device with the plate that it stands on, where the trunk does not hold it.
-
-    Args:
-        candidate: as selected; its plate is not looked at. problem: that it was selected for.
-        robot: that carries it.
-    """
-    device = assemble_selected(candidate, problem.supply)
-    device = stand_on_trunk(device, robot, stated=problem.place.stated)
-    return replace(candidate, plate=device.plate)
-
-
-def _with_plates(
-    selection: Selection,
-    problem: SelectionProblem,
-    criterion: Criterion | None,
-    robot: Robot,
-) -> Selection:
-    """The selection with the plates that its devices stand on, the lightest with its plate first.
-
-    Every device has a plate of its own size: that of a smaller one is lighter.
-
-    Args:
-        problem: that was solved. criterion: see `select_by`; the first is at its own incidence.
-    """
-    plated = [with_plate(entry, problem, robot) for entry in selection.ranking]
-    first, lightest = plated[0], min(plated, key=lambda entry: entry.mass)
-    if lightest is not first and criterion is not None and problem.incidence is None:
-        _, own = at_own_incidence(problem, lightest, criterion)
-        lightest = first if own is None else with_plate(own, problem, robot)
-    others = [entry for entry in plated if not same_parts(entry, lightest)]
-    others.sort(key=lambda entry: entry.mass)
-    return replace(selection, ranking=(lightest, *others))
-
-
-def _on_its_footing(
-    problem: SelectionProblem,
-    criterion: Criterion | None,
-    robot: Robot,
-    kept: tuple[Reality, Reserve],
-    *,
-    advise: bool,
-) -> tuple[SelectionProblem, Selection, Reserve, Candidate]:
-    """The selection on the footing that its best device has, with the problem that this is.
-
-    Last come the reserve that it keeps and the lightest device without one.
-
-    The problem is for the plate and the place of the largest modules that there may be. The
-    selection is for those of its lightest device, then only the best drive's for its own, until
-    they stay. What cannot be done on its own footing, under a heavier plate, stays as it was: its
-    flights and margins judge it.
-
-    Args:
-        problem: to solve. criterion, advise: see `select_by`. robot: that carries it.
-        kept: what is drawn and the reserve for it, which the lightest device without one settles.
-
-    Raises:
-        Infeasible: see `select_by`.
-    """
-
-    def settled(best: Candidate) -> tuple[SelectionProblem, Candidate]:
-        """The problem for the footing of this device, and the device for that, until both stay."""
-        at = problem
-        for _ in range(_FOOTINGS_MAX):
-            own = _own_footing(problem, best, robot)
-            change = abs(own.robot.mass - at.robot.mass)
-            same = own.place == at.place and own.foot_plate == at.foot_plate
-            if same and change <= _SETTLED * best.mass:
-                break
-            again = device_at(own, best, best.incidence)
-            if again is not None and criterion is not None and own.incidence is None:
-                _, again = at_own_incidence(own, again, criterion)
-            if again is None:
-                break
-            at, best = own, again
-        return at, best
-
-    first, widest = lightest_by(problem, criterion), problem
-    if first is not None:
-        problem, first = settled(first)
-    nominal = select_by(problem, criterion, advise=advise).best if first is None else first
-    reality, reserve = kept
-    reserve = reserve.settled(reality, problem, nominal)
-    free = problem.incidence is None and criterion is None
-    problem, widest = (
-        replace(each, requirement=reserve.kept(each.requirement, free=free))
-        for each in (problem, widest)
-    )
-    first = device_at(problem, nominal, nominal.incidence)
-    try:
-        selection = select_by(problem, criterion, advise=False, winner=first)
-    except Infeasible:
-        problem = widest
-        selection = select_by(problem, criterion, advise=advise)
-    selection = _with_plates(selection, problem, criterion, robot)
-    for _ in range(_FOOTINGS_MAX):
-        best = selection.best
-        own, _ = settled(best)
-        if own is problem:
-            break
-        try:
-            again = select_by(of_parts(own, best), criterion, advise=False)
-        except Infeasible:
-            break
-        again, problem = _with_plates(again, own, criterion, robot), own
-        others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
-        selection = replace(selection, ranking=(again.best, *others))
-    return problem, selection, reserve, nominal
-
-
-def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> SelectionProblem:
-    """The problem for the plate, the place and the feet of this device."""
-    device, stated = assemble_selected(best, problem.supply), problem.place.stated
-    least, feet = plate_thickness(foot_of(device), best.modules_mass / 2.0), best.foot_plate
-    # Thicker feet are a little heavier, and ask for more.
-    if not least <= feet <= least + _TOO_THICK:
-        feet = least
-    footing = footing_under(device, robot, stated=stated) or Footing(problem.place, None)
-    carried = footing.carried(robot.mass_properties)
-    place = problem.place if stated else footing.place
-    return replace(problem, robot=carried, place=place, foot_plate=feet)
-
-
-def _in_rings(
-    problem: SelectionProblem,
-    best: Candidate,
-    criterion: Criterion | None,
-    robot: Robot,
-) -> tuple[SelectionProblem, Selection]:
-    """The selection with guard rings that hold the wheels of its best device, and its problem.
-
-    All drives are weighed with rings of one wall, then the lightest with those of its own wheels,
-    until no other is lighter.
-
-    Args:
-        problem: without rings. best: its lightest device, whose rings are the first wall.
-        criterion: see `select_by`. robot: that carries it.
-
-    Raises:
-        Infeasible: every device is too heavy with its rings.
-    """
-
-    def ringed(best: Candidate, least: float) -> SelectionProblem:
-        burst = burst_of(assemble_selected(best, problem.supply))
-        own = _own_footing(problem, best, robot)
-        return replace(own, guard_wall=max(least, burst.built_wall))
-
-    at, tried = ringed(best, 0.0), set[tuple[str, str]]()
-    try:
-        selection = select_by(at, criterion, advise=False)
-    except Infeasible as error:
-        raise _unheld(at.guard_wall, error) from error
-    selection = _with_plates(selection, at, criterion, robot)
-    for _ in range(_RINGS_MAX):
-        best = selection.best
-        drive = best.motor.name, best.gear.name
-        # The rings of a drive only grow, so that the last ones hold its wheels.
-        own = ringed(best, best.guard_wall if drive in tried else 0.0)
-        tried.add(drive)
-        change = abs(own.robot.mass - at.robot.mass)
-        walls = own.guard_wall == best.guard_wall and own.foot_plate == best.foot_plate
-        same = own.place == at.place and walls
-        if same and change <= _SETTLED * best.mass:
-            break
-        others = [
-            entry
-            for entry in selection.ranking
-            if (entry.motor, entry.gear) != (best.motor, best.gear)
-        ]
-        alone = replace(own, motors=(best.motor,), gears=(best.gear,))
-        try:
-            again = select_by(alone, criterion, advise=False)
-        except Infeasible as error:
-            if not others:
-                raise _unheld(own.guard_wall, error) from error
-            selection = replace(selection, ranking=tuple(others))
-            continue
-        again, at = _with_plates(again, alone, criterion, robot), own
-        ranking = sorted((*again.ranking, *others), key=lambda entry: entry.mass)
-        selection = replace(selection, ranking=tuple(ranking))
-    return at, selection
-
-
-def _unheld(wall: float, error: Infeasible) -> Infeasible:
-    """The error where every device is too heavy with rings that hold its wheels."""
-    return Infeasible(
-        f"With guard rings of {1e3 * wall:.1f} mm of steel no motor does everything: {error}",
-        binding=["ocs.guard", *error.binding],
-        required_spin_inertia=error.required_spin_inertia,
-        largest_spin_inertia=error.largest_spin_inertia,
-        relaxations=error.relaxations,
-        hint="Leave out --guard containing and run it behind a wall, or allow more voltage, room "
-        "or time.",
-    )
 
 
 def _with_its_plate(
@@ -409,7 +259,8 @@ def _on_trunk(designed: Designed, robot: Robot) -> Designed:
     device = stand_on_trunk(designed.device, robot, stated=place.stated)
     centers = np.stack([module.position for module in device.modules])
     carried = device.plated(robot.mass_properties)
-    total = braked(carried, (chosen.wheel, chosen.carrier), centers, device.incidence)
+    bodies = chosen.wheel, chosen.carrier
+    total = braked(carried, bodies, centers, device.incidence, device.layout)
     return replace(designed, device=device, sized=replace(designed.sized, total=total))
 
 

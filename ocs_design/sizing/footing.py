@@ -7,14 +7,16 @@ its base. A plate is held by four screws, where the trunk is as flat under each 
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import pi, sqrt
+from math import inf, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.device import Device
+from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.carrier_plate import (
     EDGE,
@@ -36,6 +38,7 @@ from ocs_design.sizing.placement import (
     Place,
     Search,
     Sizes,
+    around,
     device_size,
     place_at,
     place_free,
@@ -65,6 +68,9 @@ SLEEVE_MAX = 0.03
 MODULE_SHARE = 0.1
 """Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
 
+_SAME = 1e-9
+"""Between places that are the same but for rounding [m]."""
+
 _STEP = 4e-3
 """Between places along the trunk that are tried [m], or a sixteenth of a module's reach."""
 
@@ -77,7 +83,7 @@ class FootContact:
     """How something stands on what is below it.
 
     Attributes:
-        name: what stands, as in "left foot".
+        name: what stands, as in "left foot" or "1 foot".
         on: what it stands on, as in "trunk".
         area: of contact [m^2]; None: not known.
         share: of its underside that is in contact; None likewise.
@@ -85,6 +91,7 @@ class FootContact:
         proud: height of what is below over its underside [m]; 0: nothing is in its way.
         held: whether all its screws' lands are in contact and nothing is in its way; None: not
             known.
+        leans: whether the module leans, and stands on nothing.
     """
 
     name: str
@@ -94,14 +101,16 @@ class FootContact:
     gap: float | None
     proud: float
     held: bool | None
+    leans: bool = False
 
 
 @dataclass(frozen=True)
 class Feet:
-    """Feet of a device, one beside the other, symmetric to the sagittal plane.
+    """Feet of a device, symmetric to the sagittal plane.
 
     Attributes:
-        x, y: middle of the left one's base in B [m].
+        x: forward coordinate of what `bases` count from, in B [m].
+        bases: middles of the feet's bases over (x, 0) [m]; a pair's are left and right.
         radius: of the bases [m].
         slot_radius: of the circle that their screws are on [m].
         reach: radius around each that its module stays within [m].
@@ -110,7 +119,7 @@ class Feet:
     """
 
     x: float
-    y: float
+    bases: tuple[Point, ...]
     radius: float
     slot_radius: float
     reach: float
@@ -118,11 +127,30 @@ class Feet:
     mass: float
 
     @property
+    def middles(self) -> list[Point]:
+        """Middles of the bases in B [m]."""
+        return [(self.x + along, across) for along, across in self.bases]
+
+    @property
+    def y(self) -> float:
+        """How far left the first base stands [m]."""
+        return self.bases[0][1]
+
+    @property
+    def rows(self) -> tuple[float, ...]:
+        """How far before x each pair's bases stand [m]; none where they are no pairs."""
+        pairs = list(zip(self.bases[::2], self.bases[1::2], strict=False))
+        mirrored = all(np.allclose(right, (x, -y), atol=_SAME) for (x, y), right in pairs)
+        in_pairs = 2 * len(pairs) == len(self.bases) and mirrored
+        return tuple(x for (x, _), _ in pairs) if in_pairs else ()
+
+    @property
     def screws(self) -> tuple[Point, ...]:
-        """Places of both feet's screws over (x, 0) [m]: at 45 degrees to the lateral direction."""
+        """Places of the pairs' screws over (x, 0) [m]: at 45 degrees to the lateral direction."""
         off = self.slot_radius / sqrt(2.0)
         left = [(off, self.y + off), (-off, self.y - off)]
-        return (*left, *((x, -y) for x, y in left))
+        row = (*left, *((x, -y) for x, y in left))
+        return tuple((ahead + x, y) for ahead in self.rows for x, y in row)
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,34 +171,45 @@ class Footing:
 
 
 def footing_of(
-    robot: Robot, envelope: Envelope, position: tuple[float, ...] | None = None
+    robot: Robot,
+    envelope: Envelope,
+    position: tuple[float, ...] | None = None,
+    layout: Layout = PAIR,
 ) -> Footing:
     """Place of modules with feet, and the plate under them where the trunk does not hold them.
 
     The nearest place on top of the trunk over the centre of mass where the largest module's feet
     are held, by the trunk or by a plate, and where no leg comes near. Where there is none, or the
-    trunk's shapes are not known, it is that of `place_free`.
+    trunk's shapes are not known, it is that of `place_free`. Only a pair has a plate.
 
     Args:
         robot: that carries them. envelope: room for a rim.
-        position: of the left wheel in B, as stated [m]; None: free.
+        position: as stated in B [m] (`place_at`); None: free.
+        layout: of the modules.
     """
     sizes, surface = Sizes.of(envelope), trunk_surface(robot)
     largest, mass = sizes.largest, MODULE_SHARE * robot.mass
     foot = Foot(Housing(envelope.outer_radius_max, envelope.height_max))
     base = foot.base_radius, foot.slot_radius, largest.reach, largest.standing
     if position is not None:
-        feet = Feet(position[0], position[1], *base, mass)
-        fixed = position[2] - largest.standing
-        held = None if surface is None else _held_at(surface, feet, fixed)
-        return Footing(place_at(position), _plate_of(held))
+        place = place_at(position, layout)
+        if surface is None or layout != PAIR:
+            return Footing(place, None)
+        x, y, z = position
+        feet = Feet(x, ((0.0, y), (0.0, -y)), *base, mass)
+        return Footing(place, _plate_of(_held_at(surface, feet, z - largest.standing)))
     if surface is not None:
         start = round(float(robot.com[0]), 6) + 0.0
-        feet = Feet(start, CLEARANCE * largest.reach, *base, mass)
-        found = _nearest_footing(surface, feet, Search(collision_model(robot), sizes))
+        feet = Feet(start, _ring_of(layout, largest.reach), *base, mass)
+        found = _nearest_footing(surface, feet, Search(collision_model(robot), sizes, layout))
         if found is not None:
             return found
-    return Footing(place_free(robot, envelope).place, None)
+    return Footing(place_free(robot, envelope, layout).place, None)
+
+
+def _ring_of(layout: Layout, reach: float) -> tuple[Point, ...]:
+    """Middles of the feet's bases of modules of this radius around theirs [m]."""
+    return tuple((CLEARANCE * reach * x, CLEARANCE * reach * y) for x, y, _ in layout.ring)
 
 
 def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
@@ -187,13 +226,12 @@ def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
     found = footing_under(device, robot, stated=stated)
     if found is None:
         return device
-    left, right = device.modules
     centers = found.place.centers(device_size(device))
-    return replace(
-        device,
-        modules=(replace(left, position=centers[0]), replace(right, position=centers[1])),
-        plate=found.plate,
+    modules = (
+        replace(module, position=frozen(center))
+        for module, center in zip(device.modules, centers, strict=True)
     )
+    return replace(device, modules=tuple(modules), plate=found.plate)
 
 
 def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | None:
@@ -201,36 +239,44 @@ def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | No
     surface = trunk_surface(robot)
     if surface is None or device.carrier.mass == 0.0:
         return None
-    feet, position = feet_of(device), device.modules[0].position
+    feet, layout = feet_of(device), device.layout
     if stated:
-        held = _held_at(surface, feet, float(position[2]) - foot_of(device).wheel_height)
-        return Footing(place_at(tuple(position.tolist())), _plate_of(held))
+        places = [module.position for module in device.modules]
+        if layout != PAIR:
+            return Footing(place_at(tuple(np.concatenate(places).tolist()), layout), None)
+        held = _held_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
+        return Footing(place_at(tuple(places[0].tolist())), _plate_of(held))
     size = device_size(device)
-    feet = replace(feet, y=CLEARANCE * size.reach)
-    return _nearest_footing(surface, feet, Search(collision_model(robot), Sizes(size, size)))
+    feet = replace(feet, bases=_ring_of(layout, size.reach))
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    return _nearest_footing(surface, feet, search)
 
 
 def feet_of(device: Device) -> Feet:
     """Feet of a device that has them."""
-    foot, (x, y, _) = foot_of(device), device.modules[0].position.tolist()
+    foot = foot_of(device)
+    places = np.array([module.position[:2] for module in device.modules])
+    x = float(places[:, 0].mean())
+    bases = tuple((float(along) - x, float(across)) for along, across in places)
     mass = device.flywheel.mass + device.carrier.mass
     size = device_size(device)
-    return Feet(x, y, foot.base_radius, foot.slot_radius, size.reach, size.standing, mass)
+    return Feet(x, bases, foot.base_radius, foot.slot_radius, size.reach, size.standing, mass)
 
 
 def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
-    """What both feet stand on, and each screw of the plate where there is one.
+    """What the feet stand on, and each screw of the plate where there is one.
 
-    Empty for wheels without feet.
+    Empty for wheels without feet. A foot whose wheel's axis is not horizontal stands on nothing.
     """
     if device.carrier.mass == 0.0:
         return ()
     surface, plate, feet = trunk_surface(robot), device.plate, feet_of(device)
-    underside = float(device.modules[0].position[2]) - foot_of(device).wheel_height
-    found = []
-    for name, y in (("left foot", feet.y), ("right foot", -feet.y)):
-        middle = feet.x, y
-        if plate is not None:
+    height, found = foot_of(device).wheel_height, []
+    for module, middle in zip(device.modules, feet.middles, strict=True):
+        name, underside = f"{module.name} foot", float(module.position[2]) - height
+        if module.frame[2, 2] < 1.0 - OUT_OF_REACH:
+            found.append(FootContact(name, "trunk", 0.0, 0.0, inf, 0.0, held=False, leans=True))
+        elif plate is not None:
             found.append(_on_plate(name, plate, feet, middle, underside))
         elif surface is None:
             found.append(FootContact(name, "trunk", None, None, None, 0.0, held=None))
@@ -255,9 +301,13 @@ def _on_plate(
 
 def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
     """Whether points of B are over a plate's aluminium, its holes for screws counted as full."""
-    along, across = np.abs(points - np.array(plate.position[:2])).T
-    inside = along <= plate.shape.half_width(across)
-    return np.asarray(inside & (np.hypot(along, across - plate.across) >= plate.window))
+    ahead, aside = (points - np.array(plate.position[:2])).T
+    across, over = np.abs(aside), np.zeros(len(points), dtype=bool)
+    for row in plate.rows:
+        along = np.abs(ahead - row)
+        inside = along <= plate.shape.half_width(across)
+        over |= inside & (np.hypot(along, across - plate.across) >= plate.window)
+    return over
 
 
 def _plate_contacts(surface: Surface | None, plate: CarrierPlate) -> Iterator[FootContact]:
@@ -310,16 +360,30 @@ def _nearest_footing(surface: Surface, feet: Feet, search: Search) -> Footing | 
             _, footing = waiting.pop(0)
             if search.is_free(footing.place):
                 return footing
-        held = _held_at(surface, replace(feet, x=feet.x + shift)) if shift < np.inf else None
+        if shift == np.inf:
+            break
+        moved = replace(feet, x=feet.x + shift)
+        held = None if _in_the_way(surface, moved, search) else _held_at(surface, moved)
         if held is not None:
             plate = _plate_of(held)
             height = held.top if isinstance(held, CarrierPlate) else held
             origin = round(feet.x + shift, 6) + 0.0, 0.0, height
             lift = 0.0 if plate is None else plate.thickness + max(plate.sleeves)
-            place = Place(origin, (0.0, CLEARANCE, 0.0), upright=True)
+            place = around(origin, search.layout)
             waiting.append((abs(shift) + lift, Footing(place, plate)))
             waiting.sort(key=lambda each: each[0])
     return None
+
+
+def _in_the_way(surface: Surface, feet: Feet, search: Search) -> bool:
+    """Whether a limb is where modules of several pairs would stand on the trunk itself.
+
+    A plate would lift them by its thickness only, and is long looked for.
+    """
+    bases = np.concatenate([_disc(middle, feet.radius) for middle in feet.middles])
+    top = _highest(surface, bases) if len(feet.rows) > 1 else np.nan
+    standing = around((feet.x, 0.0, top), search.layout)
+    return bool(np.isfinite(top)) and not search.is_clear(standing)
 
 
 def _plate_of(held: CarrierPlate | float | None) -> CarrierPlate | None:
@@ -336,7 +400,7 @@ def _held_at(
         surface: of the trunk. feet: on it.
         underside: height of the feet in B, where it is stated [m]; None: what the trunk has.
     """
-    sides = [(feet.x, feet.y), (feet.x, -feet.y)]
+    sides = feet.middles
     bases = np.concatenate([_disc(side, feet.radius) for side in sides])
     plane = _highest(surface, bases) if underside is None else underside
     lands = feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT
@@ -344,11 +408,15 @@ def _held_at(
         _contact("", surface, side, feet.radius, plane=plane, lands=lands).held for side in sides
     ):
         return float(round(plane, 6))
-    return _plate(surface, feet, underside)
+    # A plate is drawn for two feet, one beside the other.
+    return _plate(surface, feet, underside) if feet.rows else None
 
 
 def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlate | None:
-    """The lightest plate of its necks in stock that carries both modules; None: there is none."""
+    """The lightest plate of its necks in stock that carries all modules; None: there is none.
+
+    Each pair of them has a plate of its own, all alike and at one height.
+    """
     edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
     ring = feet.slot_radius + edge
     # Heads stand clear of the feet, before and behind where these are nearest to each other.
@@ -367,6 +435,7 @@ def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlat
         trunk=(),
         sleeves=(),
         thread=PLATE_SCREW.name,
+        rows=feet.rows,
     )
     best: CarrierPlate | None = None
     for neck in (least + wider for wider in WIDER):
@@ -387,9 +456,9 @@ def _borne(
     surface: Surface, feet: Feet, blank: CarrierPlate, underside: float | None
 ) -> CarrierPlate | None:
     """The thinnest plate of this outline that the trunk holds and that bears the modules."""
-    around = [_disc((feet.x, side * feet.y), feet.reach) for side in (1.0, -1.0)]
+    beneath = [_disc(middle, feet.reach) for middle in feet.middles]
     # Beside the plate the trunk may be as high as the plate's top: modules begin above that.
-    beside = _highest(surface, np.concatenate(around)) - STOCK[0]
+    beside = _highest(surface, np.concatenate(beneath)) - STOCK[0]
     highest = max(_highest(surface, _all_over(blank)), beside)
     if not np.isfinite(highest):
         return None
@@ -410,10 +479,19 @@ def _borne(
 
 
 def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate | None:
-    """The plate with the widest pattern of four screws that the trunk holds; None: there is none.
+    """The plate with the widest patterns of four screws that the trunk holds; None: there is none.
 
     Heads stay clear of the feet. Patterns without sleeves come first.
     """
+    if len(plate.rows) > 1:
+        rows = [_screwed(surface, feet, each) for each in plate.each]
+        held = [row for row in rows if row is not None]
+        if len(held) < len(rows):
+            return None
+        each = zip(plate.rows, held, strict=True)
+        trunk = [(ahead + x, y) for ahead, row in each for x, y in row.trunk]
+        sleeves = [sleeve for row in held for sleeve in row.sleeves]
+        return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
     radius = plate.sleeve_radius
     x, _, z = plate.position
     most = plate.neck - EDGE * PLATE_SCREW.clearance_hole
@@ -487,4 +565,5 @@ def _all_over(plate: CarrierPlate) -> FloatArray:
     )
     along, across = (each.ravel() for each in np.meshgrid(xs, ys))
     inside = np.abs(along) <= plate.shape.half_width(across)
-    return np.stack([x + along[inside], y + across[inside]], axis=1)
+    places = np.stack([x + along[inside], y + across[inside]], axis=1)
+    return np.concatenate([places + np.array([row, 0.0]) for row in plate.rows])

@@ -1,7 +1,8 @@
 """What would have to give for a lighter device: mass against each figure, read backwards.
 
-Each answer is the smallest change of one figure, in whole percent, or one or two other choices. It
-is searched for as an alternative is, and the changed question is then sized as a whole.
+Each answer is the smallest change of one figure, in whole percent, or one or two other choices;
+where none of these does, one figure with one choice. It is searched for as an alternative is, and
+the changed question is then sized as a whole.
 """
 
 from collections.abc import Callable, Iterator
@@ -13,15 +14,16 @@ from typing import Any
 from ocs_design.common.errors import Infeasible, OcsError
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.records import Alternative
-from ocs_design.requirement.froude import BUS_VOLTAGES
 from ocs_design.requirement.maneuver import Disturbance, Drop, Maneuver, Shove
-from ocs_design.requirement.specification import AUTO, LIGHTEST, STEEL, Specification
+from ocs_design.requirement.specification import AUTO, LIGHTEST, Specification
 from ocs_design.requirement.sweep import Task, change_text, slower
-from ocs_design.sizing.alternatives import lightest_below
 from ocs_design.sizing.changes import Progress, unseen
-from ocs_design.sizing.design import Choice, design_device, with_plate
+from ocs_design.sizing.design import Choice, design_device
+from ocs_design.sizing.on_robot import with_plate
+from ocs_design.sizing.relaxations import Relaxation, relaxations
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
+from ocs_design.sizing.selection.select import lightest_below
 
 MOST = 200
 """Largest change that is looked for [%]."""
@@ -37,13 +39,17 @@ class _Lever:
     changed: Callable[[int], Specification]
     text: Callable[[int], str]
 
+    def beside(self, choice: Relaxation) -> "_Lever":
+        """The same figure where another choice is made too."""
+        return _Lever(
+            lambda percent: choice.stated(self.changed(percent)),
+            lambda percent: f"{self.text(percent)}, and {_told(choice)}",
+        )
 
-@dataclass(frozen=True, eq=False)
-class _Option:
-    """Another choice: the changed question as a function of the question, and its words."""
 
-    text: str
-    changed: Callable[[Specification], Specification]
+def _told(choice: Relaxation) -> str:
+    """A choice with the option for it."""
+    return f"{choice.text} ({choice.option})"
 
 
 def lighter_by(
@@ -61,15 +67,19 @@ def lighter_by(
     if target <= 0.0:
         return ()
     search = _Search(task, choice, target)
-    options, levers = list(_options(task)), list(_levers(task, owed))
-    found = [search.answer(each.text, each.changed(task.specification)) for each in options]
+    stated, levers = task.specification, list(_levers(task, owed))
+    options = list(relaxations(stated, choice.problem))
+    found = [search.answer(_told(each), each.stated(stated)) for each in options]
     vain = [option for option, answer in zip(options, found, strict=True) if answer is None]
     for first, second in combinations(vain, 2):
-        both = second.changed(first.changed(task.specification))
-        found.append(search.answer(f"{first.text}, and {second.text}", both))
+        both = second.stated(first.stated(stated))
+        found.append(search.answer(f"{_told(first)}, and {_told(second)}", both))
     for index, lever in enumerate(levers):
         found.append(search.smallest(lever))
         progress((index + 1) / len(levers))
+    if not any(found):
+        # No figure and no choice does it alone: one of each together may.
+        found += [search.smallest(lever.beside(each)) for each in options for lever in levers]
     return tuple(answer for answer in found if answer is not None)
 
 
@@ -145,39 +155,12 @@ class _Search:
         free = stated.alpha is None and stated.alpha_criterion == LIGHTEST
         return replace(
             self.choice.problem,
-            requirement=resolved.requirement,
+            requirement=resolved.requirement.on(chosen.total),
             envelope=resolved.envelope,
             supply=offered.supply,
             motors=offered.motors if changed.motor.any else self.choice.problem.motors,
             materials=offered.materials if any_material else (chosen.material,),
             incidence=None if free else chosen.incidence,
-        )
-
-
-def _options(task: Task) -> Iterator[_Option]:
-    """Choices that are open still."""
-    stated, supply = task.specification, task.resolved.choice
-    if stated.ocs.alpha is None and stated.ocs.alpha_criterion != LIGHTEST:
-        yield _Option(
-            "the incidence with which it is lightest (--alpha-criterion lightest)",
-            lambda s: replace(s, ocs=replace(s.ocs, alpha_criterion=LIGHTEST)),
-        )
-    if stated.flywheel.material in {None, STEEL}:
-        yield _Option(
-            "any material (--material auto)",
-            lambda s: replace(s, flywheel=replace(s.flywheel, material=AUTO)),
-        )
-    if stated.motor.name in {None, AUTO} and not stated.motor.any:
-        yield _Option(
-            "any motor (--motors-any), not buildable",
-            lambda s: replace(s, motor=replace(s.motor, any=True)),
-        )
-    voltage = 0.0 if supply is None else supply.supply.voltage
-    more = min((each for each in BUS_VOLTAGES.values() if each > voltage), default=None)
-    if more is not None:
-        yield _Option(
-            f"{more:g} V (--bus-voltage {more:g}V)",
-            lambda s: replace(s, supply=replace(s.supply, voltage=more)),
         )
 
 
@@ -213,7 +196,7 @@ def _key(
     """A key of the file, rounded to three digits on its loose side."""
 
     def value(percent: int) -> float:
-        """Of the key [SI]."""
+        """Value of the key [SI]."""
         factor = 1.0 + percent / 100.0
         return round_outwards(own * factor if upwards else own / factor, upwards=upwards)
 
@@ -240,7 +223,7 @@ def _slower_lever(task: Task, maneuver: Maneuver) -> _Lever:
     """More time for one maneuver."""
 
     def text(percent: int) -> str:
-        """With the keys that give the time."""
+        """Words for it, with the keys that give the time."""
         after = _slower_by(percent)(maneuver, task.standing_height)
         return f"{percent}% more time for one: {change_text(maneuver, after)}"
 
@@ -254,7 +237,7 @@ def _milder_lever(task: Task, maneuver: Maneuver) -> Iterator[_Lever]:
         return
 
     def share(percent: int) -> float:
-        """Of it that is left."""
+        """Share of it that is left."""
         return round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
 
     def milder(percent: int) -> Callable[[Maneuver, float], Maneuver]:
@@ -271,10 +254,13 @@ def _milder(maneuver: Maneuver, share: float) -> Maneuver:
     match maneuver:
         case Drop():
             return replace(maneuver, roll=maneuver.roll * share, pitch=maneuver.pitch * share)
-        case Disturbance(torque=(x, y, z), velocity_change=(u, v, w)):
-            moved = (u * share, v * share, w * share)
-            torque = (x * share, y * share, z * share)
-            return replace(maneuver, torque=torque, velocity_change=moved)
+        case Disturbance(torque=(x, y, z), velocity_change=(u, v, w), impulse=(a, b, c)):
+            return replace(
+                maneuver,
+                torque=(x * share, y * share, z * share),
+                velocity_change=(u * share, v * share, w * share),
+                impulse=(a * share, b * share, c * share),
+            )
         case Shove(torque=(x, y, z)):
             return replace(maneuver, torque=(x * share, y * share, z * share))
         case _:

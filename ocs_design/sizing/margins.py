@@ -97,6 +97,7 @@ def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> Floa
 
 WHEEL_SPEED, MOTOR_SPEED, MOTOR_TORQUE = "wheel speed", "motor speed", "motor torque"
 BUS_CURRENT, BUS_POWER, HOOP_STRESS = "bus current", "bus power", "hoop stress"
+RMS_CURRENT = "rms current"
 FED_BACK = ", fed back"
 """Behind the name of what goes into the bus."""
 
@@ -198,12 +199,13 @@ def _heat_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
     mean = float(np.sqrt(taken.current_squared_time / taken.duration))
     rating = wheel.motor.continuous_torque
     if rating is None:
-        yield Margin("rms current", mean, None, "A", "no continuous rating is stated")
+        yield Margin(RMS_CURRENT, mean, None, "A", "no continuous rating is stated")
         return
     continuous = rating / torque_constant(wheel)
     pause = taken.current_squared_time / continuous**2 - taken.duration
-    note = f"a pause of {pause:.2g} s after each maneuver cools it" if pause > 0.0 else ""
-    yield Margin("rms current", mean, continuous, "A", note)
+    note = f"a pause of {pause:.2g} s after each maneuver cools it"
+    note = f"for {taken.duration:.2g} s; {note}" if pause > 0.0 else ""
+    yield Margin(RMS_CURRENT, mean, continuous, "A", note)
 
 
 def _peak(values: FloatArray) -> float:

@@ -230,7 +230,7 @@ class DrivenWheel:
 
 @dataclass(frozen=True)
 class Consumption:
-    """Over one motion; of one motor where nothing else is said.
+    """Consumption over one motion; of one motor where nothing else is said.
 
     Attributes:
         duration: of the motion [s].

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, product
+from itertools import chain, combinations, product
 from math import isfinite
 
 import numpy as np
@@ -11,6 +11,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
+from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.naming import flywheel_name
 from ocs_design.device.records import Clearance, OpenPoint
 from ocs_design.device.solids import ModuleSolids, module_solids, plate_heads, plate_solids
@@ -69,12 +70,26 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
 
 def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
     """Feet that are not held, and what would hold them; alike ones are told once."""
-    loose = [contact for contact in feet if contact.held is False]
+    leaning = [contact.name for contact in feet if contact.leans]
+    if leaning:
+        yield OpenPoint(
+            what=f"{' and '.join(leaning)}: the wheel's axis is not horizontal, and a foot stands "
+            "only upright",
+            cure="make what holds it leaning, or take a layout whose axes are horizontal: "
+            "--layout pair, triad or single",
+        )
+    loose = [contact for contact in feet if contact.held is False and not contact.leans]
+    in_pairs = any(contact.name.startswith(SIDES[0]) for contact in feet)
+    more_feet = (
+        "make a plate that carries all feet, as only those of pairs are drawn, or take a pair: "
+        "--layout pair"
+    )
     proud = max((contact.proud for contact in loose), default=0.0)
     if proud > PROUD:
         reaches_up = format_quantity(proud, "mm", digits=2)
         what = f"the {feet[0].on} under the feet reaches {reaches_up} above their underside"
-        yield OpenPoint(what=what, cure="stand the modules higher with --position X,Y,Z")
+        higher = "stand the modules higher with --position X,Y,Z"
+        yield OpenPoint(what=what, cure=higher if in_pairs else more_feet)
     elif loose:
         gap = max(contact.gap or 0.0 for contact in loose)
         share = min(contact.share or 0.0 for contact in loose)
@@ -90,7 +105,7 @@ def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
             "give a place on the trunk with --position X,Y,Z or another trunk with --trunk, or "
             f"make a flat spot of {flat_spot} by {flat_spot} on top of it for a plate's four screws"
         )
-        yield OpenPoint(what=what, cure=cure)
+        yield OpenPoint(what=what, cure=cure if in_pairs else more_feet)
 
 
 def _hitting(mounting: Mounting) -> Iterator[OpenPoint]:
@@ -124,15 +139,12 @@ def mounting_of(
     """
     collision = collision_model(robot)
     turned = {each.incidence: each for each in (device, *(device.as_flown(m) for m in maneuvers))}
-    pairs = [
-        (module_solids(each, each.modules[0]), module_solids(each, each.modules[1]))
-        for each in turned.values()
-    ]
-    solids = [solid for pair in pairs for module in pair for solid in module.all]
+    flown = [[module_solids(each, module) for module in each.modules] for each in turned.values()]
+    solids = [solid for modules in flown for module in modules for solid in module.all]
     solids += plate_solids(device)
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     return Mounting(
-        nearest=_nearest_part(collision, device, pairs, surface),
+        nearest=_nearest_part(collision, device, flown, surface),
         landing=_clearance(_nearest_in_landings(collision, solid) for solid in solids),
         reachable=reaches(collision, solids),
         com_shift=whole.com - robot.com,
@@ -175,8 +187,8 @@ def _free_place_hint(robot: Robot, device: Device, envelope: Envelope, *, stated
     """Clause on where a module would hit nothing."""
     if not stated:
         return "no free place was found: give one with --position X,Y,Z"
-    best = place_free(robot, envelope)
-    if not best.free:
+    best = place_free(robot, envelope, device.layout)
+    if not best.free or device.layout != PAIR:
         return "no free place was found"
     left, _ = best.place.centers(device_size(device))
     place = ",".join(f"{1e3 * float(value):.1f}mm" for value in left)
@@ -186,16 +198,16 @@ def _free_place_hint(robot: Robot, device: Device, envelope: Envelope, *, stated
 def _nearest_part(
     collision: CollisionModel,
     device: Device,
-    pairs: Sequence[tuple[ModuleSolids, ModuleSolids]],
+    flown: Sequence[Sequence[ModuleSolids]],
     surface: Surface | None,
 ) -> Clearance | None:
-    """Nearest of all links, of the plate and of the other module, which is named after its wheel.
+    """Nearest of all links, of the plate and of another module, which is named after its wheel.
 
     Feet and plate stand on the trunk, and are not near it. Where the trunk's surface is known, it
     counts in place of the trunk's convex hull.
     """
     limbs = [part for part in collision.parts if part.limb]
-    modules = [module for pair in pairs for module in pair]
+    modules = [module for each in flown for module in each]
     below = chain(plate_solids(device), *(module.foot for module in modules))
     bodies = [solid for module in modules for solid in module.body]
     found = _clearance(
@@ -213,12 +225,10 @@ def _nearest_part(
         known = [each for each in known if np.isfinite(each.distance)]
     if not known:
         return None
-    apart = min(
-        collision.between(*solids)
-        for left, right in pairs
-        for solids in product(left.all, right.all)
-    )
-    known.append(Clearance(flywheel_name(device.modules[1]), apart))
+    for each in flown:
+        for (_, one), (module, other) in combinations(zip(device.modules, each, strict=True), 2):
+            apart = min(collision.between(*solids) for solids in product(one.all, other.all))
+            known.append(Clearance(flywheel_name(module), apart))
     discs = plate_solids(device)[:1] + plate_heads(device)
     known += [
         Clearance("plate", collision.between(body, solid)) for body in bodies for solid in discs

@@ -1,15 +1,16 @@
 """Places of the modules on the trunk: its faces, and the nearest place without collisions."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from ocs_design.actuation.motor import GearRoom
-from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device
+from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.device.solids import motor_mount
 from ocs_design.parts.foot import base_radius, larger, plate_back, wheel_height
 from ocs_design.parts.housing import half_height, housing_outer_radius
@@ -88,37 +89,34 @@ def motor_size(
 
 @dataclass(frozen=True)
 class Place:
-    """Centres of both modules as their size grows, the right one mirrored in y.
+    """Centres of all modules as their size grows.
 
     Attributes:
-        origin: of the left one, if it had no size, in B [m].
-        outward: how far it stands off, per radius of the sphere that it sweeps, in B.
-        upright: whether it stands on what is below it, and so as high as its foot makes it.
+        origins: of each, if it had no size, in B [m].
+        outward: how far each stands off, per radius of the sphere that it sweeps, in B.
+        upright: whether they stand on what is below them, and so as high as their feet make them.
     """
 
-    origin: tuple[float, float, float]
-    outward: tuple[float, float, float]
+    origins: tuple[Direction, ...]
+    outward: tuple[Direction, ...]
     upright: bool = False
 
     @property
     def stated(self) -> bool:
         """Whether it is the same for modules of any size, as a stated one is (`place_at`)."""
-        return not (any(self.outward) or self.upright)
+        return not (any(map(any, self.outward)) or self.upright)
 
     def __call__(self, outer_radius: float, height: float) -> FloatArray:
-        """Centres of bare wheels in B for R and h [m], left first, shape (2, 3)."""
-        return self.centers(wheel_size(outer_radius, height))
+        """Centres of bare wheels in B for R and h [m], shape (n, 3)."""
+        return frozen(self.centers(wheel_size(outer_radius, height)))
 
-    def centers(self, size: Size[float]) -> FloatArray:
-        """Centres of the modules in B [m], left first, shape (2, 3)."""
-        x, y, z = self.left(size)
-        return frozen([[x, y, z], [x, -y, z]])
-
-    def left(self, size: Size[Real]) -> tuple[Real, Real, Real]:
-        """Centre of the left module in B [m], of numbers, arrays or CasADi's symbols alike."""
-        (x, y, z), (along_x, along_y, along_z) = self.origin, self.outward
-        reach, standing = size.reach, size.standing if self.upright else 0.0 * size.standing
-        return x + along_x * reach, y + along_y * reach, z + along_z * reach + standing
+    def centers(self, size: Size[float] | Size[FloatArray]) -> FloatArray:
+        """Centres of the modules in B [m], shape (..., n, 3), for sizes of shape (...)."""
+        reach, standing = (np.asarray(each)[..., None] for each in size)
+        centers = np.array(self.origins) + reach[..., None] * np.array(self.outward)
+        if self.upright:
+            centers[..., 2] += standing
+        return np.asarray(centers)
 
 
 def device_size(device: Device) -> Size[float]:
@@ -145,22 +143,33 @@ def sphere_radius(outer_radius: Real, height: Real) -> Real:
     return reach
 
 
-def place_on_top(robot: Robot) -> Place:
-    """Place on top of the trunk over the centre of mass, symmetric to the sagittal plane.
+def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
+    """Place on top of the trunk around the centre of mass, symmetric to the sagittal plane.
 
-    Each module may be turned to any incidence without touching the trunk or the other one. Other
+    Each module may be turned to any incidence without touching the trunk or another one. Other
     parts of the robot are not looked at: see `free_place`.
     """
     # To the micrometre, so that no rounding error of the centre of mass reaches the files.
     forward = round(float(robot.com[0]), 6) + 0.0
-    top = round(trunk_top(robot.tree, robot.trunk), 6)
-    return Place(origin=(forward, 0.0, top), outward=(0.0, CLEARANCE, 0.0), upright=True)
+    return around((forward, 0.0, round(trunk_top(robot.tree, robot.trunk), 6)), layout)
 
 
-def place_at(position: tuple[float, ...]) -> Place:
-    """The left module at `position` in B [m], the right one mirrored in y."""
-    x, y, z = position
-    return Place(origin=(x, y, z), outward=(0.0, 0.0, 0.0))
+def around(middle: Direction, layout: Layout) -> Place:
+    """Upright modules around a point of what they stand on, in B [m]."""
+    ring = np.array(layout.ring) * CLEARANCE
+    outward = tuple(vector(each) for each in ring)
+    return Place((middle,) * len(layout), outward, upright=True)
+
+
+def place_at(position: tuple[float, ...], layout: Layout = PAIR) -> Place:
+    """Modules at stated places in B [m]: three coordinates of each.
+
+    Of a pair only the left one's are stated, and the right one is mirrored in y.
+    """
+    places = np.reshape(position, (-1, 3))
+    if layout == PAIR:
+        places = np.concatenate([places, places * [1.0, -1.0, 1.0]])
+    return Place(tuple(vector(each) for each in places), ((0.0, 0.0, 0.0),) * len(places))
 
 
 FORWARD, LEFT, UP = np.eye(3)
@@ -184,10 +193,12 @@ class Face:
     Attributes:
         name: for people, as in "on top of the trunk".
         normal, along, across: unit vectors in B: outwards, and two in the face, shape (3,).
-        outward: how the left module stands off as it grows; see `Place`.
-        upright: whether it stands on its foot; see `Place`.
+        outward: how the left module of a pair stands off as it grows; see `Place`.
+        upright: whether they stand on their feet; see `Place`.
         nearest: point of the face that is nearest to the centre of mass, in B [m], shape (3,).
         shifts, offsets: ranges along and across, from `nearest`, that stay on the face [m].
+        layout: of the modules; all but pairs stand around a point of the sagittal plane, and
+            pairs in rows one after the other `along` the face.
     """
 
     name: str
@@ -199,6 +210,7 @@ class Face:
     shifts: tuple[float, float]
     offsets: tuple[float, float]
     upright: bool = False
+    layout: Layout = PAIR
 
     def place(self, spot: Spot) -> Place:
         """Place of modules at a spot, to the micrometre."""
@@ -206,8 +218,14 @@ class Face:
         origin = self.nearest + shift * self.along + offset * self.across + stand_off * self.normal
         # A rounding error of the centre of mass must not reach the files.
         x, y, z = (round(float(value), 6) + 0.0 for value in origin)
-        out_x, out_y, out_z = (float(value) for value in self.outward)
-        return Place((x, y, z), (out_x, out_y, out_z), self.upright)
+        if not self.layout.pairs:
+            return around((x, y, z), self.layout)
+        outward: list[Direction] = []
+        for row, _, _ in self.layout.ring[::2]:
+            out_x, out_y, out_z = vector(self.outward + CLEARANCE * row * self.along)
+            outward += [(out_x, out_y, out_z), (out_x, -out_y, out_z)]
+        origins = ((x, y, z), (x, -y, z)) * self.layout.pairs
+        return Place(origins, tuple(outward), self.upright)
 
     def spots(self, reach: float) -> Iterator[Spot]:
         """Spots to try for modules that fill a sphere of radius `reach` [m]."""
@@ -218,21 +236,25 @@ class Face:
                     yield shift, offset, stand_off
 
 
-def faces(robot: Robot) -> tuple[Face, ...]:
-    """Top, back and flanks of the trunk.
+def faces(robot: Robot, layout: Layout = PAIR) -> tuple[Face, ...]:
+    """Top, back and flanks of the trunk; only pairs stand behind or beside it.
 
     Nothing is put beneath it, where a robot lands that falls short, or in front, where legs fold
     up and cameras look. Beside it, each module is on its own side.
     """
+    if not layout.pairs:
+        top = _sagittal_face(robot, ON_TOP, UP, FORWARD)
+        return (replace(top, offsets=(0.0, 0.0), layout=layout),)
     forward, shifts = _range(robot, FORWARD)
     up, offsets = _range(robot, UP)
     half_width = max(_plane(robot, LEFT), _plane(robot, -LEFT))
     flank = half_width * LEFT + forward * FORWARD + up * UP
-    return (
+    found = (
         _sagittal_face(robot, ON_TOP, UP, FORWARD),
         _sagittal_face(robot, "behind", -FORWARD, UP),
         Face("beside", LEFT, FORWARD, UP, CLEARANCE * LEFT, flank, shifts, offsets),
     )
+    return tuple(replace(face, layout=layout) for face in found)
 
 
 def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArray) -> Face:
@@ -322,21 +344,25 @@ class FreePlace:
     free: bool
 
 
-def specified_place(position: tuple[float, ...] | None, robot: Robot, envelope: Envelope) -> Place:
-    """The left module's centre as stated in B [m]; None: the free place nearest to the robot's."""
-    return place_free(robot, envelope).place if position is None else place_at(position)
+def specified_place(
+    position: tuple[float, ...] | None, robot: Robot, envelope: Envelope, layout: Layout = PAIR
+) -> Place:
+    """Places as stated in B [m] (`place_at`); None: the free place nearest to the robot's."""
+    if position is None:
+        return place_free(robot, envelope, layout).place
+    return place_at(position, layout)
 
 
 @lru_cache(maxsize=1)
-def place_free(robot: Robot, envelope: Envelope) -> FreePlace:
+def place_free(robot: Robot, envelope: Envelope, layout: Layout = PAIR) -> FreePlace:
     """Place on top over the centre of mass if that is free, else the free place nearest to it.
 
     Free is what no other part of the robot comes near, in the nominal posture and while its legs
     give way (`landing_ranges`), whatever the module's size and incidence. Nearest is where a module
     adds least to the robot's inertia about roll and pitch, each over the robot's own.
     """
-    search = Search(collision_model(robot), Sizes.of(envelope))
-    on_top = place_on_top(robot)
+    search = Search(collision_model(robot), Sizes.of(envelope), layout)
+    on_top = place_on_top(robot, layout)
     blocker = search.blocker(on_top)
     if blocker is None:
         return FreePlace(on_top, ON_TOP, "", free=True)
@@ -351,28 +377,33 @@ def place_free(robot: Robot, envelope: Envelope) -> FreePlace:
 class Search:
     """Looks for places that no limb comes near.
 
-    Attributes: see `CollisionModel` and `Sizes`.
+    Attributes: see `CollisionModel`, `Sizes` and `Layout`.
     """
 
     collision: CollisionModel
     sizes: Sizes
+    layout: Layout = PAIR
 
     def spots(self) -> list[tuple[Face, Spot]]:
         """Spots of all faces, the nearest first."""
         found = [
             (face, spot)
-            for face in faces(self.collision.robot)
+            for face in faces(self.collision.robot, self.layout)
             for spot in face.spots(self.sizes.largest.reach)
         ]
         return sorted(found, key=lambda each: self._cost(each[0].place(each[1])))
 
     def is_free(self, place: Place) -> bool:
         """Whether the place is free, first in the nominal posture, which is quick, then in all."""
+        return self.is_clear(place) and self.blocker(place) is None
+
+    def is_clear(self, place: Place) -> bool:
+        """Whether the largest modules hit nothing in the nominal posture."""
         nominal = self.collision.nominal
-        for ball in self._balls(place, self.sizes.largest):
-            if self.collision.nearest(ball, nominal, self._others, within=-_ROUNDING) is not None:
-                return False
-        return self.blocker(place) is None
+        return all(
+            self.collision.nearest(ball, nominal, self._others, within=-_ROUNDING) is None
+            for ball in self._balls(place, self.sizes.largest)
+        )
 
     def blocker(self, place: Place) -> Part | None:
         """What of the robot comes too near."""
@@ -410,11 +441,9 @@ class Search:
     def _ranges(self) -> Ranges:
         return landing_ranges(self.collision.robot)
 
-    def _balls(self, place: Place, size: Size[float]) -> tuple[Ball, Ball]:
-        """Balls around both modules of one size, with the room that they need."""
-        x, y, z = place.left(size)
-        radius = CLEARANCE * size.reach
-        return Ball(np.array([x, y, z]), radius), Ball(np.array([x, -y, z]), radius)
+    def _balls(self, place: Place, size: Size[float]) -> list[Ball]:
+        """Balls around all modules of one size, with the room that they need."""
+        return [Ball(center, CLEARANCE * size.reach) for center in place.centers(size)]
 
     @cached_property
     def _others(self) -> list[Part]:
@@ -424,8 +453,9 @@ class Search:
     def _cost(self, place: Place) -> float:
         """What the largest module adds to the inertia about roll and pitch, over the robot's."""
         robot = self.collision.robot
-        x, y, z = np.array(place.left(self.sizes.largest)) - robot.com
-        return float((y**2 + z**2) / robot.inertia[0, 0] + (x**2 + z**2) / robot.inertia[1, 1])
+        x, y, z = (place.centers(self.sizes.largest) - robot.com).T
+        roll, pitch = y**2 + z**2, x**2 + z**2
+        return float((roll / robot.inertia[0, 0] + pitch / robot.inertia[1, 1]).mean())
 
 
 def _housing(outer_radius: float, height: float) -> Size[float]:

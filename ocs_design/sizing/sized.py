@@ -5,10 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ocs_design.actuation.wheel_load import held
+from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.requirement.bound import AXES, SpinDemand, authority, per_wheel, rate_momenta
+from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
@@ -98,14 +100,16 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
     """Figures behind the selected, or the co-designed, device."""
     inertia, robot = chosen.total.inertia, problem.robot.inertia
     requirement, line = problem.requirement, chosen.line.reserved()
+
+    def by_criterion(of: FloatArray) -> Mapping[Criterion, float]:
+        """Best incidence of pairs; nothing of other layouts."""
+        pairs = problem.layout.pairs
+        return incidence_by_criterion(of, design_momenta(requirement, of)) if pairs else {}
+
     return Sized(
         wheel_speed_max=min(float(line.no_load_speed), float(line.speed_max)),
-        incidence_by_criterion=incidence_by_criterion(
-            inertia, design_momenta(requirement, inertia)
-        ),
-        incidence_by_criterion_robot=incidence_by_criterion(
-            robot, design_momenta(requirement, robot)
-        ),
+        incidence_by_criterion=by_criterion(inertia),
+        incidence_by_criterion_robot=by_criterion(robot),
         demands=tuple(_spin_demands(problem, chosen)),
         total=chosen.total,
         status="optimal",
@@ -132,9 +136,10 @@ def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[Spin
             momentum = rate_momenta(inertia, requirement.rate_change or 0.0)[about][0]
             torque = 0.0
         else:
-            turned = inertia.within_reach(authority(at), maneuver.stray)
+            axes = chosen.layout.axes(at)[:2]
+            turned = inertia.within_reach(np.abs(axes).max(axis=1), maneuver.stray)
             momentum = maneuver.momentum(turned, height)
-            torque = per_wheel(maneuver.least_torque(turned, height), at)
+            torque = float(held(axes, maneuver.least_torque(turned, height)).most)
         yield SpinDemand(demand.source, at, momentum, demand.spin_inertia, torque)
 
 

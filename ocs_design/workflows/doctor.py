@@ -24,6 +24,7 @@ from packaging.utils import canonicalize_name
 
 from ocs_design.common.errors import MissingToolError
 from ocs_design.common.files import processors as usable
+from ocs_design.common.installing import DISTRIBUTION, install_command
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.export.ffmpeg import FFMPEG_HINT, ffmpeg_program
 from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of
@@ -47,18 +48,19 @@ USES: Mapping[str, Use] = MappingProxyType(
         "numpy": Use("arrays"),
         "scipy": Use("roots and small optimisations"),
         "threadpoolctl": Use("the same design on any number of threads"),
-        "cvxpy": Use("the rim as a convex program"),
-        "clarabel": Use("solves for the rim"),
+        "cvxpy": Use("wheels by the bound alone: --motor none"),
+        "clarabel": Use("wheels by the bound alone: its solver"),
         "casadi": Use("maneuvers as optimal control"),
         "typer": Use("the command line"),
         "rich": Use("tables and progress"),
         "msgspec": Use("design.json in and out"),
         "packaging": Use("this check"),
-        "trimesh": Use("robots with meshes of many kinds"),
-        "manifold3d": Use("holes in meshes"),
-        "reportlab": Use("the drawing as PDF"),
+        "trimesh": Use("robots with meshes other than STL and OBJ"),
+        "manifold3d": Use("holes in parts as meshes"),
+        "reportlab": Use("drawing and instructions as PDF"),
         "mujoco": Use("robots, flights and pictures"),
         "pycollada": Use("robots with .dae meshes", "collada"),
+        "gymnasium": Use("the robot as an environment for learning"),
         "xacro": Use("robots that come as .xacro"),
         "resvg-py": Use("figures as PNG"),
         "dask": Use("Monte Carlo on many machines"),
@@ -72,8 +74,6 @@ USES: Mapping[str, Use] = MappingProxyType(
 )
 """By the package's name."""
 
-
-DISTRIBUTION = "ocs-design"
 
 DEVELOPMENT = frozenset({"test", "dev", "docs"})
 """Extras for those who change the code."""
@@ -124,9 +124,9 @@ class Wanted:
         if state is State.WORKS:
             return ""
         if state is State.BROKEN:
-            return f"pip install --force-reinstall '{self.name}{self.versions}'"
+            return install_command(f"{self.name}{self.versions}", options="--force-reinstall")
         what = f"{DISTRIBUTION}[{self.extra}]" if self.extra else f"{self.name}{self.versions}"
-        return f"pip install '{what}'"
+        return install_command(what)
 
 
 def wanted_packages() -> tuple[Wanted, ...]:
@@ -178,6 +178,7 @@ def package_findings(wanted: Sequence[Wanted]) -> Iterator[Finding]:
             found=found,
             wanted=each.versions,
             purpose=each.use.purpose,
+            extra=each.extra,
             cure=each.cure(state),
             reason=reason,
         )
@@ -203,7 +204,8 @@ _TRIAL = "ocs_design.export.offscreen"
 
 def machine_findings() -> tuple[Finding, ...]:
     """Findings about the machine, in the order in which they matter."""
-    return (python(), working_folder(Path.cwd()), processors(), *opengl(), film_maker())
+    folder = working_folder(Path.cwd())
+    return (python(), folder, processors(), *opengl(), film_maker(), compiler())
 
 
 def python() -> Finding:
@@ -287,6 +289,19 @@ def film_maker() -> Finding:
         found=found,
         purpose="videos",
         cure="" if found else FFMPEG_HINT,
+    )
+
+
+def compiler() -> Finding:
+    """A C compiler, by the names that `make` and Python's own builds try."""
+    found = next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), "")
+    return Finding(
+        name="C compiler",
+        state=State.WORKS if found else State.MISSING,
+        required=False,
+        found=found,
+        purpose="the exported controller",
+        cure="" if found else "install a C compiler, on Debian: apt install gcc",
     )
 
 

@@ -1,15 +1,22 @@
 """`ocs-design export`: every file again from `design.json`."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.common.errors import OcsError
-from ocs_design.common.files import safe_name
+from ocs_design.common.files import AnyPath, safe_name
 from ocs_design.device.answers import Exported, PostureLine
-from ocs_design.device.records import SCHEMA_VERSION, OcsDesign, design_to_json, read_design
-from ocs_design.export.folder import (
+from ocs_design.device.naming import joint_names
+from ocs_design.device.records import (
     DESIGN_FILE,
+    SCHEMA_VERSION,
+    OcsDesign,
+    design_file,
+    design_to_json,
+    read_design,
+)
+from ocs_design.export.folder import (
     file_hashes,
     keep_others,
     recorded_hashes,
@@ -22,6 +29,7 @@ from ocs_design.export.formats import (
     Format,
     Subject,
     export_formats,
+    formats_named,
 )
 from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.restoring import (
@@ -68,7 +76,7 @@ Finish = Callable[[Order, Path], tuple[str, ...]]
 
 
 def read_order(
-    path: Path,
+    path: AnyPath,
     formats: tuple[Format, ...],
     *,
     robot_file: Path | None = None,
@@ -88,7 +96,7 @@ def read_order(
     Raises:
         OcsError: the design or the robot cannot be read, or the robot has changed.
     """
-    path = path / DESIGN_FILE if path.is_dir() else path
+    path = design_file(path)
     design = read_design(path)
     device, name = device_of(design.ocs, design.supply), safe_name(design.robot.name)
     where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
@@ -144,9 +152,45 @@ def export_order(
     )
 
 
-FIGURES, REPORT = "figures", "report"
+def export_design(
+    design: AnyPath,
+    formats: str | Sequence[str] = (),
+    *,
+    out: AnyPath | None = None,
+    robot_file: AnyPath | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
+    force: bool = False,
+    strict: bool = False,
+) -> Exported:
+    """Write the files of a design again, or in other formats.
 
-ON_DESIGN = (FIGURES, REPORT)
+    Args:
+        design: its folder, its `design.json`, or the `Outcome` that made it.
+        formats: names as of `ocs-design export --formats`, one or several; empty: the usual ones.
+        out: folder to write; None: `<name>-ocs-export` in the working directory.
+        robot_file: of the robot, where it has moved.
+        package_paths: folder of each package that `package://` addresses name.
+        force: replace an existing folder, once the new one is complete.
+        strict: warnings about the robot are errors.
+
+    Raises:
+        OcsError: see `read_order` and `export_order`; nothing is written then.
+    """
+    names = (formats,) if isinstance(formats, str) else tuple(formats)
+    order = read_order(
+        design,
+        formats_named(names, ON_DESIGN),
+        robot_file=None if robot_file is None else Path(robot_file),
+        package_paths={name: Path(path) for name, path in (package_paths or {}).items()},
+        strict=strict,
+    )
+    folder = order.default_folder if out is None else Path(out)
+    return export_order(order, folder, force=force, finish=finishing(names, ""))
+
+
+FIGURES, REPORT, CONTROLLER = "figures", "report", "controller"
+
+ON_DESIGN = (FIGURES, REPORT, CONTROLLER)
 """Names that users say."""
 
 
@@ -161,6 +205,18 @@ def finishing(names: Collection[str], command: str) -> Finish | None:
 
     def finish(order: Order, folder: Path) -> tuple[str, ...]:
         """Write into the folder; a file that it lacks is taken from the design's own folder."""
+        remarks: tuple[str, ...] = ()
+        if CONTROLLER in wanted:
+            try:
+                _controller(order, folder / CONTROLLER)
+            except OcsError as error:
+                if CONTROLLER in names:
+                    raise
+                remarks = (f"without the controller: {error.message}",)
+        return remarks if wanted == [CONTROLLER] else remarks + pages(order, folder)
+
+    def pages(order: Order, folder: Path) -> tuple[str, ...]:
+        """Write charts and report."""
         # They need the simulator's values, which parts and snippets do without.
         from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
         from ocs_design.report.charts.files import write_charts  # noqa: PLC0415
@@ -188,3 +244,39 @@ def _postures(order: Order) -> tuple[tuple[PostureLine, ...], tuple[str, ...]]:
     except OcsError as error:
         return (), (f"without the chart of incidence over postures: {error.message}",)
     return posture_lines(robot), ()
+
+
+def _controller(order: Order, folder: Path) -> None:
+    """Law and plans of the design's flights in C.
+
+    Raises:
+        OcsError: the robot cannot be had, or there is nothing to fly.
+    """
+    # They fly it, which parts and snippets do without.
+    from ocs_design.requirement.specification import Specification, ValidationSection  # noqa: PLC0415
+    from ocs_design.simulation.firmware import write_controller  # noqa: PLC0415
+    from ocs_design.simulation.scenario import world_builder  # noqa: PLC0415
+    from ocs_design.simulation.scene import Wheels  # noqa: PLC0415
+    from ocs_design.workflows.flying import flight_options, read_task  # noqa: PLC0415
+
+    # How the legs make the flight is not the wheels' business.
+    task = read_task(
+        order.path,
+        Specification(validation=ValidationSection(ballistic=True)),
+        robot_file=order.where.robot_file,
+        package_paths=order.where.package_paths,
+    )
+    builder = world_builder(task.robot, task.device, flight_options(task.control))
+    delay = task.uncertainty.torque_delay
+    folder.mkdir()
+    write_controller(
+        order.subject.name,
+        {
+            each.name: builder.flight(each, Wheels.ACTIVE, task.references.get(each.name))
+            for each in task.maneuvers
+        },
+        folder,
+        joints=joint_names(task.device),
+        period=task.control.period,
+        delay=None if delay is None else (delay.at(0.0), delay.at(1.0)),
+    )

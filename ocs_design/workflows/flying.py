@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from ocs_design.common.errors import OcsError, SpecificationError
+from ocs_design.common.files import AnyPath
 from ocs_design.device.device import Device
-from ocs_design.device.records import ControlRecord, OcsDesign, read_design
-from ocs_design.export.folder import DESIGN_FILE
+from ocs_design.device.records import ControlRecord, OcsDesign, design_file, read_design
+from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.maneuver import Maneuver
@@ -25,7 +26,6 @@ from ocs_design.requirement.specification import (
 from ocs_design.requirement.uncertainty import UncertaintySection, uncertainty_of_texts
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scenario import Options
-from ocs_design.simulation.scene import STEP
 from ocs_design.simulation.wheel_law import Allocation, Gains
 from ocs_design.simulation.world import wheel_gains
 from ocs_design.sizing.trajectory.flight import Trajectory
@@ -132,7 +132,7 @@ class Task:
 
 
 def read_task(
-    path: Path,
+    path: AnyPath,
     stated: Specification,
     *,
     robot_file: Path | None = None,
@@ -153,7 +153,7 @@ def read_task(
         OcsError: the design or the robot cannot be read, the robot has changed, or nothing is to
             be flown.
     """
-    path = path / DESIGN_FILE if path.is_dir() else path
+    path = design_file(path)
     design = read_design(path)
     maneuvers = tuple(map(maneuver_of, design.requirement.maneuvers))
     if not maneuvers:

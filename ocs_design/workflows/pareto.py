@@ -11,12 +11,17 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
+from ocs_design.common.files import AnyPath
 from ocs_design.common.units import format_quantity, parse_positive, si_unit
 from ocs_design.device.answers import Front, FrontDevice, FrontPoint
 from ocs_design.device.records import SCHEMA_VERSION, recorded
+from ocs_design.export.folder import check_target
+from ocs_design.report.charts.front import write_front
+from ocs_design.report.text.console import Steps, Tell
+from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.sweep import Sweep, Task
+from ocs_design.requirement.sweep import Sweep, Task, sweep_of
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 from ocs_design.robot.meshes import size
 from ocs_design.sizing.design import design_device
@@ -27,6 +32,53 @@ FEWEST, MOST = 2, 200
 
 Choose = Callable[[Task], FrontDevice]
 """The lightest device for a task; raises `Infeasible` where there is none."""
+
+
+def pareto_front(
+    design_for: Specification | AnyPath,
+    against: str = "time",
+    *,
+    low: str | None = None,
+    high: str | None = None,
+    points: int = 9,
+    maneuver: str = "",
+    package_paths: Mapping[str, AnyPath] | None = None,
+    out: AnyPath | None = None,
+    force: bool = False,
+    strict: bool = False,
+    progress: Steps | Tell | None = None,
+) -> Front:
+    """Mass of the lightest device against time, angle or room, all else as specified.
+
+    Args:
+        design_for: a specification, the path of its file, or that of a robot.
+        against: `time`, `angle`, `radius`, `height` or `voltage`.
+        low, high: from and to, with units, as in `300ms`; None: around the specification's own.
+        points: how many values.
+        maneuver: whose time or angle alone is varied; empty: those of all, in one ratio.
+        package_paths: folder of each package that `package://` addresses name.
+        out: folder for the front, its chart and the specification of each point; None: none.
+        force: replace an existing folder.
+        strict: warnings about the robot are errors.
+        progress: see `design_ocs`.
+
+    Raises:
+        OcsError: the robot cannot be read, or the values make no range.
+    """
+    sweep, steps = sweep_of(against, maneuver), Steps.of(progress)
+    folder = None if out is None else Path(out)
+    if folder is not None:
+        check_target(folder, force=force)
+    paths = {name: Path(path) for name, path in (package_paths or {}).items()}
+    with steps.step("read the robot") as step:
+        task = read_task(specification_of(design_for), package_paths=paths, strict=strict)
+        step.note = task.robot.name
+    values = front_values(sweep, task, low=low, high=high, points=points)
+    with steps.step(f"choose a device for each of {points} values") as step:
+        front = draw_front(task, sweep, values, lightest_device, step.update)
+    if folder is not None:
+        write_front(front, folder, force=force)
+    return front
 
 
 def read_task(

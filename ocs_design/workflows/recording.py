@@ -200,10 +200,11 @@ def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> Selec
                 gear=entry.gear.name,
                 gear_ratio=entry.gear.ratio,
                 material=entry.material.name,
-                wheels_mass=2.0 * entry.wheel_mass,
-                motors_mass=2.0 * ((entry.motor.mass or 0.0) + entry.motor.controller_mass),
-                gears_mass=2.0 * entry.gear.mass,
-                housings_mass=2.0 * entry.printed_mass,
+                wheels_mass=len(entry.layout) * entry.wheel_mass,
+                motors_mass=len(entry.layout)
+                * ((entry.motor.mass or 0.0) + entry.motor.controller_mass),
+                gears_mass=len(entry.layout) * entry.gear.mass,
+                housings_mass=len(entry.layout) * entry.printed_mass,
             )
             for entry in selection.ranking
         ),
@@ -317,7 +318,9 @@ def _requirement(resolved: Resolved, sized: Sized) -> RequirementRecord:
                 maneuver,
                 kind=kind_of(maneuver)[0],
                 parameters={
-                    name: value for name, value in asdict(maneuver).items() if name not in common
+                    name: value
+                    for name, value in asdict(maneuver).items()
+                    if name in kind_of(maneuver)[1] and name not in common
                 },
             )
             for maneuver in requirement.maneuvers
@@ -345,7 +348,6 @@ def _ocs(
 ) -> OcsRecord:
     device, sized = designed.device, designed.sized
     drift = heading_drift(sized.total.inertia)
-    left, right = device.modules
     return OcsRecord(
         incidence=device.incidence,
         incidence_criterion=designed.criterion,
@@ -361,10 +363,11 @@ def _ocs(
         total_mass=sized.total.mass,
         total_inertia=matrix(sized.total.inertia),
         total_com=vector(sized.total.com),
-        modules=(
-            ModuleRecord(name="left", axis=vector(left.axis), position=vector(left.position)),
-            ModuleRecord(name="right", axis=vector(right.axis), position=vector(right.position)),
+        modules=tuple(
+            ModuleRecord(name=each.name, axis=vector(each.axis), position=vector(each.position))
+            for each in device.modules
         ),
+        layout=device.layout.name.value,
         clearance=None if mounting is None else mounting.nearest,
         flywheel=device.flywheel,
         motor=device.motor,

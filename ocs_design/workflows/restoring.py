@@ -19,7 +19,7 @@ from ocs_design.device.records import (
     RobotRecord,
 )
 from ocs_design.requirement.maneuver import MANEUVER_KINDS, Maneuver
-from ocs_design.requirement.values import Quantities
+from ocs_design.requirement.values import Choice, Quantities
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
@@ -45,12 +45,12 @@ def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
     Raises:
         OcsError: no such device can be: the file was edited.
     """
-    left, right = (
+    modules = tuple(
         Module(each.name, np.array(each.axis), np.array(each.position)) for each in record.modules
     )
     device = Device(
         record.incidence,
-        (left, right),
+        modules,
         record.flywheel,
         record.motor,
         record.carrier,
@@ -58,6 +58,7 @@ def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
         plate=record.plate,
         guard_wall=record.guard_wall,
         foot_plate=record.foot_plate,
+        layout=record.axes,
     )
     check_device(device)
     return device
@@ -84,7 +85,10 @@ def maneuver_of(record: ManeuverRecord) -> Maneuver:
     for name, value in record.parameters.items():
         # One figure, or as many as it must be.
         read, count = kind.values[name], len(value) if isinstance(value, tuple) else None
-        if count not in (read.counts if isinstance(read, Quantities) else (None,)):
+        words = read.words if isinstance(read, Choice) else ()
+        if count not in (read.counts if isinstance(read, Quantities) else (None,)) or (
+            (words or isinstance(value, str)) and value not in words
+        ):
             raise OcsError(f"maneuver {record.name!r}: {name} of a {record.kind} is not {value!r}")
     return kind.maneuver(
         name=record.name,

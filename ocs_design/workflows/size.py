@@ -1,23 +1,20 @@
 """The whole chain on one page: read, require, size, export, prove, record."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ocs_design.common.errors import Infeasible, UsageError
-from ocs_design.common.files import safe_name
+from ocs_design.common.files import AnyPath, safe_name
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.device import Device
 from ocs_design.device.naming import require_no_device
-from ocs_design.device.records import Lighter, OcsDesign, Owed, design_to_json
-from ocs_design.export.folder import (
-    DESIGN_FILE,
-    check_target,
-    recorded_hashes,
-    staged_folder,
-)
+from ocs_design.device.records import DESIGN_FILE, Lighter, OcsDesign, Owed, design_to_json
+from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, make_campaign
@@ -35,15 +32,21 @@ from ocs_design.monte_carlo.summary import MonteCarloRecord, summarised
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.charts.figures import FOLDER, all_charts
 from ocs_design.report.charts.files import write_svgs
+from ocs_design.report.html.notebook import as_html
 from ocs_design.report.html.page import write_report
 from ocs_design.report.story import flights_of, story_in
-from ocs_design.report.text.console import Steps
+from ocs_design.report.text.console import Steps, Tell
 from ocs_design.report.video.film import film_or_tell
+from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.froude import standing_height
+from ocs_design.requirement.maneuver import Disturbance, End, Maneuver, Requirement, TurnTo
+from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import Resolved, read_specified_robot, resolve
 from ocs_design.requirement.specification import (
+    MORE_PAIRS,
     NO_MOTOR,
     RELIABILITY,
+    WHEELS,
     Specification,
     ValidationSection,
 )
@@ -98,31 +101,45 @@ class Outcome:
         failed |= certified is not None and certified.verdict == "falls short"
         return 1 if failed or self.design.buildable.yes is False else 0
 
+    def __fspath__(self) -> str:
+        """Its folder: an outcome stands wherever the path of a design is asked for."""
+        return str(self.folder)
+
+    def __repr__(self) -> str:
+        return f"<Outcome in {self.folder}: {self.design!r}>"
+
+    def _repr_html_(self) -> str:
+        return as_html(self.design, self.folder)
+
 
 def design_ocs(
-    specification: Specification,
+    design_for: Specification | AnyPath,
     *,
-    out: Path | None = None,
-    package_paths: Mapping[str, Path] | None = None,
+    out: AnyPath | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
     force: bool = False,
     strict: bool = False,
-    steps: Steps | None = None,
+    progress: Steps | Tell | None = None,
     command: str = "",
 ) -> Outcome:
     """Size a device for a robot, write it, fly it, and record all of it in one folder.
 
     Args:
-        specification: what was stated, from a file, from options or made in Python.
+        design_for: a specification (`specify`, `read_specification`), the path of its TOML file, or
+            that of a robot with nothing else stated.
         out: the folder; None: `<name>-ocs` in the working directory.
         package_paths: folder of each package that `package://` addresses name.
         force: replace an existing output folder, once the new one is complete.
         strict: warnings are errors.
-        steps: where progress goes; None: nowhere.
+        progress: function that is told the name of the step that runs and what part of it is done,
+            0..1; None: a notebook shows it below the cell, and a script is silent.
         command: that was typed, for the report.
 
     Raises:
         OcsError: see `exceptions`; nothing is written then.
     """
+    specification = specification_of(design_for)
+    paths = {name: Path(path) for name, path in (package_paths or {}).items()}
     stated = specification.validation
     flying = {"--video films the": stated.video, "--certify repeats the": stated.certify}
     for what, wanted in flying.items():
@@ -130,17 +147,18 @@ def design_ocs(
             raise UsageError(
                 f"{what} flights, and --no-validate flies none", hint="leave one of them out"
             )
-    steps = steps or Steps.silent()
+    steps = Steps.of(progress)
     if out is not None:
-        check_target(out, force=force)
+        check_target(Path(out), force=force)
     with steps.step("read the robot") as step:
-        robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
-        folder = out or Path(f"{safe_name(robot.name)}-ocs")
+        robot = read_specified_robot(specification, package_paths=paths, strict=strict)
+        folder = Path(out or f"{safe_name(robot.name)}-ocs")
         check_target(folder, force=force)
         require_no_device(robot.tree.joints)
         step.note = f"{robot.name}: {len(robot.tree.joints)} joints, {len(robot.legs)} legs"
     steps.doubt(robot.warnings)
-    sized = _sized_or_advised(specification, robot, steps, strict=strict)
+    specification, sized = _sized_or_advised(specification, robot, steps, strict=strict)
+    sized = _large_enough(sized, specification, steps, strict=strict)
     proof = _prove(sized, stated, steps)
     if proof.runs and stated.certify:
         sized, proof = _certify(sized, proof, specification, steps, strict=strict)
@@ -167,13 +185,13 @@ def design_ocs(
                 complete_uncertainty(specification.reality, standing_height(robot), device.motor)
             ),
             mounting=sized.mounting,
-            warnings=(*sized.remarks, *unfilmed),
+            warnings=(*_unmade(sized, proof.plans), *sized.remarks, *unfilmed),
             alternatives=lighter,
             owed=owed,
             lighter=conceded,
             seed=stated.seed or 0,
             files={},
-            package_paths=package_paths,
+            package_paths=paths,
         )
         if proof.certificate is not None:
             flown = proof.certificate
@@ -197,7 +215,10 @@ def design_ocs(
 
 @dataclass(frozen=True, eq=False)
 class _Sized:
-    """A robot, its device and where that stands, what is to be said of it, and its jumps."""
+    """A robot, its device and where that stands, what is to be said of it, and its jumps.
+
+    `estimates` has the factor on what a turn is estimated to ask for, by its name.
+    """
 
     robot: Robot
     resolved: Resolved
@@ -205,12 +226,19 @@ class _Sized:
     mounting: Mounting
     remarks: tuple[str, ...]
     jumping: "JumpPlanning | None"
+    estimates: Mapping[str, float] = field(default_factory=dict)
 
 
 def _sized_or_advised(
     specification: Specification, robot: Robot, steps: Steps, *, strict: bool
-) -> _Sized:
-    """Size the device; if nothing meets the specification, search for what would."""
+) -> tuple[Specification, _Sized]:
+    """Size the device; if nothing meets the specification, search for what would.
+
+    Where no layout is stated, more pairs are tried first.
+
+    Returns:
+        Specification with the layout that was taken, and what it came to.
+    """
     with steps.step("size the device") as step:
         try:
             sized = _size(specification, robot, strict=strict)
@@ -218,23 +246,103 @@ def _sized_or_advised(
             refused, step.note = error, "nothing meets the specification"
         else:
             step.note = _what_was_sized(sized.designed)
-            return sized
+            return specification, sized
+    for layout in _more_pairs(specification):
+        more, wheels = replace(specification.ocs, layout=layout), WHEELS[layout]
+        asked = replace(specification, ocs=more)
+        with steps.step(f"size a device of {wheels} wheels") as step:
+            try:
+                sized = _size(asked, robot, strict=strict)
+            except Refused:
+                step.note = "nothing meets the specification"
+                continue
+            told = f"Layout: {layout}, for no motor is strong enough for two wheels."
+            resolved = sized.resolved
+            resolved = replace(resolved, assumptions=(told, *resolved.assumptions))
+            which = _what_was_sized(sized.designed)
+            step.note = f"no motor is strong enough for two; {which}"
+            return asked, replace(sized, resolved=resolved)
     with steps.step("look for the smallest changes that would do") as step:
         advised = refused.advised(step.update, default=specification.asks_nothing)
     advised.assumptions, advised.warnings = refused.assumptions, refused.warnings
     raise advised
 
 
+def _more_pairs(specification: Specification) -> Iterator[str]:
+    """Layouts of more pairs, where none is stated and they allow all that is."""
+    stated = specification.ocs
+    if stated.layout is not None or stated.axes is not None:
+        return
+    for layout in MORE_PAIRS:
+        if not any(contradictions(replace(specification, ocs=replace(stated, layout=layout)))):
+            yield layout
+
+
+def _unmade(sized: _Sized, plans: Mapping[str, "Reference"]) -> Iterator[str]:
+    """Turns that the device does not make, with the time that they would take."""
+    for maneuver in sized.resolved.requirement.maneuvers:
+        planned = plans.get(maneuver.name)
+        if isinstance(maneuver, TurnTo) and planned is not None and planned.trajectory is None:
+            yield f"{maneuver.name}: {planned.note}"
+
+
+TURN_ROUNDS = 3
+"""How often a device is sized anew for turns that it cannot make."""
+
+LEAST_SPARE, SPARE = 0.9, 1.1
+"""Share of the drives that the plan of a heading may take, and factor where it takes more."""
+
+
+def _large_enough(
+    sized: _Sized, specification: Specification, steps: Steps, *, strict: bool
+) -> _Sized:
+    """The device, sized anew with more for each turn that takes too much of it, or too long."""
+    for _ in range(TURN_ROUNDS):
+        asked = sized.resolved.requirement.maneuvers
+        estimates = dict(sized.estimates)
+        turns = {each.name: each for each in asked if isinstance(each, TurnTo)}
+        for name, planned in _plan(sized, list(turns.values())).items():
+            # Momentum goes with the inverse of the time, torque with its square.
+            more = SPARE if planned.needed is None else SPARE * planned.needed**1.5
+            headed = turns[name].end != End.LEVEL
+            if planned.trajectory is None or (headed and planned.share > LEAST_SPARE):
+                estimates[name] = more * estimates.get(name, 1.0)
+        if estimates == sized.estimates:
+            break
+        with steps.step("size the device anew for its turns") as step:
+            try:
+                sized = _size(specification, sized.robot, strict=strict, estimates=estimates)
+            except Refused:
+                step.note = "nothing makes them in time"
+                break
+    return sized
+
+
 def _size(
-    specification: Specification, robot: Robot, *, strict: bool, reserve: Reserve | None = None
+    specification: Specification,
+    robot: Robot,
+    *,
+    strict: bool,
+    reserve: Reserve | None = None,
+    estimates: Mapping[str, float] | None = None,
 ) -> _Sized:
     """What was asked for, the device that does it, and its place on the robot."""
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    factors = estimates or {}
+    maneuvers = tuple(
+        replace(each, estimate=factors.get(each.name, 1.0)) if isinstance(each, TurnTo) else each
+        for each in resolved.requirement.maneuvers
+    )
+    resolved = replace(resolved, requirement=replace(resolved.requirement, maneuvers=maneuvers))
     require_trot(resolved.requirement.maneuvers, robot)
     jumping = _begin_jumps(specification.validation, robot, resolved)
     try:
         designed = design_device(specification, robot, resolved, advise=False, reserve=reserve)
         device = designed.device
+        if designed.requirement is not None:
+            own = designed.requirement
+            told = tuple(_kicked(each, own) for each in resolved.assumptions)
+            resolved = replace(resolved, requirement=own, assumptions=told)
         if jumping is not None:
             jumping.carry(device)
         device_warnings(device, robot.mass_properties, strict=strict)
@@ -256,7 +364,20 @@ def _size(
                 error.hint = f"{unasked(resolved.requirement.maneuvers)} {error.hint}"
         raise
     forget_collision_model()
-    return _Sized(robot, resolved, designed, mounting, remarks, jumping)
+    return _Sized(robot, resolved, designed, mounting, remarks, jumping, factors)
+
+
+def _kicked(assumption: str, requirement: Requirement) -> str:
+    """An assumption; that of a kick with what the kick is on robot and device."""
+    for kick in requirement.maneuvers:
+        if not isinstance(kick, Disturbance) or not any(kick.impulse):
+            continue
+        if assumption.startswith(f"{kick.name}: "):
+            turned = ", ".join(f"{each * kick.duration:.3g}" for each in kick.torque)
+            moved = np.linalg.norm(kick.velocity_change)
+            told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
+            return f"{assumption.removesuffix('.')}; {told}."
+    return assumption
 
 
 def _what_must_give(
@@ -309,7 +430,7 @@ class _Proof:
 def _prove(sized: _Sized, stated: ValidationSection, steps: Steps) -> _Proof:
     """Plan the maneuvers and fly them, if that is wanted."""
     with steps.step("plan the maneuvers"):
-        plans = _plan(sized)
+        plans = _plan(sized, sized.resolved.requirement.maneuvers)
     if stated.enabled is False:
         return _Proof(plans, {}, ())
     with steps.step("plan the jumps") as step:
@@ -375,7 +496,11 @@ def _certify(
         with steps.step("size the device with more in reserve") as step:
             try:
                 again = _size(
-                    specification, robot, strict=strict, reserve=reserve.raised(learnt.factor)
+                    specification,
+                    robot,
+                    strict=strict,
+                    reserve=reserve.raised(learnt.factor),
+                    estimates=sized.estimates,
                 )
             except Refused:
                 step.note = "nothing has that reserve"
@@ -426,9 +551,9 @@ def _what_was_sized(designed: Designed) -> str:
     return f"{designed.choice.selection.candidates:,} combinations"
 
 
-def _plan(sized: _Sized) -> Mapping[str, "Reference"]:
+def _plan(sized: _Sized, maneuvers: Sequence[Maneuver]) -> Mapping[str, "Reference"]:
     """The turns that the flights track; without a motor's figures there is nothing to plan for."""
-    if sized.designed.choice is None:
+    if sized.designed.choice is None or not maneuvers:
         return {}
     # CasADi takes a third of a second to import, and wheels without a motor do without.
     from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
@@ -437,7 +562,7 @@ def _plan(sized: _Sized) -> Mapping[str, "Reference"]:
     return plan(
         sized.robot.mass_properties,
         sized.designed.device,
-        requirement.maneuvers,
+        maneuvers,
         requirement.standing_height,
         None if kept is None else kept.demands,
     )

@@ -1,6 +1,6 @@
 """`ocs-design validate` on one page: read, fly as designed, fly as it might be built."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
@@ -8,9 +8,16 @@ from pathlib import Path
 
 from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
-from ocs_design.device.records import SCHEMA_VERSION, OcsDesign, design_to_json
+from ocs_design.common.files import AnyPath
+from ocs_design.device.records import (
+    DESIGN_FILE,
+    SCHEMA_VERSION,
+    OcsDesign,
+    ValidationRecord,
+    design_to_json,
+)
 from ocs_design.export.film import Take, film_model
-from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
+from ocs_design.export.folder import check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes
 from ocs_design.monte_carlo.campaign import Campaign, Case, make_campaign, read_case, replayed
 from ocs_design.monte_carlo.certificate import ROUND, SequentialTest, certificate
@@ -19,14 +26,20 @@ from ocs_design.monte_carlo.results import write_results
 from ocs_design.monte_carlo.running import Cluster, ThisMachine, narrow, run_campaign
 from ocs_design.monte_carlo.summary import SampleRecord, Validated, summarised
 from ocs_design.monte_carlo.uncertainty import Uncertainty
-from ocs_design.report.text.console import Steps
-from ocs_design.requirement.specification import RELIABILITY, Specification
+from ocs_design.report.html.notebook import as_html
+from ocs_design.report.text.console import Steps, Tell
+from ocs_design.requirement.specification import (
+    RELIABILITY,
+    Specification,
+    ValidationSection,
+    merge_section,
+)
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.scenario import Run, refusal, run_scenarios
 from ocs_design.workflows.flying import Task, flight_options, flown_hash, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 
-SAMPLES_VERSION = 1
+SAMPLES_VERSION = 2
 """Of the samples in a folder, which a later run goes on with."""
 
 
@@ -100,8 +113,8 @@ class Request:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
-    """What came of it.
+class Validation:
+    """Flights of a design, as designed and as it might be built.
 
     Attributes:
         found: the record. folder: that was written to, if any. files: in it.
@@ -119,9 +132,68 @@ class Answer:
         """0, or 1 if a scenario does not pass with the device."""
         return self.found.exit_code
 
+    def __repr__(self) -> str:
+        return f"<Validation{repr(self.found).removeprefix('<Validated')}"
 
-def validate_design(request: Request, steps: Steps) -> Answer:
-    """Do it.
+    def _repr_html_(self) -> str:
+        return as_html(self.found)
+
+
+def validate_design(
+    design: AnyPath,
+    *,
+    samples: int | None = None,
+    certify: bool = False,
+    until_width: float | None = None,
+    seed: int | None = None,
+    specification: Specification | None = None,
+    robot_file: AnyPath | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
+    scheduler: str | None = None,
+    out: AnyPath | None = None,
+    force: bool = False,
+    strict: bool = False,
+    progress: Steps | Tell | None = None,
+) -> Validation:
+    """Fly a design with the device and without, and many times over as it might be built.
+
+    Args:
+        design: its folder, its `design.json`, or the `Outcome` that made it.
+        samples: robots to fly at most, drawn from `[reality]`; None: none but the one as designed.
+        certify: no more of them than it takes to be sure of the reliability that was asked for.
+        until_width: width of the intervals, 0..1, that fewer samples will do for.
+        seed: of all samples; None: the design's.
+        specification: `[validation]` and `[reality]` in place of those that it was sized with.
+        robot_file: of the robot, where it has moved.
+        package_paths: folder of each package that `package://` addresses name.
+        scheduler: address of a Dask cluster; None: this machine.
+        out: folder for the time series and the samples; None: nothing is kept.
+        force: replace an existing folder.
+        strict: warnings about the robot are errors.
+        progress: see `design_ocs`.
+
+    Raises:
+        OcsError: the design or its robot cannot be read, or the folder cannot be written.
+    """
+    stated = specification or Specification()
+    asked = ValidationSection(certify=certify or None, seed=seed)
+    request = Request(
+        design=Path(design),
+        stated=replace(stated, validation=merge_section(stated.validation, asked)),
+        robot_file=None if robot_file is None else Path(robot_file),
+        package_paths={name: Path(path) for name, path in (package_paths or {}).items()},
+        strict=strict,
+        samples=samples,
+        until_width=until_width,
+        scheduler=scheduler,
+        out=None if out is None else Path(out),
+        force=force,
+    )
+    return validated(request, Steps.of(progress))
+
+
+def validated(request: Request, steps: Steps) -> Validation:
+    """Read, fly and keep what was asked for.
 
     Raises:
         OcsError: see `exceptions`.
@@ -138,6 +210,7 @@ def validate_design(request: Request, steps: Steps) -> Answer:
             strict=request.strict,
         )
         step.note = task.robot.name
+    steps.doubt(task.warnings)
     with steps.step("fly the maneuvers with and without the device") as step:
         runs = run_scenarios(
             task.robot,
@@ -153,7 +226,7 @@ def validate_design(request: Request, steps: Steps) -> Answer:
     if request.sample is not None or request.replay is not None:
         campaign = campaign_of(request, task, runs)
         if request.replay is not None:
-            sample = case_for(task, request.replay).drawn()
+            sample = case_for(task, request.replay).drawn(task.device.layout)
         else:
             sample = campaign.sample(request.sample or 0)
         with steps.step(f"fly sample {sample.index} of seed {sample.seed}"):
@@ -163,7 +236,7 @@ def validate_design(request: Request, steps: Steps) -> Answer:
     return _kept(request, task, runs, _validated(task, runs))
 
 
-def watch(answer: Answer) -> None:
+def watch(answer: Validation) -> None:
     """Show every run with the device, in a window each, one after the other.
 
     Raises:
@@ -179,7 +252,7 @@ def watch(answer: Answer) -> None:
     watch_takes(takes, 1.0 / POSE_RATE)
 
 
-def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Answer:
+def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Validation:
     """Fly samples of the design as it might be built, keep them, and say what they show."""
     test = None
     if request.stated.validation.certify:
@@ -220,15 +293,15 @@ def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> 
         step.note = f"{record.samples:,} flown"
     found = replace(_validated(task, runs), monte_carlo=record)
     if folder is None:
-        return Answer(found, None, (), task, runs)
+        return Validation(found, None, (), task, runs)
     files = write_results(
         campaign, outcomes, record, folder, design=flown_hash(task.design, task.control)
     )
     names = tuple(str(file.relative_to(folder)) for file in files)
-    return Answer(found, folder, names, task, runs)
+    return Validation(found, folder, names, task, runs)
 
 
-def campaign_of(request: Request, task: Task, runs: tuple[Run, ...]) -> Campaign:
+def campaign_of(request: Request, task: Task, runs: Sequence[Run | ValidationRecord]) -> Campaign:
     """Everything that samples of this design follow from; `runs` show what its legs bear.
 
     Raises:
@@ -276,12 +349,12 @@ def _validated(task: Task, runs: tuple[Run, ...]) -> Validated:
     )
 
 
-def _kept(request: Request, task: Task, runs: tuple[Run, ...], found: Validated) -> Answer:
-    """Answer whose time series are written, with a design that has these flights, if asked for."""
+def _kept(request: Request, task: Task, runs: tuple[Run, ...], found: Validated) -> Validation:
+    """What was flown; its time series and a design with these flights are written if asked for."""
     if request.out is None:
-        return Answer(found, None, (), task, runs)
+        return Validation(found, None, (), task, runs)
     design = write_flights(task, runs, found, request.out, force=request.force)
-    return Answer(found, request.out, tuple(design.files), task, runs)
+    return Validation(found, request.out, tuple(design.files), task, runs)
 
 
 def write_flights(

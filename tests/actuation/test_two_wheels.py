@@ -16,7 +16,8 @@ from ocs_design.actuation.drive import DriveLine, armature, rotor_share
 from ocs_design.actuation.motor import DIRECT, Gear
 from ocs_design.actuation.slew import slew_profile
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_pair import WheelPairTask
+from ocs_design.actuation.wheel_load import WheelTask
+from ocs_design.device.layout import module_axes
 
 INF = np.inf
 TRUNK, TRANSVERSE, ROTOR = np.array([0.030, 0.0535]), 4e-5, 1.81e-5
@@ -66,7 +67,9 @@ class Pair:
         """Turn by `angle`, from `rate` with wheels at rest, to rest: P and L."""
         whole = self.mass_matrix[:2, :2]
         inertia = TiltInertia(np.diag(whole), whole[0, 1])
-        return WheelPairTask(whole @ angle, whole @ rate, np.nan, inertia, self.incidence)
+        return WheelTask(
+            whole @ angle, whole @ rate, np.nan, inertia, module_axes(self.incidence)[:2]
+        )
 
 
 def motor_torque(speed, direction):

@@ -4,15 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from ocs_design.device.layout import (
+    PAIR,
     Criterion,
-    actuated_inertia,
     heading_drift,
     incidence_by_criterion,
     module_axes,
 )
 
+ANGLE = st.floats(0.0, 0.5 * np.pi)
 STANCE = np.diag([0.0300029, 0.0514912, 0.0680453])
 ZERO_JOINTS = np.diag([0.0367786, 0.0705134, 0.0802918])
 MOMENTUM = st.floats(0.1, 10.0)
@@ -91,12 +93,9 @@ def test_heading_drift_keeps_yaw_momentum_zero():
         assert (inertia @ rate)[2] == pytest.approx(0.0, abs=1e-17)
 
 
-def test_actuated_inertia_is_what_the_motor_torque_accelerates():
-    """Eliminate the wheels' acceleration from the gyrostat's equations at rest."""
-    spin, angle, torque = 2e-4, 0.6, np.array([0.3, -0.8])
-    axes = module_axes(angle)
-    # Unknowns: trunk acceleration (3), wheel accelerations (2); momentum kept, wheels driven.
-    system = np.block([[STANCE, spin * axes], [spin * axes.T, spin * np.eye(2)]])
-    acceleration = np.linalg.solve(system, np.concatenate([np.zeros(3), torque]))[:3]
-    expected = np.linalg.solve(actuated_inertia(STANCE, spin, angle), -axes @ torque)
-    assert acceleration == pytest.approx(expected, rel=1e-12)
+@given(ANGLE, st.floats(-0.1, 0.1))
+def test_a_pair_turned_on_its_feet_is_one_at_another_incidence(incidence, error):
+    axes = PAIR.axes(incidence)
+    turns = Rotation.from_rotvec(error * PAIR.feet(axes).T).as_matrix()
+    turned = np.einsum("kij,jk->ik", turns, axes)
+    np.testing.assert_allclose(turned, PAIR.axes(incidence + error), atol=1e-12)

@@ -89,7 +89,10 @@ def test_every_part_weighs_its_volume(sized):
         ("foot", weighed(sized, PETG, "housing_foot")),
         ("cage", weighed(sized, PETG, "housing_cage")),
         ("plate", weighed(sized, ALUMINIUM, "plate")),
-        ("motor " + sized.motor["name"], 1e3 * float(sized.motor["mass_kg"])),
+        (
+            f"motor {sized.motor['maker']} {sized.motor['name']}",
+            1e3 * float(sized.motor["mass_kg"]),
+        ),
     ):
         assert grams(sized, start) == pytest.approx(expected, rel=5e-4), start
     if sized.ocs["guard_wall"]:
@@ -194,7 +197,7 @@ def test_inertia_places_and_centre_of_mass(sized):
         r"spin inertia ([\d.]+) kg mm2 each, of which its rotor ([\d.]+) kg mm2", sized.said
     )
     assert [1e-6 * float(each) for each in shown.groups()] == pytest.approx([spin, rotor], rel=1e-3)
-    (path,) = (sized.out / "robot").glob("*.xml")
+    (path,) = (sized.out / "robot").glob("*_ocs.xml")
     model = mujoco.MjModel.from_xml_path(str(path))
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)

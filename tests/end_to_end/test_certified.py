@@ -31,7 +31,7 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
     assert found == json.loads(Path("ocs/design.json").read_text())["reliability"]
     assert (found["verdict"], found["samples"], found["round"]) == ("certified", 152, 1)
     assert (found["seed"], found["first"]) == (3, ROUND)
-    assert "99 % asked: certified, 152 of 152 pass" in Path("ocs/report.html").read_text()
+    assert "certified for 99 %: 152 of 152 pass" in Path("ocs/report.html").read_text()
     record = json.loads(Path("ocs/certificate/monte_carlo.json").read_text())
     assert record["certificate"] == found
     case = next(Path("ocs/certificate/worst").glob("drop-*.json"))

@@ -31,7 +31,14 @@ def test_what_is_written_on_request_alone(product, folder):
     parts = {*(f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")), *case.cages}
     steps = {part.replace(".stl", ".step") for part in parts}
     steps |= {f"cad/{piece}.step" for piece in (*case.pieces, *case.plates)}
-    made = {"cad/flywheel.3mf", "cad/housing.3mf", "cad/module.step", *parts, *steps}
+    made = {
+        "cad/flywheel.3mf",
+        "cad/housing.3mf",
+        "cad/module.step",
+        "cad/device.step",
+        *parts,
+        *steps,
+    }
     assert set(again) == {"design.json", *made}
     run("export", product.folder, "-o", "more", "-q", *asked)
     assert files_in("more") == again

@@ -56,7 +56,7 @@ def test_every_file_is_well_formed_and_has_the_name_as_it_is(sized):
         assert [ET.parse(path) for path in out.rglob(f"*.{suffix}")]
     urdf = next((out / "robot").glob("*.urdf"))
     assert read_robot(urdf).tree.bodies[0].name == EVIL
-    model = mujoco.MjModel.from_xml_path(str(next((out / "robot").glob("*.xml"))))
+    model = mujoco.MjModel.from_xml_path(str(next((out / "robot").glob("*_ocs.xml"))))
     assert model.body(EVIL).id > 0
     assert json.loads((out / "design.json").read_bytes())["robot"]["trunk"] == EVIL
 

@@ -179,11 +179,13 @@ def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_
     """Here limits of a joint that leave it no room."""
     text = re.sub('upper="[^"]*"', 'upper="-99"', Path(SOLO12).read_text(), count=1)
     (folder / "odd.urdf").write_text(text)
-    weak = ("--motor", TOO_WEAK, *ONE_KIND)
+    weak = ("--motor", TOO_WEAK, "--layout", "pair", *ONE_KIND)
     said = run("size", "odd.urdf", *weak)
     doubt, search = said.stderr.index("doubt"), said.stderr.index("size the device")
     assert doubt < search < said.stderr.index("Assumed") < said.stderr.index("falls from 1 m")
     assert said.stdout == ""
+    front = run("pareto", "odd.urdf", *weak, "--points", "2").stderr
+    assert front.index("doubt") < front.index("choose a device")
     error = run("size", "odd.urdf", *weak, "--json").document["error"]
     assert error["warnings"]
     assert "drop: falls from 1 m at roll 0 deg and pitch 30 deg." in error["assumptions"]

@@ -2,14 +2,17 @@
 
 import csv
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import ROOT, SOLO12, run
+from commands import BOUND, BY_HAND, ROOT, SOLO12, run
 from products import equal_rate
 
+from ocs_design import __version__
 from ocs_design.common.errors import OcsError
+from ocs_design.common.installing import extra_command
 from ocs_design.device.records import read_design
 
 PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
@@ -117,6 +120,20 @@ def test_what_is_no_design_is_told(tmp_path, content):
 def test_a_design_that_is_not_there_is_told(tmp_path):
     with pytest.raises(OcsError, match="No such file"):
         read_design(tmp_path / "design.json")
+
+
+def test_the_bound_alone_names_the_extra_that_it_needs(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "cvxpy", None)
+    monkeypatch.chdir(tmp_path)
+    result = run("size", *BY_HAND, *BOUND)
+    assert result.code == 5
+    assert extra_command("bound") in result.said
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("option", ["-V", "--version"])
+def test_the_version_is_told(option):
+    assert run(option).stdout == f"ocs-design {__version__}\n"
 
 
 def test_json_errors_are_one_document():

@@ -223,4 +223,4 @@ def test_margins_are_capacity_over_demand(document, product):
             assert margin["margin"] == pytest.approx(margin["capacity"] / margin["demand"])
             kept = margin["margin"] >= 1.0 - product.case.slack
             # A rating for hours may be exceeded for a second, and then asks for a pause.
-            assert kept or (margin["name"] == "rms current" and PAUSE.match(margin["note"]))
+            assert kept or (margin["name"] == "rms current" and PAUSE.search(margin["note"]))

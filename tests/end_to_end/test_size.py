@@ -112,6 +112,7 @@ def test_the_choice_says_what_it_looked_at(document):
         name
         for name, row in complete.items()
         if hub_joint(row.mounting, hub_height(row.mounting) - 1e-3) >= 1.5 * row.peak_torque
+        and (row.voltage_max or row.rated_voltage) >= 24.0
     }
     assert listed | fallen == carried < set(complete) < set(motors())
     assert listed.isdisjoint(fallen)

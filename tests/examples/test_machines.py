@@ -14,7 +14,8 @@ from scipy.integrate import solve_ivp
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_time
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_pair import WheelPairTask, smallest_spin_inertia
+from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia
+from ocs_design.device.layout import module_axes
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import read_specification
@@ -179,12 +180,12 @@ def test_the_wheelbots_own_motor_line_asks_for_nearly_its_own_wheel():
     machine = STANDING["wheelbot"]
     angle, duration = machine.turn
     inertia = 2.0 * machine.inertia * HEAVIER
-    task = WheelPairTask(
+    task = WheelTask(
         swept=np.array([0.0, inertia * angle / HEAVIER]),
         momentum=np.zeros(2),
         duration=duration,
         inertia=TiltInertia.uncoupled([inertia, inertia]),
-        incidence=0.0,
+        axes=module_axes(0.0)[:2],
     )
     assert float(smallest_spin_inertia(task, line)) == pytest.approx(0.545e-3, rel=1e-3)
     reserved = float(smallest_spin_inertia(task, line.reserved()))

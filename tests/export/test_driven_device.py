@@ -10,9 +10,10 @@ import pytest
 import xacro
 from exported import LEGGED, LEGGED_PATHS, pinocchio_model
 from robots import SOLO12
-from wheels import EC45, EC45_BODY, braked_inertia, driven_device, geared
+from wheels import EC45, EC45_BODY, braked_inertia, driven_device, geared, layout_device
 
 from ocs_design.common.errors import RobotError
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.module_bodies import carrier_inertial, flywheel_inertial
 from ocs_design.export.robot_model import robot_model
@@ -32,6 +33,11 @@ DEVICES = {
     "reducing": driven_device(drive=geared(1.5)),
     "reversing": driven_device(drive=geared(1.5, reverses=True)),
     "speeding up": driven_device(drive=geared(0.5, inertia=0.0)),
+}
+DEVICES |= {
+    name.value: layout_device(Layout(name))
+    for name in LayoutName
+    if name not in {LayoutName.PAIR, LayoutName.BY_HAND}
 }
 BLOCK = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0.0, -0.02))
 MOTORS = ("ocs_left_motor", "ocs_right_motor")
@@ -180,8 +186,24 @@ def test_the_mjcf_snippet_has_them(device, tmp_path):
     seen = seen_by_mujoco(tmp_path / "robot.xml", replace(BLOCK, trunk="base"))
     check_whole(seen, BLOCK, device)
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
-    assert model.joint("ocs_left").armature[0] == device.motor.armature
-    assert {model.body(name).name for name in MOTORS} == set(MOTORS)
+    for module in device.modules:
+        assert model.joint(f"ocs_{module.name}").armature[0] == device.motor.armature
+        assert model.body(f"ocs_{module.name}_motor").name
+
+
+@pytest.mark.parametrize("name", ["direct", "single", "triad", "orthogonal", "pyramid"])
+def test_the_xacro_macro_makes_every_layout(name, tmp_path):
+    device, robot = DEVICES[name], replace(BLOCK, trunk="base_link")
+    export_snippet_xacro(device, robot, tmp_path / "ocs.urdf.xacro")
+    (tmp_path / "robot.urdf.xacro").write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:include filename="ocs.urdf.xacro"/><link name="base_link"><inertial>'
+        '<origin xyz="0.01 0 -0.02"/><mass value="2.5"/><inertia ixx="0.03" iyy="0.05" izz="0.07" '
+        'ixy="0.001" ixz="0.002" iyz="-0.003"/></inertial></link>'
+        '<xacro:ocs parent="base_link"/></robot>'
+    )
+    text = xacro.process_file(str(tmp_path / "robot.urdf.xacro")).toxml()
+    check_whole(seen_by_pinocchio(text, robot), BLOCK, device)
 
 
 def test_urdf_says_what_it_cannot_hold(tmp_path):

@@ -9,8 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from made_parts import HUB, ONE_PIECE, RIM_ALONE, TWO_PIECES
 
+from ocs_design.export.meshes import part_mesh
+from ocs_design.export.stl import MILLIMETRES, stl_bytes
 from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
 
 pytest.importorskip("ezdxf", reason="ezdxf is the extra [dxf]")
@@ -127,3 +130,41 @@ def test_bytes_are_the_same_in_every_process(seed):
     )
     here = hashlib.sha256(dxf_text(wheel_parts(TWO_PIECES)[0]).encode()).hexdigest()
     assert done.stdout.strip() == here
+
+
+@pytest.mark.parametrize("name", ["two_rim", "two_hub", "one_wheel", "rim_rim"])
+def test_the_section_is_that_of_the_stl_file(name, tmp_path):
+    """Cut by a half plane that passes no hole: both have the same corners and circumference."""
+    piece = PIECES[name]
+    holes = [1e3 * cut.outline.points for cut in piece.cut]
+    angle = max(np.linspace(0.0, np.pi, 721)[:-1], key=lambda each: _room(holes, each))
+    (tmp_path / "piece.stl").write_bytes(
+        stl_bytes(part_mesh(piece), "piece", units_per_metre=MILLIMETRES)
+    )
+    mesh = trimesh.load_mesh(tmp_path / "piece.stl")
+    lines = trimesh.intersections.mesh_plane(mesh, _normal(angle), np.zeros(3))
+    across = lines @ np.array([np.cos(angle), np.sin(angle), 0.0])
+    beside = (across > 0.0).all(axis=1)
+    cut = np.dstack([lines[beside, :, 2], across[beside]])
+    (section,) = on_layer(read(piece, tmp_path), "SECTION", "LWPOLYLINE")
+    corners = np.array(section.get_points("xy"))
+    heights = 1e3 * np.concatenate([solid.profile[:, 1] for solid in piece.joined])
+    corners[:, 0] += heights.min() - corners[:, 0].min()
+    length = np.linalg.norm(cut[:, 1] - cut[:, 0], axis=1).sum()
+    around = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).sum()
+    # Chords of the STL file's circles lie inside and outside of them by so much.
+    off = 2e-3 * corners[:, 1].max()
+    assert length == pytest.approx(around, rel=2e-3)
+    ends = cut.reshape(-1, 2)
+    assert max(np.linalg.norm(ends - corner, axis=1).min() for corner in corners) < off
+
+
+def _normal(angle):
+    return np.array([-np.sin(angle), np.cos(angle), 0.0])
+
+
+def _room(holes, angle):
+    """Least distance of a plane through the axis from the holes; 0 if it passes one."""
+    sides = [hole @ _normal(angle)[:2] for hole in holes]
+    apart = [np.abs(side).min() if np.ptp(np.sign(side)) == 0.0 else 0.0 for side in sides]
+    return min(apart, default=0.0)

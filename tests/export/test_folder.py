@@ -6,7 +6,8 @@ import hashlib
 import pytest
 
 from ocs_design.common.errors import OutputError
-from ocs_design.export.folder import DESIGN_FILE, check_target, file_hashes, staged_folder
+from ocs_design.device.records import DESIGN_FILE
+from ocs_design.export.folder import check_target, file_hashes, staged_folder
 
 
 def make_output(folder, text="old"):

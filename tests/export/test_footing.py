@@ -10,6 +10,7 @@ from wheels import driven_device
 
 from ocs_design.export.assembly_notes import trunk_notes
 from ocs_design.export.bill_of_materials import bill_rows
+from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.formats import Subject
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import export_snippets
@@ -34,6 +35,12 @@ def test_the_holes_of_the_plate_are_told(plated):
     x += plated.plate.position[0]
     assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in said
     assert "M3" in said
+
+
+def test_the_feet_are_screwed_where_the_plate_has_their_holes(plated):
+    found = [place for places in foot_holes(plated).values() for place in places]
+    holes = np.array(plated.plate.feet) + plated.plate.position[:2]
+    np.testing.assert_allclose(sorted(found), sorted(holes.tolist()), atol=1e-12)
 
 
 def test_feet_on_the_trunk_need_threads_in_it(plated):

@@ -1,6 +1,8 @@
 """Whole robots with their device as MJCF, read again by MuJoCo."""
 
+import re
 import shutil
+import xml.etree.ElementTree as ET
 
 import mujoco
 import numpy as np
@@ -8,12 +10,19 @@ import pytest
 from exported import LEGGED, LEGGED_PATHS, MJCF, check_moments
 from robots import SOLO12
 from scipy.spatial.transform import Rotation
-from wheels import paper_device
+from wheels import driven_device, paper_device, scaled_device
 
-from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.device.naming import joint_names
+from ocs_design.export.formats import Subject
+from ocs_design.export.mjcf import export_robot_mjcf, write
+from ocs_design.export.physics import leg_joints
 from ocs_design.export.robot_model import robot_model
+from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
+from ocs_design.simulation.scenario import MOMENTUM_GATE
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder
 
 
 def read_again(robot, device, folder):
@@ -57,10 +66,22 @@ EXACT = (
     "dof_armature",
     "dof_frictionloss",
     "actuator_ctrlrange",
+    "actuator_forcerange",
+    "actuator_gainprm",
+    "actuator_biasprm",
     "eq_data",
     "key_qpos",
     "key_ctrl",
 )
+
+
+def at_home(path):
+    """Model of a file and its data at `ocs_home`, as a viewer loads it."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("ocs_home").id)
+    mujoco.mj_forward(model, data)
+    return model, data
 
 
 def compiled(robot, device):
@@ -91,7 +112,6 @@ def test_every_number_is_exact_for_an_mjcf_robot(tmp_path):
     model = read_again(robot, device, tmp_path)
     original = compiled(robot, device)
     check_same(model, original, (*EXACT, "body_quat", "body_iquat", "geom_size", "site_pos"))
-    np.testing.assert_allclose(model.actuator_gainprm, original.actuator_gainprm, rtol=1e-15)
     check_wheels(model, device, "trunk")
 
 
@@ -170,14 +190,131 @@ def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
     assert sizes[1] == pytest.approx(2.0 * sizes[0])
 
 
-def test_it_simulates_as_it_stands(tmp_path):
-    model = read_again(read_robot(SOLO12), paper_device(), tmp_path)
-    model.opt.gravity[:] = 0.0
-    data = mujoco.MjData(model)
-    data.ctrl[:] = 0.01
-    mujoco.mj_step(model, data, 100)
-    assert np.isfinite(data.qpos).all()
-    assert data.joint("ocs_left").qvel[0] > 10.0
+@pytest.mark.slow
+@pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
+def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_path):
+    """The gate of the flights, `MOMENTUM_GATE`, for 2 s with fast wheels and a turning trunk."""
+    robot = read_robot(path)
+    device = scaled_device(robot)
+    model, data = at_home(export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"))
+    data.qpos[2] += 40.0
+    data.qvel[3:6] = 0.5, 2.0, 0.3
+    for name, speed in zip(joint_names(device), (600.0, -300.0), strict=True):
+        data.joint(name).qvel[0] = speed
+    # A motor that brakes its wheel moves the trunk besides.
+    data.actuator("ocs_left").ctrl[0] = -300.0 * device.flywheel.spin_inertia
+    momentum = []
+    for _ in range(200):
+        mujoco.mj_forward(model, data)
+        mujoco.mj_subtreeVel(model, data)
+        momentum.append(data.subtree_angmom[1].copy())
+        mujoco.mj_step(model, data, round(0.01 / model.opt.timestep))
+    assert data.time == pytest.approx(2.0)
+    moved = np.linalg.norm(momentum[0])
+    assert moved > 100.0 * device.flywheel.spin_inertia
+    assert np.linalg.norm(np.array(momentum) - momentum[0], axis=1).max() < MOMENTUM_GATE * moved
+
+
+@pytest.mark.parametrize("path", LEGGED_PATHS[:5], ids=LEGGED[:5])
+def test_a_quadruped_stands_in_its_scene(path, tmp_path):
+    robot, device = read_robot(path), paper_device()
+    write(Subject.of(robot, device, "robot"), tmp_path)
+    ET.parse(tmp_path / "scene.xml")  # MuJoCo's own parser is less strict
+    model, data = at_home(tmp_path / "scene.xml")
+    assert model.joint(0).type == mujoco.mjtJoint.mjJNT_FREE and model.joint(0).name
+    height, base = robot.standing_height, data.site("ocs_imu")
+    assert base.xpos[2] == pytest.approx(height, rel=0.01)
+    for name in leg_joints(robot):
+        effort = robot.tree.joints[name].effort
+        limit = [-effort, effort] if 0.0 < effort < np.inf else [0.0, 0.0]
+        np.testing.assert_array_equal(model.actuator(name).forcerange, limit)
+    mujoco.mj_step(model, data, 2000)
+    assert data.time == pytest.approx(2.0)
+    assert base.xpos[2] == pytest.approx(height, rel=0.02)
+    assert base.xmat[8] > np.cos(np.radians(2.0))
+    posture = np.array([data.joint(name).qpos[0] - value for name, value in robot.posture.items()])
+    assert np.abs(posture).max() < 0.05
+
+
+def test_its_drives_and_options_are_those_of_the_flights(tmp_path):
+    robot, device = read_robot(SOLO12), paper_device()
+    model, _ = at_home(export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"))
+    world = WorldBuilder(robot, device).flight(default_maneuvers(robot)[0], Wheels.ACTIVE)
+    for name in leg_joints(robot):
+        ours, flown = model.actuator(name), world.model.actuator(name)
+        for field in ("gainprm", "biasprm", "forcerange"):
+            expected = getattr(flown, field)
+            np.testing.assert_allclose(getattr(ours, field), expected, rtol=1e-12, err_msg=field)
+        assert model.joint(name).damping[0] == world.model.joint(name).damping[0]
+    for option in ("integrator", "timestep", "tolerance", "jacobian", "iterations", "gravity"):
+        ours, flown = getattr(model.opt, option), getattr(world.model.opt, option)
+        np.testing.assert_array_equal(ours, flown)
+
+
+def test_joints_in_no_leg_are_held_until_they_are_released(tmp_path):
+    robot = read_robot(LEGGED_PATHS[6])
+    model, data = at_home(
+        export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "robot.xml")
+    )
+    others = sorted(set(robot.tree.joints) - set(leg_joints(robot)))
+    assert [model.eq(f"ocs_hold_{name}").id for name in others]
+    data.qpos[2] += 5.0
+    mujoco.mj_step(model, data, 500)
+    for name in others:
+        assert data.joint(name).qpos[0] == pytest.approx(robot.posture[name], abs=1e-2)
+
+
+def test_links_meet_the_floor_and_not_each_other_unless_their_mjcf_says_so(tmp_path):
+    model = compiled(read_robot(LEGGED_PATHS[3]), paper_device())
+    links = np.array(["flywheel" not in model.geom(i).name for i in range(model.ngeom)])
+    assert not model.geom_contype.any()
+    assert set(model.geom_conaffinity[links]) == {0, 1}
+    (tmp_path / "in.xml").write_text(MJCF)
+    own = compiled(read_robot(tmp_path / "in.xml", posture="zero"), paper_device())
+    assert own.geom_contype[own.geom_conaffinity == 1].all()
+
+
+def test_actuators_of_the_robots_own_get_no_others_beside_them(tmp_path):
+    (tmp_path / "in.xml").write_text(MJCF)
+    robot = read_robot(tmp_path / "in.xml", posture="zero", joints={"swing": 0.3})
+    model, data = at_home(
+        export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "out.xml")
+    )
+    assert [model.actuator(i).name for i in range(model.nu)] == ["swing", "ocs_left", "ocs_right"]
+    # A position servo at rest gives no torque where it is told to be.
+    assert data.joint("swing").qpos[0] == 0.3
+    assert data.actuator("swing").ctrl[0] == pytest.approx(0.3)
+    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4
+
+
+def test_the_floor_of_the_scene_meets_what_can_touch_and_both_wheels(tmp_path):
+    write(Subject.of(read_robot(SOLO12), paper_device(), "robot"), tmp_path)
+    model, data = at_home(tmp_path / "scene.xml")
+    # On its back, its wheels lowest.
+    data.qpos[2:7] = 0.05, 0.0, 1.0, 0.0, 0.0
+    mujoco.mj_forward(model, data)
+    touching = {model.geom(i).name for i in data.contact.geom.ravel().tolist()}
+    assert {"ocs_floor", "ocs_left_flywheel", "ocs_right_flywheel"} <= touching
+
+
+def test_the_readme_has_the_designs_figures_and_a_picture(tmp_path):
+    robot, device = read_robot(SOLO12), driven_device()
+    write(Subject.of(robot, device, "solo"), tmp_path)
+    page = (tmp_path / "README.md").read_text()
+    for figure in (
+        f"{robot.mass + device.mass:.4g} kg",
+        f"{1e3 * device.mass:.4g} g",
+        "6211 rpm (650.4 rad/s)",
+        "| 1 N m |",
+        "(0.6428, 0.766, 0), (-0.6428, 0.766, 0)",
+        "0.272 m",
+        "12 position servos",
+        "65536",
+    ):
+        assert figure in page, figure
+    assert "@" not in page
+    for file in re.findall(r"`([a-z_]+\.xml|meshes/)`|\]\((.*)\)", page):
+        assert (tmp_path / "".join(file)).exists(), file
 
 
 def test_bytes_are_the_same_every_time(tmp_path):

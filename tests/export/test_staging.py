@@ -8,9 +8,10 @@ import pytest
 from commands import everything_in
 
 from ocs_design.common.errors import OutputError
+from ocs_design.device.records import DESIGN_FILE
 from ocs_design.export import folder as folders
 from ocs_design.export import staging as stagings
-from ocs_design.export.folder import DESIGN_FILE, staged_folder
+from ocs_design.export.folder import staged_folder
 from ocs_design.export.staging import clear_leftovers, remove_unfinished
 
 REPLACE = """

@@ -1,11 +1,10 @@
 """STEP files, read again by Open CASCADE, against the closed form."""
 
-import re
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from built import CAGED_DEVICE
+from built import CAGED_DEVICE, DEVICES
 from made_parts import PARTS, TUBE
 
 from ocs_design.common.arrays import FloatArray
@@ -13,14 +12,27 @@ from ocs_design.common.arrays import FloatArray
 pytest.importorskip("OCP", reason="Open CASCADE is the extra [step]")
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
+from OCP.collections import Sequence_TDF_Label
 from OCP.GProp import GProp_GProps
+from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
+from OCP.STEPCAFControl import STEPCAFControl_Reader
 from OCP.STEPControl import STEPControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
 from OCP.TopAbs import TopAbs_ShapeEnum
-from OCP.TopExp import TopExp_Explorer
+from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Shape
+from OCP.XCAFApp import XCAFApp_Application
+from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
 from ocs_design.export.assembly.placed import placed_parts
-from ocs_design.export.step import module_bytes, step_bytes
+from ocs_design.export.module_bodies import carrier_placement, wheel_placement
+from ocs_design.export.step import STEEL, device_bytes, module_bytes, step_bytes
+from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT
+from ocs_design.parts.carrier_plate import plate_part
+from ocs_design.robot.tree import Placement
 
 TOLERANCE = 1e-9
 
@@ -77,24 +89,96 @@ def test_nothing_is_printed(capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@dataclass(frozen=True)
+class Shown:
+    """A solid in the tree of a file, with all names from the root to it."""
+
+    path: tuple[str, ...]
+    color: tuple[float, ...]
+    solid: Volume
+
+
+def tree(path) -> list[Shown]:
+    """What a CAD program shows of an assembly, by XCAF."""
+    document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+    XCAFApp_Application.GetApplication_s().InitDocument(document)
+    reader = STEPCAFControl_Reader()
+    reader.ReadFile(str(path))
+    assert reader.Transfer(document)
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    colors = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+
+    def name(label):
+        found = TDataStd_Name()
+        assert label.FindAttribute(TDataStd_Name.GetID_s(), found)
+        return found.Get().ToExtString()
+
+    def below(label, names, place):
+        if XCAFDoc_ShapeTool.IsReference_s(label):
+            referred = TDF_Label()
+            XCAFDoc_ShapeTool.GetReferredShape_s(label, referred)
+            here = place.Multiplied(XCAFDoc_ShapeTool.GetLocation_s(label))
+            yield from below(referred, (*names, name(label)), here)
+        elif XCAFDoc_ShapeTool.IsAssembly_s(label):
+            parts = Sequence_TDF_Label()
+            XCAFDoc_ShapeTool.GetComponents_s(label, parts)
+            for number in range(1, parts.Length() + 1):
+                yield from below(parts.Value(number), names, place)
+        else:
+            shape, shade = XCAFDoc_ShapeTool.GetShape_s(label), Quantity_Color()
+            assert colors.GetColor(shape, XCAFDoc_ColorType.XCAFDoc_ColorSurf, shade)
+            rgb = shade.Values(Quantity_TypeOfColor.Quantity_TOC_sRGB)
+            yield Shown(names, rgb, integrated(shape.Moved(place)))
+
+    free = Sequence_TDF_Label()
+    shapes.GetFreeShapes(free)
+    assert free.Length() == 1
+    return list(below(free.Value(1), (name(free.Value(1)),), TopLoc_Location()))
+
+
+COLORS = {
+    **dict.fromkeys(("drum", "lid", "foot", "cage"), PRINT),
+    "motor": MOTOR,
+    "plate": ALUMINIUM,
+    "flywheel": STEEL,
+}
+
+
+def check_solid(found, part, place, color):
+    own = part.mass_properties()
+    assert found.solid.volume == pytest.approx(own.mass / part.density, rel=TOLERANCE)
+    np.testing.assert_allclose(
+        found.solid.com, place.rotation @ own.com + place.position, atol=1e-9
+    )
+    assert found.color == pytest.approx(color[:3], abs=1e-3)
+
+
 def test_a_module_has_all_its_pieces_in_their_places(tmp_path):
-    """Motor and cage among them: as many solids as pieces, each of its volume, at its place."""
+    """Motor and cage among them: each by its name and colour, of its volume, at its place."""
     (tmp_path / "module.step").write_bytes(module_bytes(CAGED_DEVICE))
-    shape = read(tmp_path / "module.step")
-    solids, found = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_SOLID), []
-    while solids.More():
-        found.append(integrated(solids.Current()))
-        solids.Next()
-    placed, text = placed_parts(CAGED_DEVICE), module_bytes(CAGED_DEVICE).decode()
-    assert text == (tmp_path / "module.step").read_text()
-    assert re.findall(r"PRODUCT\('(\w+)'", text) == ["module", *placed]
-    assert {"motor", "cage", "drum", "lid", "foot"} <= set(placed)
-    assert len(found) == len(placed)
-    for part, place in placed.values():
-        own = part.mass_properties()
-        at, volume = place.rotation @ own.com + place.position, own.mass / part.density
-        assert any(
-            solid.volume == pytest.approx(volume, rel=TOLERANCE)
-            and np.linalg.norm(solid.com - at) < 1e-9
-            for solid in found
-        )
+    assert module_bytes(CAGED_DEVICE) == (tmp_path / "module.step").read_bytes()
+    found, placed = tree(tmp_path / "module.step"), placed_parts(CAGED_DEVICE)
+    assert [each.path for each in found] == [("module", name) for name in placed]
+    assert {"flywheel", "motor", "cage", "drum", "lid", "foot"} == set(placed)
+    for each, (part, place) in zip(found, placed.values(), strict=True):
+        check_solid(each, part, place, COLORS[each.path[-1]])
+    assert isinstance(read(tmp_path / "module.step"), TopoDS_Shape)
+
+
+def test_the_device_has_every_module_in_its_place_and_the_plate(tmp_path):
+    device = DEVICES["on a plate"]
+    (tmp_path / "device.step").write_bytes(device_bytes(device))
+    found = {each.path: each for each in tree(tmp_path / "device.step")}
+    frames = [wheel_placement(each) @ carrier_placement(each) for each in device.modules]
+    expected = {
+        ("device", module.name, name): (part, frame @ place)
+        for module, frame in zip(device.modules, frames, strict=True)
+        for name, (part, place) in placed_parts(device).items()
+    }
+    here = Placement(np.eye(3), np.array(device.plate.position))
+    expected["device", "plate"] = plate_part(device.plate), here
+    assert set(found) == set(expected)
+    for path, (part, place) in expected.items():
+        check_solid(found[path], part, place, COLORS[path[-1]])
+    wheels = [found["device", module.name, "flywheel"].solid.com for module in device.modules]
+    np.testing.assert_allclose(wheels, [module.position for module in device.modules], atol=1e-9)

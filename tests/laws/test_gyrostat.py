@@ -13,7 +13,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.wheel_law import Allocation, Gains, MotorLimits, WheelLaw
+from ocs_design.simulation.wheel_law import USED, Allocation, Gains, MotorLimits, WheelLaw
 from ocs_design.simulation.world import World, WorldBuilder
 
 INERTIA = (0.030, 0.0535, 0.068, 0.001, 0.003, -0.002)
@@ -24,7 +24,7 @@ def floating(inertia=INERTIA, wheels=Wheels.ACTIVE, device=None, duration=1.0) -
     builder = WorldBuilder(robot_by_hand(2.5, inertia), device or paper_device())
     world = builder.flight(Drop(name="drop", height=100.0, pitch=0.0), wheels)
     world.model.opt.gravity[:] = 0.0
-    return replace(world, law=WheelLaw.off(), duration=duration)
+    return replace(world, law=WheelLaw.off(2), duration=duration)
 
 
 def spinning(world: World, rate, wheel_speed) -> World:
@@ -109,7 +109,10 @@ def test_full_torque_there_and_back_turns_the_trunk_as_the_closed_form_says(inci
 
 
 def test_a_saturated_motor_follows_its_voltage_line():
-    """W = w_0 (1 - exp(-t / T)), T = I_red w_0 / tau_s (docs/theory.md, What a motor can do)."""
+    """W = f w_0 (1 - exp(-t / T)), T = I_red w_0 / tau_s (docs/theory.md, What a motor can do).
+
+    f is the share of the voltage that the law uses.
+    """
     drive = motor(no_load_speed=650.4, stall_torque=1.4566)
     world = floating(device=paper_device(incidence=0.0, drive=drive), duration=0.1)
     far = replace(world.turn, start=0.0, end=3.0, profile=Step())
@@ -117,8 +120,8 @@ def test_a_saturated_motor_follows_its_voltage_line():
     recording = simulate([replace(world, law=law, turn=far)], hold=1)
     speed = -recording.wheel_speed[:, 0, 0]
     constant = 650.4 / 1.4566 / world.body.wheel_response
-    continuous = 650.4 * (1.0 - np.exp(-recording.time / constant))
-    held = 650.4 * (1.0 - (1.0 + 1e-3 / constant) ** -np.arange(len(speed)))
+    continuous = USED * 650.4 * (1.0 - np.exp(-recording.time / constant))
+    held = USED * 650.4 * (1.0 - (1.0 + 1e-3 / constant) ** -np.arange(len(speed)))
     np.testing.assert_allclose(speed, held, rtol=1e-5)
     np.testing.assert_allclose(speed, continuous, rtol=0, atol=0.01 * 650.4)
 

@@ -6,13 +6,17 @@ import mujoco
 import numpy as np
 import pytest
 from campaigns import NOTHING, short_campaign
-from wheels import driven_device, paper_device
+from scipy.spatial.transform import Rotation
+from wheels import driven_device, layout_device, paper_device
 
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.monte_carlo.uncertainty import built
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.wheel_law import WheelLaw
+
+UP = (0.0, 0.0, 1.0)
 
 
 def drawn(robot, device=None, **stated):
@@ -82,6 +86,32 @@ def test_wheels_that_are_both_off_are_a_device_at_another_incidence(solo12):
     np.testing.assert_allclose(accelerations(robot.model), expected, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("name", "feet"),
+    [
+        ("single", [UP]),
+        ("triad", [UP, UP, UP]),
+        # The upright wheel's module lies on its side, its foot towards the front.
+        ("orthogonal", [UP, UP, (1.0, 0.0, 0.0)]),
+    ],
+)
+def test_modules_that_are_off_are_turned_on_their_feet(solo12, name, feet):
+    """Clockwise as seen from above, where they stand; what carries a wheel stays where it was."""
+    device = replace(layout_device(Layout(LayoutName(name))), carrier=paper_device().carrier)
+    error = np.radians(2.0)
+    world, robot = drawn(solo12, device, incidence_error=error)
+    turns = Rotation.from_rotvec(-error * np.array(feet)).as_matrix()
+    modules = [
+        replace(module, axis=turn @ module.axis)
+        for module, turn in zip(device.modules, turns, strict=True)
+    ]
+    turned = replace(device, modules=tuple(modules))
+    model = compile_scene(robot_scene(solo12), solo12, turned, Wheels.ACTIVE, 9.81)
+    expected = accelerations(with_gains_of(model, world))
+    assert np.abs(expected - accelerations(world.model)).max() > 1e-4
+    np.testing.assert_allclose(accelerations(robot.model), expected, rtol=1e-9, atol=1e-9)
+
+
 def test_second_moments_of_mass_grow_by_what_is_drawn(solo12):
     """About the trunk's centre of mass: `S = tr(I)/2 - I` scales with 1 + e in every direction."""
     world, robot = drawn(solo12, inertia_error=0.2)
@@ -126,7 +156,7 @@ def test_a_push_off_leaves_the_rate_that_is_drawn(solo12, period):
     campaign = replace(short_campaign(solo12, given, until=0.09), hold=round(period / 1e-3))
     jump, drop = campaign.worlds(campaign.sample(0))
     assert len(drop.pushes) == 1
-    flown = simulate([replace(jump, law=WheelLaw.off())], hold=campaign.hold)
+    flown = simulate([replace(jump, law=WheelLaw.off(2))], hold=campaign.hold)
     np.testing.assert_allclose(flown.rate[-1, 0, :2], 0.1, rtol=0.03)
     expected = jump.body.actuated_inertia[:, :2] @ [0.1, 0.1]
     np.testing.assert_allclose(flown.impulse[-1, 0], expected, rtol=1e-3, atol=1e-6)

@@ -5,8 +5,11 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 from campaigns import short_campaign
+from wheels import layout_device
 
 import ocs_design.monte_carlo.campaign
+from ocs_design.common.errors import OcsError
+from ocs_design.device.layout import PAIR, Layout, LayoutName
 from ocs_design.monte_carlo.campaign import (
     case_of,
     fly_samples,
@@ -15,6 +18,7 @@ from ocs_design.monte_carlo.campaign import (
     replayed,
     write_case,
 )
+from ocs_design.monte_carlo.certificate import SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import FAULTS, METRICS, Outcomes
 from ocs_design.monte_carlo.summary import REMEDIES, standing_advice, summarised
 from ocs_design.simulation.verdict import MOMENTUM_GATE, Fault
@@ -60,6 +64,50 @@ def test_momentum_is_conserved_with_friction_and_errors(outcomes):
     assert outcomes.metric("momentum_error").max() < MOMENTUM_GATE
 
 
+def test_a_sample_whose_momentum_is_off_is_flown_again_in_half_the_step(
+    campaign, outcomes, monkeypatch
+):
+    """With a gate in their middle: half of the flights; delays and friction stay what they were."""
+    error = outcomes.metric("momentum_error")[:2]
+    gate = float(np.median(error))
+    monkeypatch.setattr("ocs_design.simulation.scenario.MOMENTUM_GATE", gate)
+    again = fly_samples(campaign, range(2))
+    off, finer = error > gate, again.metric("momentum_error")
+    np.testing.assert_array_equal(again.metrics[~off], outcomes.metrics[:2][~off])
+    assert np.all(finer[off] < 0.2 * error[off])
+    for name in ("touchdown_pitch", "touchdown_roll"):
+        change = again.metric(name) - outcomes.metric(name)[:2]
+        assert 0.0 < np.abs(change[off]).max() < np.radians(0.05)
+    for number, run in enumerate(replayed(campaign, campaign.sample(1))):
+        assert run.metrics == metrics_of(again, 1, number)
+
+
+@pytest.mark.parametrize("name", [name for name in LayoutName if name != "by-hand"])
+def test_every_wheel_has_errors_of_its_own(solo12, name, tmp_path):
+    """Flown, kept as a block and as a case, and certified, whatever the layout."""
+    layout = Layout(name)
+    campaign = short_campaign(solo12, device=layout_device(layout), drop_only=True)
+    outcomes = fly_samples(campaign, range(2))
+    assert len(outcomes.names) == 20 + 5 * len(layout)
+    own = [f"resistance_error.{wheel}" for wheel in layout.names]
+    places = [outcomes.names.index(each) for each in own]
+    assert np.unique(outcomes.values[:, places]).size == 2 * len(layout)
+    assert outcomes.metric("momentum_error").max() < MOMENTUM_GATE
+    outcomes.save(tmp_path / "block.npz")
+    assert_same(Outcomes.load(tmp_path / "block.npz"), outcomes)
+    case = read_case(write_case(case_of(campaign, outcomes, 1, 0, "hash"), tmp_path))
+    (run,) = replayed(campaign, case.drawn(layout))
+    assert run.metrics == metrics_of(outcomes, 1, 0)
+    found = certificate(SequentialTest(0.5), campaign, outcomes)
+    assert found.whole == outcomes.all_passed[: found.samples].sum()
+
+
+def test_a_case_of_other_wheels_is_refused(campaign, outcomes):
+    case = case_of(campaign, outcomes, 0, 0, "hash")
+    with pytest.raises(OcsError, match=r"says nothing of incidence_error\.1, "):
+        case.drawn(Layout(LayoutName.TRIAD))
+
+
 def test_no_two_robots_are_alike(outcomes):
     for name in ("touchdown_pitch", "touchdown_roll", "peak_wheel_speed"):
         assert np.unique(outcomes.metric(name)).size == outcomes.metric(name).size
@@ -69,7 +117,7 @@ def test_a_case_is_flown_again_to_the_last_bit(campaign, outcomes, tmp_path):
     case = case_of(campaign, outcomes, 3, 1, "hash")
     again = read_case(write_case(case, tmp_path))
     assert again == case
-    for number, run in enumerate(replayed(campaign, again.drawn())):
+    for number, run in enumerate(replayed(campaign, again.drawn(PAIR))):
         assert run.metrics == metrics_of(outcomes, 3, number)
 
 

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from campaigns import short_campaign
 from commands import SOLO12
-from made_outcomes import made_outcomes
+from made_outcomes import NAMES, made_outcomes
 from scipy import stats
+from wheels import layout_device
 
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.monte_carlo.certificate import (
     ERROR,
     LARGEST,
@@ -21,7 +23,6 @@ from ocs_design.monte_carlo.certificate import (
 )
 from ocs_design.monte_carlo.outcomes import METRICS
 from ocs_design.monte_carlo.summary import share
-from ocs_design.monte_carlo.uncertainty import NAMES
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs"))
 import certified
@@ -155,3 +156,14 @@ def test_what_the_docs_quote_is_what_flies():
         assert low <= quoted["interval"][scenario][1]
         assert quoted["interval"][scenario][0] <= high
     assert flown["mass"] == pytest.approx(quoted["mass"], rel=1e-3)
+
+
+def test_no_reserve_is_raised_for_an_axis_that_no_wheel_reaches(solo12):
+    device = layout_device(Layout(LayoutName.SINGLE))
+    campaign = short_campaign(solo12, device=device, drop_only=True)
+    outcomes = made_outcomes(range(64))
+    outcomes.metrics[:] = 0.0
+    outcomes.metrics[:, 0, METRICS.index("touchdown_roll")] = 0.1 * outcomes.values[:, 5]
+    learnt = lesson(SequentialTest(0.99), campaign, outcomes)
+    assert learnt.factor == 1.0
+    assert "no wheel turns the robot in roll" in learnt.told

@@ -3,11 +3,15 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from scipy import stats
 from wheels import driven_device, paper_device
 
-from ocs_design.monte_carlo.uncertainty import KEYS, NAMES, Sample, Uncertainty
+from ocs_design.device.layout import PAIR
+from ocs_design.monte_carlo.uncertainty import KEYS, Sample, Uncertainty, quantities
 from ocs_design.requirement.uncertainty import Constant, Normal, UncertaintySection
+
+NAMES = quantities(PAIR)
 
 
 def uncertainty(robot, **stated):
@@ -67,3 +71,20 @@ def test_a_motor_of_which_nothing_is_known_has_no_friction(solo12):
 def test_what_is_stated_holds(solo12):
     spread = uncertainty(solo12, torque_delay=Constant(0.0))
     assert Sample.draw(spread, 0, 1).only("torque_delay") == 0.0
+
+
+def test_a_pairs_samples_stay_what_they_were(solo12):
+    """Its certificates, and cases that people keep, were drawn so."""
+    sample = Sample.draw(uncertainty(solo12), 3, 5)
+    kept = {
+        "mass_error": 0.026138377142428792,
+        "incidence_error.left": 0.009448818117993881,
+        "incidence_error.right": -0.0026044601405445992,
+        "resistance_error.right": 0.009561096090763282,
+        "viscous_friction.left": 1.0586681173765773e-05,
+        "attitude_bias.roll": 0.0027535033339801027,
+        "takeoff_rate.pitch": -0.04620930361671459,
+    }
+    drawn = sample.by_name
+    assert {name: drawn[name] for name in kept} == pytest.approx(kept, rel=1e-14)
+    assert list(drawn)[::29] == ["mass_error", "takeoff_rate.pitch"]

@@ -1,11 +1,10 @@
 """What bad outcomes go with, against SciPy's rank correlation."""
 
 import numpy as np
-from made_outcomes import made_outcomes
+from made_outcomes import NAMES, made_outcomes
 from scipy import stats
 
 from ocs_design.monte_carlo.summary import attitude_error, causes, order
-from ocs_design.monte_carlo.uncertainty import NAMES
 from ocs_design.requirement.maneuver import Drop, Flip
 
 DROP = Drop(name="drop", height=1.0, pitch=0.5)

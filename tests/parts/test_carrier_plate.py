@@ -21,7 +21,7 @@ from ocs_design.parts.carrier_plate import (
     sleeve_part,
     twisting_stress,
 )
-from ocs_design.robot.mass import physical_defect
+from ocs_design.robot.mass import combine, physical_defect
 
 
 def plate_of(radius, across, thickness, sleeve=0.0, neck=0.018):
@@ -77,6 +77,32 @@ def test_plate_sleeves_and_screws_are_all_that_it_weighs(plate):
     assert whole.inertia[0, 1] == pytest.approx(0.0, abs=1e-12)
 
 
+def test_plates_of_two_pairs_are_two_plates():
+    """Each with its own screws: what bears least decides, and all weigh together."""
+    front = plate_of(0.03, 0.08, 4e-3, sleeve=0.01)
+    # Its screws are nearer to the middle, so that the modules bend it by more.
+    back = replace(front, trunk=tuple((x, y / 2.0) for x, y in front.trunk))
+    rows = (0.1, -0.1)
+    held = [
+        (row + x, y) for row, plate in zip(rows, (front, back), strict=True) for x, y in plate.trunk
+    ]
+    feet = [(row + x, y) for row in rows for x, y in front.feet]
+    both = replace(front, rows=rows, trunk=tuple(held), feet=tuple(feet), sleeves=(0.01,) * 8)
+    ahead = np.array([0.1, 0.0, 0.0])
+    parts = [
+        front.mass_properties().moved(np.eye(3), ahead),
+        back.mass_properties().moved(np.eye(3), -ahead),
+    ]
+    whole, expected = both.mass_properties(), combine(parts)
+    assert whole.mass == pytest.approx(expected.mass, rel=1e-12)
+    np.testing.assert_allclose(whole.com, expected.com, atol=1e-12)
+    np.testing.assert_allclose(whole.inertia, expected.inertia, atol=1e-12)
+    assert both.stress(0.5, 0.06) == pytest.approx(back.stress(0.5, 0.06), rel=1e-12)
+    assert both.frequency(0.5) == pytest.approx(back.frequency(0.5), rel=1e-12)
+    assert back.stress(0.5, 0.06) > front.stress(0.5, 0.06)
+    assert len(part_manifold(plate_part(both), 48).decompose()) == 2
+
+
 def test_a_plain_plate_in_closed_form():
     """A stadium 60 mm wide and 200 mm long, 3 mm thick: pi r^2 + 2 r l, 2710 kg/m^3."""
     stadium = DogBone(0.03, 0.1, 0.03)
@@ -86,10 +112,11 @@ def test_a_plain_plate_in_closed_form():
 
 
 bones = st.builds(
-    lambda radius, neck, beyond: DogBone(radius, (2.0 + beyond) * radius, neck * radius),
+    lambda radius, neck, beyond, x: DogBone(radius, (2.0 + beyond) * radius, neck * radius, x),
     st.floats(0.01, 0.06),
     st.floats(0.2, 0.95),
     st.floats(0.0, 4.0),
+    st.sampled_from([0.0, -0.1]),
 )
 
 
@@ -97,7 +124,7 @@ bones = st.builds(
 def test_moments_of_a_bone_are_those_of_its_outline(bone):
     area, first, second = flat_figures(bone.moments)
     drawn_area, drawn_first, drawn_second = green(bone.outline())
-    size = bone.half_length
+    size = bone.half_length + abs(bone.x)
     assert area == pytest.approx(drawn_area, rel=1e-9)
     np.testing.assert_allclose(first, drawn_first, atol=1e-9 * area * size)
     np.testing.assert_allclose(second, drawn_second, atol=1e-9 * area * size**2)

@@ -7,7 +7,12 @@ import pytest
 from stories import design
 
 from ocs_design.device.records import ValidationRecord
-from ocs_design.report.flights import device_table, flight_remarks, flight_table
+from ocs_design.report.flights import (
+    device_table,
+    flight_remarks,
+    flight_table,
+    short_verdict,
+)
 
 TOP = design().ocs.motor.no_load_speed
 LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}
@@ -66,3 +71,19 @@ def test_a_row_is_named_by_its_scenario_or_by_the_device_alone():
     assert [row[0] for row in one.rows] == ["with", "without"]
     assert [table.columns[0].name for table in (many, one)] == ["scenario", "device"]
     assert [row[1:] for row in many.rows] == [row[1:] for row in one.rows]
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("turn", "pass    3.0, heading 90.0"),
+        ("flip", "pass  360.0 turned"),
+        ("drop", "pass    3.0"),
+    ],
+)
+def test_the_angle_beside_a_verdict_is_the_one_that_it_rests_on(kind, words):
+    landing = {"touchdown_time": 1.0, "lift_off_time": 0.0, "touchdown_roll": 0.0}
+    turned = {"touchdown_pitch": np.radians(3.0), "turned_angle": -2.0 * np.pi}
+    record = run("it")
+    flown = {**record.metrics, **landing, **turned, "heading_drift": np.pi / 2.0}
+    assert short_verdict(replace(record, metrics=flown), kind=kind).text == words

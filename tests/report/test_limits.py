@@ -8,7 +8,16 @@ from rich.console import Console
 from stories import design
 
 from ocs_design.device.records import Alternative, MarginRecord
-from ocs_design.report.limits import assumed, lighter, margin_notes, margin_table, tightest
+from ocs_design.report.limits import (
+    alternatives_note,
+    alternatives_table,
+    assumed,
+    heat,
+    lighter,
+    margin_notes,
+    margin_table,
+    tightest,
+)
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import Toned
 from ocs_design.report.text.layout import items, show
@@ -65,8 +74,10 @@ def test_what_is_used_most_comes_first_and_equals_stand_together():
             ("height", 0.5, 1.0, "", ""),
         )
     )  # fmt: skip
-    assert tightest(replace(design(), margins=margins)) == (
-        ("240%", "rms current (drop; a pause cools it)"),
+    found = replace(design(), margins=margins)
+    # What a pause cools is no limit that is exceeded.
+    assert heat(found) == "240% rms in drop (continuous rating 100%), a pause cools it"
+    assert tightest(found) == (
         ("100%", "torque and voltage (flip)"),
         (" 68%", "power (flip)"),
         (" 50%", "height"),
@@ -94,3 +105,8 @@ def test_changes_that_save_come_by_what_they_save():
         ("-20.0 g", "any material; titanium"),
         ("-10.0 g", "more time; Other"),
     )
+    told = replace(found, alternatives=changes)
+    assert [row[0] for row in alternatives_table(told).rows] == [
+        "more time", "no device", "any material"
+    ]  # fmt: skip
+    assert alternatives_note(told) == "These save nothing: nothing."

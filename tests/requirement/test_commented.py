@@ -4,10 +4,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import is_dataclass, replace
 
+import numpy as np
 import pytest
 from specifications import FULL
 
-from ocs_design.requirement.froude import example_shove
+from ocs_design.requirement.froude import example_shove, example_turns
 from ocs_design.requirement.maneuver import MANEUVER_KINDS
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import default_specification
@@ -35,11 +36,16 @@ def default(solo12):
 @pytest.fixture
 def empty(default):
     """With nothing stated."""
-    return commented_toml(Specification(), default, title="Anything", examples=(shove(),))
+    return commented_toml(Specification(), default, title="Anything", examples=examples())
 
 
 def shove():
     return example_shove(robot_by_hand(2.5, (0.03, 0.05, 0.07)))
+
+
+def examples():
+    by_hand = robot_by_hand(2.5, (0.03, 0.05, 0.07))
+    return (shove(), *example_turns(by_hand))
 
 
 def read(text):
@@ -91,10 +97,12 @@ def test_all_maneuvers_stated_are_the_default_ones(empty, default):
     uncommented = MANEUVER.sub(lambda match: match[0].replace("# ", "", 1), empty)
     uncommented = re.sub(r"^# (?=\w+ = .* # )", "", uncommented, flags=re.MULTILINE)
     uncommented = re.sub(r"^# (?=kind = )", "", uncommented, flags=re.MULTILINE)
-    *found, example = read(uncommented).maneuvers
+    *found, example, turn, catch = read(uncommented).maneuvers
     assert leaves(tuple(found)) == pytest.approx(leaves(default.maneuvers))
     assert example.torque == pytest.approx(shove().torque, rel=1e-3)
     assert example.settling == pytest.approx(shove().settling, rel=1e-3)
+    assert turn.yaw == pytest.approx(np.pi / 2.0)
+    assert catch.rate == pytest.approx(examples()[2].rate, rel=1e-3)
 
 
 def test_every_kind_of_maneuver_is_shown(empty):

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import per_wheel
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.maneuver import Catch, Disturbance, Drop, Flip, TurnTo, loop_length
 
 INERTIA = TiltInertia.uncoupled([0.03, 0.0515])
 
@@ -106,3 +106,32 @@ def test_a_disturbance_sets_no_time():
     np.testing.assert_array_equal(
         push.least_torque(TiltInertia.uncoupled([1.0, 1.0]), 0.3), [0.0, 0.0]
     )
+
+
+def test_the_shortest_way_round_a_solid_angle():
+    """A cap of radius b: area 2 pi (1 - cos b), edge 2 pi sin b; of a quarter cos b is 0.75."""
+    assert loop_length(np.pi / 2.0) == pytest.approx(2.0 * np.pi * np.sqrt(1.0 - 0.75**2))
+    assert loop_length(2.0 * np.pi) == pytest.approx(2.0 * np.pi)
+    assert loop_length(-0.3) == loop_length(0.3)
+
+
+def test_a_turn_asks_for_its_tilt_and_for_the_loop_of_its_heading():
+    tilted = TurnTo(name="t", jump_height=1.0, pitch=-0.5, duration=0.8)
+    half = Flip(name="t", jump_height=1.0, angle=-0.5, duration=0.8)
+    np.testing.assert_allclose(tilted.momentum(INERTIA, 0.3), half.momentum(INERTIA, 0.3))
+    np.testing.assert_allclose(tilted.slew(INERTIA, 0.3).swept, half.slew(INERTIA, 0.3).swept)
+    headed = TurnTo(name="h", jump_height=1.0, yaw=-1.5 * np.pi, duration=2.0)
+    steady = 2.0 / np.pi * loop_length(np.pi / 2.0)
+    expected = [0.03 * steady, 0.0515 * steady]
+    slew = headed.slew(INERTIA, 0.3)
+    np.testing.assert_allclose(slew.swept / slew.duration, np.array(expected) / 2.0)
+    assert slew.duration == 0.75 * 2.0
+    np.testing.assert_allclose(headed.momentum(INERTIA, 0.3), np.array(expected) / 2.0)
+
+
+def test_a_catch_leaves_its_momentum_in_the_wheels():
+    catch = Catch(name="c", jump_height=0.5, rate=(0.4, -0.8, 0.1), duration=0.6)
+    slew = catch.slew(INERTIA, 0.3)
+    np.testing.assert_allclose(slew.momentum, [0.012, -0.0412])
+    np.testing.assert_array_equal(slew.swept, 0.0)
+    assert catch.end == "level"

@@ -9,7 +9,7 @@ from ocs_design.actuation.controllers import controller_mass_of
 from ocs_design.actuation.motor import DIRECT, build_gaps
 from ocs_design.catalogue.gears import gears, stages
 from ocs_design.catalogue.materials import materials
-from ocs_design.catalogue.motors import motors
+from ocs_design.catalogue.motors import motor, motors
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.choices import motor_choice
 from ocs_design.requirement.resolving import resolve
@@ -51,11 +51,25 @@ def choice_of(robot=LIGHT, material=None, **motor):
 
 
 @pytest.mark.parametrize("word", [None, "auto"])
-def test_auto_is_all_that_can_be_built_with_and_the_default(word):
+def test_auto_is_all_that_can_be_built_with_at_the_supply_and_the_default(word):
     choice = choice_of(name=word)
     found = [replace(each, controller_mass=0.0) for each in choice.motors]
-    assert found == [each for each in motors().values() if not build_gaps(each)]
+    complete = [each for each in motors().values() if not build_gaps(each)]
+    assert found == [each for each in complete if (each.voltage_max or each.rated_voltage) >= 24.0]
+    assert 40 < len(found) < len(complete)
     assert choice.wheel_speed_max is None
+
+
+def test_a_motor_rated_for_less_than_the_supply_is_for_the_asking():
+    weak = motor("AT2814 KV1050")
+    assert weak.rated_voltage is not None
+    assert weak.rated_voltage < 24.0
+    assert weak.name not in {each.name for each in choice_of().motors}
+    assert weak.name in {each.name for each in choice_of(any=True).motors}
+    assert [each.name for each in choice_of(name=weak.name).motors] == [weak.name]
+    high = Specification(supply=SupplySection(voltage=500.0))
+    with pytest.raises(SpecificationError, match=r"is rated for 500 V: .*, at 105 V"):
+        motor_choice(high, LIGHT)
 
 
 def test_gears_are_for_the_asking_or_of_the_users_own(tmp_path):

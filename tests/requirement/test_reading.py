@@ -115,7 +115,7 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ("flywheel.material: ", "not a text"),
         ("ocs.alpha: ", "Did you mean 40deg?"),
         ("ocs.alpha_criterion: ", "Did you mean 'simultaneous'?"),
-        ("ocs.position: ", "3 values"),
+        ("ocs.position: ", "needs 3, 6, ... or 18"),
         ("validation.enabled: ", "neither true nor false"),
         ("validation.seed: ", "whole number"),
         ("robot.joints: ", "table"),

@@ -31,7 +31,7 @@ def test_a_turn_ends_before_its_flight(factor):
 
 
 def test_keys_are_told_rounded_to_the_safe_side():
-    push, nudge, drop, flip = MANEUVERS
+    push, nudge, drop, flip, *_ = MANEUVERS
     for maneuver, factor, told in (
         (push, 1.1, "push takeoff_velocity [0.5, 2.57] m/s"),
         (nudge, 1.1, "nudge settling 0.44 s"),

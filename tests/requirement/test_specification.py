@@ -34,7 +34,8 @@ def test_options_have_names_of_their_own():
 
 def test_each_kind_of_maneuver_reads_each_of_its_fields():
     for kind in MANEUVER_KINDS.values():
-        assert set(kind.values) == {item.name for item in fields(kind.maneuver)}
+        # Nobody states how far a closed form is from a plan.
+        assert set(kind.values) == {item.name for item in fields(kind.maneuver)} - {"estimate"}
         assert set(kind.required) <= set(kind.values)
     assert "pitch" in MANEUVER_KINDS["drop"].required
     assert "roll" not in MANEUVER_KINDS["drop"].required

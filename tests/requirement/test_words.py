@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from wheels import braked_inertia, paper_device
 
 from ocs_design.common.errors import OcsError, SpecificationError, UsageError
 from ocs_design.requirement.froude import default_maneuvers, worded_maneuvers
@@ -23,7 +24,16 @@ from ocs_design.requirement.specification import (
     specification_from_options,
 )
 from ocs_design.requirement.sweep import SWEEPS, Task, slower
-from ocs_design.requirement.words import FLIP, GRAVITY, Kick, KickText, Tilt, TiltText
+from ocs_design.requirement.words import (
+    FLIP,
+    GRAVITY,
+    TURN_TEXT,
+    About,
+    Kick,
+    KickText,
+    Tilt,
+    TiltText,
+)
 from ocs_design.requirement.writing import specification_to_toml
 from ocs_design.robot.reader import read_robot
 
@@ -227,19 +237,22 @@ def test_a_kick_at_a_link_hits_its_frame(real):
 
 
 @pytest.mark.parametrize("along", ["0,1,0", "1,0,0", "0,0,-1", "1,-2,0.5"])
-def test_the_closed_form_of_a_kick_is_what_mujoco_does(real, along):
-    """One free body of the robot's mass and inertia, and the force itself at that point."""
+@pytest.mark.parametrize("carries", [False, True])
+def test_the_closed_form_of_a_kick_is_what_mujoco_does(real, along, carries):
+    """One free body of the mass and inertia of all, and the force itself at that point."""
+    whole = braked_inertia(real, paper_device()) if carries else real.mass_properties
     (kick,) = worded_maneuvers(
         asked(kick=[f"0.7 N s at 0.12,0.05,0.08 along {along}"]), real
     ).maneuvers
+    kick = kick.on(whole)
     body = mujoco.MjSpec()
     body.option.gravity = (0.0, 0.0, 0.0)
     body.option.timestep = 1e-7
     trunk = body.worldbody.add_body(name="trunk")
     trunk.add_freejoint()
     trunk.explicitinertial = True
-    trunk.mass, trunk.ipos = real.mass, real.com
-    trunk.fullinertia = [*np.diag(real.inertia), *real.inertia[np.triu_indices(3, 1)]]
+    trunk.mass, trunk.ipos = whole.mass, whole.com
+    trunk.fullinertia = [*np.diag(whole.inertia), *whole.inertia[np.triu_indices(3, 1)]]
     model = body.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -249,9 +262,9 @@ def test_the_closed_form_of_a_kick_is_what_mujoco_does(real, along):
         model, data, force, np.zeros(3), np.array([0.12, 0.05, 0.08]), 1, data.qfrc_applied
     )
     mujoco.mj_step(model, data)
-    rate = np.linalg.solve(real.inertia, np.multiply(kick.torque, kick.duration))
+    rate = np.linalg.solve(whole.inertia, np.multiply(kick.torque, kick.duration))
     assert data.qvel[3:] == pytest.approx(rate, rel=1e-5)
-    at_com = data.qvel[:3] + np.cross(data.qvel[3:], real.com)
+    at_com = data.qvel[:3] + np.cross(data.qvel[3:], whole.com)
     assert at_com == pytest.approx(np.array(kick.velocity_change), rel=1e-5, abs=1e-6)
 
 
@@ -284,3 +297,42 @@ def test_a_kick_in_millimetres_without_their_unit_is_off_the_robot(solo12):
     with pytest.raises(SpecificationError) as told:
         resolve(spec, solo12, SIZE)
     assert "off the robot (0.45 m)" in told.value.problems[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "about"),
+    [
+        ("yaw 90deg in 2.9s", About(0.0, 0.0, pi / 2.0, 2.9, "rad")),
+        ("90 deg yaw in 2900 ms", About(0.0, 0.0, pi / 2.0, 2.9, "rad")),
+        ("-20deg Roll 1.5 pitch", About(-pi / 9.0, 1.5, 0.0, None, "rad")),
+    ],
+)
+def test_a_turn_names_its_axes_before_or_behind_its_angles(text, about):
+    assert TURN_TEXT.read(text, "turn") == about
+    assert TURN_TEXT.read(str(about), "turn") == about
+
+
+@pytest.mark.parametrize(
+    "text", ["", "90deg", "yaw", "yaw 90deg 10deg roll", "yaw 1deg yaw 2deg", "90deg yaw 3", 3.0]
+)
+def test_a_turn_that_is_not_clear_is_refused(text):
+    with pytest.raises(OcsError) as caught:
+        TURN_TEXT.read(text, "requirement.turn")
+    assert "turn" in str(caught.value)
+
+
+def test_a_turn_of_a_stated_time_gets_the_jump_that_it_needs(solo12):
+    """Nine tenths of the flight, as in the paper's back-flip."""
+    words = asked(turn=["yaw 90deg in 2.9s"], catch=["pitch 45deg/s"], gravity="moon")
+    turn, catch = worded_maneuvers(words, solo12).maneuvers
+    assert turn.duration == 2.9
+    assert turn.flight_time == pytest.approx(2.9 / 0.9)
+    assert catch.rate == pytest.approx((0.0, pi / 4.0, 0.0))
+    assert catch.duration == pytest.approx(0.9 * catch.flight_time)
+    assert catch.end == "level"
+
+
+def test_a_trunk_frame_below_the_feet_has_no_height_to_scale_by(solo12):
+    with pytest.raises(SpecificationError, match="is 50 mm below the feet") as told:
+        resolve(Specification(), replace(solo12, standing_height=-0.05), SIZE)
+    assert "--trunk" in told.value.hint

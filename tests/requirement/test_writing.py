@@ -31,8 +31,13 @@ def test_a_joint_beyond_a_turn_is_read_back():
     assert same(parse_specification(specification_to_toml(stated), "written"), stated)
 
 
+def test_axes_by_hand_are_read_back():
+    stated = Specification(ocs=OcsSection(axes=(0.0, 1.0, 0.0, 0.6, 0.0, -0.8)))
+    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
+
+
 def test_the_full_specification_states_every_key_but_the_ones_that_exclude_others():
-    excluded = {"mass", "inertia", "maneuvers"}
+    excluded = {"mass", "inertia", "maneuvers", "axes"}
     for name, section in SECTIONS.items():
         stated = getattr(FULL, name)
         missing = {item.name for item in fields(section) if getattr(stated, item.name) is None}

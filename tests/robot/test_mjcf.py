@@ -1,5 +1,6 @@
 """The MJCF reader against MuJoCo itself, and against the URDF reader on the same robot."""
 
+import re
 from pathlib import Path
 
 import mujoco
@@ -294,3 +295,47 @@ def test_a_body_without_a_name_is_told_by_the_one_above(tmp_path: Path):
     nameless = '<body><joint/><geom type="mesh" mesh="m"/></body>'
     with pytest.raises(RobotError, match="without a name below body 'trunk'"):
         read(MESHES.format(inside=SPHERE + nameless, how='mass="0"'), tmp_path)
+
+
+LOOSE = '<body name="crate"><freejoint/><geom size=".3"/></body>'
+INSIDE = '<geom size=".1"/><body><joint/><geom size=".1"/></body></body>'
+DOOR = '<body name="door"><joint name="{0}"/>' + INSIDE
+ARM = DOOR.replace("door", "{0}")
+DRIVEN = "<actuator>{}</actuator>"
+DRONE = '<body name="drone"><freejoint/><geom size=".1"/><site name="{0}"/></body>'
+FREE = '<body name="{0}"><freejoint/>' + INSIDE
+"""Things of a scene; `{0}` names what an actuator may act on."""
+
+
+@pytest.mark.parametrize(
+    ("bodies", "driven", "robot"),
+    [
+        (LOOSE + ARM.format("arm"), '<motor joint="arm"/>', "arm"),
+        (DOOR.format("hinge") + LOOSE + ARM.format("arm"), '<position joint="arm"/>', "arm"),
+        (LOOSE + DRONE.format("rotor"), '<motor site="rotor" gear="0 0 1 0 0 0"/>', "drone"),
+        (LOOSE + ARM.format("arm"), "", "arm"),
+        (DOOR.format("hinge") + FREE.format("quadruped"), "", "quadruped"),
+        (
+            ARM.format("left") + ARM.format("right"),
+            '<motor joint="left"/><motor joint="right"/>',
+            "",
+        ),
+        (FREE.format("quadruped") + ARM.format("belt"), '<motor joint="belt"/>', ""),
+        (LOOSE + LOOSE.replace("crate", "ball"), "", ""),
+        ('<body name="a"><geom size="1"/></body><body name="b"><geom size="1"/></body>', "", ""),
+    ],
+)
+def test_the_robot_is_what_is_driven_or_free_with_joints_else_it_is_asked(bodies, driven, robot):
+    text = f"<mujoco><worldbody>{bodies}</worldbody>{DRIVEN.format(driven)}</mujoco>".encode()
+    if robot:
+        tree = read_mjcf(text, None)
+        assert tree.bodies[0].name == robot
+        assert ("beside the robot, left out" in " ".join(tree.warnings)) == (
+            bodies.count("name") > 1
+        )
+        return
+    with pytest.raises(RobotError, match="not clear") as caught:
+        read_mjcf(text, None)
+    for part in str(caught.value.hint).split("--trunk ")[1:]:
+        name = re.split(r"[;.]", part)[0]
+        assert read_mjcf(text, None, [name]).bodies[0].name == name

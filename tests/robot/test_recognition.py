@@ -323,3 +323,61 @@ def test_no_legs_can_be_stated(tmp_path):
     path.write_bytes(robot(*quadruped(*ZEROS["hanging"])))
     bare = read_robot(path, legs=[])
     assert (bare.legs, bare.posture_name, bare.standing_height) == ((), "zero", None)
+
+
+def test_a_prosthesis_and_a_leg_are_asked_about():
+    sound = leg("l", (0.0, 0.1, 0.0), *ZEROS["hanging"])
+    plain = leg("r", (0.0, -0.1, 0.0), (0.0, 0.0, -0.2), (0.0, 0.05, -0.2))
+    ankle = link("r_toe", inertial(0.1)), hinge("r_d", "r_foot", "r_toe", "0 0 -0.1")
+    recognition = found([TRUNK, *sound, *plain, *ankle])
+    assert not recognition.sure
+    assert [each.name for each in recognition.likely[0].legs] == ["l_foot", "r_toe"]
+
+
+def test_an_insects_front_legs_that_reach_less_deep_are_not_left_out_without_asking():
+    elements = [TRUNK]
+    for name, x, scale in (("f", 0.2, 0.7), ("m", 0.0, 1.0), ("h", -0.2, 1.0)):
+        for side, y in (("l", 0.1), ("r", -0.1)):
+            parts = [tuple(scale * np.array(part)) for part in ZEROS["hanging"]]
+            elements += leg(name + side, (x, y, 0.0), *parts)
+    recognition = found(elements)
+    assert not recognition.sure
+    assert {len(each.legs) for each in recognition.likely} >= {4, 6}
+    assert "fl_foot, fr_foot" in recognition.question().message
+
+
+def test_fins_that_hang_like_legs_are_no_legs():
+    limbs = [
+        leg(side, (0.0, y, 0.0), *ZEROS["hanging"], words=("fin", "fintip", "fin_end"))
+        for side, y in (("l", 0.1), ("r", -0.1))
+    ]
+    recognition = found([TRUNK, *(part for limb in limbs for part in limb)])
+    assert recognition.sure
+    assert recognition.reading.legs == ()
+
+
+@pytest.mark.parametrize(
+    ("joints", "sure"),
+    [("", False), ('<joint axis="0 0 1"/>', False), ("<freejoint/>", True)],
+    ids=["bolted", "turns", "flies"],
+)
+def test_a_robot_without_legs_that_is_fixed_to_the_world_is_asked_about(tmp_path, joints, sure):
+    path = tmp_path / "base.xml"
+    path.write_text(
+        f'<mujoco><worldbody><body name="base">{joints}<geom size=".2"/><body pos="0 0 .2">'
+        '<joint axis="0 1 0"/><geom size=".1"/></body></body></worldbody></mujoco>'
+    )
+    recognition = read_robot(path).recognition
+    assert recognition is not None
+    assert recognition.sure == sure
+    assert recognition.reading.trunk == "base"
+
+
+def test_a_heaviest_link_that_is_not_the_root_is_asked_about():
+    elements = [
+        link("wrist", inertial(0.1)),
+        link("tip", inertial(0.6)),
+        link("thumb", inertial(0.1)),
+    ]
+    joints = [hinge("a", "wrist", "tip", "0.1 0 0"), hinge("b", "wrist", "thumb", "0 0.1 0")]
+    assert not found([*elements, *joints]).sure

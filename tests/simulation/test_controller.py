@@ -20,6 +20,7 @@ INERTIA = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.0
 UNLIMITED = MotorLimits(np.inf, 0.0, np.inf)
 angles = st.floats(-1.2, 1.2)
 vectors = st.tuples(angles, angles, angles)
+spins = st.floats(-800.0, 800.0)
 
 
 FORTY_DEGREES = np.radians(40.0)
@@ -34,10 +35,10 @@ def seen_from(rotation):
     return rotation.inv().apply([[0.0, 0.0, 1.0]])
 
 
-def level(rate=(0.0, 0.0), acceleration=(0.0, 0.0)):
+def level(rate=(0.0, 0.0, 0.0), acceleration=(0.0, 0.0, 0.0)):
     upright = np.array([[0.0, 0.0, 1.0]])
     stands = np.zeros(1, dtype=bool)
-    return Target(upright, np.array([rate]), np.array([acceleration]), np.zeros((1, 2)), stands)
+    return Target(upright, np.array([rate]), np.array([acceleration]), np.zeros((1, 1)), stands)
 
 
 def acceleration(body, torque, rate, wheel_speed):
@@ -75,17 +76,35 @@ def test_a_heading_that_drifts_changes_nothing(roll, pitch, yaw):
     )
 
 
-@given(vectors, vectors, st.tuples(st.floats(-800, 800), st.floats(-800, 800)))
+@given(vectors, vectors, st.tuples(spins, spins))
 def test_the_trunk_gets_the_roll_and_pitch_acceleration_that_the_law_asks_for(now, rate, spin):
     """Whatever the rates, the wheel speeds and the products of inertia."""
     body, w, W = gyrostat(), np.array(rate), np.array(spin)
     vertical = seen_from(Rotation.from_rotvec(now))
     law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
-    target = level(rate=(0.3, -0.2), acceleration=(1.0, -4.0))
+    target = level(rate=(0.3, -0.2, 9.0), acceleration=(1.0, -4.0, 9.0))
     torque = law.torque(vertical, w[None], W[None], target, 1e-3)[0]
     error = tilt_error(vertical, target.vertical)[0]
     wanted = 60.0 * error + 12.0 * (np.array([0.3, -0.2]) - w[:2]) + np.array([1.0, -4.0])
     np.testing.assert_allclose(acceleration(body, torque, w, W)[:2], wanted, rtol=0, atol=1e-8)
+
+
+@given(vectors, vectors, st.tuples(spins, spins, spins, spins))
+def test_wheels_that_span_three_axes_turn_the_trunk_about_yaw_too(now, rate, spin):
+    """A pyramid of four: what is asked about every axis comes about."""
+    tilt, turn = np.radians(35.0), np.radians([45.0, 135.0, 225.0, 315.0])
+    axes = np.array([np.cos(tilt) * np.cos(turn), np.cos(tilt) * np.sin(turn), np.full(4, 0.57)])
+    body, w, W = (
+        Gyrostat(INERTIA, axes / np.linalg.norm(axes, axis=0), 7.1e-5),
+        *map(np.array, (rate, spin)),
+    )
+    vertical = seen_from(Rotation.from_rotvec(now))
+    law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
+    target = level(rate=(0.3, -0.2, 0.5), acceleration=(1.0, -4.0, 2.0))
+    torque = law.torque(vertical, w[None], W[None], target, 1e-3)[0]
+    error = np.append(tilt_error(vertical, target.vertical)[0], 0.0)
+    wanted = 60.0 * error + 12.0 * (target.rate[0] - w) + target.acceleration[0]
+    np.testing.assert_allclose(acceleration(body, torque, w, W), wanted, rtol=0, atol=1e-8)
 
 
 def test_the_transpose_scales_the_torque_by_C_times_its_transpose():
@@ -147,7 +166,7 @@ def test_braking_at_full_speed_is_not_cut():
 
 
 def test_a_law_that_is_off_gives_no_torque_whatever_happens():
-    torque = WheelLaw.off().torque(
+    torque = WheelLaw.off(2).torque(
         seen_from(Rotation.from_rotvec([1.0, 1.0, 1.0])),
         np.ones((1, 3)),
         np.ones((1, 2)),
@@ -167,7 +186,7 @@ def test_on_the_ground_the_wheels_damp_and_leave_the_attitude_to_the_legs():
     """A lean that the legs settle in asks for no torque, however long it lasts."""
     law = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
     leaning = seen_from(Rotation.from_rotvec([0.1, -0.25, 0.0]))
-    planned = level(rate=(0.3, -0.2), acceleration=(1.0, -4.0))
+    planned = level(rate=(0.3, -0.2, 0.0), acceleration=(1.0, -4.0, 0.0))
     still, spin = np.zeros((1, 3)), np.zeros((1, 2))
     stands = planned.landed(np.ones(1, dtype=bool))
     assert np.abs(law.torque(leaning, still, spin, planned, 1e-3)).max() > 0.1

@@ -4,10 +4,11 @@ import pytest
 from robots import ROBOTS, SOLO12
 from wheels import paper_device
 
+from ocs_design.export.physics import leg_joints
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.scene import DRIVE, Wheels, leg_joints
+from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import World, WorldBuilder
 
 SOME = [
@@ -34,7 +35,7 @@ def test_no_drive_is_faster_than_the_step(path):
     mujoco.mj_forward(model, data)
     inverse = np.empty((model.nv, model.nv))
     mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
-    drives = [model.actuator(DRIVE + name).id for name in leg_joints(robot)]
+    drives = [model.actuator(name).id for name in leg_joints(robot)]
     dofs = [int(model.joint(name).dofadr[0]) for name in leg_joints(robot)]
     inverse = inverse[np.ix_(dofs, dofs)]
     zero, one = np.zeros_like(inverse), np.eye(len(dofs))
@@ -61,9 +62,7 @@ def test_drives_do_not_exceed_the_joint_effort():
     robot = read_robot(ROBOTS / "a1_description" / "urdf" / "a1.urdf")
     model = drop_of(robot).model
     for name, joint in robot.tree.joints.items():
-        np.testing.assert_allclose(
-            model.actuator(DRIVE + name).forcerange, (-joint.effort, joint.effort)
-        )
+        np.testing.assert_allclose(model.actuator(name).forcerange, (-joint.effort, joint.effort))
 
 
 def test_joints_that_are_in_no_leg_stay_where_they_are():

@@ -2,7 +2,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from ocs_design.simulation.scene import FLOOR, add_floor, lowest_point
+from ocs_design.export.physics import lowest_point
+from ocs_design.simulation.scene import FLOOR, add_floor
 
 Geom = mujoco.mjtGeom
 SHAPES = {

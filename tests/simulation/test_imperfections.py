@@ -20,6 +20,9 @@ PERFECT = Imperfections(
     no_load_speed=np.inf * BOTH,
     line_slope=0.0 * BOTH,
     torque_limit=np.inf * BOTH,
+    copper=0.0 * BOTH,
+    efficiency=1.0,
+    power_max=np.inf,
     coulomb=0.0 * BOTH,
     viscous=0.0 * BOTH,
     air=NO_AIR,
@@ -76,6 +79,23 @@ def test_air_holds_a_wheel_back_as_its_table_says():
     np.testing.assert_allclose(acting[0, 0], [-6e-3, 2e-3], rtol=1e-12)
 
 
+@pytest.mark.parametrize("speed", [[900.0, -700.0], [-900.0, 700.0]])
+def test_a_supply_gives_and_takes_what_it_can_whatever_the_motors_are(speed):
+    """R (tau / k_t)^2 + tau W of both, where tau is 1.09 of the command and so is k_t."""
+    copper, limit, held = 0.1 / 0.02**2 / 1.09**2, 100.0, HOLD * STEP / INERTIA
+    own = replace(PERFECT, torque_gain=1.09 * BOTH, copper=copper * BOTH, power_max=limit)
+    speed, command = np.array([speed]), np.array([[0.06, -0.06]])
+    mean, acting = drives(own).driven(0, command, speed)
+
+    def power(torque):
+        ends = speed, speed + torque * held
+        return np.array([(copper * torque**2 + torque * end).sum() for end in ends])
+
+    assert np.abs(power(1.09 * command)).max() > 1.02 * limit
+    assert np.abs(power(mean)).max() == pytest.approx(limit)
+    np.testing.assert_allclose(acting, np.repeat(mean[:, None], HOLD, axis=1))
+
+
 @pytest.mark.parametrize("delay", [0, 1, 3, 5, 7, 12])
 def test_a_command_takes_effect_after_its_delay(delay):
     """Step by step against one long row of commands that is shifted."""
@@ -113,7 +133,7 @@ def test_a_biased_trunk_sees_the_vertical_as_one_that_is_tilted_by_the_bias():
     own = replace(PERFECT, attitude_bias=bias, gyro_bias=np.array([0.1, 0.2, 0.3]))
     attitude = Rotation.from_euler("ZYX", [40.0, 20.0, -10.0], degrees=True)
     vertical = attitude.inv().apply([[0.0, 0.0, 1.0]])
-    seen, rate = Sensing([own], [3]).measured(1, vertical, np.zeros((1, 3)))
+    seen, rate = Sensing([own], [3], 5e-3).measured(1, vertical, np.zeros((1, 3)))
     believed = attitude * Rotation.from_rotvec([*bias, 0.0])
     np.testing.assert_allclose(seen, believed.inv().apply([[0.0, 0.0, 1.0]]), atol=1e-6)
     np.testing.assert_array_equal(rate, [[0.1, 0.2, 0.3]])

@@ -8,6 +8,7 @@ import pytest
 from energy import balance
 from wheels import paper_device
 
+from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import JumpPlan, JumpPlans, LegTrajectory
 from ocs_design.jumping.planning import plan_jumps
 from ocs_design.requirement.froude import default_maneuvers
@@ -15,7 +16,7 @@ from ocs_design.requirement.maneuver import Shove
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure, series_of
 from ocs_design.simulation.scenario import run_scenarios
-from ocs_design.simulation.scene import DRIVE, JUMP_STEP, STEP, Wheels
+from ocs_design.simulation.scene import JUMP_STEP, Wheels
 from ocs_design.simulation.schedule import FlightClock, LegReferences
 from ocs_design.simulation.verdict import MOMENTUM_GATE
 from ocs_design.simulation.world import WorldBuilder
@@ -148,7 +149,7 @@ def test_drives_give_the_law_of_the_paper(world):
     data.ctrl[:] = control[0, 0]
     mujoco.mj_forward(model, data)
     for j, name in enumerate(legs.joints):
-        actuator = model.actuator(DRIVE + name).id
+        actuator = model.actuator(name).id
         stiffness = model.actuator_gainprm[actuator, 0]
         damping = -model.actuator_biasprm[actuator, 2]
         position, velocity, torque = (

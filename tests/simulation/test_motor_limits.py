@@ -57,6 +57,17 @@ def test_utilisation_counts_each_limit():
     assert fast.utilisation(speed, torque) == pytest.approx((280.0 + SLOPE * 0.5) / 650.4)
 
 
+def test_friction_is_left_its_part_of_the_voltage():
+    """0.5 A of friction through 0.1 ohm are 50 mV of 24 V, at the 0.02 V s/rad of k_t 2.5 rad/s."""
+    rubbing = replace(
+        motor(1200.0, 4.8, 0.4), torque_constant=0.02, resistance=0.1, no_load_current=0.5
+    )
+    limits = MotorLimits.of(rubbing)
+    assert limits.no_load_speed == pytest.approx(1200.0 - 2.5)
+    assert limits.line_slope == pytest.approx(1200.0 / 4.8)
+    assert rubbing.line_left == pytest.approx(1.0 - 0.05 / 24.0)
+
+
 @pytest.mark.parametrize(
     ("drive", "finite"), [(EC45, True), (motor(700.0), False), (motor(700.0, 2.0), True)]
 )

@@ -76,7 +76,7 @@ def test_wheels_too_fast_for_the_step_are_not_judged(solo12, drop):
     """A hundred times as fast as they were made for, left to themselves."""
     world = WorldBuilder(solo12, paper_device()).flight(drop, Wheels.ACTIVE)
     world.qvel[list(world.addresses.wheels)] = 8e4
-    world = replace(world, law=WheelLaw.off())
+    world = replace(world, law=WheelLaw.off(2))
     found = measure(simulate([world]), 0, world)
     verdict = judge(found, drop, can_stand=True)
     assert verdict.passed is None

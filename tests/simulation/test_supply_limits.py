@@ -76,7 +76,7 @@ def test_torques_keep_their_direction_and_are_cut_no_more_than_needed(
 
 def test_a_brushless_motor_by_hand():
     """R = 0.1 ohm, k_t = 0.02 N m/A: 0.2 N m is 10 A, 10 W of heat, at 600 rad/s 120 W of work."""
-    limits = MotorLimits.of(WOUND, Supply(24.0, power_max=100.0))
+    limits = MotorLimits.of(WOUND, Supply(24.0, power_max=100.0), 2)
     speed, torque = np.array([[600.0, 0.0]]), np.array([[0.2, 0.0]])
     assert limits.bus_power(speed, torque) == pytest.approx([130.0])
     assert limits.bus_power(speed, -torque) == pytest.approx([-110.0])
@@ -86,12 +86,12 @@ def test_a_brushless_motor_by_hand():
 def test_friction_is_left_its_part_of_the_supply():
     """0.5 A of friction at 24 V and, of 0.1 ohm at 20 A of winding current, 2 V: 26 W of two."""
     rubbing = replace(WOUND, no_load_current=0.5, torque_limit=0.4)
-    limits = MotorLimits.of(rubbing, Supply(24.0, power_max=100.0))
+    limits = MotorLimits.of(rubbing, Supply(24.0, power_max=100.0), 2)
     assert limits.power_max == pytest.approx(100.0 - 2.0 * 0.5 * (24.0 + 2.0 + 0.05))
 
 
 def test_a_supply_by_its_current():
-    limits = MotorLimits.of(WOUND, Supply(24.0, current_max=2.0, power_max=100.0))
+    limits = MotorLimits.of(WOUND, Supply(24.0, current_max=2.0, power_max=100.0), 2)
     assert limits.power_max == 48.0
     assert MotorLimits.of(WOUND).power_max == MotorLimits.of(EC45, Supply(24.0)).power_max == np.inf
 

@@ -7,12 +7,13 @@ from robots import ROBOTS
 from wheels import PAPER_WHEEL, paper_device, paper_maneuvers
 
 from ocs_design.common.errors import SpecificationError
+from ocs_design.export.physics import lowest_point, set_gains
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
-from ocs_design.simulation.scene import Wheels, lowest_point, robot_scene, set_gains
+from ocs_design.simulation.scene import Wheels, robot_scene
 from ocs_design.simulation.world import WorldBuilder, wheel_gains
 
 

@@ -11,7 +11,13 @@ from ocs_design.device.solids import foot_of
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.parts.foot import stem_shock
 from ocs_design.parts.printed import CLEARANCE, SHOCK
-from ocs_design.requirement.specification import MotorSection, RobotSection, Specification
+from ocs_design.requirement.specification import (
+    MotorSection,
+    RequirementSection,
+    RobotSection,
+    Specification,
+)
+from ocs_design.requirement.words import Kick
 from ocs_design.sizing.design import design_device
 from ocs_design.workflows.pareto import read_task
 
@@ -111,3 +117,20 @@ def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
     assert device.mass > free.device.mass + 2.0 * rows["guard ring"].mass
     total = braked_inertia(task.robot, device)
     np.testing.assert_allclose(found.sized.total.inertia, total.inertia, rtol=1e-7, atol=1e-12)
+
+
+def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
+    """From above, for less than the robot alone would have to take up, and so it is lighter."""
+    asked = RequirementSection(jump_height=(0.3,), kick=(Kick(1.0, (0.1, 0.1, 0.03)),))
+    task = read_task(
+        Specification(
+            robot=RobotSection(file="examples/solo12.urdf"),
+            requirement=asked,
+            motor=MotorSection(name=MOTOR),
+        )
+    )
+    found = design_device(task.specification, task.robot, task.resolved)
+    own, alone = found.requirement.kicks, task.resolved.requirement.kicks
+    assert own == pytest.approx(task.resolved.requirement.on(found.sized.total).kicks)
+    assert found.choice.problem.requirement.kicks == pytest.approx(own, rel=0.01, abs=1e-9)
+    assert abs(own[0, 0]) < 0.9 * abs(alone[0, 0])

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from robots import ROBOTS
 from wheels import driven_device
 
+from ocs_design.device.device import Module
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.solids import foot_of, module_solids, plate_heads, plate_solids
 from ocs_design.parts.carrier_plate import SAFETY, STOCK, YIELD_STRENGTH
 from ocs_design.requirement.froude import default_envelope
@@ -137,6 +139,33 @@ def test_on_a_narrow_trunk_a_plate_carries_both(boxed, width):
     assert all(each.stress(feet.mass, feet.height) > least for each in thinner)
 
 
+@pytest.mark.parametrize("width", [0.1, 0.6])
+def test_two_pairs_stand_on_the_trunk_or_on_a_plate_each(boxed, width):
+    """Mirrored in the sagittal plane, and alike in front and behind."""
+    robot, layout = boxed(width), Layout(LayoutName.DOUBLE_PAIR)
+    axes = layout.axes(DEVICE.incidence).T
+    modules = tuple(
+        Module(name, axis, DEVICE.modules[0].position)
+        for name, axis in zip(layout.names, axes, strict=True)
+    )
+    two = replace(DEVICE, modules=modules, layout=layout)
+    device = stand_on_trunk(two, robot, stated=False)
+    assert (device.plate is None) == (width == 0.6)
+    if device.plate is not None:
+        assert len(device.plate.rows) == 2
+        assert len(device.plate.trunk) == len(device.plate.feet) == 8
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    assert mounting_open_points(mounting) == ()
+    assert all(contact.held for contact in mounting.feet)
+    assert mounting.nearest.distance > 0.0
+    front_left, front_right, back_left, _ = (each.position for each in device.modules)
+    np.testing.assert_allclose(front_right, front_left * [1.0, -1.0, 1.0], atol=1e-12)
+    assert back_left[0] < front_left[0]
+    frames = [each.frame for each in device.modules]
+    np.testing.assert_allclose(frames, layout.frames(DEVICE.incidence), atol=1e-12)
+    np.testing.assert_allclose(frames[:2], [each.frame for each in DEVICE.modules], atol=1e-12)
+
+
 def test_heavier_modules_have_a_thicker_plate(boxed):
     robot, heavy = boxed(0.1), replace(DEVICE.carrier, mass=30.0 * DEVICE.carrier.mass)
     light = stand_on_trunk(standing(0.1), robot, stated=False).plate
@@ -186,7 +215,7 @@ def test_the_selection_carries_the_plate_of_the_largest_modules(boxed):
     footing = footing_of(robot, default_envelope(robot))
     carried = footing.carried(robot.mass_properties)
     assert carried.mass == pytest.approx(robot.mass + footing.plate.mass)
-    assert footing.place.origin[2] == pytest.approx(TOP + footing.plate.thickness)
+    assert footing.place.origins[0][2] == pytest.approx(TOP + footing.plate.thickness)
     wide = boxed(1.0)
     assert (
         footing_of(wide, default_envelope(wide)).place

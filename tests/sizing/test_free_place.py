@@ -90,7 +90,7 @@ def test_a_mast_in_the_middle_goes_between_the_modules(masted):
     sizes = Sizes.of(envelope)
     for share in np.linspace(0.0, 1.0, 30):
         reach, standing = (1.0 - share) * np.array(sizes.smallest) + share * np.array(sizes.largest)
-        x, y, _ = found.place.left(Size(reach, standing))
+        x, y, _ = found.place.centers(Size(reach, standing))[0]
         assert np.hypot(x, y) - 0.02 >= CLEARANCE * reach - 1e-5
 
 
@@ -99,7 +99,7 @@ def test_nearer_than_the_grid(masted):
     robot = masted(0.0)
     largest = Sizes.of(default_envelope(robot)).largest
     found = place_free(robot, default_envelope(robot))
-    x, y, _ = found.place.origin
+    x, y, _ = found.place.origins[0]
     least = np.sqrt(2.0 * CLEARANCE * largest.reach * 0.02 + 0.02**2)
     assert y == 0.0
     assert least - 1e-5 <= abs(x) <= least + 0.5 * largest.reach / 16.0
@@ -128,7 +128,7 @@ def test_every_legged_robot_has_a_free_place(name):
     assert (found.place == place_on_top(robot)) == (name.rpartition("/")[2] in ON_TOP)
     collision, size = collision_model(robot), Sizes.of(envelope).largest
     others = [part for part in collision.parts if part.limb]
-    x, y, z = found.place.left(size)
+    x, y, z = found.place.centers(size)[0]
     poses = collision.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):
         # Postures that were not tried find no more than the room around the module.

@@ -85,3 +85,19 @@ def test_every_answer_is_light_enough_and_the_smallest_change_that_is():
 def test_nothing_makes_it_lighter_than_nothing():
     task, designed, _ = made()
     assert lighter_by(10.0, task, designed.choice, "") == ()
+
+
+def test_where_neither_does_alone_a_figure_is_tried_with_a_choice(monkeypatch):
+    task, designed, _ = made(fall=(1.0,))
+    asked = {}
+
+    def smallest(_, lever):
+        """What would be asked at 10 %."""
+        asked[lever.text(10)] = lever.changed(10)
+
+    monkeypatch.setattr("ocs_design.sizing.lighter._Search.answer", lambda *_: None)
+    monkeypatch.setattr("ocs_design.sizing.lighter._Search.smallest", smallest)
+    assert lighter_by(LESS, task, designed.choice, "") == ()
+    (both,) = (each for text, each in asked.items() if "r_max 55 mm" in text and "incid" in text)
+    assert both.ocs.alpha_criterion == "lightest"
+    assert both.flywheel.r_max > task.resolved.envelope.outer_radius_max

@@ -1,5 +1,6 @@
 """What a device keeps for what is drawn: its laws, and what it is worth."""
 
+from dataclasses import replace
 from functools import cache
 from statistics import NormalDist
 
@@ -7,13 +8,20 @@ import numpy as np
 import pytest
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.monte_carlo.campaign import fly_samples, make_campaign
+from ocs_design.monte_carlo.summary import attitude_error
+from ocs_design.monte_carlo.uncertainty import Uncertainty
+from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.maneuver import Flip, ManeuverReserve, Requirement
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.requirement.specification import merge
+from ocs_design.requirement.uncertainty import Constant
 from ocs_design.robot.meshes import size
+from ocs_design.simulation.scenario import Options
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.reserve import LEVEL, Needed, Reserve
+from ocs_design.sizing.trajectory.plans import plan
 
 FLIP = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2.0 * np.pi, duration=2.0)
 SOLO12 = """
@@ -29,6 +37,13 @@ inertia_error = "normal(0, 10%)"
 torque_constant_error = "normal(0, 6%)"
 bus_voltage_error = "uniform(-15%, 20%)"
 """
+MUCH = """
+[reality]
+mass_error = "normal(0, 6%)"
+inertia_error = "normal(0, 15%)"
+torque_constant_error = "normal(0, 6%)"
+bus_voltage_error = "uniform(-35%, 15%)"
+"""
 ONLY_FLIP = """
 [[maneuver]]
 kind = "flip"
@@ -40,11 +55,15 @@ duration = 2.0
 """
 
 
-@cache
-def solo12(more="", reliability=None, scale=1.0):
+def specified(more):
     stated = parse_specification(SOLO12, "test")
     stated = merge(stated, parse_specification(more, "test")) if more else stated
-    robot = read_specified_robot(stated)
+    return read_specified_robot(stated), stated
+
+
+@cache
+def solo12(more="", reliability=None, scale=1.0):
+    robot, stated = specified(more)
     resolved = resolve(stated, robot, size(robot.tree, robot.posture, robot.trunk))
     reserve = None if reliability is None else Reserve(reliability).raised(scale)
     return design_device(stated, robot, resolved, reserve=reserve)
@@ -52,7 +71,7 @@ def solo12(more="", reliability=None, scale=1.0):
 
 def needed(factors, **more):
     count = factors.shape[1]
-    given = {"has": np.ones(count), "left": np.ones(count), "drawn": {}, **more}
+    given = {"has": np.ones(count), "left": np.ones(count), **more}
     names = {f"m{index}": (0.0, 0.0) for index in range(count)}
     return Needed(factors=factors, rates=names, blind=np.zeros(factors.shape, bool), **given)
 
@@ -65,13 +84,11 @@ def test_two_maneuvers_apart_must_each_be_surer_than_both():
     np.testing.assert_allclose(found, expected, rtol=2e-3)
 
 
-def test_shares_are_those_of_the_variances():
-    scores = np.random.default_rng(1).standard_normal((20_000, 3))
-    drawn = {"mass_error": 0.02 * scores[:, :1], "inertia_error": 0.05 * scores[:, 1:]}
-    factors = np.exp(drawn["mass_error"] + drawn["inertia_error"].sum(axis=1, keepdims=True))
-    shares = needed(factors, drawn=drawn).shares
-    assert shares["mass_error"] == pytest.approx(0.02**2 / (0.02**2 + 2 * 0.05**2), rel=0.05)
-    assert sum(shares.values()) == pytest.approx(1.0)
+def test_the_worst_maneuver_is_what_robots_need_most():
+    """Half of the larger of two equal normal scores is below 0.545: Phi(0.545) is sqrt(0.5)."""
+    scores = np.random.default_rng(1).standard_normal((200_000, 2))
+    found = needed(2.0 * np.exp(0.1 * scores), has=2.0 * np.ones(2)).worst(0.5)
+    assert found == pytest.approx(0.1 * NormalDist().inv_cdf(0.5**0.5), rel=0.02)
 
 
 def test_a_rate_at_the_start_is_momentum_till_the_end():
@@ -102,7 +119,8 @@ def test_more_is_kept_for_more_reliability_and_for_larger_deviations():
     masses = [one.device.mass for one in found]
     assert masses[0] < masses[1] < masses[2]
     assert all(one.kept.predicted >= one.kept.reliability - 0.01 for one in found)
-    assert found[1].kept.nominal < masses[1]
+    # A device's mass follows that of its plate, which is settled to a thousandth, by a hundredth.
+    assert found[1].kept.nominal == pytest.approx(solo12(WIDE, 0.5).device.mass, rel=2e-4)
     curve = [mass for _, mass in found[1].kept.curve]
     assert curve == sorted(curve)
 
@@ -117,15 +135,14 @@ def test_a_supply_that_brakes_slowly_leaves_the_end_of_the_flight_unused():
     assert weak.kept.maneuvers[0].demand > 1.0
 
 
-def test_what_saves_most_when_known_has_a_share_in_the_variance():
+def test_what_has_the_larger_share_saves_more_when_known():
+    """Up to all that the reserve weighs, and to what weighs next to nothing."""
     costs = solo12(WIDE, 0.99).kept.costs
-    shares = [cost.share for cost in costs]
+    shares, saved = [cost.share for cost in costs], [cost.mass for cost in costs]
     assert shares == sorted(shares, reverse=True)
     assert sum(shares) == pytest.approx(1.0)
-    best = max(costs, key=lambda cost: cost.mass)
-    assert best.mass > 0.0
-    assert best.share > 0.05
-    assert all(cost.mass < 0.3 * best.mass for cost in costs if cost.share < 0.005)
+    assert saved[0] > 3e-3
+    np.testing.assert_allclose(saved, sorted(saved, reverse=True), atol=2e-4)
 
 
 def test_an_angle_without_roll_authority_is_not_chosen_where_roll_is_disturbed():
@@ -144,3 +161,43 @@ def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
     expected = 2.0 * NormalDist().cdf(-LEVEL / (0.05 * FLIP.flight_time))
     assert flip.lost == pytest.approx(expected, abs=0.02)
     assert flip.roll_rate == 0.0
+
+
+@pytest.mark.slow
+def test_what_costs_the_most_reliability_rescues_the_most_flights_when_it_is_known():
+    """Flights that fail, once more with one quantity at its mean and all else as it was drawn.
+
+    Deviations are so large that a quarter fails. What the closed forms give most of the share
+    rescues most of them; the less share, the farther off level they stay.
+    """
+    more = f"{ONLY_FLIP}[validation]\nballistic = true\n{MUCH}"
+    designed, robot, stated = solo12(more, 0.5), *specified(more)
+    (maneuver,) = designed.choice.problem.requirement.maneuvers
+    plans = plan(robot.mass_properties, designed.device, [maneuver], standing_height(robot))
+    campaign = make_campaign(
+        robot, designed.device, [maneuver], options=Options(),
+        references={name: each.trajectory for name, each in plans.items()}, jumps={},
+        can_stand=[True], uncertainty=Uncertainty.of(stated.reality, robot, designed.device),
+        seed=11,
+    )  # fmt: skip
+    (flight,) = campaign.flights
+    world = replace(flight.world, duration=FLIP.flight_time + 0.1)
+    campaign = replace(campaign, flights=(replace(flight, world=world),))
+
+    def off_level(indices, key=None):
+        spreads = dict(campaign.uncertainty.spreads)
+        if key is not None:
+            spreads[key] = Constant(spreads[key].at(0.5))
+        drawn = replace(campaign.uncertainty, spreads=spreads)
+        flown = fly_samples(replace(campaign, uncertainty=drawn), indices)
+        return attitude_error(flown, maneuver, 0)
+
+    failing = np.flatnonzero(off_level(range(40)) > LEVEL).tolist()
+    assert len(failing) >= 8
+    share = {cost.key: cost.share for cost in designed.kept.costs}
+    order = ["bus_voltage_error", "inertia_error", "com_error"]
+    assert share[order[0]] > 3.0 * share[order[1]] > 9.0 * share[order[2]]
+    known = [off_level(failing, key) for key in order]
+    assert (known[0] <= LEVEL).mean() > 0.6
+    assert all((each <= LEVEL).mean() < 0.3 for each in known[1:])
+    assert known[0].mean() < known[1].mean() < known[2].mean()

@@ -14,8 +14,9 @@ from standing_parts import standing_parts
 from ocs_design.actuation.drive import armature, drive_line, rotor_share
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_pair import WheelPairTask, pair_slew_time, smallest_spin_inertia
+from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, wheel_slew_time
 from ocs_design.common.errors import Infeasible, UsageError
+from ocs_design.device.layout import module_axes
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import FlywheelSection, MotorSection, Specification
@@ -86,9 +87,10 @@ def test_the_winner_from_scratch(solved):
         angle = found.incidence if maneuver.incidence is None else maneuver.incidence
         inertia = TiltInertia.of(by_pinocchio(problem, found, angle).inertia)
         slew = maneuver.slew(inertia, problem.requirement.standing_height)
-        task = WheelPairTask(slew.swept, slew.momentum, slew.duration, inertia, angle)
+        axes = module_axes(angle)[:2]
+        task = WheelTask(slew.swept, slew.momentum, slew.duration, inertia, axes)
         drag = armature(motor.rotor_inertia, gear)
-        time = pair_slew_time(task, found.spin_inertia, line, drag)
+        time = wheel_slew_time(task, found.spin_inertia, line, drag)
         demand = by_name[maneuver.name]
         assert demand.time_given == pytest.approx(slew.duration)
         assert demand.time_needed == pytest.approx(float(time), rel=1e-9)

@@ -8,11 +8,12 @@ from selections import lopsided, random_problem
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_pair import smallest_spin_inertia
+from ocs_design.actuation.wheel_load import smallest_spin_inertia
+from ocs_design.device.layout import PAIR, Layout, LayoutName
 from ocs_design.parts.moments import Carrier, MassMoments, point, round_body
 from ocs_design.requirement.maneuver import ManeuverReserve
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.placement import Place, Size
+from ocs_design.sizing.placement import Place, Size, around
 from ocs_design.sizing.selection.bounds import (
     Cell,
     Least,
@@ -29,14 +30,22 @@ from ocs_design.sizing.selection.composite_inertia import (
     Modules,
     composite_inertia,
 )
-from ocs_design.sizing.selection.demand import columns, pair_task, shares_of
+from ocs_design.sizing.selection.demand import columns, wheel_task
 from ocs_design.sizing.selection.device import braked
 from ocs_design.sizing.selection.fixed_point import Design, Tolerance, fixed_point
 
 ROBOT = MassProperties(
     5.0, [0.02, 0.003, -0.04], [[0.06, 0.001, 0.004], [0.001, 0.1, -0.003], [0.004, -0.003, 0.13]]
 )
-PLACE = Place(origin=(0.05, 0.01, 0.02), outward=(0.0, 1.1, -0.8), upright=True)
+PLACE = Place(
+    origins=((0.05, 0.01, 0.02), (0.05, -0.01, 0.02)),
+    outward=((0.0, 1.1, -0.8), (0.0, -1.1, -0.8)),
+    upright=True,
+)
+TRIAD = Layout(LayoutName.TRIAD)
+TILTED = Layout(LayoutName.BY_HAND, ((0.6, 0.0, 0.8), (0.0, 1.0, 0.0)))
+NAMED = [Layout(name) for name in LayoutName if name is not LayoutName.BY_HAND]
+AROUND = {layout: around((0.05, 0.01, 0.02), layout) for layout in (*NAMED, TILTED)} | {PAIR: PLACE}
 
 
 def random_modules(rng, count):
@@ -55,14 +64,15 @@ def whole_of(wheel, motor, depth, foot, size):
     return whole, Modules.of(whole, size)
 
 
-def test_inertia_as_joined_body_by_body():
+@pytest.mark.parametrize("layout", AROUND)
+def test_inertia_as_joined_body_by_body(layout):
     whole, modules = whole_of(*random_modules(np.random.default_rng(0), 20))
-    angles = np.linspace(0.0, np.pi / 2.0, 7)
-    found = composite_inertia(ROBOT, PLACE, modules).at(shares_of(np.tile(angles, (20, 1))))
+    angles, place = np.linspace(0.0, np.pi / 2.0, 7), AROUND[layout]
+    found = composite_inertia(ROBOT, place, modules, layout).at(np.tile(angles, (20, 1)))
     for row in range(20):
         body = Carrier.of(whole.take(row))
-        centers = PLACE.centers(Size(*(float(values[row]) for values in modules.size)))
-        expected = [braked(ROBOT, (body,), centers, a).inertia for a in angles]
+        centers = place.centers(Size(*(float(values[row]) for values in modules.size)))
+        expected = [braked(ROBOT, (body,), centers, a, layout).inertia for a in angles]
         np.testing.assert_allclose(
             found.diagonal[row], [np.diag(whole)[:2] for whole in expected], rtol=1e-12
         )
@@ -70,23 +80,26 @@ def test_inertia_as_joined_body_by_body():
         np.testing.assert_allclose(found.product[row], products, rtol=1e-12)
 
 
-def test_no_larger_or_heavier_module_has_less_inertia():
+@pytest.mark.parametrize("layout", AROUND)
+def test_no_larger_or_heavier_module_has_less_inertia(layout):
     """Also where a larger module moves past the robot's centre of mass."""
     rng = np.random.default_rng(1)
     wheel, motor, depth, foot, size = random_modules(rng, 500)
     largest = Size(*(2.0 * values for values in size))
     own = np.minimum(wheel.xx + wheel.zz, wheel.yy + wheel.zz)
-    heaviest = 2.0 * (wheel.mass + motor.mass + foot.mass)
+    heaviest, place = 2.0 * (wheel.mass + motor.mass + foot.mass), AROUND[layout]
     zero = np.zeros_like(depth)
     least = Least(wheel.mass, own, motor.mass, depth, zero, size, largest, heaviest)
     grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
     more, ahead = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
     _, modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)
-    bound = least_composite_inertia(ROBOT, PLACE, least)
-    angles = shares_of(rng.uniform(0.0, np.pi / 2.0, (500, 1)))
-    whole = composite_inertia(ROBOT, PLACE, modules).at(angles)
+    bound = least_composite_inertia(ROBOT, place, least, layout)
+    angles = rng.uniform(0.0, np.pi / 2.0, (500, 1))
+    if layout.angle is not None:
+        angles[:] = layout.angle
+    whole = composite_inertia(ROBOT, place, modules, layout).at(angles)
     assert (bound.inertia.diagonal <= whole.diagonal[:, 0] * (1.0 + 1e-12)).all()
-    assert np.median(bound.inertia.diagonal / whole.diagonal[:, 0]) > 0.7
+    assert np.median(bound.inertia.diagonal / whole.diagonal[:, 0]) > 0.6
     assert (np.abs(whole.product[:, 0] - bound.inertia.product) <= bound.spread).all()
 
 
@@ -98,7 +111,8 @@ def each(bodies, factors):
 @pytest.mark.parametrize("coupled", [0.0, 1e-4, 0.2])
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kept", [None, ManeuverReserve(rate=(0.1, 0.02))])
-def test_more_inertia_and_smaller_shares_ask_for_no_less(kept, seed, coupled):
+@pytest.mark.parametrize("layout", [PAIR, TRIAD, TILTED], ids=lambda layout: layout.name)
+def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, coupled):
     """What the bounds rest on (`selection.bounds`), also where an axis is left to itself."""
     rng = np.random.default_rng(seed)
     problem = random_problem(seed)
@@ -123,9 +137,9 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(kept, seed, coupled):
     )
     line = DriveLine(*(np.asarray(values)[:, None, None] for values in astuple(drives.line)))
     for maneuver in problem.requirement.maneuvers:
-        tasks = bound_task(maneuver, required, least, cells)
+        tasks = bound_task(maneuver, required, least, cells, layout)
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
-        task = pair_task([maneuver], required, whole, shares_of(angle))
+        task = wheel_task([maneuver], required, whole, layout.axes(angle)[..., :2, :])
         asked = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
         finite = np.isfinite(asked)
         assert finite.any()
@@ -134,30 +148,36 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(kept, seed, coupled):
         assert (bound <= allowed).all()
 
 
-def test_shares_beyond_the_unit_circle_are_as_on_it():
+def test_axes_longer_than_one_bound_those_of_a_range():
     problem, cell = random_problem(0), Cell(np.arccos(0.9), np.arcsin(0.8))
     drives, shares = drives_of(problem, np.array([[0, 0]])), np.array([0.8, 0.9])
     maneuver = problem.requirement.maneuvers[0]
     inertia = TiltInertia.uncoupled([[0.05, 0.05]])
     least = LeastInertia(inertia, np.zeros(1))
-    task = bound_task(maneuver, problem.requirement, least, [cell])
+    task = bound_task(maneuver, problem.requirement, least, [cell], PAIR)
     load = task.load()
     slew = maneuver.slew(inertia, problem.requirement.standing_height)
     roll, pitch = (np.abs(slew.swept) / shares)[0]
-    assert load.excess[0, 0] == pytest.approx(roll + pitch, rel=1e-12)
+    assert load.excess[0, 0] == pytest.approx((roll + pitch) / 2.0, rel=1e-12)
     way = shares**2 / 0.05
-    expected = 2.0 * (way[0] * roll + way[1] * pitch) / (roll + pitch)
-    assert load.coupling[0, 0] == pytest.approx(expected, rel=1e-12)
+    assert load.coupling[0, 0] == pytest.approx(2.0 * way.sum(), rel=1e-12)
+    exact = 2.0 * (way[0] * roll + way[1] * pitch) / (roll + pitch)
+    assert exact < load.coupling[0, 0]
     assert np.isfinite(smallest_spin_inertia(task, drives.line)).all()
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_no_device_falls_below_its_bound(seed):
+@pytest.mark.parametrize(
+    ("seed", "layout"), [*((seed, PAIR) for seed in range(8)), (0, TRIAD), (1, TRIAD), (3, TILTED)]
+)
+def test_no_device_falls_below_its_bound(seed, layout):
     """Devices of random radii and incidence, each at its own fixed point."""
     rng = np.random.default_rng(100 + seed)
     problem, floor = random_problem(seed), None
     if seed % 2:
         problem = replace(lopsided(problem, seed), foot_plate=0.0084)
+    if layout != PAIR:
+        place = around((0.0, 0.0, 0.1), layout)
+        problem = replace(problem, layout=layout, place=place, incidence=layout.angle)
     floor = RimFloor.of(problem)
     pairs = np.array([(m, g) for m in range(3) for g in range(3)])
     drives = drives_of(problem, pairs)
@@ -182,7 +202,7 @@ def test_no_device_falls_below_its_bound(seed):
     start = np.zeros(rows.size)
     point = fixed_point(candidates, start, design, Tolerance(1e-10, 1.0))
     can = point.feasible
-    mass = 2.0 * (candidates.drives.mass + point.shapes.mass)
+    mass = len(layout) * (candidates.drives.mass + point.shapes.mass)
     assert (point.spin_inertia[can] >= spin[rows][can] * (1.0 - 1e-9)).all()
     assert (mass[can] >= masses[material, rows][can] * (1.0 - 1e-9)).all()
     cell = np.searchsorted([c.high for c in cells], angle).clip(max=len(cells) - 1)

@@ -11,6 +11,7 @@ from loading import HEAVY, modules_loaded_by
 from rich.console import Console
 
 from ocs_design.common.errors import MissingToolError
+from ocs_design.common.installing import extra_command
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.report.text.doctor import print_examination
 from ocs_design.workflows import doctor
@@ -67,11 +68,12 @@ def test_here_everything_required_works():
 
 def test_what_is_only_optional_is_not_to_be_mended():
     lacking = [
-        replace(finding(state, required=required), name=name, cure=f"get {name}")
-        for name, state, required in (
-            ("needed", State.MISSING, True),
-            ("extra", State.MISSING, False),
-            ("torn", State.BROKEN, False),
+        replace(finding(state, required=required), name=name, cure=f"get {name}", extra=extra)
+        for name, state, required, extra in (
+            ("needed", State.MISSING, True, ""),
+            ("extra", State.MISSING, False, "one"),
+            ("further", State.MISSING, False, "two"),
+            ("torn", State.BROKEN, False, "three"),
         )
     ]
     console = Console(file=StringIO(), width=80)
@@ -80,3 +82,4 @@ def test_what_is_only_optional_is_not_to_be_mended():
     mend, add = said.split("To mend")[1].split("To add")
     assert "get needed" in mend and "get torn" in mend
     assert "get extra" in add and "get extra" not in mend
+    assert f"all packages of these: {extra_command('one', 'two')}" in add

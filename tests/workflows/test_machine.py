@@ -3,7 +3,14 @@
 import pytest
 
 from ocs_design.device.findings import State
-from ocs_design.workflows.doctor import film_maker, opengl, processors, python, working_folder
+from ocs_design.workflows.doctor import (
+    compiler,
+    film_maker,
+    opengl,
+    processors,
+    python,
+    working_folder,
+)
 
 
 def test_this_python_does():
@@ -55,3 +62,12 @@ def test_where_no_way_draws_the_reason_and_the_cure_are_told(monkeypatch):
     assert "none such" in only.reason
     assert "apt install" in only.cure
     assert not only.stands_in_the_way
+
+
+@pytest.mark.parametrize("name", ["cc", "clang", None])
+def test_the_compiler(name, tmp_path, monkeypatch):
+    if name is not None:
+        (tmp_path / name).touch(mode=0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert compiler().found == (name or "")
+    assert bool(compiler().cure) == (name is None)

@@ -22,7 +22,7 @@ def run(scenario, *, speed=500.0, torque=0.2, ocs=True, knock=1.0):
     series = Series(
         time=TIME, com=still, roll=zeros, pitch=zeros, yaw=zeros, rate=still,
         wheel_speed=speed * wild * [1.0, -0.5], wheel_torque=torque * wild * [-1.0, 0.5],
-        torque_lowest=None, torque_highest=None, contact=AFTER,
+        torque_lowest=None, torque_highest=None, contact=AFTER, wheels=("left", "right"),
     )  # fmt: skip
     metrics = Metrics(
         LANDED, 0.0, 0.0, 0.0, 0.0, 0.0, speed, torque, 0.0, True, 0.0, 0.0,

@@ -145,3 +145,14 @@ def test_a_row_of_the_wrong_length_is_refused():
     figures = {"takeoff_velocity": (0.5, 2.4), "torque": (0.2, 0.8), "onset": 0.1, "duration": 0.05}
     with pytest.raises(OcsError, match="torque of a disturbance is not"):
         maneuver_of(recorded("disturbance", figures))
+
+
+def test_a_turn_comes_back_with_the_word_for_its_end():
+    figures = {"jump_height": 1.9, "duration": 2.9, "yaw": 1.57, "rate": (0.1, 0.0, 0.0)}
+    found = maneuver_of(recorded("turn", figures | {"end": "at rest"}))
+    assert (found.yaw, found.rate, found.end) == (1.57, (0.1, 0.0, 0.0), "at rest")
+    for end in ("upright", 1.0):
+        with pytest.raises(OcsError, match="end of a turn is not"):
+            maneuver_of(recorded("turn", figures | {"end": end}))
+    with pytest.raises(OcsError, match="yaw of a turn is not 'far'"):
+        maneuver_of(recorded("turn", figures | {"yaw": "far"}))

@@ -13,7 +13,7 @@ import numpy as np
 from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import materials
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import format_quantity, significant
 from ocs_design.device.device import Device
 from ocs_design.device.joints import (
     DAMPING,
@@ -25,6 +25,7 @@ from ocs_design.device.joints import (
     rim_fit,
     top_speed,
 )
+from ocs_design.device.layout import PAIR
 from ocs_design.device.naming import joint_name
 from ocs_design.device.records import MarginRecord
 from ocs_design.device.solids import motor_mount
@@ -32,7 +33,7 @@ from ocs_design.export.assembly.placed import Piece, holds_wheel, module_pieces
 from ocs_design.export.assembly.tightening import Tightened, tightened
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
-from ocs_design.export.device_parts import printed_foot, wheel_geometry
+from ocs_design.export.device_parts import foot_holes, printed_foot, wheel_geometry
 from ocs_design.export.drawing.title_block import RUN_OUT
 from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.electrics import demand_of, electrics
@@ -338,37 +339,49 @@ class Assembly:
     def _on_the_trunk(self) -> Iterator[str]:
         foot = printed_foot(self.device)
         name, found = next(each for each in self.screws.items() if each[0].startswith("foot on"))
-        radius, places = foot.slot_radius / math.sqrt(2.0), []
-        for module in self.device.modules:
-            slope = math.copysign(1.0, float(module.axis[0] * module.axis[1]))
-            x, y, _ = (float(value) for value in module.position)
-            ends = ((x + side * slope * radius, y + side * radius) for side in (1.0, -1.0))
-            at = " and ".join(f"({1e3 * px:.1f}, {1e3 * py:.1f})" for px, py in ends)
-            places.append(f"{module.name} foot {at}")
+        standing = foot_holes(self.device)
+        places = [
+            f"{module} foot {' and '.join(f'({1e3 * x:.1f}, {1e3 * y:.1f})' for x, y in ends)}"
+            for module, ends in standing.items()
+        ]
         under = float(self.device.modules[0].position[2]) - foot.wheel_height
-        angle = format_quantity(self.device.incidence, "deg")
+        # Each axis's own, from the lateral direction: those of a ring's modules differ.
+        angles = {
+            module.name: format_quantity(float(np.arctan2(*np.abs(module.axis[:2]))), "deg")
+            for module in self.device.modules
+            if module.name in standing
+        }
+        alike = len(set(angles.values())) == 1
+        scale = ", ".join(value if alike else f"{value} ({name})" for name, value in angles.items())
         held, motor, plate = found.fastening, self.device.motor, self.device.plate
         mass = self.device.flywheel.mass + self.device.carrier.mass - motor.controller_mass
         yield (
             f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
             "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
         )
-        yield (
-            "Both modules are of the same parts. On the robot the right one is turned by half a "
-            "turn about the vertical, so that both motors are on the inner side."
-        )
+        if self.device.layout == PAIR:
+            yield (
+                "Both modules are of the same parts. On the robot the right one is turned by half "
+                "a turn about the vertical, so that both motors are on the inner side."
+            )
+        else:
+            yield "All modules are of the same parts, each turned as its wheel's axis points."
         frame = "in mm forward and to the left of the frame that the design is in (`robot.trunk` of"
         places_of = f"{'; '.join(places)}; the feet stand at z = {1e3 * under:.1f} mm"
         if plate is None:
             under_feet = "trunk"
-            yield f"Drill the trunk, {frame} design.json): {places_of}."
+            yield (
+                f"Drill the trunk by cad/drilling.pdf, printed at 100 %, {frame} design.json): "
+                f"{places_of}."
+            )
         else:
             under_feet = "plate"
             yield (
                 f"Cut the plate{self._number('plate')} (cad/plate.stl; `export --formats dxf` "
                 f"writes plate.dxf) and tap its holes {plate.foot_thread} for the feet, which are, "
                 f"{frame} design.json), at {places_of}. Drill and tap the trunk {plate.thread} "
-                f"where its other {len(plate.trunk)} holes come to lie."
+                f"where its other {len(plate.trunk)} holes come to lie (cad/drilling.pdf, printed "
+                "at 100 %)."
             )
             origin = plate.position[:2]
             sleeves = [
@@ -384,7 +397,7 @@ class Assembly:
             yield from (self._screwed(each) for each in self._late if each.startswith("plate on"))
         yield (
             "Scribe a line forward through the middle of each foot, turn the foot until it meets "
-            f"the scale at {angle}, and tighten {held.count} x "
+            f"the scale at {scale}, and tighten {held.count} x "
             f"{held.screw.designation(held.length)}{self._number(name)} with {found.torque:.2g} N "
             f"m each, into {'the threads' if plate else 'threads, inserts or nuts'} of the "
             f"{under_feet}."
@@ -409,15 +422,15 @@ class Assembly:
         balance = balance_of(self.device)
         yield (
             f"Grade G {balance.grade:g} (ISO 21940-11) at {_rpm(speed)}: at most "
-            f"{1e6 * balance.unbalance:.2g} g mm are left in one plane, the wheel's own; its "
-            f"centre of mass is then {1e6 * balance.eccentricity:.2g} µm off the axis."
+            f"{_two(1e6 * balance.unbalance)} g mm are left in one plane, the wheel's own; its "
+            f"centre of mass is then {_two(1e6 * balance.eccentricity)} µm off the axis."
         )
         if balance.off_centre is not None:
             found = balance.off_centre * wheel.mass
             yield (
-                f"As made it may be {1e6 * balance.off_centre:.0f} µm off, {1e6 * found:.2g} g mm "
-                f"(turning, and {balance.centred_by}). So balance it on its motor, and mark both: "
-                "taken apart, they go together again the same way."
+                f"As made it may be {1e6 * balance.off_centre:.0f} µm off, {_two(1e6 * found)} g "
+                f"mm (turning, and {balance.centred_by}). So balance it on its motor, and mark "
+                "both: taken apart, they go together again the same way."
             )
         holes, cuts = balance.correction, wheel.cuts
         if cuts.holes:
@@ -430,8 +443,8 @@ class Assembly:
                 f"Remove mass with a drill of {2e3 * holes.hole_radius:.2g} mm, "
                 f"{1e3 * holes.depth:.2g} mm deep, in both faces of the rim, one opposite the "
                 f"other, {1e3 * holes.radius:.1f} mm from the axis: each pair takes "
-                f"{1e6 * holes.mass * holes.radius:.2g} g mm, all that have room on one half "
-                f"{1e6 * holes.most:.2g} g mm. Nothing is taken off the web."
+                f"{_two(1e6 * holes.mass * holes.radius)} g mm, all that have room on one half "
+                f"{_two(1e6 * holes.most)} g mm. Nothing is taken off the web."
             )
         else:
             yield (
@@ -441,9 +454,9 @@ class Assembly:
         for mode in resonances_of(self.device):
             yield (
                 f"The {mode.name}'s first mode: {mode.frequency:.0f} Hz, "
-                f"{60.0 * mode.frequency:,.0f} rpm. What is left pushes with {mode.force:.2g} N; "
+                f"{60.0 * mode.frequency:,.0f} rpm. What is left pushes with {_two(mode.force)} N; "
                 "a wheel that stays there shakes the module by "
-                f"{1e6 * mode.amplitude:.2g} µm, with {mode.acceleration / 9.81:.2g} times its "
+                f"{_two(1e6 * mode.amplitude)} µm, with {_two(mode.acceleration / 9.81)} times its "
                 f"weight ({DAMPING:.0%} damping, assumed)."
             )
         yield (
@@ -506,13 +519,13 @@ class Assembly:
         flown = "" if both is None else f"; the planned maneuvers reach {both:.3g} J in all wheels"
         yield (
             f"Each wheel stores {energy:.3g} J at {_rpm(speed)}, {count} of them "
-            f"{count * energy:.3g} J{flown}. That is {count * energy / 9.81:.2g} kg dropped from "
+            f"{count * energy:.3g} J{flown}. That is {_two(count * energy / 9.81)} kg dropped from "
             "1 m."
         )
         part = burst.fragment
         yield (
             f"If a wheel bursts at that speed, a third of it ({1e3 * part.mass:.0f} g) flies off "
-            f"at {part.speed:.0f} m/s with {part.energy:.2g} J."
+            f"at {part.speed:.0f} m/s with {_two(part.energy)} J."
         )
         steel, aluminium = burst.steel, burst.aluminium
         rule = "BRL formula, 1.25 times the thickness that is just perforated"
@@ -549,7 +562,7 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
     """How a piece is made, and the file to make it from."""
     motor = device.motor
     if name == "motor":
-        return f"bought: {motor.name}", ""
+        return f"bought: {motor.full_name}", ""
     if name == "gear":
         return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
     if name in ("drum", "lid", "foot", "cage"):
@@ -574,6 +587,11 @@ def _is_wheel_s(purpose: str) -> bool:
 def _short(purpose: str) -> str:
     """What screws hold, without what to mind."""
     return purpose.split(";", maxsplit=1)[0].split(", ", maxsplit=1)[0]
+
+
+def _two(value: float) -> str:
+    """Two digits: most of these figures are estimates."""
+    return significant(value, 2)
 
 
 def _rpm(speed: float) -> str:

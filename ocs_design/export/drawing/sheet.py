@@ -89,9 +89,10 @@ class Circle:
 
 @dataclass(frozen=True)
 class Area:
-    """A black polygon without an outline, such as the head of an arrow."""
+    """A black polygon without an outline, such as the head of an arrow; a white one covers."""
 
     corners: tuple[Point, ...]
+    white: bool = False
 
 
 @dataclass(frozen=True)

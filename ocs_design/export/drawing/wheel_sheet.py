@@ -16,6 +16,7 @@ from ocs_design.export.drawing.title_block import frame, notes, parts_list, titl
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.export.drawing.writers import pdf_bytes, svg_bytes
+from ocs_design.export.drilling import write_drilling
 from ocs_design.export.module_bodies import highest_speed
 
 if TYPE_CHECKING:
@@ -26,9 +27,10 @@ DIGITS = 12
 
 
 def write(subject: "Subject", folder: Path) -> "Notes":
-    """Write `wheel.svg` and `wheel.pdf`, which show the same."""
+    """Write `wheel.svg` and `wheel.pdf`, which show the same, and the drilling template."""
     for suffix, content in draw_wheel(wheel_drawing(subject.device, subject.name)).items():
         (folder / f"wheel.{suffix}").write_bytes(content)
+    write_drilling(subject, folder)
     return ()
 
 

@@ -67,13 +67,15 @@ def _draw(canvas: Canvas, item: Item) -> None:
         case Circle((x, y), radius, pen):
             _take(canvas, pen)
             canvas.circle(x, HEIGHT - y, radius)
-        case Area(((x, y), *others)):
+        case Area(((x, y), *others), white):
+            canvas.setFillGray(1.0 if white else 0.0)
             path = canvas.beginPath()
             path.moveTo(x, HEIGHT - y)
             for x, y in others:
                 path.lineTo(x, HEIGHT - y)
             path.close()
             canvas.drawPath(path, stroke=0, fill=1)
+            canvas.setFillGray(0.0)
         case Text():
             x, y = item.start
             text = canvas.beginText()
@@ -110,9 +112,10 @@ def svg_text(items: Iterable[Item], title: str, box: Box) -> str:
             case Circle((x, y), radius, pen):
                 place = f'cx="{_num(x)}" cy="{_num(y)}" r="{_num(radius)}"'
                 elements.append(f"<circle {place}{_stroke(pen)}/>")
-            case Area(corners):
+            case Area(corners, white):
                 points = " ".join(f"{_num(x)},{_num(y)}" for x, y in corners)
-                elements.append(f'<polygon points="{points}" fill="#000" stroke="none"/>')
+                fill = "#fff" if white else "#000"
+                elements.append(f'<polygon points="{points}" fill="{fill}" stroke="none"/>')
             case Text():
                 x, y = item.start
                 turn = f' transform="rotate(-90 {_num(x)} {_num(y)})"' if item.upright else ""

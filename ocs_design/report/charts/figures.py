@@ -3,9 +3,11 @@
 from collections.abc import Iterator, Mapping
 
 from ocs_design.common.files import safe_name
+from ocs_design.device.layout import PAIR
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.drive import torque_speed_chart
 from ocs_design.report.charts.flights import distribution_charts, time_charts
+from ocs_design.report.charts.front import reliability_chart
 from ocs_design.report.charts.incidence import criterion_chart, posture_chart
 from ocs_design.report.charts.momentum import bound_charts, ellipsoid_chart, momentum_chart
 from ocs_design.report.story import Story
@@ -18,6 +20,8 @@ def incidence_charts(story: Story) -> Iterator[Chart]:
     """Inertia and momenta in the plane of the wheel axes, and how the axes could stand."""
     yield ellipsoid_chart(story.design)
     yield momentum_chart(story)
+    if story.design.ocs.axes != PAIR:
+        return
     yield criterion_chart(story.design)
     if story.postures:
         yield posture_chart(story.design, story.postures)
@@ -28,6 +32,13 @@ def drive_charts(story: Story) -> Iterator[Chart]:
     chart = torque_speed_chart(story.design.ocs.motor, story.flights)
     if chart is not None:
         yield chart
+
+
+def reserve_charts(story: Story) -> Iterator[Chart]:
+    """What more reliability weighs, where that is known."""
+    selection = story.design.selection
+    if selection is not None and selection.kept is not None and selection.kept.curve:
+        yield reliability_chart(selection.kept)
 
 
 def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
@@ -48,6 +59,7 @@ def all_charts(story: Story) -> Iterator[Chart]:
     yield from bound_charts(story)
     yield from incidence_charts(story)
     yield from drive_charts(story)
+    yield from reserve_charts(story)
     for charts in scenario_charts(story).values():
         yield from charts
     if story.monte_carlo is not None:

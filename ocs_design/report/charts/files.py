@@ -5,6 +5,7 @@ from importlib.resources import as_file
 from pathlib import Path
 
 from ocs_design.common.errors import MissingToolError
+from ocs_design.common.installing import extra_command
 from ocs_design.export.templates import template_file
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import svg_file
@@ -48,7 +49,7 @@ def png_file(chart: Chart) -> bytes:
     except ImportError as error:
         raise MissingToolError(
             "figures are not written as PNG, because resvg-py is not installed",
-            hint="pip install 'ocs-design[plot]'",
+            hint=extra_command("plot"),
         ) from error
     with as_file(template_file(_FONTS[0])) as regular, as_file(template_file(_FONTS[1])) as bold:
         return bytes(

@@ -1,4 +1,4 @@
-"""Mass of the lightest device against one figure of the specification: a chart, and a folder."""
+"""Mass of the lightest device against one figure of the specification: charts, and a folder."""
 
 import csv
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,6 +10,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.answers import Front, FrontPoint, to_json
+from ocs_design.device.records import ReserveRecord
 from ocs_design.export.folder import FRONT_FILE, staged_folder
 from ocs_design.report.charts.chart import SERIES, Chart, Ink, Line, Mark, Points, Rule
 from ocs_design.report.charts.files import write_charts
@@ -72,6 +73,26 @@ def _drives(front: Front) -> Iterator[Points]:
         masses = np.array([1e3 * point.device.mass for point in points if point.device])
         ink = SERIES[index % len(SERIES)]
         yield Points(_values(front, points), masses, ink, name, hollow=hollow)
+
+
+def reliability_chart(kept: ReserveRecord) -> Chart:
+    """Mass of the device of the same parts against the robots of which one need not pass."""
+    levels, kilograms = np.array(kept.curve).T
+    robots, masses = 1.0 / (1.0 - levels), 1e3 * kilograms
+    labels = tuple(f"{100.0 * level:g} %" for level in levels)
+    return Chart(
+        name="reliability",
+        title="Mass against reliability",
+        description="Mass of a device of the same motor and material against how many robots as "
+        "built there are to one that may fail; each point has the reliability that it stands for.",
+        x=Axis("robots of which one may fail", "", 1.5, 1500.0, log=True),
+        y=Axis.around("mass of the device", "g", masses, room=0.15),
+        marks=(
+            Rule(1.0 / (1.0 - kept.reliability), upright=True, label="as asked", ink=Ink.FAINT),
+            Line(robots, masses, Ink.BLUE),
+            Points(robots, masses, Ink.BLUE, labels=labels),
+        ),
+    )
 
 
 def _values(front: Front, points: Sequence[FrontPoint]) -> FloatArray:

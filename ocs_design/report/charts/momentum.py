@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.layout import module_axes
+from ocs_design.device.layout import PAIR
 from ocs_design.device.records import OcsDesign
 from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Points
 from ocs_design.report.charts.scales import Axis
 from ocs_design.report.quantities import degrees, rpm
 from ocs_design.report.story import Story
-from ocs_design.requirement.bound import AXES, authority, bound_curve
+from ocs_design.requirement.bound import AXES, bound_curve
 
 _SIDE = 300.0
 """Height of charts in the plane of the axes [px]."""
@@ -60,7 +60,7 @@ def taken(story: Story) -> tuple[Taken, ...]:
             incidence = ocs.incidence if specified is None else specified
             speeds = np.stack([flight.wheel_speed(wheel) for wheel in flight.wheels], axis=1)
             along = ocs.spin_inertia * speeds[flight.driven]
-            path = along @ module_axes(incidence)[:2].T
+            path = along @ ocs.axes.axes(incidence)[:2].T
             flown.append(Taken(flight.scenario, incidence, path))
     if flown or story.design.selection is not None:
         return tuple(flown)
@@ -94,16 +94,19 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
         end = reach * np.array(module.axis[:2])
         line = _seen(np.stack([-end, end], axis=1))
         marks.append(Line(*line, ink, f"axis of the {module.name} wheel", dashed=index % 2 == 1))
-    # From the lateral direction to the axis at alpha*.
-    marks.append(
-        Line(*_seen(0.5 * reach * np.stack([np.sin(arc), np.cos(arc)])), Ink.PLAIN, thin=True)
-    )
+    seen = f"of the layout {design.ocs.layout!r}"
+    if design.ocs.axes == PAIR:
+        # From the lateral direction to the axis at alpha*.
+        marks.append(
+            Line(*_seen(0.5 * reach * np.stack([np.sin(arc), np.cos(arc)])), Ink.PLAIN, thin=True)
+        )
+        seen = f"at α* = {degrees(design.ocs.incidence)}"
     return Chart(
         name="inertia_ellipsoid",
-        title=f"Inertia from above, wheel axes at α* = {degrees(design.ocs.incidence)}",
+        title=f"Inertia from above, wheel axes {seen}",
         description="Ellipse whose half axes are the principal inertias in the horizontal plane, "
-        "forward is up and left is left, with the spin axes of the wheels at the incidence "
-        f"angle of {degrees(design.ocs.incidence)} to the lateral direction.",
+        f"forward is up and left is left, with the spin axes of the wheels {seen} (α*: angle to "
+        "the lateral direction).",
         x=Axis("inertia, lateral direction", "kg m²", -reach, reach),
         y=Axis("inertia, forward", "kg m²", -reach, reach),
         marks=tuple(marks),
@@ -136,7 +139,7 @@ def momentum_chart(story: Story) -> Chart:
     incidences = dict.fromkeys([ocs.incidence, *(each.incidence for each in found)])
     marks: list[Mark] = []
     for incidence, dashed in zip(incidences, (False, True, True, True), strict=False):
-        x, y = _zonotope(each_wheel * module_axes(incidence)[:2])
+        x, y = _zonotope(each_wheel * ocs.axes.axes(incidence)[:2])
         name = f"reach at {degrees(incidence)}"
         marks += [Area(x, y, Ink.FAINT), Line(x, y, Ink.FAINT, name, dashed=dashed)]
     for each, ink in zip(found, SERIES * 2, strict=False):
@@ -217,7 +220,8 @@ def _bound_points(
     most = max((each.largest(axis) for each in found), default=0.0)
     points = []
     for each in found:
-        momentum, share = each.largest(axis), float(authority(each.incidence)[axis])
+        axes = design.ocs.axes.axes(each.incidence)
+        momentum, share = each.largest(axis), float(np.abs(axes[axis]).sum())
         if momentum > _HARDLY * max(most, each.largest(1 - axis)) and share > 0.0:
-            points.append((each.source, momentum / total, 2.0 * share * design.ocs.spin_inertia))
+            points.append((each.source, momentum / total, share * design.ocs.spin_inertia))
     return points

@@ -55,10 +55,10 @@ def _chapter(chapter: Chapter) -> Markup:
 def _recorded(design: OcsDesign) -> Assembly:
     """Assembly of the recorded device, whose record has the names of its own fields."""
     ocs = design.ocs
-    modules = [
+    modules = (
         Module(each.name, np.array(each.axis), np.array(each.position)) for each in ocs.modules
-    ]
-    names = {each.name for each in fields(Device)} - {"modules", "supply"}
+    )
+    names = {each.name for each in fields(Device)} - {"modules", "supply", "layout"}
     same = {name: getattr(ocs, name) for name in names if hasattr(ocs, name)}
-    device = Device(modules=(modules[0], modules[1]), supply=design.supply, **same)
+    device = Device(modules=tuple(modules), supply=design.supply, layout=ocs.axes, **same)
     return Assembly(design.robot.name, device, design.margins, ocs.fitting)

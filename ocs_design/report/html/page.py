@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.device.layout import PAIR
 from ocs_design.device.records import OcsDesign, design_to_json
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.export.templates import template_text
 from ocs_design.report.charts.figures import scenario_charts
-from ocs_design.report.device import has_motor, share_of_robot
+from ocs_design.report.device import has_motor, layout_text, share_of_robot
 from ocs_design.report.html import sections
 from ocs_design.report.html.assembly import assembly_section
 from ocs_design.report.html.elements import Markup, data, element, joined
@@ -103,7 +104,7 @@ def _body(story: Story) -> Iterator[Markup]:
         "main",
         sections.robot_section(story, view(story, bodies, scenarios)),
         sections.sizes_section(design),
-        sections.limits_section(design),
+        sections.limits_section(story),
         sections.bound_section(story),
         sections.angles_section(story),
         sections.drive_section(story),
@@ -125,8 +126,10 @@ def _tiles(design: OcsDesign) -> Markup:
         drive += f", {ocs.motor.gear}"
     tiles = (
         ("Total mass", grams(ocs.mass_total), share_of_robot(design)),
-        ("Incidence α*", degrees(ocs.incidence), ocs.incidence_criterion),
-        ("Motor", ocs.motor.name, drive),
+        ("Incidence α*", degrees(ocs.incidence), ocs.incidence_criterion)
+        if ocs.axes == PAIR
+        else ("Layout", layout_text(ocs), f"{len(ocs.modules)} wheels"),
+        ("Motor", ocs.motor.full_name, drive),
         ("Rim R / r / h", f"{lengths} mm", wheel.material),
         ("Spin inertia", inertia(ocs.spin_inertia), "of each wheel"),
         ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), _stress(design)),

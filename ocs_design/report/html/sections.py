@@ -20,7 +20,7 @@ from ocs_design.export.drawing.wheel import (
 )
 from ocs_design.report import limits, selection, warnings
 from ocs_design.report.charts.chart import Chart
-from ocs_design.report.charts.figures import drive_charts, incidence_charts
+from ocs_design.report.charts.figures import drive_charts, incidence_charts, reserve_charts
 from ocs_design.report.charts.flights import distribution_charts
 from ocs_design.report.charts.momentum import bound_charts
 from ocs_design.report.device import device_facts, drawn_facts, robot_facts
@@ -97,8 +97,9 @@ def sizes_section(design: OcsDesign) -> Markup:
     )
 
 
-def limits_section(design: OcsDesign) -> Markup:
+def limits_section(story: Story) -> Markup:
     """Active limits, and what moving each of them saves."""
+    design = story.design
     names, meaning = limits.active_limits(design)
     owed = limits.owed_to(design)
     more = (
@@ -112,6 +113,7 @@ def limits_section(design: OcsDesign) -> Markup:
         if design.selection is not None
         else Markup("")
     )
+    otherwise = limits.alternatives_table(design)
     return section(
         "limits",
         "Active limits, and what moving them saves",
@@ -120,25 +122,23 @@ def limits_section(design: OcsDesign) -> Markup:
         table("Each limit moved alone", limits.saving_table(design)),
         element("p", limits.saving_notes(design), class_="note"),
         more,
-        *_reserve(design),
-        table("What would be lighter otherwise", limits.alternatives_table(design))
-        if design.alternatives
-        else "",
+        *_reserve(story),
+        table("What would be lighter otherwise", otherwise) if otherwise.rows else "",
+        element("p", limits.alternatives_note(design), class_="note"),
         table(f"What must give for {grams(design.lighter.by)} less", limits.lighter_table(design))
         if design.lighter is not None
         else "",
     )
 
 
-def _reserve(design: OcsDesign) -> Iterator[Markup]:
+def _reserve(story: Story) -> Iterator[Markup]:
     """What is uncertain, and what it costs."""
+    design = story.design
     if design.selection is not None and design.selection.kept is not None:
-        yield table(
-            "What is uncertain, and what it costs", limits.reserve_table(design.selection.kept)
-        )
-        yield element(
-            "p", limits.reserve_note(design.selection.kept, design.ocs.mass_total), class_="note"
-        )
+        kept = design.selection.kept
+        yield table("What is uncertain, and what it costs", limits.reserve_table(kept))
+        yield figures(reserve_charts(story))
+        yield element("p", limits.reserve_note(kept, design.ocs.mass_total), class_="note")
 
 
 def bound_section(story: Story) -> Markup:
@@ -276,7 +276,7 @@ def record_section(story: Story) -> Markup:
 def _sources(design: OcsDesign) -> Iterator[tuple[str, str]]:
     yield "method", PAPER
     motor, wheel = design.ocs.motor, design.ocs.flywheel
-    yield "motor", f"{motor.name}: {motor.source}"
+    yield "motor", f"{motor.full_name}: {motor.source}"
     gear = known_gears(None).get(motor.gear) if motor.gear != DIRECT.name else None
     if gear is not None:
         yield "gear", f"{gear.name}: {gear.source}"

@@ -3,7 +3,7 @@
 import numpy as np
 from rich.console import Console
 
-from ocs_design.device.answers import BoundAnswer, Exported, Initialized
+from ocs_design.device.answers import BoundAnswer, Exported, Initialized, LayoutsAnswer
 from ocs_design.report.quantities import BOUND_NOTE, degrees, inertia, rpm
 from ocs_design.report.table import Table, columns
 from ocs_design.report.text.layout import facts, files_written, heading, note, show
@@ -31,6 +31,26 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
         for speed, row in zip(answer.wheel_speeds, answer.curve, strict=True)
     )
     show(console, Table(rates, rows))
+
+
+def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
+    """A row for each layout, then why there is none, or what keeps it from being built."""
+    heading(console, f"Layouts for {answer.robot}")
+    axes = (f"{axis} [N m s]" for axis in ("roll", "pitch", "yaw"))
+    lost = (f"{axis}, one lost" for axis in ("roll", "pitch", "yaw"))
+    rows = tuple(
+        (
+            each.layout,
+            "-" if each.mass is None else f"{1e3 * each.mass:.0f}",
+            *(f"{value:.3g}" for value in (*each.momentum, *each.momentum_without_one)),
+            each.motor or "-",
+        )
+        for each in answer.layouts
+    )
+    show(console, Table(columns("<", "mass [g]", *axes, *lost, "<motor"), rows))
+    for each in answer.layouts:
+        for text in (*each.open, *([each.without] if each.without else [])):
+            note(console, f"{each.layout}: {text}")
 
 
 def print_initialized(console: Console, initialized: Initialized) -> None:

@@ -6,10 +6,16 @@ pipe no line is broken, and there are neither plots nor frames, so that `grep` f
 
 import os
 import re
+import sys
 import time
-from collections.abc import Iterator, Sequence
+import webbrowser
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import timedelta
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from typing import TypeAlias
 
 from rich.console import (
     Console,
@@ -26,7 +32,6 @@ from rich.progress import (
     ProgressColumn,
     SpinnerColumn,
     Task,
-    TaskID,
     TextColumn,
     TimeElapsedColumn,
 )
@@ -47,6 +52,18 @@ _REPLACED = {code: "\ufffd" for code in (*_CONTROL, 0x2028, 0x2029) if chr(code)
 
 Names come from robot files, catalogues and `design.json`.
 """
+
+
+def open_page(console: Console, file: Path) -> None:
+    """Open a page in the browser, or print where it lies if there is no screen or no browser."""
+    # Without a screen Python starts a browser in the terminal.
+    drawn = not sys.platform.startswith("linux") or any(map(os.environ.get, _SCREENS))
+    if not (drawn and webbrowser.open(file.resolve().as_uri())):
+        console.print(f"no browser to open it in: {file.resolve()}", soft_wrap=True)
+
+
+_SCREENS = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
+"""Variables of which one is set where a browser can be opened."""
 
 
 def cleaned(text: str) -> str:
@@ -136,6 +153,17 @@ class Steps:
         """Nothing is printed."""
         return cls(make_console(stderr=True), quiet=True)
 
+    @classmethod
+    def of(cls, progress: "Steps | Tell | None") -> "Steps":
+        """Progress as told by a function, or nowhere, but in a notebook below the cell."""
+        if isinstance(progress, Steps):
+            return progress
+        if progress is not None:
+            return _ToldSteps(progress)
+        # A kernel is what tells a notebook from IPython on a terminal.
+        shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+        return cls.silent() if getattr(shell, "kernel", None) is None else _NotebookSteps()
+
     @contextmanager
     def step(self, label: str) -> Iterator["Step"]:
         """One step; `Step.update` moves its bar."""
@@ -154,7 +182,7 @@ class Steps:
                 transient=True,
             ) as progress:
                 task = progress.add_task(label, total=None)
-                current = Step(progress, task)
+                current = Step(partial(progress.update, task, total=1.0))
                 yield current
         if not self._quiet:
             seconds = time.perf_counter() - start
@@ -182,15 +210,75 @@ MOST_DOUBTS = 3
 class Step:
     """Handle of a running step. `note` is appended to its line when it is done."""
 
-    def __init__(self, progress: Progress | None = None, task: TaskID | None = None) -> None:
+    def __init__(self, moved: Callable[..., None] | None = None) -> None:
         self.note = ""
-        self._progress = progress
-        self._task = task
+        self._moved = moved
 
     def update(self, fraction: float) -> None:
         """Move the bar to `fraction` of the step."""
-        if self._progress is not None and self._task is not None:
-            self._progress.update(self._task, total=1.0, completed=fraction)
+        if self._moved is not None:
+            self._moved(completed=fraction)
+
+
+Tell: TypeAlias = Callable[[str, float], None]
+"""Function that is told which step runs and what part of it is done, 0..1."""
+
+
+class _ToldSteps(Steps):
+    """Progress as a function is told."""
+
+    def __init__(self, tell: Tell) -> None:
+        super().__init__(make_console(stderr=True), quiet=True)
+        self._tell = tell
+
+    @contextmanager
+    def step(self, label: str) -> Iterator[Step]:
+        """One step; told of at its start, as it moves, and at its end."""
+        self._tell(label, 0.0)
+        yield Step(lambda completed: self._tell(label, completed))
+        self._tell(label, 1.0)
+
+
+class _NotebookSteps(Steps):
+    """Progress below a notebook's cell: a line for each step, a bar for the one that runs."""
+
+    def __init__(self) -> None:
+        super().__init__(make_console(stderr=True), quiet=True)
+        self._lines: list[str] = []
+        self._shown_at = 0.0
+        display = import_module("IPython.display").display
+        self._handle = display({"text/plain": ""}, raw=True, display_id=True)
+
+    @contextmanager
+    def step(self, label: str) -> Iterator[Step]:
+        """One step; its bar moves twice a second at most."""
+        start = time.perf_counter()
+
+        def moved(completed: float) -> None:
+            now = time.perf_counter()
+            if now - self._shown_at > NOTEBOOK_REST:
+                self._shown_at = now
+                self._show(f"{now - start:6.2f} s  {label}  {'█' * round(24 * completed):<24}")
+
+        self._show(f"           {label} ...")
+        current = Step(moved)
+        yield current
+        note = f"  {current.note}" if current.note else ""
+        self._lines.append(f"{time.perf_counter() - start:6.2f} s  {label}{note}")
+        self._show()
+
+    def doubt(self, warnings: Sequence[str]) -> None:
+        """Say what is doubtful in the input, before it is worked with."""
+        self._lines += [f"   doubt  {each}" for each in warnings[:MOST_DOUBTS]]
+        if len(warnings) > MOST_DOUBTS:
+            self._lines.append(f"          {len(warnings) - MOST_DOUBTS} more in `robot.warnings`")
+
+    def _show(self, *running: str) -> None:
+        self._handle.update({"text/plain": cleaned("\n".join([*self._lines, *running]))}, raw=True)
+
+
+NOTEBOOK_REST = 0.5
+"""Least time between two pictures of a bar in a notebook, each a message to the browser [s]."""
 
 
 class _Left(ProgressColumn):

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from rich.console import Console
 from rich.text import Text
 
+from ocs_design.common.installing import extra_command
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.report.table import Table, Tone, Toned, columns, listed
 from ocs_design.report.text.layout import heading, items, show
@@ -28,6 +29,9 @@ def print_examination(console: Console, examination: Examination) -> None:
     optional = [each for each in lacking if not each.required and each.state is State.MISSING]
     _print_cures(console, "To mend", (each for each in lacking if each not in optional))
     _print_cures(console, "To add, if you want what it is for", optional)
+    extras = dict.fromkeys(each.extra for each in optional if each.extra)
+    if len(extras) > 1:
+        items(console, [f"all packages of these: {extra_command(*extras)}"], style="")
     console.print()
     broken = [each.name for each in examination.findings if each.stands_in_the_way]
     verdict = f"does not work without {listed(broken)}" if broken else "works here"
@@ -51,11 +55,12 @@ def _print_findings(console: Console, title: str, findings: Iterable[Finding]) -
 
 
 def _print_cures(console: Console, title: str, findings: Iterable[Finding]) -> None:
-    cures = dict.fromkeys(
-        f"{each.name}{f' ({each.reason})' if each.reason else ''}: {each.cure}"
-        for each in findings
-        if each.cure
-    )
+    names: dict[str, list[str]] = {}
+    for each in findings:
+        if each.cure:
+            reason = f" ({each.reason})" if each.reason else ""
+            names.setdefault(each.cure, []).append(each.name + reason)
+    cures = [f"{', '.join(which)}: {cure}" for cure, which in names.items()]
     if cures:
         heading(console, title)
         items(console, cures, style="")

@@ -29,7 +29,7 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         console,
         robot,
         [
-            ("read from", f"{robot.source} ({robot.format})"),
+            (f"read from {robot.format}", robot.source),
             ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
             ("legs", _legs(inspection)),
             *_recognised(inspection.recognition),

@@ -48,7 +48,8 @@ def print_design(console: Console, design: OcsDesign) -> None:
     facts(console, (*device_facts(design), ("motor's source", design.ocs.motor.source)))
     warn(console, design.ocs.warnings)
     items(console, warnings.device_warnings(design), style="yellow")
-    show(console, criterion_table(design.ocs))
+    if design.ocs.incidence_by_criterion:
+        show(console, criterion_table(design.ocs))
     names, meaning = limits.active_limits(design)
     heading(console, f"Active limits: {names}")
     if meaning:
@@ -79,7 +80,12 @@ def print_alternatives(console: Console, design: OcsDesign) -> None:
     """What one change of the question would give each; nothing where none was looked for."""
     if design.alternatives:
         heading(console, "What would be lighter otherwise")
-        show(console, limits.alternatives_table(design))
+        found = limits.alternatives_table(design)
+        if found.rows:
+            show(console, found)
+        vain = limits.alternatives_note(design)
+        if vain:
+            note(console, vain)
     print_lighter(console, design)
 
 

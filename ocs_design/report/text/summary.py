@@ -6,11 +6,11 @@ from pathlib import Path, PurePosixPath
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.device.records import OcsDesign
-from ocs_design.export.folder import DESIGN_FILE, REPORT_FILE
-from ocs_design.report.device import device_facts, device_title, share_of_robot
+from ocs_design.device.records import DESIGN_FILE, OcsDesign
+from ocs_design.export.folder import REPORT_FILE
+from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
 from ocs_design.report.flights import run_sentence, short_verdict
-from ocs_design.report.limits import assumed, lighter, owed_to, tightest
+from ocs_design.report.limits import assumed, heat, lighter, owed_to, tightest
 from ocs_design.report.quantities import degrees_number, grams
 from ocs_design.report.table import Cell, Table, columns, listed
 from ocs_design.report.text.console import breaks_lines
@@ -21,17 +21,6 @@ from ocs_design.report.text.validation import print_headline
 from ocs_design.report.verdict import Headline, headline
 from ocs_design.report.warnings import all_warnings
 from ocs_design.simulation.scenario import Run
-
-DEVICE_FACTS = {
-    "mass of a module": "module",
-    "carrier plate": "plate",
-    "incidence alpha*": "alpha*",
-    "rim": "rim",
-    "motor": "motor",
-    "gear": "gear",
-    "drive at the wheel": "drive",
-}
-"""Facts of the device that are shown, and the short names that they have here."""
 
 MOST_MARGINS, MOST_MINDED, MOST_CHANGES = 4, 3, 3
 
@@ -77,13 +66,15 @@ def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
     robot = design.robot
     yield "robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}"
     found = dict(device_facts(design))
-    yield from ((short, found[name]) for name, short in DEVICE_FACTS.items() if name in found)
+    yield from ((short, found[name]) for name, short in FIRST_FACTS.items() if name in found)
     owed = owed_to(design)
     why = [listed(design.sizing.binding), f"owed to {owed}" if owed else ""]
     if any(why):
         yield "set by", "; ".join(filter(None, why))
     for index, (share, names) in enumerate(tightest(design)[:MOST_MARGINS]):
         yield "" if index else "used", f"{share} {names}"
+    if heat(design):
+        yield "heat", heat(design)
 
 
 def _minded(design: OcsDesign, line: Headline) -> list[str]:
@@ -102,12 +93,12 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
     plotted = (
         width >= NARROWEST_PLOT and console.encoding.startswith("utf") and breaks_lines(console)
     )
-    flips = {item.name for item in design.requirement.maneuvers if item.kind == "flip"}
+    kinds = {item.name: item.kind for item in design.requirement.maneuvers}
     pairs = zip(runs[::2], runs[1::2], strict=True)
     records = zip(design.validation[::2], design.validation[1::2], strict=True)
     rows: list[tuple[Cell, ...]] = []
     for pair, recorded in zip(pairs, records, strict=True):
-        verdicts = (short_verdict(run, turns=run.scenario in flips) for run in recorded)
+        verdicts = (short_verdict(run, kind=kinds.get(run.scenario, "")) for run in recorded)
         rows.append((recorded[0].scenario, *verdicts))
         if plotted:
             plots, top = tilt_plots([run.series for run in pair], width)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ocs_design.common.errors import MissingToolError
 from ocs_design.common.files import safe_name
+from ocs_design.common.installing import extra_command
 from ocs_design.device.device import Device
 from ocs_design.export.ffmpeg import FFMPEG_HINT
 from ocs_design.export.film import Frames, Take, film_model, render_takes
@@ -18,7 +19,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import Poses
 from ocs_design.simulation.scenario import Run
 
-EXTRA = "pip install 'ocs-design[video]'"
+EXTRA = extra_command("video")
 
 STRIDE = 2
 """Poses from one frame to the next: 33 frames a second of 67 poses."""

@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.naming import PREFIX
+from ocs_design.device.naming import PREFIX, flywheels_among
 from ocs_design.report.bodies import ShownBody
 from ocs_design.report.story import Flight
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.simulation.engine import Poses
 from ocs_design.simulation.quaternions import from_axis_angle
 from ocs_design.simulation.quaternions import product as hamilton
-from ocs_design.simulation.scene import FLYWHEELS
 
 Record = dict[str, Any]
 """Value that becomes an object of JSON."""
@@ -67,7 +66,7 @@ def encoded_scene(
     radius = _radius(low, high)
     device = _box([body for body in bodies if body.name.startswith(PREFIX)] or bodies)
     names = [body.name for body in bodies]
-    shown = []
+    wheels, shown = flywheels_among(names), []
     for body in bodies:
         surfaces = []
         for surface in body.surfaces:
@@ -89,7 +88,7 @@ def encoded_scene(
             {
                 "name": body.name,
                 "device": body.name.startswith(PREFIX),
-                "wheel": FLYWHEELS.index(body.name) if body.name in FLYWHEELS else None,
+                "wheel": wheels.index(body.name) if body.name in wheels else None,
                 "position": body.placement.position.tolist(),
                 "attitude": list(map(float, quaternion(body.placement.rotation))),
                 "surfaces": surfaces,
@@ -132,7 +131,7 @@ def _flight(flight: Flight, poses: Poses, names: Sequence[str], blob: Blob) -> R
 def _unspun(poses: Poses) -> FloatArray:
     """Attitudes with the wheels' own turns taken out, which are many from one pose to the next."""
     attitude = poses.attitude.copy()
-    for wheel, name in enumerate(FLYWHEELS):
+    for wheel, name in enumerate(flywheels_among(poses.bodies)):
         body = poses.bodies.index(name)
         back = from_axis_angle(np.array([0.0, 0.0, 1.0]), -poses.wheel_angle[:, wheel])
         attitude[:, body] = hamilton(attitude[:, body], back)

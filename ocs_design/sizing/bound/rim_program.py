@@ -26,10 +26,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import MissingToolError
+from ocs_design.common.installing import extra_command
 from ocs_design.parts.rim import hoop_weights
 from ocs_design.sizing.bound.rim_problem import RimProblem
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     from cvxpy import (
         Constraint as CvxpyConstraint,
     )
@@ -253,10 +257,13 @@ def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) 
     Args:
         problem: of the rim.
         outer_radius, inner_radius: of any rim within the limits [m].
+
+    Raises:
+        MissingToolError: CVXPY is not installed.
     """
+    cvxpy = load_solver()
     scale = outer_radius
     constraints = RimConstraints(problem, scale)
-    cvxpy = import_module("cvxpy")
     mass = cvxpy.inv_pos(constraints.a + constraints.b)
     limits = [limit.convex for limit in constraints.by_name.values()]
     program: Problem = cvxpy.Problem(cvxpy.Minimize(mass), limits)
@@ -328,9 +335,19 @@ def _gradients(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
     return np.array([limit.gradient(*point) for limit in limits])
 
 
-def load_solver() -> None:
-    """Import CVXPY, which takes a second, at a time of the caller's choice."""
-    import_module("cvxpy")
+def load_solver() -> "ModuleType":
+    """CVXPY, whose import takes seconds, at a time of the caller's choice.
+
+    Raises:
+        MissingToolError: it is not installed.
+    """
+    try:
+        return import_module("cvxpy")
+    except ImportError as error:
+        raise MissingToolError(
+            "no wheel can be sized by the bound alone: CVXPY is not installed",
+            hint=f"{extra_command('bound')}, or leave out --motor none",
+        ) from error
 
 
 def _solve(program: "Problem") -> float:

@@ -144,8 +144,16 @@ def _hints(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iter
     if changes:
         texts = [_change_text(field, limit, value) for limit, value in changes.items()]
         yield advice(texts, MOST_CHANGE, "")
+    layout = field.problem.layout
+    if not layout.pairs and reason is Reason.INCIDENCE:
+        yield (
+            f"The wheels of {layout.text} do not reach every axis that is asked for: ask for "
+            "less, or take another layout (--layout pair)."
+        )
+        return
     free = replace(field.problem, incidence=None)
-    if field.problem.incidence is not None and field.changed(free).possible:
+    stated = layout.pairs and field.problem.incidence is not None
+    if stated and field.changed(free).possible:
         yield (
             "At another incidence there is a device: leave out --alpha and choose "
             "--alpha-criterion lightest."

@@ -6,9 +6,9 @@ Each is proved by terms that only grow (docs/theory.md, The selection):
    dq/dt is the motor's torque at the speed q / h. More inertia asks for more of q's integral, or
    gives the trunk less way (a larger I_red), or neither; never for less.
 2. It asks for no less over a range of incidences than with the largest sine and the largest cosine
-   in it, each by itself: |P_x| / s + |P_y| / c falls and, by their balance, kappa = 2 (s |P_x| /
-   I_xx + c |P_y| / I_yy) / (|P_x| / s + |P_y| / c) grows with either share. Where roll and pitch
-   are coupled, each of |P_x|, |P_y| and kappa is at its own best (`actuation.wheel_pair`).
+   in it, each by itself: |P_x| / s + |P_y| / c falls with either share. Axes by hand are no better
+   than a box around their zonotope. |P_x|, |P_y| and kappa are each at their own best
+   (`actuation.wheel_load`).
 3. The inertia of the whole is no less than with the smallest drum around the least mass that has
    the spin inertia within the largest radius, and its motor behind it: mass, rim and distance only
    add to it.
@@ -20,7 +20,8 @@ on the spin inertia; each pass tightens them.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
@@ -28,8 +29,9 @@ import numpy as np
 
 from ocs_design.actuation.spin_root import smallest_roots
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
-from ocs_design.actuation.wheel_pair import WheelPairBound, spin_demand
-from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.actuation.wheel_load import WheelBound, spin_demand
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.layout import PAIR, Layout
 from ocs_design.parts.housing import PlainDrum, half_height
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
@@ -45,8 +47,8 @@ from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.placement import Place, Size
 from ocs_design.sizing.selection.candidates import Candidates, Drives, rim_limits
-from ocs_design.sizing.selection.composite_inertia import pairs_of
 from ocs_design.sizing.selection.demand import column, columns, needed_by_rate
+from ocs_design.sizing.selection.fixed_point import Guess
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 CELLS = 18
@@ -61,22 +63,11 @@ _Range: TypeAlias = tuple[FloatArray, FloatArray]
 """From and to."""
 
 
-@dataclass(frozen=True)
-class Cell:
-    """A range of incidences [rad]; a single one if both are equal."""
+class Cell(NamedTuple):
+    """A range of a layout's angle [rad]; a single one if both are equal."""
 
     low: float
     high: float
-
-    @property
-    def shares(self) -> tuple[float, float]:
-        """The largest sine and the largest cosine in it."""
-        return float(np.sin(self.high)), float(np.cos(self.low))
-
-    @property
-    def least_shares(self) -> tuple[float, float]:
-        """The least sine and the least cosine in it."""
-        return float(np.sin(self.low)), float(np.cos(self.high))
 
 
 def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
@@ -85,6 +76,14 @@ def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
         return (Cell(incidence, incidence),)
     edges = np.linspace(0.0, np.pi / 2.0, count + 1)
     return tuple(Cell(float(a), float(b)) for a, b in pairwise(edges))
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """A problem that is the same as another if its key is."""
+
+    key: tuple[object, ...]
+    problem: SelectionProblem = field(compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,15 +95,29 @@ class RimFloor:
         mass: of the lightest rim with its housing and foot [kg], never decreasing, inf where there
             is none.
         web_density: of their webs and hubs [kg/m^3], shape (materials,).
+        wheels: of a device.
     """
 
     spin_inertia: FloatArray
     mass: FloatArray
     web_density: FloatArray
+    wheels: int
 
     @classmethod
     def of(cls, problem: SelectionProblem) -> "RimFloor":
-        """Rims that turn slowly, around the narrowest hub: no hoop stress adds to their mass."""
+        """Rims that turn slowly, around the narrowest hub: no hoop stress adds to their mass.
+
+        Robot, maneuvers, supply and angle have no say: alternatives that differ in them share one.
+        """
+        parts = problem.motors, problem.gears, problem.materials, problem.lightenings
+        room = problem.envelope, problem.web, problem.cuts, problem.web_material
+        rest = problem.foot_plate, problem.layout
+        return cls._of(_Kept((*(tuple(each) for each in parts), *room, *rest), problem))
+
+    @classmethod
+    @lru_cache(maxsize=16)
+    def _of(cls, kept: "_Kept") -> "RimFloor":
+        problem = kept.problem
         materials, webs = len(problem.materials), len(problem.lightenings)
         # Every rim of every material, in every web.
         kinds = np.tile(np.repeat(np.arange(materials), _RIMS), webs)
@@ -133,7 +146,7 @@ class RimFloor:
         mass = lightest_module(inertia, limits, shell, _DIGITS).mass
         mass = _SURELY * np.nan_to_num(mass, nan=np.inf)
         inertia, mass = (each.reshape(webs, materials, _RIMS) for each in (inertia, mass))
-        return cls(inertia[0], mass.min(axis=0), problem.web_densities)
+        return cls(inertia[0], mass.min(axis=0), problem.web_densities, len(problem.layout))
 
     def at(self, spin_inertia: FloatArray) -> FloatArray:
         """Mass of no more spin inertia than that [kg], both of shape (materials, n)."""
@@ -150,7 +163,7 @@ def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> F
     on_webs = drives.of_webs(floor.web_density[:, None])
     rim = spin_inertia - on_webs.beside_rim
     lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
-    return 2.0 * (on_webs.mass + lightest)
+    return floor.wheels * (on_webs.mass + lightest)
 
 
 def least_spin_inertias(
@@ -175,14 +188,14 @@ def least_spin_inertias(
     for maneuver in requirement.maneuvers:
         own = maneuver.incidence
         at = cells if own is None else [Cell(own, own)]
-        task = bound_task(maneuver, requirement, least, at)
+        task = bound_task(maneuver, requirement, least, at, problem.layout)
         demands.append(spin_demand(task, line, armature, below[:, None]))
     for asked in smallest_roots(demands) if demands else ():
         needed = np.maximum(needed, asked)
     if requirement.rate_change is not None:
-        shares = np.array([cell.shares for cell in cells])
         alone = column(TiltInertia.uncoupled(least.inertia.diagonal))
-        by_rate = needed_by_rate(requirement.rate_change, drives, alone, shares)
+        axes = np.stack([problem.layout.hull(*cell) for cell in cells])
+        by_rate = needed_by_rate(requirement.rate_change, drives, alone, axes)
         needed = np.maximum(needed, by_rate)
     stated = requirement.spin_inertia
     if stated is None:
@@ -203,32 +216,34 @@ class LeastInertia(NamedTuple):
 
 
 def bound_task(
-    maneuver: Maneuver, requirement: Requirement, least: LeastInertia, cells: Sequence[Cell]
-) -> WheelPairBound:
-    """A maneuver as what two wheels must do at the least, fields of shape (n, k, ...).
-
-    Shares (s, c) beyond the unit circle, n (s', c') with n > 1, do the same as (s', c') on what is
-    smaller: momenta 1 / n, inertias 1 / n^2 of what they are (`actuation.wheel_pair`).
+    maneuver: Maneuver,
+    requirement: Requirement,
+    least: LeastInertia,
+    cells: Sequence[Cell],
+    layout: Layout,
+) -> WheelBound:
+    """A maneuver as what wheels must do at the least, fields of shape (n, k, ...).
 
     Args:
         maneuver: to be done.
         requirement: that it is part of.
         least: what they turn, n of them.
-        cells: of the incidence, k of them.
+        cells: of the layout's angle, k of them.
+        layout: of the wheels.
     """
-    shares = np.array([cell.shares for cell in cells])
-    stretch = np.hypot(shares[:, 0], shares[:, 1])
-    diagonal, product = column(least.inertia)
-    slew = requirement.slew(maneuver, TiltInertia.uncoupled(diagonal))
-    return WheelPairBound(
-        swept=slew.swept / stretch[:, None],
-        momentum=slew.momentum / stretch[:, None],
+    inertia = column(least.inertia)
+    slew = requirement.slew(maneuver, TiltInertia.uncoupled(inertia.diagonal))
+    ends = np.abs(layout.axes(np.array(cells)))[..., :2, :]
+    return WheelBound(
+        swept=slew.swept,
+        momentum=slew.momentum,
         duration=slew.duration,
-        inertia=TiltInertia(diagonal / stretch[:, None] ** 2, product / stretch**2),
-        incidence=np.arctan2(shares[:, 0], shares[:, 1]),
-        turn=maneuver.turn * stretch[:, None],
-        spread=least.spread[:, None] / stretch**2,
-        reached=np.array([cell.least_shares for cell in cells]) > OUT_OF_REACH,
+        inertia=inertia,
+        axes=np.stack([layout.hull(*cell) for cell in cells]),
+        turn=np.asarray(maneuver.turn),
+        spread=least.spread[:, None],
+        # Of a range, either end has the least of an axis.
+        reached=(ends.max(axis=-1) > OUT_OF_REACH).all(axis=1),
     )
 
 
@@ -298,47 +313,79 @@ def least_inertia(
         largest=drives.size(widest + guard, zero + room.height_max),
         heaviest=at_floor.mass + at_wheel.mass + drives.hub_mass_most + fullest + web + shell,
     )
-    return least_composite_inertia(problem.robot, problem.place, least)
+    return least_composite_inertia(problem.robot, problem.place, least, problem.layout)
 
 
-def least_composite_inertia(robot: MassProperties, place: Place, least: Least) -> LeastInertia:
+def least_composite_inertia(
+    robot: MassProperties, place: Place, least: Least, layout: Layout = PAIR
+) -> LeastInertia:
     """Inertia that no device is below whose modules are no smaller and no lighter.
 
     Every term grows with mass, inertia or a distance; each distance is at its own least between
     where the smallest and where the largest module stands, at any incidence. What is not looked at,
     the foot, would only add to the inertia about the common centre of mass.
     """
-    corners = [
-        place.left(Size(reach, standing))
-        for reach in (least.smallest.reach, least.largest.reach)
-        for standing in (least.smallest.standing, least.largest.standing)
-    ]
-    x, y, z = (
-        (np.minimum.reduce(values), np.maximum.reduce(values))
-        for values in zip(*corners, strict=True)
+    corners = np.stack(
+        [
+            place.centers(Size(reach, standing))
+            for reach in (least.smallest.reach, least.largest.reach)
+            for standing in (least.smallest.standing, least.largest.standing)
+        ]
     )
-    mass = least.mass + least.behind
+    middle = corners.mean(axis=-2)
+    x, y, z = zip(middle.min(axis=0).T, middle.max(axis=0).T, strict=True)
+    apart = corners - middle[..., None, :]
+    wheels, mass = corners.shape[-2], least.mass + least.behind
     off, risen = least.behind * least.depth / mass, least.behind * least.above / mass
-    forward = _least_square((x[0] - off, x[1]), robot.com[0])
-    up = _least_square((z[0], z[1] + risen), robot.com[2])
-    sideways = least.mass * _least_square(y, 0.0)
-    sideways = sideways + least.behind * _least_square((y[0] - least.depth, y[1]), 0.0)
-    reduced = robot.mass * 2.0 * mass / (robot.mass + 2.0 * mass)
-    own = 2.0 * least.inertia
-    roll = robot.inertia[0, 0] + reduced * (robot.com[1] ** 2 + up) + 2.0 * sideways + own
-    diagonal = pairs_of(roll, robot.inertia[1, 1] + reduced * (forward + up) + own)
+    # What stands behind a pair's wheels, which face away from each other, leaves their middle.
+    aside, sunk = (0.0 * off, 0.0 * off) if layout.pairs else (off, off + np.abs(risen))
+    forward = _least_square((x[0] - off, x[1] + aside), robot.com[0])
+    left = _least_square((y[0] - aside, y[1] + aside), robot.com[1])
+    up = _least_square((z[0] - sunk, z[1] + risen + sunk), robot.com[2])
+    # Of the wheels about their own middle, what stands behind them left out.
+    spread = _least_square((apart.min(axis=0), apart.max(axis=0)), 0.0).sum(axis=-2)
+    along, across, above = least.mass * spread.T
+    reduced = robot.mass * wheels * mass / (robot.mass + wheels * mass)
+    own = wheels * least.inertia
+    roll = robot.inertia[0, 0] + reduced * (left + up) + across + above + own
+    pitch = robot.inertia[1, 1] + reduced * (forward + up) + along + above + own
+    diagonal = np.stack([roll, pitch], axis=-1)
     product = np.full(len(roll), TiltInertia.of(robot.inertia).product)
-    return LeastInertia(TiltInertia(diagonal, product), _coupling_spread(robot, least, x, z))
+    coupling = _coupling_spread(robot, least, x, z, wheels)
+    if not layout.pairs:
+        coupling = coupling + _lopsidedness(least, apart, layout)
+    return LeastInertia(TiltInertia(diagonal, product), coupling)
 
 
-def _coupling_spread(robot: MassProperties, least: Least, x: _Range, z: _Range) -> FloatArray:
+def _lopsidedness(least: Least, apart: FloatArray, layout: Layout) -> FloatArray:
+    """Most that modules which are no mirror images add to I_xy about their middle [kg m^2], (n,).
+
+    Args:
+        least: of a module.
+        apart: of the wheels from their middle at each corner of the sizes [m], (..., n, w, 3).
+        layout: of the modules.
+    """
+    _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
+    turned = sum(
+        abs(float((one[:, 0] * other[:, 1] + other[:, 0] * one[:, 1]).sum()))
+        for one, other in ((outward, outward), (upward, upward), (outward, upward))
+    )
+    along, across = np.abs(apart[..., 0]), np.abs(apart[..., 1])
+    places = np.abs((apart[..., 0] * apart[..., 1]).sum(axis=-1)).max(axis=0)
+    moved = (along + across).sum(axis=-1).max(axis=0) * np.abs(least.depth)
+    return np.asarray(least.heaviest * (places + moved + turned * least.largest.reach**2))
+
+
+def _coupling_spread(
+    robot: MassProperties, least: Least, x: _Range, z: _Range, wheels: int
+) -> FloatArray:
     """Most that a device changes J_xy by, term by term [kg m^2], shape (n,).
 
     A module's own products are no more than its mass times its room around its wheel squared.
     """
     reach, standing = least.largest
     room = reach + standing + np.abs(least.above)
-    mass = 2.0 * least.heaviest
+    mass = wheels * least.heaviest
     reduced = robot.mass * mass / (robot.mass + mass)
     forward, up = (
         np.maximum(np.abs(low - about), np.abs(high - about)) + room
@@ -356,22 +403,6 @@ def _least_square(between: _Range, about: float) -> FloatArray:
     low, high = between[0] - about, between[1] - about
     least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
     return least
-
-
-@dataclass(frozen=True, eq=False)
-class Guess(Table):
-    """Initial guesses of candidates, shape (n,) each.
-
-    Attributes:
-        spin_inertia: a lower bound [kg m^2].
-        mass: a lower bound, of both modules [kg]; inf: there is none.
-        angle: incidence [rad]. width: how far around it [rad]; 0: there only.
-    """
-
-    spin_inertia: FloatArray
-    mass: FloatArray
-    angle: FloatArray
-    width: FloatArray
 
 
 def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
@@ -395,6 +426,6 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
     least = smallest_rim(candidates.limits) * _OFF_THE_EDGE
     rim = np.maximum(np.where(known, spin, 0.0) - candidates.drives.beside_rim, least)
     module = lightest_module(rim, candidates.limits, candidates.shell, _DIGITS).mass
-    mass = 2.0 * (candidates.drives.mass + _SURELY * module)
+    mass = len(candidates.problem.layout) * (candidates.drives.mass + _SURELY * module)
     mass = np.where(known & (module > 0.0), mass, np.inf)
     return Guess(spin, mass, (low + high) / 2.0, high - low)

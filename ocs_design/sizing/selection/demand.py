@@ -8,7 +8,7 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.spin_root import capability, newton_step
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_pair import WheelPairTask, spin_demand
+from ocs_design.actuation.wheel_load import WheelTask, held, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.bound import rate_momenta
 from ocs_design.requirement.maneuver import Maneuver, Requirement
@@ -29,11 +29,6 @@ class Margins(NamedTuple):
     following: FloatArray
 
 
-def shares_of(incidence: FloatArray) -> FloatArray:
-    """Shares of a wheel's momentum on roll and on pitch, sin and cos, shape (..., 2)."""
-    return np.stack([np.sin(incidence), np.cos(incidence)], axis=-1)
-
-
 def margins_of(
     requirement: Requirement,
     drives: Drives,
@@ -47,14 +42,14 @@ def margins_of(
         requirement: maneuvers and rate change.
         drives: n of them, each as part of its own `whole`.
         spin_inertia: of their wheels [kg m^2], shape (n,).
-        angle: incidences of the design [rad], shape (n, k).
+        angle: of the design's layout [rad], shape (n, k).
 
     Returns:
-        Parts that are done at the design's incidence, shape (n, k), and those that are done at an
+        Parts that are done at the design's angle, shape (n, k), and those that are done at an
         incidence of their own, shape (n, 1).
     """
-    shares, spin = shares_of(angle), spin_inertia[:, None]
-    inertia = whole.at(shares)
+    axes, spin = whole.layout.axes(angle)[..., :2, :], spin_inertia[:, None]
+    inertia = whole.at(angle)
     free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
     by_design = _tried(
         free,
@@ -62,23 +57,23 @@ def margins_of(
         drives,
         spin_inertia=spin,
         inertia=inertia,
-        shares=shares,
+        axes=axes,
         begun=requirement.free and bool(requirement.reserves),
     )
     if requirement.rate_change is not None:
-        needed = needed_by_rate(requirement.rate_change, drives, inertia, shares)
+        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes)
         by_design.append(Margins(spin / needed, needed))
     turned: list[Margins] = []
     for maneuver in requirement.maneuvers:
         if maneuver.incidence is not None:
-            own = shares_of(np.full((len(drives), 1), maneuver.incidence))
+            own = np.full((len(drives), 1), maneuver.incidence)
             turned += _tried(
                 [maneuver],
                 requirement,
                 drives,
                 spin_inertia=spin,
                 inertia=whole.at(own),
-                shares=own,
+                axes=whole.layout.axes(own)[..., :2, :],
                 begun=bool(requirement.reserves),
             )
     return by_design, turned
@@ -100,14 +95,14 @@ def _tried(
     *,
     spin_inertia: FloatArray,
     inertia: TiltInertia,
-    shares: FloatArray,
+    axes: FloatArray,
     begun: bool,
 ) -> list[Margins]:
     """Margins of each maneuver, and of each that begins with a rate if any shall, shape (n, k)."""
     if not maneuvers:
         return []
     tasks = [
-        pair_task(maneuvers, requirement, inertia, shares, begun=each)
+        wheel_task(maneuvers, requirement, inertia, axes, begun=each)
         for each in ((False, True) if begun else (False,))
     ]
     found: list[Margins] = []
@@ -121,57 +116,57 @@ def _tried(
     return found
 
 
-def pair_task(
+def wheel_task(
     maneuvers: Sequence[Maneuver],
     requirement: Requirement,
     inertia: TiltInertia,
-    shares: FloatArray,
+    axes: FloatArray,
     *,
     begun: bool = False,
-) -> WheelPairTask:
-    """Maneuvers as what two wheels must do, fields of shape (m, n, k, ...).
+) -> WheelTask:
+    """Maneuvers as what wheels must do, fields of shape (m, n, k, ...).
 
     Args:
         maneuvers: m of them.
         requirement: that they are part of.
         inertia: of what they turn, shapes that broadcast against (n, k, 2) and (n, k).
-        shares: see `shares_of`; (n, k, 2).
+        axes: of the wheels about roll and pitch, shape (n, k, 2, w).
         begun: see `Requirement.slew`.
     """
-    inertia = inertia.times(shares.shape[:-1])
-    each = [inertia.within_reach(shares, maneuver.stray) for maneuver in maneuvers]
+    inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes).max(axis=-1)
+    each = [inertia.within_reach(reach, maneuver.stray) for maneuver in maneuvers]
     slews = [
         requirement.slew(maneuver, own, begun=begun)
         for maneuver, own in zip(maneuvers, each, strict=True)
     ]
-    return WheelPairTask(
+    return WheelTask(
         swept=np.stack([slew.swept for slew in slews]),
         momentum=np.stack([slew.momentum for slew in slews]),
         duration=np.array([slew.duration for slew in slews])[:, None, None],
         inertia=TiltInertia(*(np.stack(parts) for parts in zip(*each, strict=True))),
-        incidence=np.arctan2(shares[..., 0], shares[..., 1]),
+        axes=axes,
     )
 
 
 def needed_by_rate(
-    rate_change: float, drives: Drives, inertia: TiltInertia, shares: FloatArray
+    rate_change: float, drives: Drives, inertia: TiltInertia, axes: FloatArray
 ) -> FloatArray:
     """Spin inertia for a change of rate about either axis, one at a time [kg m^2], shape (n, k).
 
-    h = d (|J_xi| / s + |J_yi| / c) / (2 W) at the highest speed; no time is set
-    (docs/theory.md, Lower bound on the wheels' inertia).
+    h = phi(J_i d) / W at the highest speed; no time is set (docs/theory.md, Lower bound on the
+    wheels' inertia).
     """
-    held = held_by_rate(rate_change, inertia, shares).max(axis=-1)
-    needed: FloatArray = held / drives.top_speed[:, None]
+    most = held_by_rate(rate_change, inertia, axes).max(axis=-1)
+    needed: FloatArray = most / drives.top_speed[:, None]
     return needed
 
 
-def held_by_rate(rate_change: float, inertia: TiltInertia, shares: FloatArray) -> FloatArray:
-    """Momentum of the busier wheel for a change of the rate of roll, and of pitch, (..., 2)."""
+def held_by_rate(rate_change: float, inertia: TiltInertia, axes: FloatArray) -> FloatArray:
+    """Momentum of the busiest wheel for a change of the rate of roll, and of pitch, (..., 2)."""
     momenta = rate_momenta(inertia, rate_change)
-    asked, levers = np.broadcast_arrays(momenta, 2.0 * shares[..., None, :])
-    held = np.divide(asked, levers, out=np.full(asked.shape, np.inf), where=levers > 0.0)
-    return np.asarray(np.where(asked == 0.0, 0.0, held).sum(axis=-1))
+    # Of either sense of the rates.
+    both = momenta[..., None, :] * np.array([[1.0, 1.0], [1.0, -1.0]])
+    return np.asarray(held(axes[..., None, None, :, :], both).most.max(axis=-1))
 
 
 def column(inertia: TiltInertia) -> TiltInertia:

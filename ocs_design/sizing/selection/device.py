@@ -8,9 +8,9 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_profile
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_pair import smallest_spin_inertia
-from ocs_design.common.arrays import FloatArray
-from ocs_design.device.layout import module_frames
+from ocs_design.actuation.wheel_load import smallest_spin_inertia
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records import TaskDemand
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
@@ -23,7 +23,7 @@ from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.bound.rim_problem import RimLimits
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.placement import motor_size
-from ocs_design.sizing.selection.demand import held_by_rate, pair_task, shares_of
+from ocs_design.sizing.selection.demand import held_by_rate, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
@@ -70,8 +70,8 @@ def device_of(solved: Solved) -> Candidate:
         cuts=cuts,
         web_density=None if web is None else web.density,
     )
-    centers = problem.place.centers(
-        motor_size(motor, gear.room, outer, height, guard, foot_plate=plate)
+    centers = frozen(
+        problem.place.centers(motor_size(motor, gear.room, outer, height, guard, foot_plate=plate))
     )
     incidence = float(solved.point.angle[0])
     line = (
@@ -99,7 +99,7 @@ def device_of(solved: Solved) -> Candidate:
         carrier=carrier,
         line=DriveLine(*(float(values[0]) for values in line)),
         overspeed=float(drives.overspeed[0]),
-        total=braked(problem.robot, (wheel, carrier), centers, incidence),
+        total=braked(problem.robot, (wheel, carrier), centers, incidence, problem.layout),
         centers=centers,
         demands=(),
         binding=binding_limits(shapes, candidates.limits, problem.envelope, 0),
@@ -108,6 +108,7 @@ def device_of(solved: Solved) -> Candidate:
         web_material=web,
         guard_wall=guard,
         foot_plate=plate,
+        layout=problem.layout,
     )
 
 
@@ -124,18 +125,23 @@ def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem
 
 
 def braked(
-    robot: MassProperties, bodies: tuple[Carrier, ...], centers: FloatArray, incidence: float
+    robot: MassProperties,
+    bodies: tuple[Carrier, ...],
+    centers: FloatArray,
+    incidence: float,
+    layout: Layout = PAIR,
 ) -> MassProperties:
-    """Robot and both modules as one rigid body in B.
+    """Robot and all modules as one rigid body in B.
 
     Args:
         robot: without the modules.
-        bodies: of one module, in its own frame (`layout.module_frames`).
-        centers: of the wheels in B [m], shape (2, 3).
-        incidence: of their axes [rad].
+        bodies: of one module, in its own frame (`Layout.frames`).
+        centers: of the wheels in B [m], shape (n, 3).
+        incidence: of their axes, or the layout's angle [rad].
+        layout: of the modules.
     """
     parts = [robot]
-    for center, attitude in zip(centers, module_frames(incidence), strict=True):
+    for center, attitude in zip(centers, layout.frames(incidence), strict=True):
         parts += [body.mass_properties().moved(attitude, center) for body in bodies]
     return combine(parts)
 
@@ -143,7 +149,8 @@ def braked(
 def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -> TiltInertia:
     """Inertia of robot and device, braked, with the modules turned to this incidence."""
     bodies = (device.wheel, device.carrier)
-    return TiltInertia.of(braked(problem.robot, bodies, device.centers, incidence).inertia)
+    whole = braked(problem.robot, bodies, device.centers, incidence, device.layout)
+    return TiltInertia.of(whole.inertia)
 
 
 def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
@@ -156,8 +163,9 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
     for maneuver in requirement.maneuvers:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
-        inertia, shares = inertia_at(problem, device, at), shares_of(np.array([[at]]))
-        task = pair_task([maneuver], requirement, inertia, shares)
+        inertia = inertia_at(problem, device, at)
+        axes = device.layout.axes(np.array([[at]]))[..., :2, :]
+        task = wheel_task([maneuver], requirement, inertia, axes)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.armature)
         profile = slew_profile(load.angle(spin), reduced, line, load.final_speed(spin))
@@ -175,8 +183,8 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
         )
     if requirement.rate_change is not None:
         at, top_speed = device.incidence, min(float(line.no_load_speed), float(line.speed_max))
-        inertia, shares = inertia_at(problem, device, at), shares_of(np.asarray(at))
-        momenta = held_by_rate(requirement.rate_change, inertia, shares)
+        inertia, axes = inertia_at(problem, device, at), device.layout.axes(at)[:2]
+        momenta = held_by_rate(requirement.rate_change, inertia, axes)
         for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
             least, peak = momentum / top_speed, momentum / spin
             yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)

@@ -17,13 +17,12 @@ from ocs_design.parts.rim import web_axial_inertia
 from ocs_design.requirement.froude import Envelope
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, largest_spin_inertia
 from ocs_design.sizing.selection.bounds import (
-    Guess,
     cells_of,
     initial_guess,
     least_spin_inertias,
 )
 from ocs_design.sizing.selection.candidates import Candidates, Drives, drives_of, known_pairs
-from ocs_design.sizing.selection.fixed_point import solve_stepwise
+from ocs_design.sizing.selection.fixed_point import Guess, solve_stepwise
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 _CELLS = 6

@@ -23,7 +23,6 @@ from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.module_radii import smallest_radius
-from ocs_design.sizing.selection.bounds import Guess
 from ocs_design.sizing.selection.candidates import Candidates
 from ocs_design.sizing.selection.composite_inertia import composite_inertia
 from ocs_design.sizing.selection.demand import margins_of, worst
@@ -47,6 +46,22 @@ _SPANS = (1.0, 0.2)
 _RADII = 13
 _BEYOND, _NOTHING = 1e9, 1e-9
 """Beyond any spin inertia [kg m^2] and any mass [kg], and below any margin."""
+
+
+@dataclass(frozen=True, eq=False)
+class Guess(Table):
+    """Initial guesses of candidates, shape (n,) each.
+
+    Attributes:
+        spin_inertia: a lower bound [kg m^2].
+        mass: a lower bound, of all modules [kg]; inf: there is none.
+        angle: incidence [rad]. width: how far around it [rad]; 0: there only.
+    """
+
+    spin_inertia: FloatArray
+    mass: FloatArray
+    angle: FloatArray
+    width: FloatArray
 
 
 class Design(NamedTuple):
@@ -117,8 +132,10 @@ class Solved(Table):
 
     @property
     def mass(self) -> FloatArray:
-        """Mass of both modules [kg]; inf where the candidate is not feasible."""
-        mass = 2.0 * (self.candidates.drives.mass + self.point.shapes.mass)
+        """Mass of all modules [kg]; inf where the candidate is not feasible."""
+        mass = len(self.candidates.problem.layout) * (
+            self.candidates.drives.mass + self.point.shapes.mass
+        )
         return np.where(self.point.feasible, mass, np.inf)
 
     @property
@@ -241,7 +258,9 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
     Turned maneuvers have no say in the incidence of the design.
     """
     problem = candidates.problem
-    whole = composite_inertia(problem.robot, problem.place, candidates.modules(spin, shapes))
+    whole = composite_inertia(
+        problem.robot, problem.place, candidates.modules(spin, shapes), problem.layout
+    )
     offsets = design.width[:, None] * (_POINTS if design.width.any() else np.zeros(1))
     angles = np.clip(design.angle[:, None] + offsets, 0.0, np.pi / 2.0)
     by_design, turned = margins_of(problem.requirement, candidates.drives, whole, spin, angles)

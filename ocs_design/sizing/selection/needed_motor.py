@@ -65,15 +65,16 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
         model: a motor whose figures are known.
 
     Returns:
-        None: no such motor would do, or no time is set.
+        None: no such motor would do, or no time is set, or the wheels are no pairs.
     """
     incidence = problem.incidence
-    if incidence is None or not (model.mass and model.peak_torque):
+    if not problem.layout.pairs or incidence is None or not (model.mass and model.peak_torque):
         return None
     asked = replace(problem.requirement, wheel_speed_max=1.0)
     demands = spin_demands(asked, problem.robot.inertia, incidence)
-    momentum = max(demand.spin_inertia for demand in demands)
-    torque = max(demand.torque for demand in demands)
+    pairs = problem.layout.pairs
+    momentum = max(demand.spin_inertia for demand in demands) / pairs
+    torque = max(demand.torque for demand in demands) / pairs
     largest = largest_wheel(problem, problem.envelope)
     if not (torque > 0.0 and np.isfinite(momentum) and largest > 0.0):
         return None

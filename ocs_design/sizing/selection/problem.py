@@ -9,10 +9,10 @@ import numpy as np
 from ocs_design.actuation.motor import Gear, Motor, Mounting
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material, material
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.common.errors import SpecificationError, UsageError
 from ocs_design.common.units import format_quantity
-from ocs_design.device.layout import Criterion
+from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
 from ocs_design.parts.joints import SERVICE, hub_joint
 from ocs_design.parts.motor_mount import is_held
 from ocs_design.parts.printed import PLATE_THICKNESS
@@ -31,6 +31,7 @@ from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Requirement
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import (
+    ALL_LAYOUTS,
     ALUMINIUM_WEB,
     AUTO,
     BALANCING_DEPTH,
@@ -63,9 +64,10 @@ class SelectionProblem:
             spin inertia is kept, and the motors must do with it what is required.
         envelope: room for one rim; its housing stands around it.
         place: of the modules, by outer radius and height of their housings.
+        layout: of their axes.
         motors, gears, materials: to choose from; direct drive is the gear `DIRECT`.
         supply: of all motors; each of the wheels may take its share of the power.
-        incidence: of the wheel axes [rad]; None: the best.
+        incidence: of a pair's wheel axes, or the angle of another layout [rad]; None: the best.
         wheel_speed_max: stated highest speed of a wheel [rad/s]; None: what the drive can do.
         web: whether wheels have a web and a hub; massless spokes otherwise.
         cuts: chamfers and balancing holes of wheels with a web; those without are plain rims.
@@ -91,6 +93,7 @@ class SelectionProblem:
     lightenings: Sequence[int] = (0,)
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    layout: Layout = PAIR
 
     @property
     def web_densities(self) -> FloatArray:
@@ -199,8 +202,8 @@ def selection_problem(
     choice = resolved.choice
     if choice is None:
         return None
-    stated = specification.ocs
-    footing = footing_of(robot, resolved.envelope, stated.position)
+    stated, layout = specification.ocs, specified_layout(specification)
+    footing = footing_of(robot, resolved.envelope, stated.position, layout)
     return SelectionProblem(
         robot=footing.carried(robot.mass_properties),
         requirement=resolved.requirement,
@@ -210,7 +213,8 @@ def selection_problem(
         gears=choice.gears,
         materials=choice.materials,
         supply=choice.supply,
-        incidence=stated.alpha,
+        incidence=layout.angle if stated.alpha is None else stated.alpha,
+        layout=layout,
         wheel_speed_max=choice.wheel_speed_max,
         web=specification.flywheel.web != NO_WEB,
         cuts=specified_cuts(specification.flywheel, resolved.envelope),
@@ -285,7 +289,22 @@ def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
     return cuts
 
 
+def specified_layout(specification: Specification) -> Layout:
+    """Layout of the wheels' axes: a pair where none is stated."""
+    stated = specification.ocs.layout
+    if stated == ALL_LAYOUTS:
+        raise UsageError(
+            f"ocs.layout: {ALL_LAYOUTS!r} is no layout of one device",
+            hint="`size --layout all` compares all layouts; state one of them here.",
+        )
+    if specification.ocs.axes is not None:
+        axes = np.reshape(specification.ocs.axes, (-1, 3))
+        axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+        return Layout(LayoutName.BY_HAND, tuple(vector(axis) for axis in axes))
+    return PAIR if stated is None else Layout(LayoutName(stated))
+
+
 def specified_criterion(specification: Specification) -> Criterion | None:
-    """Criterion for the incidence; None: whatever makes the device lightest."""
+    """Criterion for a pair's incidence; None: whatever makes the device lightest."""
     stated = specification.ocs.alpha_criterion or EQUAL_RATE
     return None if stated == LIGHTEST else Criterion(stated)

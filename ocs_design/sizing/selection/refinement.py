@@ -21,7 +21,7 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.candidates import Candidates, web_inertia
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia, composite_inertia
-from ocs_design.sizing.selection.demand import margins_of, shares_of
+from ocs_design.sizing.selection.demand import margins_of
 from ocs_design.sizing.selection.fixed_point import FINE, Design, FixedPoint, fixed_point
 
 HELD = 1e-10
@@ -45,7 +45,7 @@ class Optimum(NamedTuple):
     """End of a search.
 
     Attributes:
-        point: see `coordinates`. value: logarithm of half the mass of the device [log kg].
+        point: see `coordinates`. value: logarithm of the mass of a module [log kg].
         violation: how far below zero the worst limit is; 0: all hold.
     """
 
@@ -139,7 +139,7 @@ class _Evaluations:
     last: tuple[FloatArray, _Evaluation] | None = None
 
     def value(self, point: FloatArray) -> float:
-        """Logarithm of half the mass."""
+        """Logarithm of the mass."""
         return self.at(point).value
 
     def slope(self, point: FloatArray) -> FloatArray:
@@ -171,7 +171,7 @@ class Programme:
     candidates: Candidates
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Logarithm of half the mass, shape (k,), and what must not be negative, shape (k, m).
+        """Logarithm of a module's mass, shape (k,), and what must not be negative, shape (k, m).
 
         Where a spin inertia is stated, the first of these must be zero.
         """
@@ -191,9 +191,10 @@ class Programme:
         Beside the one that leaves an axis out of reach, and to itself, the wheels would have to
         take what the coupling asks there, with next to no lever.
         """
-        shares = shares_of(point[None, 3:])
+        axes, angle = self.candidates.problem.layout.axes(point[3]), point[None, 3:]
         _, whole = self._on_robot(self.candidates, self._shapes(point[None]))
-        alone = bool((shares <= OUT_OF_REACH).any() and whole.at(shares).product.any())
+        blind = np.abs(axes[:2]).max(axis=1) <= OUT_OF_REACH
+        alone = bool(blind.any() and whole.at(angle).product.any())
         return self.candidates.problem.incidence is not None or alone
 
     def fixed_point(self, point: FloatArray) -> FixedPoint:
@@ -234,7 +235,7 @@ class Programme:
         web = web_inertia(limits, shapes.inner_radius)
         spin = rim + web + candidates.drives.beside_rim
         modules = candidates.modules(spin, shapes)
-        return spin, composite_inertia(problem.robot, problem.place, modules)
+        return spin, composite_inertia(problem.robot, problem.place, modules, problem.layout)
 
     def _shapes(self, points: FloatArray) -> ModuleShape:
         outer, height, wall = np.exp(points[:, :3]).T

@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.actuation.drive import missing_figures
-from ocs_design.actuation.wheel_pair import (
+from ocs_design.actuation.wheel_load import (
     SlewReason,
-    pair_slew_time,
     slew_reason,
     smallest_spin_inertia,
+    wheel_slew_time,
 )
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
+from ocs_design.requirement.maneuver import TurnTo
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
 )
@@ -30,8 +31,7 @@ from ocs_design.sizing.selection.demand import (
     column,
     columns,
     needed_by_rate,
-    pair_task,
-    shares_of,
+    wheel_task,
 )
 from ocs_design.sizing.selection.feasibility import largest_wheel
 from ocs_design.sizing.selection.problem import SelectionProblem
@@ -184,26 +184,31 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
     requirement, cells = problem.requirement, cells_of(problem.incidence)
     angles = np.array([(cell.low + cell.high) / 2.0 for cell in cells])
     inertia = column(least_inertia(problem, drives, np.zeros(len(drives))).inertia)
-    line, armature, shape = (
-        columns(drives.line),
-        drives.armature[:, None],
-        (len(drives), len(cells)),
-    )
+    line, armature, wheels = columns(drives.line), drives.armature[:, None], len(problem.layout)
+    shape = len(drives), len(cells)
     for maneuver in requirement.maneuvers:
         at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
-        shares = np.broadcast_to(shares_of(at), (*shape, 2))
-        task = pair_task([maneuver], requirement, inertia, shares)
+        axes = np.broadcast_to(_about_tilt(problem, at), (*shape, 2, wheels))
+        task = wheel_task([maneuver], requirement, inertia, axes)
         time = float(np.asarray(task.duration).item())
         needed = smallest_spin_inertia(task, line, armature)[0]
-        taken = pair_slew_time(task, largest[:, None], line, armature)[0]
+        taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
         late = np.divide(taken, time, out=np.full(taken.shape, np.inf), where=time > 0.0)
+        if isinstance(maneuver, TurnTo):
+            # The closed form takes a loop for part of it in part of its time.
+            time = maneuver.duration
         yield Part(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
     if requirement.rate_change is not None:
-        shares = np.broadcast_to(shares_of(angles), (*shape, 2))
-        needed = needed_by_rate(requirement.rate_change, drives, inertia, shares)
+        axes = _about_tilt(problem, angles)
+        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes)
         reason = np.where(np.isinf(needed), SlewReason.AXIS, SlewReason.SPEED)
         late = needed / largest[:, None]
         yield Part("the rate change", angles, np.inf, needed, late, reason)
+
+
+def _about_tilt(problem: SelectionProblem, angles: FloatArray) -> FloatArray:
+    """Axes of the wheels about roll and pitch at k angles [rad], shape (k, 2, wheels)."""
+    return problem.layout.axes(angles)[..., :2, :]
 
 
 def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[Reason, str]:
@@ -211,7 +216,8 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
     wheel = f"{part.name} needs a wheel of {part.needed:.3g} kg m^2"
     if part.reason == SlewReason.AXIS:
         at = np.degrees(part.incidence)
-        return Reason.INCIDENCE, f"{part.name} asks for an axis out of reach at {at:.4g} deg"
+        place = f"at {at:.4g} deg" if problem.layout.pairs else f"of {problem.layout.text}"
+        return Reason.INCIDENCE, f"{part.name} asks for an axis out of reach {place}"
     if not part.late > 1.0:
         # A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia.
         limits = _limits(problem, drive)

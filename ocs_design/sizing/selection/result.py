@@ -7,6 +7,7 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
@@ -40,8 +41,8 @@ class Candidate:
         carrier: what stands still of one module: motor, gear, housing and foot.
         line: of the drive at the wheel, nothing held back.
         overspeed: at which the hoop stress is limited [rad/s].
-        total: robot and both modules, braked, in B.
-        centers: of the left and the right wheel in B [m], shape (2, 3).
+        total: robot and all modules, braked, in B.
+        centers: of the wheels in B [m], shape (n, 3).
         demands: of all parts of the requirement; empty where nobody looked at them.
         binding: limits that hold the mass up, as named in the specification; "housing" where a
             larger rim would be lighter, but its housing heavier.
@@ -51,6 +52,7 @@ class Candidate:
         plate: that it stands on; None: the trunk itself, or not looked for yet.
         guard_wall: of the steel rings in the housings [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
+        layout: of the modules.
     """
 
     motor: Motor
@@ -80,6 +82,7 @@ class Candidate:
     plate: CarrierPlate | None = None
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    layout: Layout = PAIR
 
     @property
     def web_density(self) -> float | None:
@@ -95,13 +98,13 @@ class Candidate:
 
     @property
     def mass(self) -> float:
-        """Mass of both modules and of the plate under them [kg]."""
+        """Mass of all modules and of the plate under them [kg]."""
         return self.modules_mass + self.plate_mass
 
     @property
     def modules_mass(self) -> float:
-        """Mass of both modules: wheels, motors, gears, housings and feet [kg]."""
-        return 2.0 * (self.wheel_mass + self.carrier.mass)
+        """Mass of all modules: wheels, motors, gears, housings and feet [kg]."""
+        return len(self.layout) * (self.wheel_mass + self.carrier.mass)
 
     @property
     def plate_mass(self) -> float:

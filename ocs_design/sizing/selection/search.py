@@ -22,7 +22,6 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.sizing.selection.bounds import (
     CELLS,
-    Guess,
     RimFloor,
     cells_of,
     initial_guess,
@@ -30,7 +29,7 @@ from ocs_design.sizing.selection.bounds import (
     least_spin_inertias,
 )
 from ocs_design.sizing.selection.candidates import Candidates, Drives, drives_of, known_pairs
-from ocs_design.sizing.selection.fixed_point import Solved, solve
+from ocs_design.sizing.selection.fixed_point import Guess, Solved, solve
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
 
@@ -106,7 +105,7 @@ class Found:
         gears = np.array([gear.mass for gear in problem.gears])
         direct = np.array([gear.room is None for gear in problem.gears])
         drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
-        least = 2.0 * (drives + floor.mass.min(initial=np.inf))
+        least = len(problem.layout) * (drives + floor.mass.min(initial=np.inf))
         known = known_pairs(problem.motors, problem.gears)
         least = np.where(known, least, np.inf)
         return cls(problem, floor, known, least, np.zeros(known.shape))

@@ -9,10 +9,10 @@ import numpy as np
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.selection.advice import Refused
-from ocs_design.sizing.selection.bounds import Guess, cells_of
+from ocs_design.sizing.selection.bounds import cells_of
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.device import device_of, of_parts, with_demands
-from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
+from ocs_design.sizing.selection.fixed_point import FINE, Design, Guess, Solved, fixed_point
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.rejections import rejections
@@ -131,6 +131,20 @@ def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candi
     if not found.places:
         return None
     return at_own_incidence(problem, device_of(found.devices[0]), criterion)[1]
+
+
+def lightest_below(problem: SelectionProblem, below: float) -> Candidate | None:
+    """The lightest device, if there is one that is lighter than this [kg]."""
+    found = search_lightest(problem, below)
+    if not found.places:
+        return None
+    solved = found.devices[0]
+    if problem.incidence is None:
+        # There a search leaves up to 3 % of the mass.
+        point = refine(solved.candidates, solved.point)
+        better = replace(solved, point=point)
+        solved = better if better.mass[0] < solved.mass[0] else solved
+    return device_of(solved) if solved.mass[0] < below else None
 
 
 def _at_robots(problem: SelectionProblem, criterion: Criterion) -> SelectionProblem:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.maneuver import Drop, Flip, Maneuver, Unforeseen
+from ocs_design.requirement.maneuver import Drop, End, Flip, Maneuver, TurnTo, Unforeseen
 
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
 """Trunk upright, its x axis along the world's."""
@@ -25,12 +25,11 @@ class Boundary:
     Attributes:
         name: of the maneuver.
         attitude: at the start, shape (4,).
-        final_attitude: at the end, shape (4,); the heading counts only where `heading` says so,
-            because two wheels do not command it directly.
+        final_attitude: at the end, shape (4,), of which `end` says what counts.
         axis: unit vector about which the trunk mainly turns, in B, shape (3,).
         angle: of that turn [rad], signed; past half a turn it tells how often the trunk goes round.
         duration: time that the turn takes [s].
-        heading: whether the heading is asked for at the end.
+        end: what must hold then, one of `End`.
         rate: of the trunk at the start, in B [rad/s], shape (3,).
         wheel_speed: at the start [rad/s], shape (n,) or one for all.
         push: torque on the trunk before the turn, in B [N m], shape (3,).
@@ -43,7 +42,7 @@ class Boundary:
     axis: FloatArray
     angle: float
     duration: float
-    heading: bool = False
+    end: str = End.LEVEL
     rate: FloatArray = field(default_factory=lambda: np.zeros(3))
     wheel_speed: FloatArray | float = 0.0
     push: FloatArray = field(default_factory=lambda: np.zeros(3))
@@ -70,7 +69,7 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
 @boundary.register
 def _drop(maneuver: Drop, standing_height: float) -> Boundary:
     """Turn from rest, pitched about y and then rolled about x, to level within the fall."""
-    attitude = product(_about(_PITCH, maneuver.pitch), _about(np.eye(3)[0], maneuver.roll))
+    attitude = product(about(_PITCH, maneuver.pitch), about(np.eye(3)[0], maneuver.roll))
     vertical = vertical_of(attitude)
     # A rate w moves the vertical by -w x v.
     axis = np.cross([0.0, 0.0, 1.0], vertical)
@@ -92,10 +91,40 @@ def _flip(maneuver: Flip, standing_height: float) -> Boundary:
     return Boundary(
         name=maneuver.name,
         attitude=LEVEL,
-        final_attitude=_about(_PITCH, maneuver.angle),
+        final_attitude=about(_PITCH, maneuver.angle),
         axis=_PITCH,
         angle=maneuver.angle,
         duration=maneuver.duration,
+    )
+
+
+@boundary.register
+def _turn_to(maneuver: TurnTo, standing_height: float) -> Boundary:
+    """Turn from level and the rate at lift-off to the attitude, or to what is asked of it."""
+    del standing_height
+    x, y, z = np.eye(3)
+    angles = np.array([maneuver.roll, maneuver.pitch, maneuver.yaw])
+    final = product(
+        about(z, maneuver.yaw), product(about(y, maneuver.pitch), about(x, maneuver.roll))
+    )
+    if np.count_nonzero(angles) == 1:
+        # About one axis: it may be more than half a turn.
+        axis, angle = np.sign(angles), float(np.abs(angles).sum())
+    else:
+        final = final * np.copysign(1.0, final[0])
+        sine = float(np.linalg.norm(final[1:]))
+        axis = final[1:] / sine if sine > 0.0 else _PITCH
+        angle = 2.0 * float(np.arctan2(sine, final[0]))
+    return Boundary(
+        name=maneuver.name,
+        attitude=LEVEL,
+        final_attitude=final,
+        axis=axis,
+        angle=angle,
+        duration=maneuver.duration,
+        end=maneuver.end,
+        rate=np.array(maneuver.rate),
+        wheel_speed=maneuver.wheel_speed,
     )
 
 
@@ -145,6 +174,7 @@ def conjugate(attitude: FloatArray) -> FloatArray:
     return np.concatenate([attitude[:1], -attitude[1:]])
 
 
-def _about(axis: FloatArray, angle: float) -> FloatArray:
-    """A turn by `angle` [rad] about a unit vector, shape (4,)."""
-    return np.append(np.cos(angle / 2.0), np.sin(angle / 2.0) * axis)
+def about(axis: FloatArray, angle: FloatArray | float) -> FloatArray:
+    """A turn by `angle` [rad] about a unit vector, shape (4,) or (4, n) for n angles."""
+    half = np.asarray(angle) / 2.0
+    return np.concatenate([np.cos(half)[None], np.multiply.outer(axis, np.sin(half))])

@@ -24,7 +24,7 @@ from ocs_design.requirement.bound import AXES
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import lightest_module_at
 from ocs_design.sizing.placement import motor_size
-from ocs_design.sizing.selection.demand import held_by_rate, shares_of
+from ocs_design.sizing.selection.demand import held_by_rate
 from ocs_design.sizing.selection.device import binding_limits, braked
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
@@ -352,8 +352,8 @@ def _demands(
         )
     if requirement.rate_change is not None:
         inertia = TiltInertia.of(device.total.inertia)
-        shares = shares_of(np.asarray(incidence))
-        momenta = held_by_rate(requirement.rate_change, inertia, shares)
+        axes = module_axes(incidence)[:2]
+        momenta = held_by_rate(requirement.rate_change, inertia, axes)
         for axis, held in zip(AXES, momenta.tolist(), strict=True):
             least, peak = held / _top_speed(device), held / device.spin_inertia
             source = f"rate change, {axis}"

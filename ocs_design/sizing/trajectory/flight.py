@@ -11,6 +11,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
+from ocs_design.requirement.maneuver import End
 from ocs_design.sizing.trajectory.boundary import Boundary, conjugate, product, vertical_of
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import FixedAxisTurn, Motion
@@ -41,6 +42,10 @@ class Trajectory:
         note: what a reader should know of it; empty if nothing.
         step_torque: of the motors at start and end of each step, shape (m - 1, 2, n) [N m]; None:
             `wheel_torque` nowhere jumps.
+        attitude: of the trunk, quaternions (w, x, y, z), shape (m, 4); None: only tilt is known.
+        gains: from the errors of attitude, as the rotation vector from here in B [rad], of rate in
+            B [rad/s] and of wheel speeds [rad/s] to the torque taken off the planned one [N m],
+            shape (m, n, 6 + n); None: the tilt is fed back with gains that are constant.
     """
 
     time: FloatArray
@@ -52,6 +57,8 @@ class Trajectory:
     turned: FloatArray
     note: str
     step_torque: FloatArray | None = None
+    attitude: FloatArray | None = None
+    gains: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -138,6 +145,7 @@ def fly(
         turned=flown[:, -1],
         note="",
         step_torque=np.stack([first, last], axis=1),
+        attitude=flown[:, :4],
     )
     claimed = motion.state_at(trajectory.time)
     momentum = np.append(0.0, mass_matrix[:3] @ np.append(rate, speed))
@@ -181,7 +189,9 @@ def limit_violation(speed: FloatArray, torque: FloatArray, line: DriveLine) -> f
 
 def _missed(asked: Boundary, attitude: FloatArray) -> float:
     """Angle to the attitude asked for [rad], or to its vertical where the heading is free."""
-    if asked.heading:
+    if asked.end == End.AT_REST:
+        return 0.0
+    if asked.end == End.ATTITUDE:
         return float(2.0 * np.arccos(np.clip(abs(attitude @ asked.final_attitude), 0.0, 1.0)))
     vertical, wanted = vertical_of(attitude), asked.final_vertical
     return float(np.arctan2(np.linalg.norm(np.cross(vertical, wanted)), vertical @ wanted))

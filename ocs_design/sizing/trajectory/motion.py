@@ -6,7 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.sizing.trajectory.boundary import Boundary, product, vertical_of
+from ocs_design.requirement.maneuver import loop_length
+from ocs_design.sizing.trajectory.boundary import (
+    Boundary,
+    about,
+    conjugate,
+    product,
+    vertical_of,
+)
 from ocs_design.sizing.trajectory.collocation import (
     DEGREE,
     TORQUE_DEGREE,
@@ -164,3 +171,66 @@ class FixedAxisTurn:
         slope = 6.0 * end * s * (1.0 - s) + run * (1.0 - s) * (1.0 - 3.0 * s)
         bend = 6.0 * end * (1.0 - 2.0 * s) + run * (6.0 * s - 4.0)
         return angle, slope / time, bend / time**2
+
+
+@dataclass(frozen=True, eq=False)
+class HeadingLoop:
+    """A first guess at a change of heading by wheels that do not reach the vertical.
+
+    Without momentum about z such a trunk never turns about its own z axis, and that axis rolls on
+    the sphere: once round a closed path the heading has changed by the solid angle that it encloses
+    (docs/theory.md, Yaw by two wheels). The shortest such path is a circle of radius b with
+    `heading = 2 pi (1 - cos b)`; its direction in B turns by `cot b` per length.
+
+    Attributes:
+        attitude: at the start, shape (4,).
+        swing: turn without heading that comes on top, a rotation vector in B at the start [rad],
+            shape (3,).
+        heading: within half a turn [rad]. begins: direction in B of the path's start, from x [rad].
+        duration: [s].
+    """
+
+    attitude: FloatArray
+    swing: FloatArray
+    heading: float
+    begins: float
+    duration: float
+
+    def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
+        """The loop on even intervals and the wheels that drive it, from rest, limits ignored."""
+        lengths = np.full(intervals, self.duration / intervals)
+        edges = np.arange(intervals)[:, None] / intervals
+        nodes = np.append(0.0, (edges + collocation().nodes[1:] / intervals).ravel())
+        ends = (edges + np.array([0.0, 0.5, 1.0]) / intervals).ravel()
+        taking = -gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
+        to_speeds = taking @ gyrostat.inertia
+        change = (self._rate(ends + _INSIDE) - self._rate(ends - _INSIDE)) / (2.0 * _INSIDE)
+        driven = gyrostat.spin_inertia + gyrostat.armature
+        torques = driven * to_speeds @ change / self.duration
+        return Motion(
+            lengths, np.vstack([self._path(nodes), to_speeds @ self._rate(nodes)]), torques
+        )
+
+    def _path(self, s: FloatArray) -> FloatArray:
+        """Attitudes at s = 0..1, shape (4, len(s)).
+
+        Seen from B turned back by the direction of the path, the rate per length is constant: `(1,
+        0, cot b)`.
+        """
+        share = s**2 * (3.0 - 2.0 * s)
+        radius = np.arccos(1.0 - abs(self.heading) / (2.0 * np.pi))
+        bend = np.copysign(1.0 / np.tan(radius), self.heading) if radius else 0.0
+        axis = np.array([1.0, 0.0, bend]) / np.hypot(1.0, bend)
+        z = np.array([0.0, 0.0, 1.0])
+        gone = loop_length(self.heading) * share
+        turned_back = about(z, -bend * gone - self.begins)
+        loop = product(about(axis, np.hypot(1.0, bend) * gone), turned_back)
+        angle = float(np.linalg.norm(self.swing))
+        swung = about(self.swing / angle if angle else z, angle * share)
+        return product(self.attitude, product(swung, product(about(z, self.begins), loop)))
+
+    def _rate(self, s: FloatArray) -> FloatArray:
+        """Rate of the trunk in B [rad/s], shape (3, len(s)), by central differences."""
+        step = 1e-4
+        change = (self._path(s + step) - self._path(s - step)) / (2.0 * step * self.duration)
+        return 2.0 * product(conjugate(self._path(s)), change)[1:]

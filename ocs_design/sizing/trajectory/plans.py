@@ -1,26 +1,38 @@
 """The turns that flights track: of least peak power, planned for the device at hand."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, remainder
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
 from ocs_design.parts.moments import Carrier
-from ocs_design.requirement.maneuver import Maneuver, Unforeseen
+from ocs_design.requirement.maneuver import End, Maneuver, TurnTo, Unforeseen
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.selection.device import braked
-from ocs_design.sizing.trajectory.boundary import boundary
+from ocs_design.sizing.trajectory.boundary import Boundary, about, boundary, conjugate, product
 from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
-from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
+from ocs_design.sizing.trajectory.motion import HeadingLoop
 from ocs_design.sizing.trajectory.program import Solution, Turn, solve
+from ocs_design.sizing.trajectory.tracking import tracking_gains
 
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
 
 INTERVALS = 24
+
+GENTLE = (0.8, 0.9)
+"""Shares of voltage, current and power that a turn to an attitude is first tried with: a heading is
+put right by tilting more, which takes more torque than holding the trunk level."""
+
+TIME_STEP, LONGEST = 0.05, 8.0
+"""Of a time that is looked for: how closely, and how long at most, over the one asked for."""
+
+_SAME = 1e-6
+"""Change of heading that is none [rad]."""
 
 _UNFORESEEN = "a push is not known beforehand: no trajectory is planned, feedback holds the trunk"
 
@@ -53,11 +65,16 @@ class Reference:
         trajectory: its note says what `note` says; None: the validation makes do without.
         note: one sentence; empty if the trajectory leaves the feedback its reserve.
         planned: the trajectory's program, or the last one that failed; None: not tried.
+        needed: least time over the one asked for, of a turn that is not made in it; None: it is, or
+            no time would do.
+        share: of voltage, current and power that the trajectory keeps to.
     """
 
     trajectory: Trajectory | None
     note: str
     planned: Planned | None
+    needed: float | None = None
+    share: float = 1.0
 
 
 def plan(
@@ -110,26 +127,92 @@ def reference(
     """
     if isinstance(maneuver, Unforeseen):
         return Reference(None, _UNFORESEEN, None)
-    turn = Turn(boundary(maneuver, standing_height), gyrostat)
-    for share in dict.fromkeys((PLANNED / kept, PLANNED)):
-        planned = gentlest(turn, line.reserved(share))
+    asked = boundary(maneuver, standing_height)
+    first = GENTLE if asked.end != End.LEVEL else ()
+    for share in dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)):
+        planned = gentlest(asked, gyrostat, line.reserved(share))
         if not planned.failure:
-            return Reference(planned.trajectory, "", planned)
-    planned = gentlest(turn, line)
-    if planned.failure:
-        return Reference(None, f"no optimal turn was found ({planned.failure})", planned)
-    note = f"the turn takes more than {PLANNED:.1%} of voltage, current or power"
-    return Reference(replace(planned.trajectory, note=note), note, planned)
+            break
+    else:
+        note = f"no optimal turn was found ({planned.failure})"
+        if isinstance(maneuver, TurnTo):
+            needed = quickest(asked, gyrostat, line)
+            told = f"nor in {LONGEST:g} times that"
+            if needed is not None:
+                told = f"they need {needed * asked.duration:.3g} s"
+            note = f"the wheels do not make this turn in {asked.duration:.3g} s: {told}"
+            return Reference(None, note, planned, needed)
+        return Reference(None, note, planned)
+    trajectory, note = planned.trajectory, ""
+    if share == 1.0:
+        note = f"the turn takes more than {PLANNED:.1%} of voltage, current or power"
+    if asked.end != End.LEVEL:
+        # What holds the trunk level corrects no heading.
+        trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory))
+    return Reference(replace(trajectory, note=note), note, planned, share=share)
 
 
-def gentlest(turn: Turn, line: DriveLine, intervals: int = INTERVALS) -> Planned:
+def gentlest(
+    asked: Boundary, gyrostat: Gyrostat, line: DriveLine, intervals: int = INTERVALS
+) -> Planned:
     """The turn of least peak power, or of least effort where none is limited, flown once more.
 
+    The best of those from several initial guesses, where a change of heading has several optima.
     Where the wheels do not reach an axis, nothing is asked about it at the end.
     """
-    solution = solve([turn], line, (intervals,))
-    flight = fly(turn.gyrostat, line, turn.asked, turn.outline, solution.motions[0])
-    return Planned(solution, flight.fine, flight.trajectory)
+    found = []
+    for turn in _guessed(asked, gyrostat, intervals):
+        solution = solve([turn], line, (intervals,))
+        flight = fly(gyrostat, line, turn.asked, turn.outline, solution.motions[0])
+        found.append(Planned(solution, flight.fine, flight.trajectory))
+    return min(found, key=lambda planned: (planned.failure != "", planned.solution.cost))
+
+
+def quickest(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float | None:
+    """Least time of the turn over the one asked for, within `TIME_STEP`, by bisection.
+
+    None: not in `LONGEST` times the time asked for, which is taken to be too short.
+    """
+    short, enough = 1.0, 1.0 + TIME_STEP
+    while gentlest(_lasting(asked, enough), gyrostat, line).failure:
+        short, enough = enough, 1.0 + 2.0 * (enough - 1.0)
+        if enough > LONGEST:
+            return None
+    while enough > (1.0 + TIME_STEP) * short:
+        middle = 0.5 * (short + enough)
+        if gentlest(_lasting(asked, middle), gyrostat, line).failure:
+            short = middle
+        else:
+            enough = middle
+    return enough
+
+
+def _lasting(asked: Boundary, factor: float) -> Boundary:
+    return replace(asked, duration=factor * asked.duration)
+
+
+def _guessed(asked: Boundary, gyrostat: Gyrostat, intervals: int) -> Iterator[Turn]:
+    """The program's turn with each first guess: about a fixed axis, or by a loop either way round.
+
+    Wheels of one axis command no heading, and wheels of two turn it by a loop of the tilt.
+    """
+    spanned = int(np.linalg.matrix_rank(gyrostat.axes, OUT_OF_REACH))
+    if asked.end == End.ATTITUDE and spanned == 1:
+        asked = replace(asked, end=End.LEVEL)
+    turn = Turn(asked, gyrostat)
+    start = turn.outline.attitude
+    w, x, y, z = product(conjugate(start), asked.final_attitude)
+    heading = remainder(2.0 * np.arctan2(z, w), 2.0 * np.pi)
+    if asked.end != End.ATTITUDE or spanned == len(gyrostat.inertia) or abs(heading) < _SAME:
+        yield turn
+        return
+    # The turn is a swing without heading, and then a twist about z.
+    w, x, y, z = product(np.array([w, x, y, z]), about(np.array([0.0, 0.0, 1.0]), -heading))
+    sine = np.hypot(x, y)
+    swing = np.array([x, y, 0.0]) * (2.0 * np.arctan2(sine, w) / sine if sine > 0.0 else 0.0)
+    for begins in (0.0, np.pi):
+        loop = HeadingLoop(start, swing, heading, begins, asked.duration)
+        yield replace(turn, guess=loop.motion(gyrostat, intervals))
 
 
 def gyrostat_of(robot: MassProperties, device: "Device") -> Gyrostat:
@@ -141,12 +224,13 @@ def gyrostat_of(robot: MassProperties, device: "Device") -> Gyrostat:
         wheel.transverse_inertia,
     )
     centers = np.stack([module.position for module in device.modules])
-    whole = braked(device.plated(robot), (rim, device.carrier), centers, device.incidence)
+    bodies = rim, device.carrier
+    whole = braked(device.plated(robot), bodies, centers, device.incidence, device.layout)
     return Gyrostat(whole.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
 
 
 def drive_line_of(device: "Device") -> DriveLine:
-    """What each drive does at its wheel, nothing held back."""
+    """What each drive does at its wheel beside its friction, nothing held back."""
     motor, supply, wheels = device.motor, device.supply, len(device.modules)
     power, k_t = inf, motor.torque_constant
     if supply is not None:
@@ -156,8 +240,8 @@ def drive_line_of(device: "Device") -> DriveLine:
         left = power_less_friction(supply, wheels, motor, peak)
         power = motor.gear_efficiency * left / wheels
     return DriveLine(
-        stall_torque=inf if motor.stall_torque is None else motor.stall_torque,
-        no_load_speed=motor.no_load_speed,
+        stall_torque=inf if motor.stall_torque is None else motor.line_left * motor.stall_torque,
+        no_load_speed=motor.line_left * motor.no_load_speed,
         torque_limit=inf if motor.torque_limit is None else motor.torque_limit,
         speed_max=inf if motor.speed_max is None else motor.speed_max,
         power_max=power,

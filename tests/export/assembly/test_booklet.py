@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 from wheels import paper_device
 
 from ocs_design.catalogue.materials import materials
+from ocs_design.device.device import Module
 from ocs_design.device.joints import balance_of, burst_of, rim_fit
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records import MarginRecord
 from ocs_design.export.assembly.booklet import (
     assembly_pages,
@@ -244,3 +246,20 @@ def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, say
         if each.title.startswith("Spin test")
     )
     assert says in " ".join(chapter.texts)
+
+
+def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
+    layout = Layout(LayoutName.TRIAD)
+    modules = map(Module, layout.names, layout.axes(layout.angle).T, np.eye(3))
+    caged = DEVICES["caged"]
+    ring = replace(caged, modules=tuple(modules), layout=layout, incidence=layout.angle)
+    for device, angles in (
+        (ring, "0 deg (1), 60 deg (2), 60 deg (3)"),
+        (caged.at_incidence(np.pi / 6.0), "30 deg"),
+    ):
+        assert f"meets the scale at {angles}," in texts(Assembly("solo12", device), "Steps")
+
+
+def test_large_figures_are_written_out(assembly):
+    said = " ".join(text for chapter in assembly.chapters() for text in chapter.texts)
+    assert not re.search(r"\de[+]", said)

@@ -10,10 +10,12 @@ from stories import TOUCHDOWN, design, flight, story
 from ocs_design.device.answers import PostureLine
 from ocs_design.report.charts.chart import Ink, Line, Points
 from ocs_design.report.charts.drive import torque_speed_chart
-from ocs_design.report.charts.figures import all_charts
+from ocs_design.report.charts.figures import all_charts, reserve_charts
 from ocs_design.report.charts.files import write_svgs
+from ocs_design.report.charts.front import reliability_chart
 from ocs_design.report.charts.incidence import posture_chart
 from ocs_design.report.charts.momentum import bound_charts, taken
+from ocs_design.report.limits import reserve_note
 
 RPM = 30.0 / np.pi
 
@@ -44,6 +46,22 @@ def test_a_point_lies_on_the_bound_of_the_speed_that_its_wheels_reached():
     expected = alone * point.x[0] / (fastest - point.x[0])
     assert np.interp(point.x[0], own.x, own.y) == pytest.approx(expected, rel=1e-3)
     assert point.y[0] == pytest.approx(total * point.x[0] / fastest, rel=1e-3)
+
+
+def test_mass_against_reliability_is_drawn_by_the_robots_of_which_one_may_fail():
+    """What the nominal device has to spare is flat; else each step weighs what was recorded."""
+    told = story()
+    (chart,) = reserve_charts(told)
+    (points,) = [mark for mark in chart.marks if isinstance(mark, Points)]
+    np.testing.assert_allclose(points.x, [2.0, 5.0, 10.0, 20.0, 100.0, 1000.0])
+    np.testing.assert_allclose(points.y, 1e3 * np.array(told.design.selection.kept.curve)[:, 1])
+    assert points.labels[-2:] == ("99 %", "99.9 %")
+    assert np.all(np.diff(points.y) >= 0.0)
+    flat = replace(told.design.selection.kept, curve=((0.5, 0.5), (0.999, 0.5)))
+    (line,) = [mark for mark in reliability_chart(flat).marks if isinstance(mark, Line)]
+    assert line.y.tolist() == [500.0, 500.0]
+    assert "nothing up to 99.9 %" in reserve_note(flat, 0.5)
+    assert not list(reserve_charts(story(motor="none")))
 
 
 def test_the_plane_holds_what_the_drive_can_give():

@@ -27,7 +27,7 @@ from ocs_design.sizing.trajectory.collocation import collocation
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import gentlest
-from ocs_design.sizing.trajectory.program import Turn, after_push
+from ocs_design.sizing.trajectory.program import after_push
 
 FORTY = np.radians(40.0)
 CASES = {
@@ -56,7 +56,7 @@ def solved(request):
 
 
 def _planned(gyrostat, maneuver, line=EC_45_FLAT, **options):
-    return gentlest(Turn(asked(maneuver), gyrostat), line, **options)
+    return gentlest(asked(maneuver), gyrostat, line, **options)
 
 
 def _momentum(gyrostat, path):
@@ -262,11 +262,11 @@ def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
         axis=np.array([0.0, 1.0, 0.0]),
         angle=-1.3,
         duration=1.0,
-        heading=True,
+        end="attitude",
         rate=np.array([0.3, -0.4, 0.2]),
         wheel_speed=np.array([50.0, -80.0, 20.0]),
     )
-    found = gentlest(Turn(start, gyrostat), EC_45_FLAT)
+    found = gentlest(start, gyrostat, EC_45_FLAT)
     assert not found.failure
     assert found.fine.end_tilt < 1e-5
     path = found.trajectory

@@ -1,7 +1,10 @@
+import re
+
 import numpy as np
 import pytest
-from gyrostats import EC_45_FLAT, PUSH, STANDING, body, drop
+from gyrostats import DIAGONAL, EC_45_FLAT, PUSH, STANDING, body, drop
 
+from ocs_design.requirement.maneuver import TurnTo
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.plans import PLANNED, reference
 
@@ -47,3 +50,15 @@ def test_a_push_is_not_known_beforehand():
     assert found.trajectory is None
     assert found.planned is None
     assert "feedback" in found.note
+
+
+@pytest.mark.slow
+def test_a_turn_that_takes_longer_is_refused_with_its_time():
+    """Between the time that fails and the one told the wheels of the theory's table turn by 90."""
+    yaw = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=1.7)
+    gyrostat = body(np.radians(39.0), 1.05e-4, DIAGONAL)
+    found = reference(gyrostat, EC_45_FLAT, yaw, STANDING)
+    assert found.trajectory is None
+    told = re.fullmatch(r".* this turn in 1.7 s: they need (.*) s", found.note)
+    assert told
+    assert 1.0 / 1.05 < 2.0 / float(told[1]) < 1.05

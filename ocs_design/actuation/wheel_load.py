@@ -1,0 +1,342 @@
+"""Wheels that turn a trunk about roll and pitch: the smallest spin inertia that is in time.
+
+All wheels are alike; a_i are their axes about roll and pitch, W_i their speeds relative to the
+trunk, h the spin inertia of each (momentum per speed, the motor's rotor included) and I_m = h +
+armature what its motor accelerates. With J of the whole about roll and pitch with its wheels
+braked, momentum is
+
+    J w + h sum_i a_i W_i = L
+
+so that a turn that sweeps P, inertia times angle, and leaves L in the wheels, asks the busiest
+wheel for phi(P) / h, an angle, and phi(L) / h, its final speed, where
+
+    phi(b) = min |x|_inf subject to sum_i a_i x_i = b
+           = max over facet normals m of |m . b| / sum_i |m . a_i|
+
+is the gauge of the axes' zonotope. The others do their parts x_i / phi in proportion. The wheel's
+own equation, d/dt (h a_i . w + I_m W_i) = tau, then reads I_red dW/dt = tau with
+
+    I_red = h + armature - kappa h^2,        kappa = a_b . K P / x_b,        K = J^-1,
+
+of the busiest wheel b that the trunk helps least. The less busy wheels need no more torque, and
+have more (docs/theory.md, Two wheels on a trunk). Where P and L are not in proportion, the parts
+are those of P.
+"""
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.actuation.slew import slew_time
+from ocs_design.actuation.spin_root import SpinDemand, smallest_roots
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.actuation.unit_drive import UnitDrive, positive
+from ocs_design.common.arrays import FloatArray
+
+# |J_xy| over sqrt(I_xx I_yy) beyond which a bound says nothing.
+_LOOSE = 0.5
+
+# Share of what the trunk helps a wheel that turns alone, at the least.
+_UNHELPED = 1e-3
+
+# Relative, of products of unit vectors: what is less is rounding.
+_ROUNDING = 1e-12
+
+# Relative difference of two facets' figures at a demand that lies on both.
+_EDGE = 1e-9
+
+
+class SlewReason(IntEnum):
+    """What stands in the way of a slew."""
+
+    AXIS = 1
+    """The wheels leave an axis out of reach that is asked for."""
+    TORQUE = 2
+    """The torque at rest, all the time, is too slow with any wheel."""
+    SPEED = 3
+    """The torque would do; how fast the drive turns decides how large its wheel must be."""
+
+
+class Held(NamedTuple):
+    """How wheels hold a momentum with the least for the busiest of them.
+
+    Attributes:
+        most: phi, of the busiest wheel, shape (...); inf: their axes do not span it.
+        sense: sign of the momentum of each wheel that holds as much, shape (..., n); 0: it may
+            hold less, or there is nothing to hold.
+    """
+
+    most: FloatArray
+    sense: FloatArray
+
+
+def held(axes: ArrayLike, momentum: ArrayLike) -> Held:
+    """The gauge of the zonotope of axes in closed form; see the module's text.
+
+    Every direction m gives a lower bound, |m . b| <= sum_i |m . a_i| |x_i|, so that directions
+    beside the facets' normals do no harm: of parallel axes, or axes in a plane, those along them
+    are the facets'.
+
+    Args:
+        axes: of the wheels as columns, in two or three dimensions, shape (..., d, n).
+        momentum: to be held, shape (..., d).
+    """
+    axes, asked = np.asarray(axes, np.float64), np.asarray(momentum, np.float64)
+    asked = asked.reshape(*(1,) * (axes.ndim - asked.ndim - 1), *asked.shape)
+    axes = _wheels_first(axes, asked.ndim - 1)
+    axes = np.where(np.abs(axes) > OUT_OF_REACH, axes, 0.0)
+    asked = np.ascontiguousarray(np.moveaxis(asked, -1, 0))
+    normals = _normals(axes)
+    length = np.sqrt((normals**2).sum(axis=0))
+    reach, size = (np.sqrt((each**2).sum(axis=0)) for each in (axes, asked))
+    levers = (normals[:, :, None] * axes[:, None]).sum(axis=0)
+    whole = np.abs(levers).sum(axis=1)
+    spanned = whole > _ROUNDING * length * reach.max(axis=0)
+    along = (normals * asked[:, None]).sum(axis=0)
+    along = np.where(np.abs(along) <= _ROUNDING * length * size, 0.0, along)
+    figures = np.abs(along) / np.where(spanned, whole, 1.0)
+    figures = np.where(spanned | (along == 0.0), figures, np.inf)
+    most = figures.max(axis=0)
+    touched = np.where(figures >= most * (1.0 - _EDGE), np.sign(along), 0.0)
+    sense = (touched[:, None] * np.where(spanned[:, None], np.sign(levers), 0.0)).sum(axis=0)
+    return Held(most, np.moveaxis(np.sign(sense), 0, -1))
+
+
+def held_by_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
+    """Momentum of each wheel with the least for the busiest, about roll and pitch, (..., n).
+
+    Those that are not among the busiest are parallel, and share what is left.
+
+    Args:
+        axes: that span the momentum, shape (..., 2, n). momentum: shape (..., 2).
+    """
+    most, sense = held(axes, momentum)
+    busy = sense * most[..., None]
+    left = momentum - (axes * busy[..., None, :]).sum(axis=-1)
+    free = np.where(sense[..., None, :] == 0.0, axes, 0.0)
+    whole = (free**2).sum(axis=(-2, -1))
+    share = (free * left[..., None]).sum(axis=-2) / np.where(whole > 0.0, whole, 1.0)[..., None]
+    return np.asarray(busy + share)
+
+
+def _wheels_first(axes: FloatArray, depth: int) -> FloatArray:
+    """Axes of `depth` further dimensions that broadcast, (d, n, ...): short last axes are slow."""
+    axes = axes.reshape(*(1,) * (depth + 2 - axes.ndim), *axes.shape)
+    return np.ascontiguousarray(np.moveaxis(axes, (-2, -1), (0, 1)))
+
+
+def _normals(axes: FloatArray) -> FloatArray:
+    """Directions of which some are normal to each facet of the axes' zonotope, (d, m, ...)."""
+    if len(axes) == 2:
+        across = np.stack([-axes[1], axes[0]])
+        parallel = np.abs(across[0, 0] * axes[0] + across[1, 0] * axes[1]).max(axis=0)
+        flat = (parallel <= OUT_OF_REACH).any()
+        return np.concatenate([across, axes], axis=1) if flat else across
+    first, second = np.triu_indices(axes.shape[1], 1)
+    across = np.cross(axes[:, first], axes[:, second], axis=0)
+    # Of nearly parallel axes, only rounding is left.
+    across = np.where(np.abs(across).max(axis=0) > OUT_OF_REACH, across, 0.0)
+    in_plane = np.cross(across[:, :, None], axes[:, None], axis=0)
+    in_plane = in_plane.reshape(3, -1, *axes.shape[2:])
+    # Across a single axis, what it does not span.
+    beside = np.stack([np.cross(each, axes, axis=0) for each in np.eye(3)], axis=1)
+    beside = beside.reshape(3, -1, *axes.shape[2:])
+    return np.concatenate([across, in_plane, axes, beside], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class WheelTask:
+    """A turn that wheels must do; arrays that broadcast but for their last axes.
+
+    Attributes:
+        swept: P, momentum over time that must pass the wheels about roll and pitch [N m s^2],
+            shape (..., 2); its sign counts.
+        momentum: L, that they hold at the end [N m s], shape (..., 2).
+        duration: T [s], shape (...).
+        inertia: of the whole, wheels braked.
+        axes: of the wheels about roll and pitch, as columns, shape (..., 2, n).
+    """
+
+    swept: ArrayLike
+    momentum: ArrayLike
+    duration: ArrayLike
+    inertia: TiltInertia
+    axes: FloatArray
+
+    def load(self) -> "WheelLoad":
+        """What it asks of the busiest wheel; see the module's text."""
+        swept, momentum, _ = np.broadcast_arrays(self.swept, self.momentum, self.axes[..., 0])
+        (turned, kept), senses = held(self.axes, np.stack([swept, momentum]))
+        turning = turned > 0.0
+        sense = np.where(turning[..., None], senses[0], senses[1])
+        most = np.where(turning, turned, kept)
+        asked = np.where(turning[..., None], swept, momentum)
+
+        (x, y), product = np.moveaxis(self.inertia.diagonal, -1, 0), self.inertia.product
+        determinant = x * y - product**2
+        rolled, pitched = np.moveaxis(asked, -1, 0)
+        rates = y * rolled - product * pitched, x * pitched - product * rolled
+        roll, pitch = _wheels_first(self.axes, most.ndim)
+        own = roll**2 * y + pitch**2 * x - 2.0 * (roll * pitch) * product
+        alone = (own / determinant).max(axis=0)
+        usable = (most > 0.0) & np.isfinite(most)
+        sense = np.moveaxis(sense, -1, 0)
+        parts = sense * (rates[0] / determinant * roll + rates[1] / determinant * pitch)
+        parts = parts / np.where(usable, most, 1.0)
+        least = np.where(sense == 0.0, np.inf, parts).min(axis=0)
+        # A wheel that the trunk works against is as good as one that it does not help.
+        coupling = np.maximum(np.where(usable, least, alone), _UNHELPED * alone)
+        return WheelLoad(turned, kept, coupling)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WheelBound(WheelTask):
+    """What no turn is below, on any trunk that is no lighter and about as much coupled.
+
+    Attributes:
+        swept: P without the coupling [N m s^2], shape (..., 2).
+        inertia: no larger than theirs about either axis.
+        axes: of a zonotope around theirs that is as wide to both sides of roll and of pitch.
+        turn: theta, that P comes from; 0: a push left it [rad], shape (..., 2).
+        spread: that J_xy differs by from theirs at most [kg m^2], shape (...).
+        reached: whether the wheels reach roll and pitch at every incidence of theirs, or the
+            trunk may drift there, shape (..., 2).
+    """
+
+    turn: ArrayLike
+    spread: FloatArray
+    reached: NDArray[np.bool_]
+
+    def load(self) -> "WheelLoad":
+        """No more than is asked of the busiest wheel (docs/theory.md, The selection)."""
+        diagonal, product = self.inertia
+        most = TiltInertia(diagonal, np.abs(product) + self.spread)
+        share = most.share[..., None]
+        known = share < _LOOSE
+
+        # Coupling takes from the sweep at most; an axis that may be left to itself adds none, and
+        # takes from the other one.
+        turn, uncoupled = np.asarray(self.turn), np.abs(self.swept)
+        both = turn.prod(axis=-1)
+        sense = np.where(both == 0.0, 1.0, np.sign(both * product))
+        coupled = sense * np.abs(product) - self.spread
+        least = np.maximum(uncoupled + coupled[..., None] * np.abs(turn[..., ::-1]), 0.0)
+        left = np.where(self.reached[..., ::-1], 1.0, 1.0 - share**2)
+        least = np.where(self.reached | (turn != 0.0), least, uncoupled) * left
+
+        swept, momentum = np.where(known, least, 0.0), np.where(known, self.momentum, 0.0)
+        alone = TiltInertia.uncoupled(diagonal)
+        load = WheelTask(swept, momentum, self.duration, alone, self.axes).load()
+        # |a . K b| for the longest axis a about roll and pitch, and any b of the zonotope.
+        lengths = np.abs(self.axes) / np.sqrt(diagonal)[..., None]
+        longest, whole, rho = lengths.max(axis=-1), lengths.sum(axis=-1), np.minimum(share, _LOOSE)
+        gives = (longest * (whole + rho * whole[..., ::-1]) / (1.0 - rho**2)).sum(axis=-1)
+        return replace(load, coupling=gives)
+
+
+@dataclass(frozen=True, eq=False)
+class WheelLoad:
+    """What a turn asks of the busiest wheel, shape (...) each.
+
+    Attributes:
+        excess: phi(P) [N m s^2]; inf: an axis is out of reach.
+        held: phi(L) [N m s]; likewise.
+        coupling: kappa [1 / (kg m^2)].
+    """
+
+    excess: FloatArray
+    held: FloatArray
+    coupling: FloatArray
+
+    def angle(self, spin_inertia: ArrayLike) -> FloatArray:
+        """Angle by which a wheel of that spin inertia turns beyond its final speed [rad]."""
+        return np.asarray(self.excess / np.asarray(spin_inertia))
+
+    def final_speed(self, spin_inertia: ArrayLike) -> FloatArray:
+        """W_f [rad/s]."""
+        return np.asarray(self.held / np.asarray(spin_inertia))
+
+    def reduced_inertia(self, spin_inertia: ArrayLike, armature: ArrayLike = 0.0) -> FloatArray:
+        """I_red, what the motor accelerates while the trunk gives way [kg m^2]."""
+        h = np.asarray(spin_inertia)
+        return np.asarray(h + np.asarray(armature) - self.coupling * h**2)
+
+
+def wheel_slew_time(
+    task: WheelTask, spin_inertia: ArrayLike, line: DriveLine, armature: ArrayLike = 0.0
+) -> FloatArray:
+    """How long wheels of that spin inertia take for the turn [s], shape (...); inf: for ever.
+
+    Args:
+        task: its duration is not used.
+        spin_inertia: h of each wheel [kg m^2], shape (...); 0 or inf: no wheel. Wheels of more
+            than 1 / (2 kappa) would carry most of the inertia that they turn, and count as that.
+        line: of the drive at the wheel, shape (...).
+        armature: I_m - h [kg m^2], shape (...).
+    """
+    load, asked_of = task.load(), np.asarray(spin_inertia, dtype=np.float64)
+    there = (asked_of > 0.0) & np.isfinite(asked_of)
+    half = 1.0 / (2.0 * load.coupling)
+    h = np.where(there, np.minimum(asked_of, half), half)
+    time = slew_time(load.angle(h), load.reduced_inertia(h, armature), line, load.final_speed(h))
+    return np.where(there | (load.excess + load.held == 0.0), time, np.inf)
+
+
+def smallest_spin_inertia(
+    task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
+) -> FloatArray:
+    """The smallest h per wheel that does the turn in time [kg m^2], shape (...); inf: none does.
+
+    The time falls as h grows, up to h = 1 / (2 kappa), where the wheels carry half the inertia that
+    they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) lets
+    the time rise again for a while. A larger h, which another turn needs, must then be tried anew,
+    as `least`.
+
+    Args:
+        task: the inertia is taken as given, whatever h.
+        line: of the drive at the wheel, shape (...).
+        armature: I_m - h [kg m^2], shape (...).
+        least: smallest h to consider [kg m^2], shape (...).
+    """
+    return smallest_roots([spin_demand(task, line, armature, least)])[0]
+
+
+def spin_demand(
+    task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
+) -> SpinDemand:
+    """What `smallest_spin_inertia` solves for; arguments as there."""
+    load = task.load()
+    duration = np.asarray(task.duration, dtype=np.float64)
+    return SpinDemand(
+        sweep=load.excess + load.held * np.maximum(duration, 0.0),
+        momentum=load.held,
+        duration=duration,
+        coupling=load.coupling,
+        armature=np.asarray(armature, dtype=np.float64),
+        least=np.asarray(least, dtype=np.float64),
+        drive=UnitDrive.of(line),
+    )
+
+
+def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
+    """Why there is no wheel for a turn, or none that fits, as values of `SlewReason`, shape (...).
+
+    The time falls as the wheel grows, towards that of the torque at rest, there and back. A wheel
+    so large that it takes much of the given inertia upon itself (I_red falls short of h) may still
+    beat that; it counts as out of reach for want of torque.
+    """
+    load, torque = task.load(), UnitDrive.of(line).torque
+    duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
+    final = load.held
+    with np.errstate(invalid="ignore"):
+        # Constant torque raises a wheel's momentum by tau t to its peak, and back to the final one.
+        peak = (torque * duration + final) / 2.0
+        swept = (peak**2 - final**2 / 2.0) / positive(torque)
+        done = np.where(torque > 0.0, swept, 0.0) - load.held * duration
+        weak = np.where(peak >= final, done, -np.inf) < load.excess
+    reason = np.where(weak, SlewReason.TORQUE, SlewReason.SPEED)
+    return np.where(np.isinf(load.excess + load.held), SlewReason.AXIS, reason)

@@ -1,0 +1,143 @@
+"""What the tab key offers for a value: words, names and files.
+
+Nothing here loads a solver or the simulator: a shell asks at every press of the key. Shells take a
+space for the end of a word, so names have dashes in their place, which the catalogues read alike.
+"""
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import TypeAlias
+
+import typer
+
+from ocs_design.common.errors import OcsError
+
+Completer: TypeAlias = Callable[[str], list[str]]
+Names: TypeAlias = Callable[[], Iterable[str]]
+
+ROBOTS = (".urdf", ".xacro", ".xml", ".urdf.gz", ".xacro.gz", ".xml.gz")
+"""Ends of the names of robots' files."""
+
+
+def one_of(*words: str) -> Completer:
+    """These words."""
+    return any_of(lambda: words)
+
+
+def any_of(names: Names) -> Completer:
+    """Names that are looked up when they are asked for."""
+
+    def complete(incomplete: str) -> list[str]:
+        """Candidates that begin so."""
+        offered = (name.replace(" ", "-") for name in names())
+        return [each for each in offered if each.startswith(incomplete)]
+
+    return complete
+
+
+def of_key(path: str) -> Completer:
+    """Words that a key of the specification takes, given by its path."""
+
+    def words() -> Iterable[str]:
+        """Words in the order of the key."""
+        from ocs_design.requirement.specification import all_keys
+
+        return getattr(all_keys()[path].value, "words", ())
+
+    return any_of(words)
+
+
+def listed(completer: Completer) -> Completer:
+    """The last of several with commas between them."""
+
+    def complete(incomplete: str) -> list[str]:
+        """Completions, with what stands before them."""
+        before, comma, last = incomplete.rpartition(",")
+        return [before + comma + each for each in completer(last)]
+
+    return complete
+
+
+def files(*ends: str) -> Completer:
+    """Files whose names end so, and folders on the way to them.
+
+    None where a name needs quotes or a home is to be expanded: then the shell offers its own.
+    """
+
+    def complete(incomplete: str) -> list[str]:
+        """Paths as they were begun."""
+        found = sorted(_paths(incomplete, ends))
+        # A folder alone would be taken for the whole word.
+        while len(found) == 1 and found[0].endswith(os.sep):
+            found = sorted(_paths(found[0], ends))
+        plain = all(set(each) <= _PLAIN for each in found)
+        return found if plain else []
+
+    return complete
+
+
+_PLAIN = frozenset(
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.,/@%" + os.sep
+)
+
+
+def _paths(begun: str, ends: tuple[str, ...]) -> Iterator[str]:
+    folder, name = os.path.split(begun)
+    try:
+        entries = list(os.scandir(folder or os.curdir))
+    except OSError:
+        return
+    for entry in entries:
+        if not entry.name.startswith(name) or (entry.name.startswith(".") and not name):
+            continue
+        path = os.path.join(folder, entry.name)  # noqa: PTH118  begun with ./ it stays so
+        if entry.is_dir():
+            yield path + os.sep
+        elif entry.name.lower().endswith(ends):
+            yield path
+
+
+def motors() -> Iterable[str]:
+    """Motors that the package knows, and the words in place of one."""
+    from ocs_design.catalogue.motors import known_motors
+
+    return ("auto", "none", *known_motors(None))
+
+
+def gears() -> Iterable[str]:
+    """The same of gears."""
+    from ocs_design.catalogue.gears import known_gears
+
+    return ("auto", "direct", *known_gears(None))
+
+
+def materials() -> Iterable[str]:
+    """The same of materials."""
+    from ocs_design.catalogue.materials import materials as known
+
+    return ("auto", "steel", *known())
+
+
+def formats() -> Iterable[str]:
+    """Names of formats that a design is exported to."""
+    from ocs_design.export.formats import ALL, FORMATS
+
+    return (*(each.name for each in FORMATS), "figures", "report", ALL)
+
+
+PAPERS = ("disturbance", "drop", "back-flip")
+"""Names of the maneuvers that are flown where nothing is asked for."""
+
+
+def maneuvers(context: typer.Context, incomplete: str) -> list[str]:
+    """Names of the maneuvers in the specification that was typed before, or of the paper's."""
+    names: Iterable[str] = PAPERS
+    if context.params.get("spec") is not None:
+        from ocs_design.requirement.reading import read_specification
+
+        with suppress(OcsError):
+            stated = read_specification(Path(context.params["spec"])).maneuvers
+            names = [each.name for each in stated if " " not in each.name] or PAPERS
+    return any_of(lambda: names)(incomplete)

@@ -1,0 +1,218 @@
+"""Drilling template of the trunk at full size: PDF on A4, and its drawing for DXF.
+
+The drawing is in the frame B that the design is in, in millimetres: x forward, y to the left. On
+paper forward is up. What is wider than a sheet goes on several, to be joined edge to edge.
+"""
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ocs_design.actuation.fasteners import Screw
+from ocs_design.export.device_parts import foot_holes, printed_foot
+from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
+from ocs_design.export.drawing.sheet import (
+    CENTRE,
+    HEIGHT,
+    THIN,
+    WIDTH,
+    Area,
+    Circle,
+    Item,
+    Line,
+    Point,
+    Polyline,
+    Text,
+    outline,
+    rectangle,
+)
+from ocs_design.export.drawing.writers import pdf_of_pages
+from ocs_design.export.formats import Subject
+from ocs_design.parts.flattening import flat_outline
+from ocs_design.parts.foot import TRUNK_SCREW
+
+MILLIMETRES = 1000.0
+
+SHEET = (15.0, 15.0, WIDTH - 15.0, HEIGHT - 30.0)
+"""Left, top, right and bottom of what one sheet shows [mm]: printers reach it; below are words."""
+
+CHECK = 50.0
+"""Length to measure on the print [mm]."""
+
+CROSS = 4.0
+"""Of a centre mark beyond its hole [mm]."""
+
+
+@dataclass(frozen=True)
+class Drilling:
+    """What is drilled and what stands there.
+
+    Attributes:
+        robot: its name. trunk: name of the link whose frame this is.
+        holes: to be drilled into the trunk [mm].
+        screw: that goes there.
+        items: the drawing, holes with their coordinates, feet and plate [mm].
+    """
+
+    robot: str
+    trunk: str
+    holes: tuple[Point, ...]
+    screw: Screw
+    items: tuple[Item, ...]
+
+    @property
+    def title(self) -> str:
+        """What it is, in one line."""
+        return (
+            f"{self.robot}: drill {len(self.holes)} holes of {MILLIMETRES * self.drill:.3g} mm for "
+            f"{self.screw.name} at the crosses; coordinates in mm in the frame of {self.trunk}"
+        )
+
+    @property
+    def drill(self) -> float:
+        """Diameter of the holes, into which threads are cut [m]."""
+        return self.screw.tapping_drill
+
+
+def write_drilling(subject: Subject, folder: Path) -> None:
+    """Write `drilling.pdf`; nothing for wheels without feet."""
+    drilling = drilling_of(subject)
+    if drilling is not None:
+        (folder / "drilling.pdf").write_bytes(
+            pdf_of_pages(pages(drilling), f"Drilling template of {drilling.robot}")
+        )
+
+
+def drilling_of(subject: Subject) -> Drilling | None:
+    """The template of a device on its trunk; None for wheels without feet."""
+    device = subject.device
+    if device.carrier.mass == 0.0:
+        return None
+    plate, foot, standing = device.plate, printed_foot(device), foot_holes(device)
+    feet = [place for places in standing.values() for place in places]
+    if not feet:
+        return None
+    if plate is None:
+        holes, thread = _millimetres(feet), TRUNK_SCREW
+    else:
+        x, y, _ = plate.position
+        holes = _millimetres([(x + along, y + across) for along, across in plate.trunk])
+        thread = plate.screw
+    radius = MILLIMETRES * thread.tapping_drill / 2.0
+    items: list[Item] = []
+    for hole in holes:
+        words = Text(
+            (hole[0] + radius, hole[1] - radius - 1.0), f"{hole[0]:.1f}, {hole[1]:.1f}", 1.8
+        )
+        items += [Circle(hole, radius), *_cross(hole, radius + CROSS), words]
+    for module in (each for each in device.modules if each.name in standing):
+        (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
+        base = MILLIMETRES * foot.base_radius
+        items += [Circle(middle, base, THIN), *_cross(middle, CROSS)]
+        items.append(Text((middle[0] + base / 2.0, middle[1]), f"{module.name} foot", 2.5))
+    if plate is not None:
+        for shape in plate.shapes:
+            corners = _millimetres((flat_outline(shape.outline()) + plate.position[:2]).tolist())
+            items.append(Polyline((*corners, corners[0]), THIN))
+        items += [Circle(each, radius, THIN) for each in _millimetres(feet)]
+    items += [*_cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
+    items.append(Text((3.0 * CROSS, -1.0), "forward", 2.5))
+    return Drilling(subject.name, subject.seat.trunk, holes, thread, tuple(items))
+
+
+def _millimetres(places: list[Point] | list[list[float]]) -> tuple[Point, ...]:
+    return tuple((MILLIMETRES * x, MILLIMETRES * y) for x, y in places)
+
+
+def _cross(place: Point, half: float) -> Iterator[Item]:
+    (x, y) = place
+    yield Line((x - half, y), (x + half, y), CENTRE)
+    yield Line((x, y - half), (x, y + half), CENTRE)
+
+
+def pages(drilling: Drilling) -> Iterator[list[Item]]:
+    """Sheets from the left to the right and from the front to the back."""
+    left, top, right, bottom = SHEET
+    width, height = right - left, bottom - top
+    back, rightmost, front, leftmost = bounds(drilling.items)
+    across, along = math.ceil((leftmost - rightmost) / width), math.ceil((front - back) / height)
+    middle = (back + front) / 2.0, (rightmost + leftmost) / 2.0
+    for row in range(along):
+        for column in range(across):
+            # Where the middle of the drawing is on this sheet.
+            centre_x = (left + right) / 2.0 + (across - 1 - 2 * column) / 2.0 * width
+            centre_y = (top + bottom) / 2.0 + (along - 1 - 2 * row) / 2.0 * height
+            offset = centre_x + middle[1], centre_y + middle[0]
+            page = [_on_paper(item, offset) for item in drilling.items]
+            number = row * across + column + 1
+            yield [
+                *page,
+                # What goes on on another sheet, and would run into the words.
+                Area(rectangle(0.0, bottom, WIDTH, HEIGHT), white=True),
+                *outline(rectangle(*SHEET), THIN),
+                *_words(drilling, number, across * along),
+            ]
+
+
+def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
+    left, _, _, bottom = SHEET
+    words = [
+        drilling.title,
+        "Print at 100 %, without fitting it to the page, and measure the 50 mm.",
+    ]
+    if count > 1:
+        words[1] += f" Sheet {number} of {count}: cut along the frame and join edge to edge."
+    for line, text in enumerate(words):
+        yield Text((left + CHECK + 15.0, bottom + (line + 2) * LEADING), text)
+    y = bottom + 3.0 * LEADING
+    yield from level_dimension("", left=left, right=left + CHECK, y=y, text_x=left + CHECK)
+    yield Text((left + CHECK / 2.0 - 5.0, y - 1.0), f"{CHECK:.0f} mm")
+    for x in (left, left + CHECK):
+        yield Line((x, y - 3.0), (x, y + 3.0))
+
+
+def bounds(items: Iterable[Item]) -> tuple[float, float, float, float]:
+    """Least x and y, and largest x and y, of items in B [mm]."""
+    points = [point for item in items for point in _corners(item)]
+    x, y = zip(*points, strict=True)
+    return min(x), min(y), max(x), max(y)
+
+
+def _corners(item: Item) -> list[Point]:
+    """Points that an item lies between."""
+    match item:
+        case Circle((x, y), radius):
+            return [(x - radius, y - radius), (x + radius, y + radius)]
+        case Line(start, end):
+            return [start, end]
+        case Polyline(points):
+            return list(points)
+        case Area(corners):
+            return list(corners)
+        case Text():
+            # On paper it runs against y.
+            return [item.place, (item.place[0] + item.height, item.place[1] - item.width)]
+
+
+def _on_paper(item: Item, offset: Point) -> Item:
+    """The item with forward up; texts stay level.
+
+    Args:
+        offset: of the frame's origin from the sheet's corner [mm].
+    """
+
+    def place(point: Point) -> Point:
+        return offset[0] - point[1], offset[1] - point[0]
+
+    match item:
+        case Circle():
+            return replace(item, center=place(item.center))
+        case Line():
+            return replace(item, start=place(item.start), end=place(item.end))
+        case Polyline():
+            return replace(item, points=tuple(map(place, item.points)))
+        case Area():
+            return Area(tuple(map(place, item.corners)))
+        case Text():
+            return replace(item, place=place(item.place))

@@ -1,0 +1,164 @@
+"""Robot with its device as a ROS 2 description package: URDF, xacro, ros2_control, launch file.
+
+Names follow REP 144 (ROS package naming), the manifest REP 149 (package format 3).
+"""
+
+import json
+import re
+import shutil
+from collections.abc import Iterable, Iterator
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+from xml.etree import ElementTree as ET
+
+import numpy as np
+
+from ocs_design.common.files import safe_name
+from ocs_design.device.naming import joint_names
+from ocs_design.export.device_urdf import MOCK_PLUGIN, control_joint, control_wheels
+from ocs_design.export.formats import Notes, Subject
+from ocs_design.export.snippets import export_snippet_xacro
+from ocs_design.export.templates import fill, in_comment, numbers, quoted
+from ocs_design.export.urdf import robot_urdf, write_meshes
+from ocs_design.robot.links import unused_name
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.xml import parse_xml
+
+_FOLDERS = ("config", "launch", "meshes", "rviz", "urdf")
+
+
+def write(subject: Subject, folder: Path) -> Notes:
+    """Write the package `<name>_ocs_description`."""
+    robot, device, file = subject.carrier, subject.device, f"{subject.name}_ocs"
+    package = package_name(subject.name)
+    root = folder / package
+    for each in _FOLDERS:
+        (root / each).mkdir(parents=True)
+    write_meshes(device, root)
+    urdf = parse_xml(robot_urdf(robot, device))
+    lost = _take_meshes(urdf, robot, root / "meshes", package)
+    ET.indent(urdf)
+    declared = '<?xml version="1.0" encoding="utf-8"?>\n'
+    described = declared + ET.tostring(urdf, encoding="unicode") + "\n"
+    # A robot may be in ros2_control already, and a joint in two systems is an error there.
+    taken = {
+        joint.get("name") for system in urdf.iter("ros2_control") for joint in system.iter("joint")
+    }
+    values = {
+        "package": package,
+        "file": file,
+        "name": subject.name,
+        "robot": in_comment(subject.name),
+        "count": str(len(device.modules)),
+        "macro": f"{package.removesuffix('_description')}_ros2_control",
+        "plugin": MOCK_PLUGIN,
+        "root": json.dumps(_root_link(urdf)),
+        "distance": numbers(3.0 * robot.gyration_radius + 1.0),
+        **_controllers(robot, joint_names(device)),
+    }
+    joints = [name for name in robot.tree.joints if name not in taken]
+    controls = (*_control_joints(robot, joints), *control_wheels(device, joint_names(device)))
+    system = fill(
+        "ros2_control.urdf",
+        {"name": "${name}", "plugin": "${hardware_plugin}", "joints": "".join(controls)},
+    )
+    texts = {
+        "package.xml": fill("ros2/package.xml", values),
+        "CMakeLists.txt": fill("ros2/CMakeLists.txt", values),
+        "launch/display.launch.py": fill("ros2/display_launch", values),
+        "rviz/display.rviz": fill("ros2/display.rviz", values),
+        "config/controllers.yaml": fill("ros2/controllers.yaml", values),
+        f"urdf/{file}.urdf": described,
+        f"urdf/{file}.urdf.xacro": fill("ros2/robot.urdf.xacro", values),
+        f"urdf/{file}.ros2_control.xacro": fill(
+            "ros2/ros2_control.xacro", {**values, "system": system}
+        ),
+    }
+    for place, text in texts.items():
+        (root / place).write_text(text, encoding="utf-8", newline="\n")
+    export_snippet_xacro(device, subject.seat, root / "urdf" / "ocs.urdf.xacro")
+    notes = ["package.xml has no maintainer and no license yet: put yours there"]
+    if lost:
+        found = f"{len(lost)} meshes that were not found: {', '.join(lost)}"
+        notes.append(f"the ROS 2 package lacks {found}")
+    return tuple(notes)
+
+
+def package_name(robot: str) -> str:
+    """Name of a robot's package: lower case, digits and single underscores, a letter first."""
+    plain = re.sub(r"[^a-z0-9]+", "_", robot.lower()).strip("_")
+    return f"{'' if plain[:1].isalpha() else 'robot_'}{plain}_ocs_description".replace("__", "_")
+
+
+def _take_meshes(urdf: ET.Element, robot: Robot, folder: Path, package: str) -> list[str]:
+    """Copy all meshes that a URDF names, and name the copies in it; gives those not found."""
+    found = [shape.mesh for body in robot.tree.bodies for shape in body.shapes if shape.mesh]
+    places = {path.name: path.name for path in folder.iterdir()}
+    copies: dict[Path, str] = {}
+    lost: dict[str, None] = {}
+    for mesh in urdf.iter("mesh"):
+        address = mesh.get("filename", "")
+        name = PurePosixPath(unquote(address.strip()).rpartition("://")[2])
+        # The device's own lie there already.
+        place = places.get(name.name) if address == f"meshes/{name.name}" else None
+        if place is None:
+            path = _best(found, name)
+            if path is None:
+                lost[address] = None
+                continue
+            if path not in copies:
+                stem = safe_name(path.stem)
+                copies[path] = unused_name(stem, path.suffix, {*copies.values(), *places})
+                shutil.copyfile(path, folder / copies[path])
+            place = copies[path]
+        mesh.set("filename", f"package://{package}/meshes/{place}")
+    return list(lost)
+
+
+def _best(paths: Iterable[Path], name: PurePosixPath) -> Path | None:
+    """File that ends as a mesh's address does, in the most of its folders."""
+
+    def alike(path: Path) -> int:
+        pairs = zip(reversed(path.parts), reversed(name.parts), strict=False)
+        return next((k for k, (a, b) in enumerate(pairs) if a != b), len(name.parts))
+
+    best = max(paths, key=alike, default=None)
+    return best if best is not None and alike(best) else None
+
+
+def _root_link(urdf: ET.Element) -> str:
+    """Link that is no joint's child."""
+    children = {child.get("link") for child in urdf.findall("joint/child")}
+    links = (link.get("name", "") for link in urdf.findall("link"))
+    return next((link for link in links if link not in children), "")
+
+
+def _control_joints(robot: Robot, joints: Iterable[str]) -> Iterator[str]:
+    """Element of ros2_control of each joint, commanded by position, in the posture at first."""
+    for name in joints:
+        joint = robot.tree.joints[name]
+        limits = {"min": joint.lower, "max": joint.upper}
+        bounds = {end: float(limit) for end, limit in limits.items() if np.isfinite(limit)}
+        # One that follows another takes no commands.
+        command = "position" if joint.mimic is None else ""
+        yield control_joint(quoted(name), command, bounds, robot.posture[name])
+
+
+def _controllers(robot: Robot, wheels: Iterable[str]) -> dict[str, str]:
+    """Parts of `controllers.yaml`."""
+    moved = [name for name, joint in robot.tree.joints.items() if joint.mimic is None]
+    manager, joints = "", ""
+    if moved:
+        kind = "joint_trajectory_controller/JointTrajectoryController"
+        manager = f"    joint_controller:\n      type: {kind}\n"
+        joints = (
+            "\njoint_controller:\n  ros__parameters:\n    joints:\n"
+            f"{_listed(moved)}    command_interfaces: [position]\n"
+            "    state_interfaces: [position, velocity]"
+        )
+    return {"manager": manager, "wheels": _listed(wheels), "joints": joints}
+
+
+def _listed(names: Iterable[str]) -> str:
+    """Items of a list in YAML, in double quotes: some names would be numbers."""
+    return "".join(f"      - {json.dumps(name)}\n" for name in names)

@@ -1,0 +1,18 @@
+"""The designed robot as an environment: `gymnasium.make("ocs_design.gym:OcsFlight-v0")`.
+
+Gymnasium imports what stands before the colon, so this loads nothing else.
+"""
+
+from ocs_design.common.errors import MissingToolError
+from ocs_design.common.installing import extra_command
+
+try:
+    from gymnasium.envs.registration import register
+except ModuleNotFoundError as error:
+    raise MissingToolError(
+        "no environment for learning: gymnasium is not installed", hint=extra_command("gym")
+    ) from error
+
+ENVIRONMENT = "OcsFlight-v0"
+
+register(id=ENVIRONMENT, entry_point="ocs_design.gym.environment:OcsFlight")

@@ -1,0 +1,255 @@
+"""A flight of the designed robot whose wheels a policy drives, judged as `validate` judges it.
+
+World, legs, sensors, motors and what is drawn for a sample are those of the Monte Carlo campaign:
+under the torques of the wheel law an episode is that very flight.
+"""
+
+from math import remainder, tau
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from gymnasium.core import RenderFrame
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import OcsError, UsageError
+from ocs_design.common.files import AnyPath
+from ocs_design.export.film import Take, film_model, render_takes
+from ocs_design.export.physics import STEP
+from ocs_design.monte_carlo.uncertainty import built
+from ocs_design.requirement.maneuver import End, Maneuver, Shove, TurnTo
+from ocs_design.requirement.specification import Specification
+from ocs_design.simulation.metrics import Metrics, measure
+from ocs_design.simulation.piloted import PilotedFlight
+from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.verdict import landing_attitude
+from ocs_design.workflows.flying import flight_options, read_task
+from ocs_design.workflows.validate import Request, campaign_of
+
+Observation: TypeAlias = NDArray[np.float32]
+
+BOUND = 10.0
+"""Largest size of a normalised observation; flights that are judged stay below 4."""
+
+SAMPLES = 2**31
+"""Of which an episode draws one."""
+
+
+class OcsFlight(gymnasium.Env[Observation, Observation]):
+    """A flight from lift-off, or from the push, to its end some time after touchdown.
+
+    Observation, of n wheels, as the sensors measure it: the vertical in B (3), the trunk's rate in
+    half turns per flight (3), the wheels' speeds over their top speed (n), roll, pitch and heading
+    left to turn in half turns (3, zero where they are free), the time left over that of the flight,
+    and whether anything touches the ground; shape (11 + n,).
+
+    Action: torque of each motor over the most that it can give at its speed, -1..1, shape (n,).
+    The legs hold their posture or follow their plans, as under the law.
+
+    Reward: at each step in the air, by how many half turns the trunk has come nearer to where it
+    shall touch down; at the end one each for a pass, a level touchdown and standing.
+
+    Attributes:
+        metrics: figures of the last flight that ended; None: it broke down, or none has.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "rgb_array_list"], "render_fps": 200}  # noqa: RUF012
+
+    def __init__(
+        self,
+        design: AnyPath = "design.json",
+        *,
+        maneuver: str | None = None,
+        randomise: bool = True,
+        robot_file: AnyPath | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        """Environment of a design.
+
+        Args:
+            design: its folder, or its `design.json`.
+            maneuver: one of the design's own; None: each episode draws one.
+            randomise: whether each episode draws a robot as it might be built; else it is as
+                designed, and its sensors and drives are perfect.
+            robot_file: of the robot, where it has moved.
+            render_mode: `rgb_array`, `rgb_array_list` or None. OpenGL runs in a process of its own,
+                which takes a second to start: a list of all is drawn at once.
+
+        Raises:
+            OcsError: the design or its robot cannot be read, its flights cannot be judged, or it
+                has no motor.
+            UsageError: it has no such maneuver.
+        """
+        task = read_task(
+            design, Specification(), robot_file=None if robot_file is None else Path(robot_file)
+        )
+        options = flight_options(task.control)
+        # What its legs bear is in the record, unless it was not flown.
+        flown = task.design.validation or run_scenarios(
+            task.robot,
+            task.device,
+            task.maneuvers,
+            options=options,
+            references=task.references,
+            jumps=task.jumps,
+        )
+        self._campaign = campaign_of(Request(design=task.path), task, flown)
+        names = [flight.maneuver.name for flight in self._campaign.flights]
+        if maneuver is not None and maneuver not in names:
+            raise UsageError(f"the design has no maneuver {maneuver!r}", hint=f"it has {names}")
+        self._names = names if maneuver is None else [maneuver]
+        motor = task.device.motor
+        self._top_speed = min(motor.no_load_speed, motor.speed_max or np.inf)
+        if task.design.selection is None or not np.isfinite(self._top_speed):
+            raise OcsError(
+                f"{task.path}: no motor was chosen, so an action would have no scale",
+                hint="size it with a motor",
+            )
+        self._task, self._randomise, self.render_mode = task, randomise, render_mode
+        self._period = options.hold * STEP
+        self.metadata = {**self.metadata, "render_fps": round(1.0 / self._period)}
+        count = len(task.device.modules)
+        self.action_space = spaces.Box(-1.0, 1.0, (count,), np.float32)
+        self.observation_space = spaces.Box(-BOUND, BOUND, (11 + count,), np.float32)
+        self.metrics: Metrics | None = None
+        self._pilot: PilotedFlight | None = None
+        self._models: dict[str, Any] = {}
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begin a flight.
+
+        Args:
+            seed: of what episodes draw.
+            options: `maneuver` by its name; `sample`, as of `ocs-design validate --sample`.
+
+        Raises:
+            UsageError: of the options.
+        """
+        super().reset(seed=seed)
+        given = options or {}
+        drawn = self._names[int(self.np_random.integers(len(self._names)))]
+        sample = int(self.np_random.integers(SAMPLES))
+        name, sample = given.get("maneuver", drawn), given.get("sample", sample)
+        names = [flight.maneuver.name for flight in self._campaign.flights]
+        if name not in names:
+            raise UsageError(f"the design has no maneuver {name!r}", hint=f"it has {names}")
+        if not isinstance(sample, int) or sample < 0:
+            raise UsageError(f"the sample is {sample!r}, not a whole number from 0")
+        self._number, hold = names.index(name), self._campaign.hold
+        flight = self._campaign.flights[self._number]
+        self._world = flight.world
+        if self._randomise:
+            drawn_robot = self._campaign.sample(sample)
+            self._world = built(
+                flight.world, drawn_robot, self._number, self._campaign.air, self._period
+            )
+        self._pilot = PilotedFlight(self._world, hold)
+        self._pitch, self._landed = 0.0, False
+        self._poses = [self._pilot.pose]
+        observed = self._observed()
+        self._far = float(np.linalg.norm(self._left))
+        told = {"maneuver": name, "sample": sample if self._randomise else None}
+        return observed, {**told, "law": self._law_action()}
+
+    def step(self, action: Observation) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Fly one control step; `info["law"]` is what the law would do next.
+
+        At the end `info` has the verdict: `passed`, `level`, `stands` and `reason`.
+
+        Raises:
+            UsageError: an action of another shape, or with NaN.
+        """
+        pilot = self._flying()
+        low, high = pilot.seen.lowest, pilot.seen.highest
+        share = np.clip(np.asarray(action, dtype=np.float64), -1.0, 1.0)
+        if share.shape != self.action_space.shape or not np.isfinite(share).all():
+            raise UsageError(f"an action is {self.action_space}, not {action}")
+        if not pilot.ended:
+            pilot.fly(np.where(share < 0.0, -share * low, share * high))
+        if self.render_mode is not None:
+            self._poses.append(pilot.pose)
+        if pilot.ended:
+            self.metrics = measure(pilot.recording(), 0, self._world)
+            verdict = self._campaign.judged(self.metrics, self._number)
+            found = {name: getattr(verdict, name) for name in ("passed", "level", "stands")}
+            reward = float(sum(each is True for each in found.values()))
+            return self._last, reward, True, False, {**found, "reason": verdict.reason}
+        observed, reward = self._observed(), 0.0
+        self._landed |= pilot.touches and not isinstance(self._maneuver, Shove)
+        if not self._landed:
+            far = float(np.linalg.norm(self._left))
+            reward, self._far = self._far - far, far
+        return observed, reward, False, False, {"law": self._law_action()}
+
+    def render(self) -> RenderFrame | list[RenderFrame] | None:
+        """Picture of the robot now, shape (height, width, 3), or list of those since `reset`.
+
+        Raises:
+            MissingToolError: OpenGL does not work here.
+        """
+        self._flying()
+        if self.render_mode is None:
+            return None
+        name, task = self._maneuver.name, self._task
+        if name not in self._models:
+            device = task.device.as_flown(self._maneuver)
+            self._models[name] = film_model(task.robot, device, ocs=True)
+        whole = self.render_mode == "rgb_array_list"
+        poses = self._poses if whole else self._poses[-1:]
+        (pictures,) = render_takes([Take(self._models[name], np.stack(poses))])
+        if whole:
+            self._poses = self._poses[-1:]
+        frames: list[RenderFrame] = list(pictures)
+        return frames if whole else frames[0]
+
+    @property
+    def _maneuver(self) -> Maneuver:
+        return self._campaign.flights[self._number].maneuver
+
+    def _flying(self) -> PilotedFlight:
+        if self._pilot is None:
+            raise gymnasium.error.ResetNeeded("call reset() first")
+        return self._pilot
+
+    def _observed(self) -> Observation:
+        """Observation now; remembers it and what is left to turn [half turns]."""
+        pilot, world = self._flying(), self._world
+        seen, time = pilot.seen, 1.0 - pilot.flown * self._period / world.flight_time
+        x, y, z = seen.vertical
+        pitch = np.arctan2(-x, z)
+        self._pitch += remainder(pitch - self._pitch, tau)
+        roll = np.arcsin(np.clip(y, -1.0, 1.0))
+        left = self._goal() - (roll, self._pitch, seen.heading)
+        left[2] = remainder(left[2], tau)
+        self._left = np.nan_to_num(left / np.pi)
+        rate = seen.rate * world.flight_time / np.pi
+        spin = seen.wheel_speed / self._top_speed
+        rest = np.array([time, float(pilot.touches)])
+        whole = np.concatenate([seen.vertical, rate, spin, self._left, rest])
+        last: Observation = np.clip(whole, -BOUND, BOUND).astype(np.float32)
+        self._last = last
+        return last
+
+    def _goal(self) -> FloatArray:
+        """Roll, pitch with its whole turns, and heading at touchdown [rad]; NaN: it is free."""
+        maneuver, turn = self._maneuver, self._world.turn
+        roll, pitch = turn.end * turn.axis[:2]
+        if not isinstance(maneuver, TurnTo):
+            return np.array([roll, pitch, np.nan])
+        if maneuver.end == End.AT_REST:
+            return np.full(3, np.nan)
+        roll, last, heading = landing_attitude(maneuver)
+        pitch = last + tau * round((pitch - last) / tau)
+        return np.array([roll, pitch, np.nan if heading is None else heading])
+
+    def _law_action(self) -> FloatArray:
+        """Action that the wheel law would take, shape (n,)."""
+        seen = self._flying().seen
+        torque = seen.law_torque
+        most = np.where(torque < 0.0, -seen.lowest, seen.highest)
+        return np.divide(torque, most, out=np.zeros_like(torque), where=most > 0.0)

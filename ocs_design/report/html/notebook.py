@@ -1,0 +1,128 @@
+"""Results as notebooks show them: a few lines of HTML with a picture, and nothing fetched."""
+
+import base64
+from collections.abc import Mapping
+from pathlib import Path
+
+from ocs_design.common.files import safe_name
+from ocs_design.common.units import format_quantity
+from ocs_design.device.answers import Front
+from ocs_design.device.records import OcsDesign, ValidationRecord
+from ocs_design.export.png import png_bytes
+from ocs_design.monte_carlo.summary import Validated
+from ocs_design.report.bodies import read_bodies
+from ocs_design.report.charts.front import front_chart
+from ocs_design.report.charts.momentum import ellipsoid_chart
+from ocs_design.report.charts.svg import svg_file
+from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
+from ocs_design.report.flights import short_verdict
+from ocs_design.report.html.elements import Markup, element, items, joined, table, void
+from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
+from ocs_design.report.quantities import grams
+from ocs_design.report.table import Table, columns
+from ocs_design.report.verdict import Headline, flights_headline, headline
+from ocs_design.report.viewer.still import still
+
+_WIDTH = "420"
+"""Of a picture [px]."""
+
+
+def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) -> str:
+    """A result as HTML without style sheets, scripts or anything from elsewhere.
+
+    Args:
+        found: what came of a command.
+        folder: of a design, whose picture of the robot is shown; None: wheel axes and inertia are.
+    """
+    if isinstance(found, OcsDesign):
+        parts = _design(found, folder)
+    elif isinstance(found, Front):
+        parts = _front(found)
+    else:
+        parts = _validated(found)
+    return element("div", *parts)
+
+
+def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
+    facts = dict(device_facts(design))
+    rows = tuple((short, facts[name]) for name, short in FIRST_FACTS.items() if name in facts)
+    kinds = {each.name: each.kind for each in design.requirement.maneuvers}
+    mass = f"{grams(design.ocs.mass_total)}, {share_of_robot(design)}"
+    title = f"{device_title(design)} for {design.robot.name}, {mass}"
+    return (
+        _head(title, headline(design)),
+        element(
+            "div",
+            _picture(design, folder),
+            table("Device", Table(columns("<", "<"), rows)),
+            style="display: flex; gap: 1em; align-items: center",
+        ),
+        _flights(design.validation, kinds),
+    )
+
+
+def _picture(design: OcsDesign, folder: Path | None) -> Markup:
+    glb = None if folder is None else folder / f"robot/{safe_name(design.robot.name)}_ocs.glb"
+    if glb is None or not glb.is_file():
+        return _image("svg+xml", svg_file(ellipsoid_chart(design)), "wheel axes and inertia")
+    picture = png_bytes(still(read_bodies(glb.read_bytes())))
+    return _image("png", picture, f"{design.robot.name} with its device")
+
+
+def _image(kind: str, content: bytes, name: str) -> Markup:
+    source = f"data:image/{kind};base64,{base64.b64encode(content).decode('ascii')}"
+    return void("img", src=source, alt=name, width=_WIDTH, style="background: white")
+
+
+def _head(title: str, line: Headline) -> Markup:
+    matter = (void("br"), line.matter) if line.matter else ()
+    return element("p", element("strong", title), void("br"), line.text, *matter)
+
+
+def _flights(runs: tuple[ValidationRecord, ...], kinds: Mapping[str, str]) -> Markup:
+    """Verdict on each maneuver with the device and without; degrees off level, or turned."""
+    bare = {run.scenario: run for run in runs if not run.ocs}
+    rows = tuple(
+        (
+            run.scenario,
+            *(
+                "-" if each is None else short_verdict(each, kind=kinds.get(run.scenario, ""))
+                for each in (run, bare.get(run.scenario))
+            ),
+        )
+        for run in runs
+        if run.ocs
+    )
+    heads = columns("<flight", "<with the device", "<without it")
+    title = "Flights: degrees off level at touchdown, or turned"
+    return table(title, Table(heads, rows)) if rows else Markup("")
+
+
+def _validated(found: Validated) -> tuple[Markup, ...]:
+    flown = found.monte_carlo
+    certified = None if flown is None else flown.certificate
+    parts = [_head(found.robot, flights_headline(found.validation, certified))]
+    if flown is not None:
+        parts.append(table(campaign_title(flown), success_table(flown)))
+    if certified is not None:
+        parts.append(element("p", certificate_line(certified)))
+    reasons = (f"{run.scenario}: {run.reason}" for run in found.validation if run.ocs)
+    return (*parts, items(reasons))
+
+
+def _front(front: Front) -> tuple[Markup, ...]:
+    rows = tuple(
+        (format_quantity(point.value, front.unit), "-", point.reason)
+        if point.device is None
+        else (
+            format_quantity(point.value, front.unit),
+            grams(point.device.mass),
+            f"{point.device.motor}, {point.device.gear}, {point.device.material}",
+        )
+        for point in front.points
+    )
+    shown = table("Lightest devices", Table(columns(front.label, "mass", "<drive"), rows))
+    return (
+        _image("svg+xml", svg_file(front_chart(front)), front_chart(front).title),
+        joined([shown]),
+    )

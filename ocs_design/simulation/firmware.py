@@ -1,0 +1,366 @@
+"""The flown wheel law as C99: traced symbol by symbol from the code that flies it, with its plans.
+
+NumPy runs `WheelLaw.torque` once on arrays of CasADi symbols. What comes out is what the batch
+flies, operation by operation: there is no second law that could differ.
+"""
+
+import operator
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import partial
+from itertools import chain
+from math import isinf
+from pathlib import Path
+from typing import Any, TypeVar
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.export.templates import fill
+from ocs_design.simulation import quaternions
+from ocs_design.simulation.loop import LoopMargins, level_margins, plan_margins
+from ocs_design.simulation.schedule import References
+from ocs_design.simulation.wheel_law import Desaturation, Target, WheelLaw, braking
+from ocs_design.simulation.world import World
+
+SENSOR_RATES = (200.0, 1000.0)
+"""Usual rates of IMUs, for which margins are given besides that of the design [1/s]."""
+
+
+class _Traced(np.ndarray):
+    """Array of CasADi scalars: NumPy's functions on it write an expression."""
+
+    def __array_ufunc__(
+        self, ufunc: np.ufunc, method: str, *inputs: object, **keywords: object
+    ) -> object:
+        plain = [np.asarray(each) if isinstance(each, _Traced) else each for each in inputs]
+        if method == "__call__" and ufunc in _OPERATIONS:
+            return _traced(np.frompyfunc(_OPERATIONS[ufunc], ufunc.nin, 1)(*plain))
+        return _traced(getattr(ufunc, method)(*plain, **keywords))
+
+    def __array_function__(
+        self,
+        function: Callable[..., object],
+        types: Iterable[type],
+        args: Iterable[object],
+        keywords: Mapping[str, object],
+    ) -> object:
+        if function is np.where:
+            condition, one, other = (np.asarray(each) for each in args)
+            return _traced(np.frompyfunc(ca.if_else, 3, 1)(condition, one, other))
+        if function is np.linalg.norm:
+            (vector,) = (np.asarray(each).view(_Traced) for each in args)
+            return np.sqrt((vector * vector).sum(**keywords))  # type: ignore[call-overload]
+        return _traced(super().__array_function__(function, types, args, keywords))
+
+
+def _traced(result: object) -> object:
+    return result.view(_Traced) if isinstance(result, np.ndarray) else result
+
+
+_OPERATIONS: Mapping[Any, Callable[..., Any]] = {
+    np.minimum: ca.fmin,
+    np.maximum: ca.fmax,
+    np.sqrt: ca.sqrt,
+    np.arctan2: ca.atan2,
+    np.sin: ca.sin,
+    np.cos: ca.cos,
+    np.absolute: ca.fabs,
+    np.greater: operator.gt,
+    np.greater_equal: operator.ge,
+    np.less: operator.lt,
+    np.less_equal: operator.le,
+    np.invert: ca.logic_not,
+    np.bitwise_or: ca.logic_or,
+    np.bitwise_and: ca.logic_and,
+    np.isinf: lambda value: isinstance(value, float) and isinf(value),
+}
+"""What NumPy's functions are to CasADi; sums and products go by the scalars' own operators."""
+
+
+def _symbols(name: str, shape: tuple[int, ...]) -> tuple[ca.SX, Any]:
+    """Column of symbols, and the same as an array of one world, shape (1, ...)."""
+    column = ca.SX.sym(name, int(np.prod(shape)))
+    entries = np.empty(column.numel(), dtype=object)
+    entries[:] = ca.vertsplit(column)
+    return column, entries.reshape(1, *shape).view(_Traced)
+
+
+Traceable = TypeVar("Traceable")
+
+
+@dataclass(frozen=True, eq=False)
+class _Columns:
+    """Numbers that differ between maneuvers, or between the samples of a plan.
+
+    Attributes:
+        shapes: by name, in the order in which they stand in a row.
+        rows: one for each maneuver or sample, shape (m, k).
+    """
+
+    shapes: Mapping[str, tuple[int, ...]]
+    rows: FloatArray
+
+    @classmethod
+    def of(cls, tables: Sequence[object], *, fixed: bool = False) -> "_Columns":
+        """Columns of the numbers in tables of a single row; infinite ones mean that none is there.
+
+        Args:
+            tables: of one type.
+            fixed: keep those that are the same in all.
+        """
+        values = [dict(_arrays(table)) for table in tables]
+        named = {
+            name: np.stack([each[name][0] for each in values]).astype(np.float64)
+            for name in values[0]
+        }
+        kept = {
+            name: value
+            for name, value in named.items()
+            if np.isfinite(value).all() and (fixed or (value != value[0]).any())
+        }
+        rows = [np.empty((len(tables), 0)), *(v.reshape(len(tables), -1) for v in kept.values())]
+        return cls({name: value.shape[1:] for name, value in kept.items()}, np.hstack(rows))
+
+    @property
+    def legend(self) -> str:
+        """Names and counts, for a comment in the C file."""
+        counts = (f"{name} {int(np.prod(shape))}" for name, shape in self.shapes.items())
+        return ", ".join(counts)
+
+    def traced(self, table: Traceable) -> tuple[ca.SX, Traceable]:
+        """A row of symbols, and a table with them in place of its numbers."""
+        parts = {name: _symbols(name, shape) for name, shape in self.shapes.items()}
+        column = ca.vertcat(*(part[0] for part in parts.values()))
+        # The rest is traced too: a plain array would take symbols that are put into it for floats.
+        rest = {name: value.astype(object).view(_Traced) for name, value in _arrays(table)}
+        return column, _with(table, {**rest, **{name: part[1] for name, part in parts.items()}})
+
+
+def _arrays(table: object, prefix: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
+    """Arrays of a table and of those in it, by their names."""
+    for field in fields(table):  # type: ignore[arg-type]
+        value, name = getattr(table, field.name), prefix + field.name
+        if isinstance(value, np.ndarray):
+            yield name, value
+        elif is_dataclass(value):
+            yield from _arrays(value, f"{name}_")
+
+
+def _with(table: Traceable, arrays: Mapping[str, Any], prefix: str = "") -> Traceable:
+    """The table with other arrays by those names."""
+    changed = {}
+    for field in fields(table):  # type: ignore[arg-type]
+        value, name = getattr(table, field.name), prefix + field.name
+        if name in arrays:
+            changed[field.name] = arrays[name]
+        elif is_dataclass(value):
+            changed[field.name] = _with(value, arrays, f"{name}_")
+    return replace(table, **changed)  # type: ignore[type-var]
+
+
+@dataclass(frozen=True, eq=False)
+class Flown:
+    """What differs between maneuvers.
+
+    Attributes:
+        law: of the wheels. brake: in stance, each setting in an array of one world; None: the
+            wheels are left to the law.
+    """
+
+    law: WheelLaw
+    brake: Desaturation | None
+
+    @classmethod
+    def of(cls, world: World) -> "Flown":
+        """Law and brake of a world."""
+        own = world.desaturation
+        if own is None:
+            return cls(world.law, None)
+        settings: dict[str, Any] = {
+            each.name: np.array([[getattr(own, each.name)]]) for each in fields(own)
+        }
+        return cls(world.law, replace(own, **settings))
+
+
+def targets_of(worlds: Sequence[World], period: float) -> list[list[Target]]:
+    """Targets of each world at its control instants since lift-off, until they change no longer."""
+    longest = max(world.duration for world in worlds)
+    times = period * np.arange(np.ceil(longest / period), dtype=np.float64)
+    references = References(worlds, times, period)
+    found: list[list[Target]] = [[] for _ in worlds]
+    for k in range(len(times)):
+        now = references.at(np.full(len(worlds), k))
+        for i, own in enumerate(found):
+            target = _with(now, {name: value[i : i + 1] for name, value in _arrays(now)})
+            plan = target.plan
+            if plan is not None and not plan.holds.any():
+                # Numbers that do not count, and would be a row of their own at each instant.
+                none = {name: np.zeros_like(value) for name, value in _arrays(plan)}
+                target = replace(target, plan=_with(plan, none))
+            own.append(target)
+    for own in found:
+        rows = _Columns.of(own).rows
+        changes = np.flatnonzero((rows != rows[-1]).any(axis=1))
+        del own[changes[-1] + 2 if changes.size else 1 :]
+    return found
+
+
+def law_function(
+    worlds: Sequence[World], targets: Sequence[Target], period: float
+) -> tuple[ca.Function, _Columns, _Columns]:
+    """The law of one control step in CasADi; constants of each world; numbers of each target.
+
+    The function takes attitude, rate, wheel speeds, time on the ground, numbers of a target and
+    constants of a maneuver, and gives the motor torques of a robot that has left the ground once.
+    """
+    flown = [Flown.of(world) for world in worlds]
+    constants, columns = _Columns.of(flown, fixed=True), _Columns.of(targets)
+    constant_row, own = constants.traced(flown[0])
+    target_row, target = columns.traced(targets[0])
+    attitude, q = _symbols("attitude", (4,))
+    rate, w = _symbols("rate", (3,))
+    speed, W = _symbols("wheel_speed", flown[0].law.torque_map.shape[1:2])
+    ground, stood = _symbols("ground_time", (1,))
+    target = target.landed(stood[:, 0] > 0.0)
+    if own.brake is not None:
+        brake = {each.name: getattr(own.brake, each.name) for each in fields(own.brake)}
+        target = replace(target, torque=target.torque + braking(W, stood, **brake))
+    torque = own.law.torque(quaternions.vertical(q), w, W, target, period, attitude=q)
+    inputs = [attitude, rate, speed, ground, target_row, constant_row]
+    return ca.Function("ocs_law", inputs, [ca.vertcat(*np.ravel(torque))]), constants, columns
+
+
+def write_controller(
+    name: str,
+    worlds: Mapping[str, World],
+    folder: Path,
+    *,
+    joints: Sequence[str],
+    period: float,
+    delay: tuple[float, float] | None = None,
+) -> None:
+    """Write the controller in C, its test harness, its Python binding and what to know of them.
+
+    Args:
+        name: of the robot, fit for the names of files.
+        worlds: of each maneuver with driven wheels, in flight from the start.
+        folder: that takes the files.
+        joints: of the wheels, in their order.
+        period: of the control steps [s].
+        delay: from measurement to torque, the least and the largest that the design was sized
+            for [s]; None: none.
+    """
+    own = list(worlds.values())
+    targets = targets_of(own, period)
+    function, constants, columns = law_function(own, list(chain(*targets)), period)
+    counts, identifiers = [len(each) for each in targets], _identifiers(worlds)
+    values = {
+        "name": name,
+        "wheels": str(function.size1_out(0)),
+        "period": repr(period),
+        "rate": f"{1.0 / period:g}",
+        "maneuvers": "".join(f"    {each},\n" for each in identifiers),
+        "legend": constants.legend,
+        "constants": _rows(constants.rows),
+        "constant_count": str(constants.rows.shape[1]),
+        "target_legend": columns.legend,
+        "targets": _rows(columns.rows),
+        "target_count": str(max(columns.rows.shape[1], 1)),
+        "first": ", ".join(str(int(each)) for each in np.cumsum([0, *counts])),
+        "body": _body(function),
+        "table": "".join(
+            f"| {i} | `{identifier}` | {maneuver} | {1e3 * period * (count - 1):.0f} ms |\n"
+            for i, (identifier, maneuver, count) in enumerate(
+                zip(identifiers, worlds, counts, strict=True)
+            )
+        ),
+        "margins": _margin_table(worlds, period),
+        "delay": "" if delay is None else _DELAY.format(*(1e3 * each for each in delay)),
+        "brake": _LEFT if own[0].desaturation is None else _BRAKED,
+        "order": _order(worlds, joints),
+    }
+    for template, file in _FILES.items():
+        (folder / file.format(name)).write_bytes(fill(template, values).encode())
+
+
+_FILES = {
+    "controller/controller.h": "{}_ocs_controller.h",
+    "controller/controller.c": "{}_ocs_controller.c",
+    "controller/harness.c": "harness.c",
+    "controller/binding.pyt": "{}_ocs_controller.py",
+    "controller/Makefile": "Makefile",
+    "controller/README.md": "README.md",
+}
+"""Templates, and the files that they become."""
+
+
+def _identifiers(names: Iterable[str]) -> list[str]:
+    """A constant in C for each maneuver."""
+    plain = [re.sub(r"[^A-Z0-9]+", "_", name.upper()).strip("_") for name in names]
+    return [
+        f"OCS_{each}" if each and plain.count(each) == 1 else f"OCS_{each or 'MANEUVER'}_{i}"
+        for i, each in enumerate(plain)
+    ]
+
+
+def _rows(rows: FloatArray) -> str:
+    """Initialiser of a table; each number in the fewest digits that read back the same."""
+    # Zero has no sign: people wonder at -0.0. C has no empty row.
+    lines = (", ".join(repr(float(value) + 0.0) for value in row) or "0" for row in rows)
+    return "".join(f"    {{{line}}},\n" for line in lines)
+
+
+def _body(function: ca.Function) -> str:
+    """The function's arithmetic in C, without what CasADi puts around it for its own loader."""
+    generator = ca.CodeGenerator("ocs_law.c", {"with_header": False})
+    generator.add(function)
+    found = re.search(
+        r"^static int \w+\(.*?\{\n(.*?)^  return 0;\n\}", generator.dump(), re.S | re.M
+    )
+    assert found, "CasADi writes C in another form than it did"
+    assert "casadi_nan" not in found.group(1), "a symbol was taken for a number"
+    # None of the pointers is null.
+    plain = re.sub(r"arg\[\d\]\? (arg\[\d\]\[\d+\]) : 0", r"\1", found.group(1))
+    return re.sub(r"if \(res\[0\]!=0\) ", "", plain).replace("casadi_", "ocs_")
+
+
+def _margin_table(worlds: Mapping[str, World], period: float) -> str:
+    """Margins at the design's own rate and at those of usual sensors, as rows of Markdown."""
+    loops: dict[str, Callable[[float], LoopMargins]] = {}
+    for name, world in worlds.items():
+        if world.trajectory is None or world.trajectory.gains is None:
+            loops.setdefault("level flight", partial(level_margins, world.law, world.body))
+        else:
+            loops[f"plan of {name}"] = partial(plan_margins, world.trajectory, world.body)
+    rows = []
+    for loop, margins in loops.items():
+        for rate in sorted({1.0 / period, *SENSOR_RATES}):
+            each, own = margins(1.0 / rate), " (this design)" if rate == 1.0 / period else ""
+            rows.append(
+                f"| {loop} | {rate:g} Hz{own} | {each.crossover:.2f} rad/s "
+                f"| {np.degrees(each.phase):.1f} deg | {1e3 * each.delay:.1f} ms |\n"
+            )
+    return "".join(rows)
+
+
+_DELAY = "The\ndesign was sized for {:.3g} to {:.3g} ms of it (`torque_delay` of its `[reality]`)."
+_LEFT = "The design leaves the wheels to the law in stance: `size --desaturate` brakes them down."
+_BRAKED = "After a while on the ground the wheels are braked down too (constants `brake_...`)."
+
+
+def _order(worlds: Mapping[str, World], joints: Sequence[str]) -> str:
+    """Table in Markdown of the wheels' axes, in each maneuver where they are turned by hand."""
+    axes = {name: world.body.axes for name, world in worlds.items()}
+    first = next(iter(axes.values()))
+    if all(np.array_equal(each, first) for each in axes.values()):
+        axes = {"": first}
+    head = "".join(f" axis in B{', ' if name else ''}{name} |" for name in axes)
+    lines = [f"| index | joint |{head}\n", "|---|---|" + "---|" * len(axes) + "\n"]
+    for i, joint in enumerate(joints):
+        of_each = (", ".join(f"{x + 0.0:.6f}" for x in each[:, i]) for each in axes.values())
+        lines.append(f"| {i} | `{joint}` |" + "".join(f" ({axis}) |" for axis in of_each) + "\n")
+    return "".join(lines)

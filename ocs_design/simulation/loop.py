@@ -1,0 +1,127 @@
+"""How much delay the wheels' loop stands, discretised as it runs.
+
+The torque is held from one control instant to the next, so the linear plant is exact between them:
+`x' = A_d x + B_d tau`, `tau = -K x`. With all motors late alike, the loop of n wheels is stable on
+the same terms as n single ones whose gains are the eigenvalues of `K (z - A_d)^-1 B_d`
+(Postlethwaite and MacFarlane, A Complex Variable Approach to the Analysis of Linear Multivariable
+Feedback Systems, 1979).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.simulation.wheel_law import Target, WheelLaw
+from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.tracking import linearised
+
+_GRID = 4000
+"""Frequencies that crossings are looked for between."""
+
+_INSTANTS = 21
+"""Instants of a plan whose margins are looked at."""
+
+_SMALL = 1e-4
+"""Step of the central differences that linearise the law [rad, rad/s]: they are off by its square,
+and by the rounding of one in 1e12."""
+
+
+@dataclass(frozen=True)
+class LoopMargins:
+    """Margins of a loop that is closed once in every period.
+
+    Attributes:
+        period: of the control steps [s].
+        crossover: frequency at which the loop's gain is one, of the margin [rad/s].
+        phase: margin there [rad].
+        delay: that the loop stands beyond its own hold [s].
+    """
+
+    period: float
+    crossover: float
+    phase: float
+    delay: float
+
+
+def loop_margins(
+    state: FloatArray, control: FloatArray, feedback: FloatArray, period: float
+) -> LoopMargins:
+    """The smallest margins of a state feedback whose command is held.
+
+    Args:
+        state: A of the continuous plant, shape (m, m). control: B, shape (m, n).
+        feedback: K, shape (n, m). period: [s].
+
+    Returns:
+        Margins at the crossover that stands the least delay; no limit where the gain is below one
+        at every frequency.
+    """
+    size, inputs = control.shape
+    held = expm(period * np.block([[state, control], [np.zeros((inputs, size + inputs))]]))
+    step, gain = held[:size, :size], held[:size, size:]
+
+    def eigenvalues(frequency: FloatArray) -> NDArray[np.complex128]:
+        z = np.exp(1j * period * frequency)[:, None, None]
+        loop = feedback @ np.linalg.solve(z * np.eye(size) - step, gain + 0j * z)
+        found = np.linalg.eigvals(loop).astype(np.complex128)
+        return np.take_along_axis(found, np.argsort(np.abs(found), axis=1), axis=1)
+
+    frequency = np.geomspace(1e-4, 1.0, _GRID) * np.pi / period
+    level = np.log(np.maximum(np.abs(eigenvalues(frequency)), 1e-300))
+    before, which = np.nonzero(level[:-1] * level[1:] <= 0.0)
+    if not before.size:
+        return LoopMargins(period, 0.0, np.pi, np.inf)
+    first, last = level[before, which], level[before + 1, which]
+    part = first / np.where(first == last, 1.0, first - last)
+    crossing = frequency[before] * (frequency[before + 1] / frequency[before]) ** part
+    there = np.take_along_axis(eigenvalues(crossing), which[:, None], axis=1)[:, 0]
+    phase = np.angle(-there)
+    late = np.mod(phase, 2.0 * np.pi) / crossing
+    soonest = int(np.argmin(late))
+    return LoopMargins(
+        period, float(crossing[soonest]), float(np.abs(phase).min()), float(late[soonest])
+    )
+
+
+def level_margins(law: WheelLaw, body: Gyrostat, period: float) -> LoopMargins:
+    """Margins of a law in one world about level flight at rest, within the motors' limits."""
+    n = body.axes.shape[1]
+    free = {
+        name: np.full(1, np.inf)
+        for name in ("no_load_speed", "torque_limit", "speed_max", "power_max")
+    }
+    linear, none = replace(law, **free), np.zeros((1, 3))
+    level = Target(np.array([[0.0, 0.0, 1.0]]), none, none, np.zeros((1, n)), np.zeros(1, bool))
+
+    def torque(state: FloatArray) -> FloatArray:
+        roll, pitch = state[:2]
+        vertical = np.array([[-pitch, roll, 1.0]])
+        found = linear.torque(vertical, state[None, 3:6], state[None, 6:], level, period)
+        return np.asarray(found[0])
+
+    steps = _SMALL * np.eye(6 + n)
+    feedback = -np.stack([(torque(e) - torque(-e)) / (2.0 * _SMALL) for e in steps], axis=1)
+    system = linearised(body, none, np.zeros((1, n)))[0]
+    return loop_margins(system[:, : 6 + n], system[:, 6 + n :], feedback, period)
+
+
+def plan_margins(trajectory: Trajectory, body: Gyrostat, period: float) -> LoopMargins:
+    """Smallest margins along a trajectory, with its own gains, as if each instant lasted.
+
+    Args:
+        trajectory: with gains.
+        body: that flies it. period: of the control steps [s].
+    """
+    assert trajectory.gains is not None, "only gains have margins"
+    size = trajectory.gains.shape[2]
+    systems = linearised(body, trajectory.rate, trajectory.wheel_speed)
+    instants = np.linspace(0, len(systems) - 1, _INSTANTS).astype(int)
+    margins = [
+        loop_margins(systems[k, :, :size], systems[k, :, size:], trajectory.gains[k], period)
+        for k in instants
+    ]
+    return min(margins, key=lambda each: each.delay)

@@ -1,0 +1,117 @@
+"""One world whose wheels something else than the law drives, a control step at a time."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from mujoco.rollout import Rollout
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.simulation import quaternions
+from ocs_design.simulation.batch import Batch, Recording
+from ocs_design.simulation.wheel_law import Target, WheelLaw
+from ocs_design.simulation.world import World
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What the sensors tell at one control instant, of a trunk with m wheels.
+
+    Attributes:
+        vertical: the world's upward direction in B, shape (3,).
+        heading: turn about the vertical since it stood at the start [rad], within half a turn.
+        rate: in B [rad/s], (3,).
+        wheel_speed: relative to the trunk [rad/s], (m,).
+        law_torque: what the wheel law would ask of the motors [N m], (m,).
+        lowest, highest: torques that the motors can give [N m], (m,).
+    """
+
+    vertical: FloatArray
+    heading: float
+    rate: FloatArray
+    wheel_speed: FloatArray
+    law_torque: FloatArray
+    lowest: FloatArray
+    highest: FloatArray
+
+
+class PilotedFlight(Batch):
+    """A flight from start to end with the batch's own physics, sensors, drives, legs and pushes.
+
+    Until lift-off the wheels wait, as they do under the law.
+    """
+
+    def __init__(self, world: World, hold: int) -> None:
+        """Flight of a world with its wheels active; `hold` steps of the physics a control step."""
+        super().__init__([world], hold)
+        self._physics = [mujoco.MjData(world.model)]
+        self._pool = Rollout(nthread=0)
+        self._instant = 0
+        self.seen = self._look()
+        while not self.ended and self.flown < 0:
+            self.fly(np.zeros(len(self._wheels)))
+
+    @property
+    def ended(self) -> bool:
+        """Whether it is over: its time is up, or its state is not finite."""
+        return self._instant >= self._lengths[0] or not np.isfinite(self._state).all()
+
+    @property
+    def flown(self) -> int:
+        """Control steps since lift-off; negative on the ground before it."""
+        return int(self._clock.steps(self._instant, 1)[0])
+
+    @property
+    def touches(self) -> bool:
+        """Whether anything touched the floor in the last control step."""
+        return bool(self._record.contact[self._instant - 1, 0])
+
+    @property
+    def pose(self) -> FloatArray:
+        """Joint positions of the model, shape (nq,)."""
+        found: FloatArray = self._qpos[0].copy()
+        return found
+
+    def fly(self, torque: FloatArray) -> None:
+        """One control step with torques asked of the motors, cut to what motors and supply can do.
+
+        Args:
+            torque: [N m], shape (m,).
+        """
+        k, speed = self._instant, self.seen.wheel_speed[None]
+        possible = self._law.within_motors(torque[None], speed, self._period)
+        asked = self._law.within_supply(possible, speed, self._period)
+        if self.flown < 0:
+            asked[:] = 0.0
+        self._advance(self._pool, self._physics, k, self._driven(k, asked))
+        self._record_sensors(k, 1)
+        self._instant += 1
+        if not self.ended:
+            self.seen = self._look()
+
+    def recording(self) -> Recording:
+        """What happened, once it has ended."""
+        return self._ended(self._physics[0])
+
+    def _look(self) -> Seen:
+        self._observe_and_decide(self._instant, 1, self._law)
+        return self._found
+
+    def _decide(
+        self,
+        law: WheelLaw,
+        vertical: FloatArray,
+        rate: FloatArray,
+        speed: FloatArray,
+        target: Target,
+        *,
+        attitude: FloatArray,
+    ) -> FloatArray:
+        """What the law would ask for, noted with what it saw."""
+        torque = super()._decide(law, vertical, rate, speed, target, attitude=attitude)
+        most = np.full_like(speed, np.inf)
+        low, high = (law.within_motors(all_of, speed, self._period) for all_of in (-most, most))
+        speed = speed[0].copy()
+        seen = vertical[0], quaternions.heading(attitude)[0], rate[0], speed
+        self._found = Seen(*seen, torque[0], low[0], high[0])
+        return torque

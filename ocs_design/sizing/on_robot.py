@@ -1,0 +1,237 @@
+"""The selection on the robot: each device with a plate, feet and guard rings of its own.
+
+Plate, feet and rings follow from the device that they carry or hold, and add to what it must turn:
+both are found in turn until they stay.
+"""
+
+from dataclasses import replace
+
+from ocs_design.common.errors import Infeasible
+from ocs_design.device.joints import burst_of
+from ocs_design.device.layout import Criterion
+from ocs_design.device.solids import foot_of
+from ocs_design.parts.foot import plate_thickness
+from ocs_design.robot.robot import Robot
+from ocs_design.sizing.assembly import assemble_selected
+from ocs_design.sizing.footing import Footing, footing_under, stand_on_trunk
+from ocs_design.sizing.reserve import Reality, Reserve
+from ocs_design.sizing.selection.device import of_parts
+from ocs_design.sizing.selection.problem import (
+    SelectionProblem,
+)
+from ocs_design.sizing.selection.result import Candidate, Selection
+from ocs_design.sizing.selection.select import (
+    at_own_incidence,
+    device_at,
+    lightest_by,
+    same_parts,
+    select_by,
+)
+
+_FOOTINGS_MAX, _RINGS_MAX = 6, 16
+
+_SETTLED = 1e-3
+"""Change of a plate's mass over its device's that is none: a device's follows by a hundredth."""
+
+_TOO_THICK = 0.2e-3
+"""Of feet that are left as they are [m]: 0.5 g each."""
+
+
+def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) -> Candidate:
+    """A selected device with the plate that it stands on, where the trunk does not hold it.
+
+    Args:
+        candidate: as selected; its plate is not looked at. problem: that it was selected for.
+        robot: that carries it.
+    """
+    device = assemble_selected(candidate, problem.supply)
+    device = stand_on_trunk(device, robot, stated=problem.place.stated)
+    return replace(candidate, plate=device.plate)
+
+
+def with_plates(
+    selection: Selection,
+    problem: SelectionProblem,
+    criterion: Criterion | None,
+    robot: Robot,
+) -> Selection:
+    """The selection with the plates that its devices stand on, the lightest with its plate first.
+
+    Every device has a plate of its own size: that of a smaller one is lighter.
+
+    Args:
+        problem: that was solved. criterion: see `select_by`; the first is at its own incidence.
+    """
+    plated = [with_plate(entry, problem, robot) for entry in selection.ranking]
+    first, lightest = plated[0], min(plated, key=lambda entry: entry.mass)
+    if lightest is not first and criterion is not None and problem.incidence is None:
+        _, own = at_own_incidence(problem, lightest, criterion)
+        lightest = first if own is None else with_plate(own, problem, robot)
+    others = [entry for entry in plated if not same_parts(entry, lightest)]
+    others.sort(key=lambda entry: entry.mass)
+    return replace(selection, ranking=(lightest, *others))
+
+
+def on_its_footing(
+    problem: SelectionProblem,
+    criterion: Criterion | None,
+    robot: Robot,
+    kept: tuple[Reality, Reserve],
+    *,
+    advise: bool,
+) -> tuple[SelectionProblem, Selection, Reserve, Candidate]:
+    """The selection on the footing that its best device has, with the problem that this is.
+
+    Last come the reserve that it keeps and the lightest device without one.
+
+    The problem is for the plate and the place of the largest modules that there may be. The
+    selection is for those of its lightest device, then only the best drive's for its own, until
+    they stay. What cannot be done on its own footing, under a heavier plate, stays as it was: its
+    flights and margins judge it.
+
+    Args:
+        problem: to solve. criterion, advise: see `select_by`. robot: that carries it.
+        kept: what is drawn and the reserve for it, which the lightest device without one settles.
+
+    Raises:
+        Infeasible: see `select_by`.
+    """
+
+    def settled(best: Candidate) -> tuple[SelectionProblem, Candidate]:
+        """The problem for the footing of this device, and the device for that, until both stay."""
+        at = problem
+        for _ in range(_FOOTINGS_MAX):
+            own = _own_footing(problem, best, robot)
+            change = abs(own.robot.mass - at.robot.mass)
+            same = own.place == at.place and own.foot_plate == at.foot_plate
+            if same and change <= _SETTLED * best.mass:
+                break
+            again = device_at(own, best, best.incidence)
+            if again is not None and criterion is not None and own.incidence is None:
+                _, again = at_own_incidence(own, again, criterion)
+            if again is None:
+                break
+            at, best = own, again
+        return at, best
+
+    first, widest = lightest_by(problem, criterion), problem
+    if first is not None:
+        problem, first = settled(first)
+    nominal = select_by(problem, criterion, advise=advise).best if first is None else first
+    reality, reserve = kept
+    reserve = reserve.settled(reality, problem, nominal)
+    if any(each.demand > 1.0 for each in reserve.maneuvers.values()):
+        # What the reserve costs is told against a device that is refined as well.
+        nominal = select_by(of_parts(problem, nominal), criterion, advise=False).best
+    free = problem.incidence is None and criterion is None
+    problem, widest = (
+        replace(each, requirement=reserve.kept(each.requirement, free=free))
+        for each in (problem, widest)
+    )
+    first = device_at(problem, nominal, nominal.incidence)
+    try:
+        selection = select_by(problem, criterion, advise=False, winner=first)
+    except Infeasible:
+        problem = widest
+        selection = select_by(problem, criterion, advise=advise)
+    selection = with_plates(selection, problem, criterion, robot)
+    for _ in range(_FOOTINGS_MAX):
+        best = selection.best
+        own, _ = settled(best)
+        if own is problem:
+            break
+        try:
+            again = select_by(of_parts(own, best), criterion, advise=False)
+        except Infeasible:
+            break
+        again, problem = with_plates(again, own, criterion, robot), own
+        others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
+        selection = replace(selection, ranking=(again.best, *others))
+    return problem, selection, reserve, nominal
+
+
+def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> SelectionProblem:
+    """The problem for the plate, the place and the feet of this device."""
+    device, stated = assemble_selected(best, problem.supply), problem.place.stated
+    module = best.modules_mass / len(best.layout)
+    least, feet = plate_thickness(foot_of(device), module), best.foot_plate
+    # Thicker feet are a little heavier, and ask for more.
+    if not least <= feet <= least + _TOO_THICK:
+        feet = least
+    footing = footing_under(device, robot, stated=stated) or Footing(problem.place, None)
+    carried = footing.carried(robot.mass_properties)
+    place = problem.place if stated else footing.place
+    return replace(problem, robot=carried, place=place, foot_plate=feet)
+
+
+def in_rings(
+    problem: SelectionProblem,
+    best: Candidate,
+    criterion: Criterion | None,
+    robot: Robot,
+) -> tuple[SelectionProblem, Selection]:
+    """The selection with guard rings that hold the wheels of its best device, and its problem.
+
+    All drives are weighed with rings of one wall, then the lightest with those of its own wheels,
+    until no other is lighter.
+
+    Args:
+        problem: without rings. best: its lightest device, whose rings are the first wall.
+        criterion: see `select_by`. robot: that carries it.
+
+    Raises:
+        Infeasible: every device is too heavy with its rings.
+    """
+
+    def ringed(best: Candidate, least: float) -> SelectionProblem:
+        burst = burst_of(assemble_selected(best, problem.supply))
+        own = _own_footing(problem, best, robot)
+        return replace(own, guard_wall=max(least, burst.built_wall))
+
+    at, tried = ringed(best, 0.0), set[tuple[str, str]]()
+    try:
+        selection = select_by(at, criterion, advise=False)
+    except Infeasible as error:
+        raise _unheld(at.guard_wall, error) from error
+    selection = with_plates(selection, at, criterion, robot)
+    for _ in range(_RINGS_MAX):
+        best = selection.best
+        drive = best.motor.name, best.gear.name
+        # The rings of a drive only grow, so that the last ones hold its wheels.
+        own = ringed(best, best.guard_wall if drive in tried else 0.0)
+        tried.add(drive)
+        change = abs(own.robot.mass - at.robot.mass)
+        walls = own.guard_wall == best.guard_wall and own.foot_plate == best.foot_plate
+        same = own.place == at.place and walls
+        if same and change <= _SETTLED * best.mass:
+            break
+        others = [
+            entry
+            for entry in selection.ranking
+            if (entry.motor, entry.gear) != (best.motor, best.gear)
+        ]
+        alone = replace(own, motors=(best.motor,), gears=(best.gear,))
+        try:
+            again = select_by(alone, criterion, advise=False)
+        except Infeasible as error:
+            if not others:
+                raise _unheld(own.guard_wall, error) from error
+            selection = replace(selection, ranking=tuple(others))
+            continue
+        again, at = with_plates(again, alone, criterion, robot), own
+        ranking = sorted((*again.ranking, *others), key=lambda entry: entry.mass)
+        selection = replace(selection, ranking=tuple(ranking))
+    return at, selection
+
+
+def _unheld(wall: float, error: Infeasible) -> Infeasible:
+    """The error where every device is too heavy with rings that hold its wheels."""
+    return Infeasible(
+        f"With guard rings of {1e3 * wall:.1f} mm of steel no motor does everything: {error}",
+        binding=["ocs.guard", *error.binding],
+        required_spin_inertia=error.required_spin_inertia,
+        largest_spin_inertia=error.largest_spin_inertia,
+        relaxations=error.relaxations,
+        hint="Leave out --guard containing and run it behind a wall, or allow more voltage, room "
+        "or time.",
+    )

@@ -1,0 +1,96 @@
+"""What `size --layout all` answers: a device of each layout, for the same requirement."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ocs_design.actuation.wheel_load import held
+from ocs_design.common.arrays import FloatArray, vector
+from ocs_design.common.errors import Infeasible
+from ocs_design.common.files import AnyPath
+from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
+from ocs_design.device.records import SCHEMA_VERSION
+from ocs_design.report.text.console import Steps, Tell
+from ocs_design.requirement.reading import specification_of
+from ocs_design.requirement.specification import LAYOUTS, Specification
+from ocs_design.requirement.sweep import Task
+from ocs_design.sizing.design import Designed, design_device
+from ocs_design.sizing.mounting import mounting_of, mounting_open_points
+from ocs_design.workflows.pareto import read_task
+
+
+def compare_layouts(
+    design_for: Specification | AnyPath,
+    *,
+    package_paths: Mapping[str, AnyPath] | None = None,
+    strict: bool = False,
+    progress: Steps | Tell | None = None,
+) -> LayoutsAnswer:
+    """The lightest device of each layout, what momentum it takes, and what one lost wheel leaves.
+
+    Nothing is flown or exported.
+
+    Args:
+        design_for: a specification, the path of its file, or that of a robot; its own layout is
+            not looked at.
+        package_paths: folder of each package that `package://` addresses name.
+        strict: warnings about the robot are errors.
+        progress: see `design_ocs`.
+
+    Raises:
+        OcsError: the robot cannot be read, or the specification does not fit it.
+    """
+    steps, stated = Steps.of(progress), specification_of(design_for)
+    paths = {name: Path(path) for name, path in (package_paths or {}).items()}
+    answers = []
+    for layout in LAYOUTS:
+        asked = replace(stated, ocs=replace(stated.ocs, layout=layout))
+        with steps.step(f"size {layout}") as step:
+            task = read_task(asked, package_paths=paths, strict=strict)
+            try:
+                designed = design_device(asked, task.robot, task.resolved, advise=False)
+            except Infeasible as error:
+                answers.append(LayoutAnswer(layout=layout, without=str(error)))
+                step.note = "no device"
+            else:
+                answers.append(_answer(layout, task, designed))
+                step.note = designed.device.motor.name
+    return LayoutsAnswer(
+        schema_version=SCHEMA_VERSION, robot=task.robot.name, layouts=tuple(answers)
+    )
+
+
+def _answer(layout: str, task: Task, designed: Designed) -> LayoutAnswer:
+    device, sized = designed.device, designed.sized
+    maneuvers = task.resolved.requirement.maneuvers
+    open_points = mounting_open_points(mounting_of(task.robot, device, maneuvers, sized.total))
+    each = device.flywheel.spin_inertia * sized.wheel_speed_max
+    return LayoutAnswer(
+        layout=layout,
+        wheels=len(device.modules),
+        mass=device.mass,
+        motor=device.motor.name,
+        momentum=vector(each * reach(device.axes)),
+        momentum_without_one=vector(each * reach_without_one(device.axes)),
+        open=tuple(point.what for point in open_points),
+    )
+
+
+def reach(axes: FloatArray) -> FloatArray:
+    """Momentum about roll, pitch and yaw, each alone, over a wheel's largest, shape (3,).
+
+    Args:
+        axes: of the wheels as columns, shape (3, n).
+    """
+    return np.asarray(1.0 / held(axes, np.eye(3)).most)
+
+
+def reach_without_one(axes: FloatArray) -> FloatArray:
+    """Reach with any one of the wheels lost; see `reach`."""
+    wheels = axes.shape[1]
+    if wheels == 1:
+        return np.zeros(3)
+    left = [reach(np.delete(axes, lost, axis=1)) for lost in range(wheels)]
+    return np.asarray(np.min(left, axis=0))

@@ -1,0 +1,33 @@
+"""The policy of the example: its numbers, and one flight with them."""
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+from stories import design
+
+from ocs_design.device.records import design_to_json
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "learn_to_land.py"
+
+
+@pytest.fixture
+def example(tmp_path):
+    spec = importlib.util.spec_from_file_location("learn_to_land", EXAMPLE)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    (tmp_path / "design.json").write_bytes(design_to_json(design()))
+    module.begin(str(tmp_path))
+    return module
+
+
+def test_a_policy_that_turns_towards_level_earns_more_than_one_that_turns_away(example):
+    seen, told = example.env.reset(options={"sample": 3})
+    # About pitch, as the law pushes at the start: on the way, against the rate.
+    towards = np.zeros((2, 4))
+    towards[:, 3], towards[:, 1] = -30.0 * np.sign(told["law"]), 6.0 * np.sign(told["law"])
+    assert (np.sign(example.action(towards, seen)) == np.sign(told["law"])).all()
+    good, idle, bad = (example.learnt((sign * towards, 3)) for sign in (1.0, 0.0, -1.0))
+    assert good > idle + 0.05 > bad + 0.1
+    assert example.tested(None, 3)[0] is True

@@ -1,0 +1,141 @@
+"""The drilling template, read again from its PDF and DXF, against plate and feet."""
+
+import re
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from built import CAGED_DEVICE, DEVICES
+from wheels import paper_device
+
+from ocs_design.device.device import Module
+from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.export.device_parts import foot_holes
+from ocs_design.export.drawing.sheet import HEIGHT, Area, Circle, Line, Text
+from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages, write_drilling
+from ocs_design.export.formats import Subject
+
+
+def subject(device):
+    return Subject("dog", device, SimpleNamespace(trunk="trunk", mount=None), None)
+
+
+def around(layout):
+    """Modules of that layout around the middle of the trunk, all on the trunk."""
+    places = 0.04 * np.array(layout.ring) + [0.0, 0.0, CAGED_DEVICE.modules[0].position[2]]
+    modules = map(Module, layout.names, layout.axes(layout.angle).T, places)
+    return replace(CAGED_DEVICE, modules=tuple(modules), layout=layout, incidence=layout.angle)
+
+
+TRIAD = around(Layout(LayoutName.TRIAD))
+
+
+@pytest.fixture(params=["caged", "on a plate", "triad"])
+def device(request):
+    return (DEVICES | {"triad": TRIAD})[request.param]
+
+
+def trunk_holes(device):
+    """Where they must be [mm], by what carries the feet."""
+    if device.plate is None:
+        return [place for places in foot_holes(device).values() for place in places]
+    x, y, _ = device.plate.position
+    return [(x + along, y + across) for along, across in device.plate.trunk]
+
+
+def test_screws_of_the_feet_are_within_reach_of_their_slots():
+    """At any incidence: less than 45 degrees from the wheel's axis, on the slots' circle."""
+    pairs = [CAGED_DEVICE.at_incidence(each) for each in np.radians([5.0, 40.0, 85.0])]
+    for turned in (*pairs, TRIAD):
+        for module, places in zip(turned.modules, foot_holes(turned).values(), strict=True):
+            off = np.array(places) - module.position[:2]
+            np.testing.assert_allclose(off.sum(axis=0), 0.0, atol=1e-15)
+            along = np.abs(off @ module.axis[:2]) / np.linalg.norm(off, axis=1)
+            assert (along >= np.sqrt(0.5) - 1e-12).all()
+
+
+def test_on_paper_the_holes_are_in_full_size_with_forward_up(device, tmp_path):
+    """A PDF's unit is a 72nd of an inch."""
+    write_drilling(subject(device), tmp_path)
+    content = (tmp_path / "drilling.pdf").read_bytes().decode("latin-1")
+    box = re.search(r"/MediaBox \[ 0 0 (\S+) (\S+) \]", content)
+    assert [float(each) * 25.4 / 72.0 for each in box.groups()] == pytest.approx([297.0, 210.0])
+    (scale,) = re.findall(r"([\d.]+) 0 0 ([\d.]+) 0 0 cm", content.replace("1 0 0 1 0 0 cm", ""))
+    assert [float(each) for each in scale] == pytest.approx([72.0 / 25.4] * 2, rel=1e-6)
+    (page,) = pages(drilling_of(subject(device)))
+    (across, along) = np.array(trunk_holes(device)).T * 1e3
+    (left, *_), (_, _, _, bottom) = SHEET, SHEET
+    thick = [each for each in page if isinstance(each, Circle) and each.pen.width > 0.25]
+    found = np.array([each.center for each in thick])
+    expected = np.column_stack([-along, -across])
+    offset = found - expected
+    np.testing.assert_allclose(offset, offset[[0]].repeat(len(offset), axis=0), atol=1e-9)
+    assert all(each.radius == pytest.approx(1.25) for each in thick)
+    words = " ".join(each.text for each in page if isinstance(each, Text))
+    assert f"dog: drill {len(thick)} holes of 2.5 mm for M3" in words
+    levels = [each for each in page if isinstance(each, Line) and each.start[1] == each.end[1]]
+    below = [each for each in levels if each.start[1] > bottom and each.start[0] == left]
+    assert below[0].end[0] - below[0].start[0] == CHECK
+
+
+def test_what_is_wider_than_a_sheet_goes_on_several():
+    apart = [
+        replace(module, position=module.position * [1.0, 4.0, 1.0])
+        for module in CAGED_DEVICE.modules
+    ]
+    wide = drilling_of(subject(replace(CAGED_DEVICE, modules=tuple(apart))))
+    sheets = list(pages(wide))
+    for sheet in sheets:
+        (cover,) = (k for k, each in enumerate(sheet) if isinstance(each, Area) and each.white)
+        assert {y for _, y in sheet[cover].corners} == {SHEET[3], HEIGHT}
+        assert any("100 %" in each.text for each in sheet[cover:] if isinstance(each, Text))
+    left, top, right, bottom = SHEET
+    assert len(sheets) == 2
+    held = [
+        sum(
+            left <= each.center[0] <= right and top <= each.center[1] <= bottom
+            for each in sheet
+            if isinstance(each, Circle) and each.pen.width > 0.25
+        )
+        for sheet in sheets
+    ]
+    assert held == [2, 2]
+    assert "Sheet 2 of 2" in " ".join(each.text for each in sheets[1] if isinstance(each, Text))
+
+
+def test_wheels_alone_have_none(tmp_path):
+    write_drilling(subject(paper_device()), tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_module_that_does_not_stand_has_no_screws_in_the_trunk():
+    holes = foot_holes(around(Layout(LayoutName.PYRAMID)))
+    assert holes == {}
+    assert drilling_of(subject(around(Layout(LayoutName.PYRAMID)))) is None
+
+
+def test_dxf_has_the_holes_in_the_frame_of_the_trunk(device, tmp_path):
+    pytest.importorskip("ezdxf", reason="ezdxf is the extra [dxf]")
+    from ezdxf import recover, units
+
+    from ocs_design.export.dxf import write
+
+    write(subject(device), tmp_path)
+    document, auditor = recover.readfile(tmp_path / "drilling.dxf")
+    assert not auditor.has_errors
+    assert document.units == units.MM
+    space = document.modelspace()
+    holes = [(e.dxf.center.x, e.dxf.center.y) for e in space.query('CIRCLE[layer=="HOLES"]')]
+    np.testing.assert_allclose(holes, 1e3 * np.array(trunk_holes(device)), atol=1e-9)
+    crossed = {tuple(np.round(_middle(e), 6)) for e in space.query('LINE[layer=="AXES"]')}
+    assert {tuple(np.round(each, 6)) for each in holes} <= crossed
+    measured = [e.dxf.start.distance(e.dxf.end) for e in space.query('LINE[layer=="TEXT"]')]
+    assert CHECK in [pytest.approx(each) for each in measured]
+    words = [e.dxf.text for e in space.query("TEXT")]
+    assert any(re.match(r"dog: drill [46] holes of 2.5 mm", each) for each in words)
+    assert "forward" in words
+
+
+def _middle(line):
+    return np.array((line.dxf.start + line.dxf.end) / 2.0)[:2]

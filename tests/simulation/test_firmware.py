@@ -1,0 +1,225 @@
+"""The controller in C against the law that flies in the batch."""
+
+import re
+import subprocess
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from firmware import bound, compiled
+from trajectories import from_rest
+from wheels import EC45, driven_device, paper_device
+
+from ocs_design.actuation.supply import Supply
+from ocs_design.device.device import Module
+from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.device.naming import joint_names
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.requirement.maneuver import Flip
+from ocs_design.simulation import quaternions
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.firmware import targets_of, write_controller
+from ocs_design.simulation.reference import Quintic
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.wheel_law import WheelBrake
+from ocs_design.simulation.world import WorldBuilder
+from ocs_design.sizing.trajectory.plans import drive_line_of
+from ocs_design.sizing.trajectory.tracking import tracking_gains
+
+PERIOD, STATES = 0.005, 10_000
+WOUND = replace(EC45, resistance=0.6, torque_constant=0.037)
+
+
+def worlds_of(solo12, device, *, desaturate):
+    """The paper's three maneuvers; those that are foreseen with a plan."""
+    builder = WorldBuilder(solo12, device, desaturate=desaturate)
+    worlds = {}
+    for each in default_maneuvers(solo12):
+        world = builder.flight(each, Wheels.ACTIVE)
+        if world.turn.span:
+            turn = replace(world.turn, profile=Quintic())
+            plan = from_rest(world.body, turn, samples=401)
+            if isinstance(each, Flip):
+                # Heading included, on gains that change along the plan.
+                attitude = quaternions.from_axis_angle(turn.axis, turn.angle(plan.time))
+                gains = tracking_gains(world.body, drive_line_of(device), plan)
+                plan = replace(plan, attitude=attitude, gains=gains)
+            world = builder.flight(each, Wheels.ACTIVE, plan)
+        worlds[each.name] = world
+    return worlds
+
+
+def laid_out(name):
+    """The motor's device with its wheels in another layout, next to each other."""
+    device, layout = driven_device(), Layout(LayoutName(name))
+    modules = tuple(
+        Module(each, axis, np.array([0.0, 0.12 * i, 0.1]))
+        for i, (each, axis) in enumerate(zip(layout.names, layout.axes(0.0).T, strict=True))
+    )
+    return replace(device, modules=modules, layout=layout, incidence=0.0)
+
+
+CASES = {
+    "one wheel": (laid_out("single"), False),
+    "wheels on all axes": (laid_out("orthogonal"), False),
+    "ideal wheels": (paper_device(), False),
+    "motors": (driven_device(), False),
+    "motors on a weak supply, braked in stance": (
+        replace(driven_device(drive=WOUND), supply=Supply(24.0, 2.0)),
+        True,
+    ),
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def written(request, solo12, tmp_path_factory):
+    """Worlds by name, and the folder of their controller."""
+    device, desaturate = CASES[request.param]
+    worlds = worlds_of(solo12, device, desaturate=desaturate)
+    folder = tmp_path_factory.mktemp("controller")
+    write_controller("solo12", worlds, folder, joints=joint_names(device), period=PERIOD)
+    return worlds, folder
+
+
+@pytest.fixture(scope="module")
+def compiled_one(written):
+    """The controller by its Python binding, and that module."""
+    return bound(written[1])
+
+
+def random_states(wheels, n=STATES):
+    """Upright to upside down, slow to far beyond what motors do, a third of them on the ground."""
+    rng = np.random.default_rng(7)
+    attitude = rng.normal(size=(n, 4))
+    attitude[: n // 10, 1:3] = 0.0
+    attitude /= np.linalg.norm(attitude, axis=1, keepdims=True)
+    rate = rng.normal(size=(n, 3)) * 10.0 ** rng.uniform(-3.0, 1.0, (n, 1))
+    speed = rng.normal(size=(n, wheels)) * 10.0 ** rng.uniform(0.0, 3.3, (n, 1))
+    ground = np.where(rng.random(n) < 1.0 / 3.0, rng.uniform(0.005, 1.0, n), 0.0)
+    return attitude, rate, speed, ground
+
+
+def taken(table, rows):
+    """A table of the one row of another as many times over."""
+    arrays = {
+        field.name: getattr(table, field.name)[rows]
+        for field in fields(table)
+        if isinstance(getattr(table, field.name), np.ndarray)
+    }
+    if getattr(table, "plan", None) is not None:
+        arrays["plan"] = taken(table.plan, rows)
+    return replace(table, **arrays)
+
+
+def by_numpy(world, target, attitude, rate, speed, ground):
+    """Torques of the batch's own law, and of its brake."""
+    rows = np.zeros(len(rate), dtype=int)
+    target = taken(target, rows).landed(ground > 0.0)
+    if world.desaturation is not None:
+        brake = WheelBrake([world.desaturation] * len(rate), PERIOD)
+        brake._stood[:] = ground - PERIOD  # it counts the step that has just passed
+        target = brake.added(target, speed, ground > 0.0)
+    return taken(world.law, rows).torque(
+        quaternions.vertical(attitude), rate, speed, target, PERIOD, attitude=attitude
+    )
+
+
+def test_it_gives_the_torques_of_the_flown_law(written, compiled_one):
+    worlds, (controller, module) = written[0], compiled_one
+    states = [np.split(each, 50) for each in random_states(module.WHEELS)]
+    targets = targets_of(list(worlds.values()), PERIOD)
+    for index, (world, own) in enumerate(zip(worlds.values(), targets, strict=True)):
+        instants = np.random.default_rng(8).integers(0, len(own) + 20, 50)
+        for k, *state in zip(instants.tolist(), *states, strict=True):
+            wanted = by_numpy(world, own[min(k, len(own) - 1)], *state)
+            given = [controller.step(index, PERIOD * k, *each) for each in zip(*state, strict=True)]
+            np.testing.assert_allclose(given, wanted, rtol=1e-9, atol=1e-9)
+            assert np.abs(wanted).max() > 0.01
+
+
+def test_it_gives_the_torques_of_the_flights(written, compiled_one):
+    worlds, controller = written[0], compiled_one[0]
+    recording = simulate(list(worlds.values()))
+    for index in range(len(worlds)):
+        flown = np.flatnonzero(np.cumsum(recording.contact[:, index]) == 0)
+        states = (
+            series[flown, index]
+            for series in (recording.attitude, recording.rate, recording.wheel_speed)
+        )
+        given = [
+            controller.step(index, PERIOD * k, *state)
+            for k, *state in zip(flown, *states, strict=True)
+        ]
+        np.testing.assert_allclose(given, recording.wheel_torque[flown, index], atol=1e-9)
+        assert len(flown) > 50
+
+
+def test_the_harness_prints_the_same_and_single_precision_nearly(written, compiled_one):
+    folder, (controller, module) = written[1], compiled_one
+    attitude, rate, speed, ground = random_states(module.WHEELS, 50)
+    lines = np.column_stack([np.full(50, 0.1), ground, attitude, rate, speed])
+    text = "".join(f"1 {' '.join(map(repr, line))}\n" for line in lines.tolist())
+    states = zip(attitude, rate, speed, ground, strict=True)
+    wanted = np.array([controller.step(1, 0.1, *state) for state in states])
+    for options, tolerance in (((), 0.0), (("-Docs_real=float",), 1e-4)):
+        said = subprocess.run(
+            [compiled(folder, *options)], input=text, capture_output=True, text=True, check=True
+        )
+        given = np.array([list(map(float, line.split())) for line in said.stdout.splitlines()])
+        assert np.abs(given - wanted).max() <= tolerance * np.abs(wanted).max()
+
+
+@pytest.mark.parametrize(
+    "state",
+    [
+        {"maneuver": -1},
+        {"maneuver": 3},
+        {"time": -PERIOD},
+        {"time": np.nan},
+        {"attitude": (1.0, np.nan, 0.0, 0.0)},
+        {"rate": (0.1, np.inf, 0.0)},
+        {"wheel_speed": (np.nan,)},
+    ],
+)
+def test_what_cannot_be_gives_no_torque(compiled_one, state):
+    controller, module = compiled_one
+    sound = {
+        "maneuver": 1,
+        "time": 0.1,
+        "attitude": (0.98, 0.1, 0.2, 0.0),
+        "rate": (0.1, 0.2, 0.3),
+        "wheel_speed": (10.0,) * module.WHEELS,
+    }
+    assert all(controller.step(**sound))
+    assert controller.step(**{**sound, **state}) == [0.0] * module.WHEELS
+
+
+def test_it_allocates_nothing_and_takes_little_stack(written):
+    _, folder = written
+    library = compiled(folder, "-fPIC", "-shared", out="plain.so", sources=())
+    used = subprocess.run(["nm", "-uD", library], capture_output=True, text=True, check=True)
+    called = {
+        line.split()[-1].partition("@")[0] for line in used.stdout.splitlines() if " U " in line
+    }
+    assert called <= {"atan2", "sqrt", "fmin", "fmax", "floor"}
+    compiled(folder, "-fstack-usage", "-c", out="plain.o", sources=())
+    (report,) = folder.glob("*.su")
+    stack = [int(line.split("\t")[1]) for line in report.read_text().splitlines()]
+    assert 0 < max(stack) <= 1024
+
+
+def test_names_that_are_no_identifiers_and_those_that_are_alike(solo12, tmp_path):
+    device = paper_device()
+    world = WorldBuilder(solo12, device).flight(default_maneuvers(solo12)[0], Wheels.ACTIVE)
+    names = ["*/ übung", "Push 1", "push-1", "§"]
+    write_controller(
+        "solo12",
+        dict.fromkeys(names, world),
+        tmp_path,
+        joints=joint_names(device),
+        period=PERIOD,
+    )
+    header = (tmp_path / "solo12_ocs_controller.h").read_text()
+    found = re.findall(r"^    (OCS_\w+),$", header, re.MULTILINE)
+    assert len(set(found)) == len(names)
+    compiled(tmp_path)

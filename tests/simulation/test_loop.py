@@ -1,0 +1,77 @@
+"""Margins of the wheels' loop against python-control, and against what a late loop does."""
+
+from dataclasses import replace
+
+import control
+import numpy as np
+import pytest
+from trajectories import from_rest
+from wheels import driven_device
+
+from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.simulation.loop import level_margins, loop_margins, plan_margins
+from ocs_design.simulation.reference import Quintic
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder
+from ocs_design.sizing.trajectory.plans import drive_line_of
+from ocs_design.sizing.trajectory.tracking import tracking_gains
+
+STATE, CONTROL = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]])
+GAINS = [(60.0, 12.0), (400.0, 4.0), (2.0, 30.0)]
+
+
+@pytest.fixture(scope="module")
+def world(solo12):
+    return WorldBuilder(solo12, driven_device()).flight(default_maneuvers(solo12)[0], Wheels.ACTIVE)
+
+
+# Its polynomials lose digits at 1 kHz: it says so, and takes frequencies.
+@pytest.mark.filterwarnings("ignore:stability_margins", "ignore:invalid value:RuntimeWarning")
+@pytest.mark.parametrize("rate", [200.0, 1000.0])
+@pytest.mark.parametrize("gains", GAINS)
+def test_a_single_axis_has_the_margins_that_python_control_gives(gains, rate):
+    period, feedback = 1.0 / rate, np.array([gains])
+    plant = control.c2d(control.ss(STATE, CONTROL, feedback, 0.0), period, method="zoh")
+    _, phase, _, crossover = control.margin(plant)
+    found = loop_margins(STATE, CONTROL, feedback, period)
+    assert found.crossover == pytest.approx(crossover, rel=1e-4)
+    assert np.degrees(found.phase) == pytest.approx(phase, abs=0.01)
+    assert found.delay == pytest.approx(np.radians(phase) / crossover, rel=1e-3)
+
+
+@pytest.mark.parametrize("rate", [200.0, 1000.0])
+def test_the_law_on_a_robot_has_those_of_one_axis(world, rate):
+    """It inverts the robot: roll and pitch are two double integrators."""
+    gains = np.column_stack([world.law.stiffness, world.law.damping])
+    one = loop_margins(STATE, CONTROL, gains, 1.0 / rate)
+    both = level_margins(world.law, world.body, 1.0 / rate)
+    assert both.crossover == pytest.approx(one.crossover, rel=1e-4)
+    assert both.phase == pytest.approx(one.phase, rel=1e-3)
+    assert both.delay == pytest.approx(one.delay, rel=1e-3)
+
+
+@pytest.mark.parametrize("rate", [200.0, 1000.0])
+@pytest.mark.parametrize("gains", GAINS)
+def test_it_is_stable_until_the_delay_and_no_longer(gains, rate):
+    """Poles of the closed loop with that many whole steps of delay."""
+    period, feedback = 1.0 / rate, np.array([gains])
+    delay = loop_margins(STATE, CONTROL, feedback, period).delay
+    whole = int(delay / period)
+    plant = control.c2d(control.ss(STATE, CONTROL, feedback, 0.0), period, method="zoh")
+    for steps, stable in ((max(whole - 1, 0), True), (whole + 2, False)):
+        late = control.ss(control.tf([1.0], [1.0, *[0.0] * steps], period))
+        poles = control.feedback(plant * late, 1.0).poles()
+        assert bool(np.abs(poles).max() < 1.0) is stable
+
+
+def test_a_regulated_plan_has_the_margins_that_theory_promises(world):
+    """At least 60 deg where it has settled (Anderson and Moore, Optimal Control, section 5.4)."""
+    turn = replace(world.turn, axis=np.array([0.0, 1.0, 0.0]), end=1.0, profile=Quintic())
+    plan = from_rest(world.body, turn, samples=401)
+    gains = tracking_gains(world.body, drive_line_of(driven_device()), plan)
+    settled = replace(plan, gains=np.broadcast_to(gains[0], gains.shape))
+    assert np.degrees(plan_margins(settled, world.body, 1e-4).phase) > 60.0
+
+
+def test_a_loop_whose_gain_is_nowhere_one_stands_any_delay():
+    assert loop_margins(-np.eye(1), np.eye(1), 0.1 * np.eye(1), 0.005).delay == np.inf

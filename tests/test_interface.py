@@ -1,0 +1,220 @@
+"""The Python interface: paths in any form, one line for a result, and what a notebook shows."""
+
+import json
+import re
+import shutil
+import sys
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import matplotlib as mpl
+import pytest
+from fronts import by_hand
+from stories import design, story
+
+import ocs_design
+from ocs_design import (
+    OcsDesign,
+    OcsError,
+    Outcome,
+    Robot,
+    Specification,
+    read_design,
+    read_robot,
+    read_specification,
+    specify,
+)
+from ocs_design.device.records import design_to_json
+from ocs_design.report.html.notebook import as_html
+from ocs_design.report.text.console import Steps
+from ocs_design.requirement.reading import parse_specification, specification_of
+from ocs_design.requirement.sweep import sweep_of
+from ocs_design.requirement.writing import specification_to_toml
+from ocs_design.workflows.export import export_design
+from ocs_design.workflows.pareto import draw_front, lightest_device
+
+ROOT = Path(__file__).parents[1]
+EXAMPLES, NOTEBOOK = ROOT / "examples", ROOT / "examples" / "solo12.ipynb"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "design.json").write_bytes(design_to_json(design()))
+    return tmp_path
+
+
+@pytest.mark.parametrize("form", [str, Path, lambda path: str(path / "design.json")])
+def test_a_design_is_read_from_its_folder_or_file(folder, form):
+    assert read_design(form(folder)) == design()
+
+
+def test_an_outcome_is_the_path_of_its_folder(folder):
+    outcome = Outcome(design(), folder, by_hand().robot, None, ())
+    assert read_design(outcome) == design()
+    assert export_design(outcome, "bom", out=str(folder / "again")).files
+
+
+def test_a_folder_without_a_design_says_so(tmp_path):
+    with pytest.raises(OcsError, match=r"design\.json: No such file"):
+        read_design(tmp_path)
+
+
+@pytest.mark.parametrize("form", [str, Path])
+def test_robots_and_specifications_are_read_from_text_and_paths(form):
+    assert read_robot(form(EXAMPLES / "solo12.urdf")).name == "solo12"
+    stated = read_specification(form(EXAMPLES / "solo12.toml"))
+    assert toml(specification_of(form(EXAMPLES / "solo12.toml"))) == toml(stated)
+    assert specification_of(stated) is stated
+    file = form(EXAMPLES / "solo12.urdf")
+    assert specification_of(file) == specify(file) == specify(robot={"file": file})
+
+
+def toml(specification):
+    return specification_to_toml(specification, "title")
+
+
+def test_what_is_specified_in_python_is_what_a_file_would_state():
+    text = """
+        robot.file = "a.urdf"
+        flywheel.r_max = "40mm"
+        ocs.position = ["0mm", "60mm", "50mm"]
+        [[maneuver]]
+        kind = "drop"
+        name = "fall"
+        height = "1m"
+        pitch = "20deg"
+    """
+    drop = {"kind": "drop", "name": "fall", "height": "1m", "pitch": "20deg"}
+    given = specify(
+        Path("a.urdf"),
+        flywheel={"r_max": "40mm"},
+        ocs={"position": ("0mm", "60mm", "50mm")},
+        maneuver=[drop],
+    )
+    assert toml(given) == toml(parse_specification(text, "the file"))
+
+
+def test_every_fault_of_what_is_specified_is_told():
+    with pytest.raises(OcsError) as caught:
+        specify("a.urdf", flywheel={"r_max": "40kg", "rmin": 1}, motors={})
+    assert len(caught.value.problems) == 3
+
+
+@cache
+def results():
+    made, front = design(), draw_front(by_hand(), sweep_of("time"), (0.3, 3.0), lightest_device)
+    outcome = Outcome(made, Path("solo12-ocs"), by_hand().robot, None, ())
+    return {
+        "OcsDesign for": made,
+        "Outcome in solo12-ocs": outcome,
+        "Front of": front,
+        "Robot solo12: 2.5 kg, 12 joints, 4 legs": read_robot(EXAMPLES / "solo12.urdf"),
+        "Specification: robot.file=": read_specification(EXAMPLES / "solo12.toml"),
+        "Specification: nothing stated": Specification(),
+    }
+
+
+def test_a_result_is_one_line_with_its_figures():
+    for start, found in results().items():
+        assert repr(found).startswith(f"<{start}")
+        assert "\n" not in repr(found)
+        assert len(repr(found)) < 300
+
+
+ELSEWHERE = re.compile(r"""(src|href)=["'](?!data:)|https?://(?!www\.w3\.org)|<script|<style""")
+
+
+def test_what_a_notebook_shows_is_small_escaped_and_whole():
+    runs = tuple(replace(run, metrics={}) for run in story().design.validation)
+    robot = replace(design().robot, name="<script>alert()</script>")
+    made = replace(design(), robot=robot, validation=runs)
+    for found in (made, results()["Front of"], results()["Outcome in solo12-ocs"]):
+        page = found._repr_html_()
+        assert not ELSEWHERE.search(page)
+        assert "<img" in page
+        assert len(page) < 100_000
+    assert "drop" in as_html(made)
+    assert "&lt;script&gt;" in as_html(made)
+
+
+def test_progress_goes_to_a_function_or_nowhere(capsys):
+    told = []
+    for steps in (Steps.of(lambda label, done: told.append((label, done))), Steps.of(None)):
+        with steps.step("read") as step:
+            step.update(0.5)
+    assert told == [("read", 0.0), ("read", 0.5), ("read", 1.0)]
+    assert capsys.readouterr() == ("", "")
+    assert Steps.of(steps) is steps
+
+
+def test_progress_stands_below_the_cell_of_a_notebook(monkeypatch):
+    display = pytest.importorskip("IPython.display")
+    shown = []
+
+    class Handle:
+        def update(self, data, raw):
+            shown.append(data["text/plain"])
+
+    shell = type("Shell", (), {"kernel": object()})
+    monkeypatch.setattr(sys.modules["IPython"], "get_ipython", shell)
+    monkeypatch.setattr(display, "display", lambda *_, **__: Handle())
+    steps = Steps.of(None)
+    steps.doubt([f"link {i} is light" for i in range(5)])
+    with steps.step("read") as step:
+        step.update(0.5)
+        step.note = "a\x1b[31mrobot"
+    assert "█" * 12 in shown[1]
+    assert re.search(r"link 2.*\n.* 2 more .*\n.*read  a\ufffd\[31mrobot$", shown[-1])
+
+
+def test_the_notebook_is_kept_without_what_it_printed():
+    cells = json.loads(NOTEBOOK.read_text())["cells"]
+    assert all(cell["outputs"] == [] for cell in cells if cell["cell_type"] == "code")
+    assert NOTEBOOK.stat().st_size < 10_000
+
+
+@pytest.fixture
+def beside_solo12(tmp_path, monkeypatch):
+    for name in ("solo12.urdf", "solo12.toml", "solo12.ipynb"):
+        shutil.copy(EXAMPLES / name, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")  # Those of Jupyter's own packages.
+def test_the_notebook_runs(beside_solo12, monkeypatch):
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    notebook = nbformat.read(beside_solo12 / "solo12.ipynb", as_version=4)
+    nbclient.NotebookClient(notebook, timeout=600).execute()
+    kinds = [
+        kind
+        for cell in notebook.cells
+        for output in cell.get("outputs", ())
+        for kind in output.get("data", ())
+    ]
+    assert kinds.count("text/html") == 3
+    assert kinds.count("image/png") == 2
+    assert (beside_solo12 / "solo12-ocs" / "report.html").exists()
+
+
+PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.slow
+def test_the_page_on_python_runs_from_top_to_bottom(beside_solo12):
+    mpl.use("agg")
+    shown = PYTHON.findall((ROOT / "docs" / "api.md").read_text())
+    assert len(shown) > 4
+    names = {}
+    for text in shown:
+        exec(text, names)
+    assert isinstance(names["design"], OcsDesign)
+    assert isinstance(names["robot"], Robot)
+
+
+def test_every_public_name_is_there():
+    for name in ocs_design.__all__:
+        assert getattr(ocs_design, name).__doc__
