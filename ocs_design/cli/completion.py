@@ -107,14 +107,14 @@ def motors() -> Iterable[str]:
 
 
 def gears() -> Iterable[str]:
-    """The same of gears."""
+    """Gears that the package knows, and the words in place of one."""
     from ocs_design.catalogue.gears import known_gears
 
     return ("auto", "direct", *known_gears(None))
 
 
 def materials() -> Iterable[str]:
-    """The same of materials."""
+    """Materials of rims in the catalogue, and the words in place of one."""
     from ocs_design.catalogue.materials import materials as known
 
     return ("auto", "steel", *known())

@@ -20,5 +20,5 @@ def install_command(*requirements: str, options: str = "") -> str:
 
 
 def extra_command(*extras: str) -> str:
-    """The same for extras of this program."""
+    """Command that installs extras of this program, such as `ocs-design[step]`."""
     return install_command(f"{DISTRIBUTION}[{','.join(extras)}]")

@@ -41,7 +41,7 @@ CHECK = 50.0
 """Length to measure on the print [mm]."""
 
 CROSS = 4.0
-"""Of a centre mark beyond its hole [mm]."""
+"""Length of a centre mark beyond its hole [mm]."""
 
 
 @dataclass(frozen=True)
@@ -203,6 +203,7 @@ def _on_paper(item: Item, offset: Point) -> Item:
     """
 
     def place(point: Point) -> Point:
+        """Point of the trunk on the sheet [mm]."""
         return offset[0] - point[1], offset[1] - point[0]
 
     match item:

@@ -84,7 +84,7 @@ def _copy(source: object, target: object, names: Iterable[str]) -> None:
 
 
 STEADY_LEGS = 3
-"""With so many a robot stands by itself."""
+"""Number of legs with which a robot stands by itself."""
 
 HELD = 1e6
 """Armature of a held joint [kg m^2 or kg]: 1 N m over a second moves it by 1e-6 rad/s."""
@@ -92,7 +92,7 @@ HELD = 1e6
 LEG_STIFFNESS = 0.5
 LEG_DAMPING = 0.5
 STABLE_SHARE = 0.5
-"""Of the explicit Runge-Kutta limit: largest `eigenvalue(M^-1 K_d) dt`."""
+"""Share of the explicit Runge-Kutta limit: largest `eigenvalue(M^-1 K_d) dt`."""
 
 
 @dataclass(frozen=True, eq=False)

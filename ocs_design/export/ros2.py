@@ -119,6 +119,7 @@ def _best(paths: Iterable[Path], name: PurePosixPath) -> Path | None:
     """File that ends as a mesh's address does, in the most of its folders."""
 
     def alike(path: Path) -> int:
+        """Number of parts, counted from the file's name, that agree with the address."""
         pairs = zip(reversed(path.parts), reversed(name.parts), strict=False)
         return next((k for k, (a, b) in enumerate(pairs) if a != b), len(name.parts))
 

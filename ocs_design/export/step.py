@@ -70,7 +70,7 @@ _CURVES_ON_SURFACES = "write.surfacecurve.mode"
 STEEL: Color = (0.55, 0.56, 0.58, 1.0)
 
 _COLORS = dict.fromkeys(("drum", "lid", "foot", "cage"), PRINT) | {"motor": MOTOR, "gear": GEAR}
-"""Of pieces by their names; what is not there is of steel."""
+"""Colours of pieces by their names; what is not there is of steel."""
 
 _TIMESTAMP = "2000-01-01T00:00:00"
 """Time in every file, so that the same part has the same bytes."""

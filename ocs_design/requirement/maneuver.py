@@ -184,7 +184,7 @@ class Disturbance(Unforeseen):
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def on(self, body: MassProperties) -> "Disturbance":
-        """The same on this body: the angular impulse r x p about its centre of mass, and p / m."""
+        """Disturbance of a body: the angular impulse r x p about its centre of mass, and p / m."""
         if not any(self.impulse):
             return self
         # Without the rounding errors of zeros.
@@ -388,7 +388,7 @@ class End(StrEnum):
 
 
 LOOP_SHARE = 0.75
-"""Of a loop of the tilt, in that share of its time: what it asks of wheels and motors."""
+"""Share of a loop of the tilt that wheels and motors are asked for, in that share of its time."""
 
 _ENDS: Mapping[str, str] = {
     End.LEVEL: ", any heading,",
@@ -547,7 +547,7 @@ class Requirement:
     free: bool = False
 
     def on(self, body: MassProperties) -> "Requirement":
-        """The same of this body, which forces turn about its centre of mass (`Disturbance.on`)."""
+        """Requirement of a body, which kicks turn about its centre of mass (`Disturbance.on`)."""
         hit = (each.on(body) if isinstance(each, Disturbance) else each for each in self.maneuvers)
         return replace(self, maneuvers=tuple(hit))
 

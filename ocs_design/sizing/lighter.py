@@ -40,7 +40,7 @@ class _Lever:
     text: Callable[[int], str]
 
     def beside(self, choice: Relaxation) -> "_Lever":
-        """The same figure where another choice is made too."""
+        """Lever on the same figure, where another choice is made too."""
         return _Lever(
             lambda percent: choice.stated(self.changed(percent)),
             lambda percent: f"{self.text(percent)}, and {_told(choice)}",

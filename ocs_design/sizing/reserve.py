@@ -261,7 +261,7 @@ class Reality:
         return cls(stated, height, moments, legs > 0, FLIGHT if legs > 3 else 1.0)
 
     def knowing(self, key: str) -> "Reality":
-        """The same with this quantity always at its mean."""
+        """Reality in which this quantity is always at its mean."""
         return replace(self, known=self.known | {key})
 
     def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:

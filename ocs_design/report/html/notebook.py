@@ -24,7 +24,7 @@ from ocs_design.report.verdict import Headline, flights_headline, headline
 from ocs_design.report.viewer.still import still
 
 _WIDTH = "420"
-"""Of a picture [px]."""
+"""Width of a picture [px]."""
 
 
 def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) -> str:

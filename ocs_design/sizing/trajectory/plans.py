@@ -29,7 +29,7 @@ GENTLE = (0.8, 0.9)
 put right by tilting more, which takes more torque than holding the trunk level."""
 
 TIME_STEP, LONGEST = 0.05, 8.0
-"""Of a time that is looked for: how closely, and how long at most, over the one asked for."""
+"""How closely a time is looked for, and how long at most, over the one asked for."""
 
 _SAME = 1e-6
 """Change of heading that is none [rad]."""
