@@ -133,7 +133,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
             "({})".format(", ".join(significant(float(part) + 0.0, 4) for part in module.axis))
             for module in device.modules
         ),
-        "motor": motor.name if motor.gear == DIRECT.name else f"{motor.name} with {motor.gear}",
+        "motor": motor.full_name + ("" if motor.gear == DIRECT.name else f" with {motor.gear}"),
         "highest speed of a wheel": "not limited"
         if np.isinf(speed)
         else f"{format_quantity(speed, 'rpm')} ({format_quantity(speed, 'rad/s')})",
