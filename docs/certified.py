@@ -1,12 +1,15 @@
 """Certificates that the docs quote: flown by this script, kept in `certified.json`.
 
-    python docs/certified.py examples/solo12.urdf ...    sizes and flies each, some minutes a robot
-    python docs/generate.py --quick                      fills in the pages
+    python docs/certified.py [--seed N] examples/solo12.urdf ...    sizes and flies each: minutes
+    python docs/generate.py --quick                                 fills in the pages
 
 A slow test flies Solo12's again: on another machine single samples may end otherwise, so it asks
 for the same verdict and for intervals that overlap.
 """
 
+import argparse
+import ast
+import hashlib
 import json
 import subprocess
 import sys
@@ -22,13 +25,51 @@ from ocs_design.common.units import floored
 from ocs_design.monte_carlo.certificate import ERROR, Finding, SequentialTest
 
 ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "ocs_design"
 KEPT = Path(__file__).with_name("certified.json")
 
 
-def flown(robot: Path) -> dict[str, Any]:
+FLIGHTS = (
+    *("device/*.py", "export/physics.py", "jumping/*.py", "monte_carlo/*.py", "robot/*.py"),
+    *("requirement/froude.py", "requirement/uncertainty.py", "requirement/reality.toml"),
+    *("simulation/*.py", "sizing/trajectory/*.py"),
+)
+"""Files of the package that the flights of a device follow from."""
+
+
+def sources(files: tuple[str, ...] = FLIGHTS) -> str:
+    """Digest of these files of the package, comments and docstrings left out."""
+    digest = hashlib.sha256()
+    for path in sorted(path for pattern in files for path in PACKAGE.glob(pattern)):
+        text = path.read_text()
+        if path.suffix == ".py":
+            text = ast.unparse(_Bare().visit(ast.parse(text)))
+        digest.update(text.encode())
+    return digest.hexdigest()[:12]
+
+
+class _Bare(ast.NodeTransformer):
+    """Takes strings that nothing is done with out of a program."""
+
+    def visit_Expr(self, node: ast.Expr) -> ast.AST:
+        """Docstrings, of attributes too."""
+        value = node.value
+        return ast.Pass() if isinstance(value, ast.Constant) else self.generic_visit(node)
+
+
+def flown(robot: Path, seed: int = 0) -> dict[str, Any]:
     """Certificate of the device of a robot that is sized without options."""
     with tempfile.TemporaryDirectory() as folder:
-        command = ["size", str(robot), "--certify", "-q", "--out", f"{folder}/ocs"]
+        command = [
+            "size",
+            str(robot),
+            "--certify",
+            "--seed",
+            str(seed),
+            "-q",
+            "-o",
+            f"{folder}/ocs",
+        ]
         subprocess.run([sys.executable, "-m", "ocs_design", *command], check=False)
         return said(Path(folder) / "ocs")
 
@@ -42,6 +83,7 @@ def said(folder: Path) -> dict[str, Any]:
         for each in record["scenarios"]
     }
     return {
+        "sources": sources(),
         "mass": round(design["ocs"]["mass_total"], 4),
         "off_level": off_level,
         **design["reliability"],
@@ -67,14 +109,14 @@ def sentence(name: str) -> str:
 
 
 def certificates(_: str) -> str:
-    """Table of all robots."""
-    rows = []
+    """Table of all robots; a star for those flown with earlier sources than today's."""
+    rows, today = [], sources()
     for name, found in kept().items():
         low = floored(100.0 * found["whole_interval"][0], 1)
         worst = ", ".join(f"{key} {angle:.1f}°" for key, angle in found["off_level"].items())
         rows.append(
             (
-                name,
+                name + ("" if found.get("sources") == today else " \\*"),
                 f"{1e3 * found['mass']:.0f} g",
                 found["verdict"],
                 f"{found['whole']} of {found['samples']}",
@@ -145,7 +187,11 @@ def characteristic(asked: str) -> str:
 
 
 if __name__ == "__main__":
-    robots = {path.stem: path for path in map(Path, sys.argv[1:])}
-    known = kept() if KEPT.exists() else {}
-    known.update({name: flown(path) for name, path in robots.items()})
-    KEPT.write_text(json.dumps(known, indent=1) + "\n")
+    parser = argparse.ArgumentParser()
+    parser.add_argument("robots", type=Path, nargs="+")
+    parser.add_argument("--seed", type=int, default=0)
+    arguments = parser.parse_args()
+    for path in arguments.robots:
+        found = flown(path, arguments.seed)
+        known = kept() if KEPT.exists() else {}
+        KEPT.write_text(json.dumps({**known, path.stem: found}, indent=1) + "\n")

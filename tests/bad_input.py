@@ -212,7 +212,7 @@ CASES = {
         {},
         f"{QUAD} --gear planet",
         SPECIFICATION,
-        "motor.gear: there is no gear 'planet'|GPX 12",
+        "motor.gear: there is no gear 'planet'|catalogue gears` lists all",
     ),
     "unknown motor, gear and material": (
         {},

@@ -3,7 +3,16 @@
 from dataclasses import replace
 from math import pi, radians
 
-from ocs_design.requirement.maneuver import Catch, Disturbance, Drop, Flip, Shove, TurnTo
+from ocs_design.requirement.maneuver import (
+    Balance,
+    Catch,
+    Disturbance,
+    Drop,
+    Flip,
+    Shove,
+    StandUp,
+    TurnTo,
+)
 from ocs_design.requirement.specification import (
     FlywheelSection,
     MotorSection,
@@ -15,7 +24,7 @@ from ocs_design.requirement.specification import (
     ValidationSection,
 )
 from ocs_design.requirement.uncertainty import UncertaintySection, Uniform, spreads
-from ocs_design.requirement.words import About, Kick, Tilt
+from ocs_design.requirement.words import About, Climb, Kick, Pivot, Tilt
 
 MANEUVERS = (
     Disturbance(
@@ -39,6 +48,25 @@ MANEUVERS = (
         wheel_speed=100.0,
         end="attitude",
     ),
+    Balance(
+        name="stagger",
+        pivot=(0.1, 0.0, -0.2),
+        roll=0.05,
+        pitch=-0.1,
+        duration=1.2,
+        rate=(0.1, 0.2, 0.0),
+        impulse=(0.0, 0.3, 0.0),
+        point=(0.0, 0.1, 0.2),
+    ),
+    StandUp(
+        name="get up",
+        pivot=(0.0, 0.0, -0.2),
+        edge=(0.0, 1.0, 0.0),
+        pitch=-0.7,
+        duration=0.8,
+        wheel_speed=-50.0,
+        actuation="brake",
+    ),
     Catch(name="catch", jump_height=0.5, duration=0.6, rate=(0.4, 0.8, -0.1), end="at rest"),
 )
 
@@ -58,6 +86,8 @@ FULL = Specification(
         spin_inertia=7.11e-5,
         gravity=9.81,
         reliability=0.95,
+        survives="none",
+        detection=0.02,
         jump_height=(0.4, 0.55),
         kick=(Kick(12.0, (0.1, 0.0, 1e-17), (0.0, 1.0, 0.0)), Kick(0.3, "hip")),
         fall=(1.0,),
@@ -65,6 +95,12 @@ FULL = Specification(
         flip=(radians(-360.0),),
         turn=(About(0.0, 0.1, radians(90.0), 2.9, "rad"), About(0.3, 0.0, 0.0, None, "rad")),
         catch=(About(0.1, 1 / 3, 0.0, 0.5, "rad/s"),),
+        pivot=Pivot((0.0, 0.1, -0.2), (1.0, 0.0, 0.0)),
+        balance=(About(0.1, 0.0, 0.0, 1.5, "rad"), Kick(0.3, (0.0, 0.1, 0.2), (0.0, 1.0, 0.0))),
+        stand_up=(
+            Climb(About(1 / 3, 0.0, 0.0, None, "rad"), brake=True),
+            Climb(About(0.2, 0.0, 0.0, 0.5, "rad"), brake=False),
+        ),
     ),
     ocs=OcsSection(
         layout="pair",

@@ -2,130 +2,29 @@
 
     python examples/machines/compare.py
 
-Each machine is asked for twice: with its own motor, without a gear and with its wheels where they
-are, and with everything that the catalogue has.
+A machine that stands is asked for twice: with its own motor, without a gear and with its wheels
+where they are, and with everything that the catalogue has.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from math import degrees, pi, radians, sqrt
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from math import isnan, nan, pi
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import MappingProxyType
 
-from ocs_design.requirement.choices import motor_choice
-from ocs_design.requirement.reading import read_specification
-from ocs_design.requirement.resolving import read_specified_robot, resolve
+from ocs_design import Infeasible, OcsDesign, design_ocs, read_specification
+from ocs_design.device.layout import LayoutName
+from ocs_design.device.records import ValidationRecord
 from ocs_design.requirement.specification import AUTO, MotorSection, Specification
-from ocs_design.robot.meshes import size
-from ocs_design.sizing.placement import place_at, place_on_top
-from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.result import Candidate
-from ocs_design.sizing.selection.select import select
 
 HERE = Path(__file__).parent
 WIDTH = 23
 
 
-@dataclass(frozen=True)
-class Built:
-    """A machine as its makers published it; docs/machines.md has the sources.
-
-    Attributes:
-        title: machine and maneuver. specification: beside this file.
-        spin_inertia: of one wheel [kg m^2]. wheel_mass: [kg].
-        radius: of a wheel [mm], as far as it is known, for people.
-        motor: its name. motor_mass: [kg]; None: not known.
-        incidence: of the wheels' axes [rad].
-        momentum: that one wheel takes in the maneuver [N m s].
-    """
-
-    title: str
-    specification: str
-    spin_inertia: float
-    wheel_mass: float
-    radius: str
-    motor: str
-    motor_mass: float | None
-    incidence: float
-    momentum: float
-
-    @property
-    def module_mass(self) -> str:
-        """Of wheel and motor [g], for people; the rotor is counted twice if the wheel has it."""
-        if self.motor_mass is None:
-            return "-"
-        return f"up to {(self.wheel_mass + self.motor_mass) * 1e3:.0f}"
-
-
-REX_HOPPER = Built(
-    title="REx Hopper, catch from 14 deg",
-    specification="rex_hopper",
-    spin_inertia=6.60959e-3,
-    wheel_mass=0.78203,
-    radius="over 92",
-    motor="R100 KV90",
-    motor_mass=0.731,
-    incidence=pi / 4.0,
-    momentum=3.0865 / sqrt(2.0),
-)
-MACHINES = (
-    REX_HOPPER,
-    replace(
-        REX_HOPPER,
-        title="REx Hopper, aim of 26.6 deg in flight",
-        specification="rex_hopper_flight",
-        momentum=2.0 * 0.094486 * radians(26.565) / 0.638 / sqrt(2.0),
-    ),
-    Built(
-        title="Wheelbot, up from 36 deg",
-        specification="wheelbot",
-        spin_inertia=5.03e-4,
-        wheel_mass=0.3,
-        radius="53",
-        motor="MN6007 KV160",
-        motor_mass=0.180,
-        incidence=0.0,
-        momentum=0.2014,
-    ),
-    Built(
-        title="Aalborg Cubli, catch from 9.7 deg",
-        specification="aalborg_cubli",
-        spin_inertia=6.01e-4,
-        wheel_mass=0.222,
-        radius="over 52",
-        motor="EC 45 flat 50 W",
-        motor_mass=None,
-        incidence=0.0,
-        momentum=0.0336,
-    ),
-)
-
-
-def lightest(stated: Specification, incidence: float | None) -> Candidate:
-    """The lightest device for what is stated.
-
-    Args:
-        stated: the specification; its `[motor]` names what may be chosen from.
-        incidence: of the wheel axes [rad]; None: the best.
-    """
-    robot = read_specified_robot(stated)
-    resolved = resolve(stated, robot, size(robot.tree, robot.posture, robot.trunk))
-    choice = motor_choice(stated, robot)
-    if choice is None:
-        raise SystemExit("these machines have motors")
-    where = stated.ocs.position
-    problem = SelectionProblem(
-        robot=robot.mass_properties,
-        requirement=resolved.requirement,
-        envelope=resolved.envelope,
-        place=place_on_top(robot) if where is None else place_at(where),
-        motors=choice.motors,
-        gears=choice.gears,
-        materials=choice.materials,
-        supply=choice.supply,
-        incidence=incidence,
-        wheel_speed_max=choice.wheel_speed_max,
-    )
-    return select(problem).best
+def as_stated(stated: Specification) -> Specification:
+    """The same."""
+    return stated
 
 
 def with_any_motor(stated: Specification) -> Specification:
@@ -137,46 +36,197 @@ def with_any_motor(stated: Specification) -> Specification:
     )
 
 
+def hardest_slews(stated: Specification) -> Specification:
+    """The same with a satellite's stress cases alone, the last of each axis."""
+    turn = stated.requirement.turn
+    assert turn is not None, "the specification states slews"
+    return replace(stated, requirement=replace(stated.requirement, turn=turn[-3:]))
+
+
+def as_pyramid(stated: Specification) -> Specification:
+    """The same with four wheels."""
+    stated = hardest_slews(stated)
+    return replace(stated, ocs=replace(stated.ocs, layout=LayoutName.PYRAMID.value))
+
+
+def on_edge(stated: Specification) -> Specification:
+    """The same with all axes fore and aft, for a push from the side alone."""
+    return replace(stated, ocs=replace(stated.ocs, alpha=pi / 2.0))
+
+
+Asked = Mapping[str, Callable[[Specification], Specification]]
+
+ASKED: Asked = MappingProxyType({"same motor": as_stated, "any motor": with_any_motor})
+
+
+@dataclass(frozen=True)
+class Built:
+    """A machine as its makers published it; docs/machines.md has the sources.
+
+    Attributes:
+        title: machine and maneuver. specification: beside this file.
+        spin_inertia: of one wheel [kg m^2]. wheel_mass: [kg].
+        radius: of a wheel [mm], as far as it is known, for people.
+        motor: its name. motor_mass: [kg]; None: not known.
+        torque: limit of a wheel [N m]. speed: highest of a wheel [rad/s].
+        whole: mass of a wheel with its motor, where it is known as one [kg].
+        asked: what the tool is asked for, by the heading of its column.
+    """
+
+    title: str
+    specification: str
+    spin_inertia: float
+    wheel_mass: float
+    radius: str
+    motor: str
+    motor_mass: float | None
+    torque: float
+    speed: float = nan
+    whole: float | None = None
+    asked: Asked = field(default_factory=lambda: ASKED)
+
+    @property
+    def module_mass(self) -> str:
+        """Of wheel and motor [g], for people; the rotor is counted twice if the wheel has it."""
+        if self.whole is not None:
+            return f"{self.whole * 1e3:.0f}"
+        if self.motor_mass is None:
+            return "-"
+        return f"up to {(self.wheel_mass + self.motor_mass) * 1e3:.0f}"
+
+
+MACHINES = (
+    Built(
+        title="Wheelbot v2.5, up from 36 deg",
+        specification="wheelbot",
+        spin_inertia=5.03e-4,
+        wheel_mass=0.3,
+        radius="53",
+        motor="MN6007 KV160",
+        motor_mass=0.180,
+        torque=1.07,
+    ),
+    Built(
+        title="Mini Wheelbot, up from 30 deg",
+        specification="mini_wheelbot",
+        spin_inertia=1.0e-4,
+        wheel_mass=0.129,
+        radius="32",
+        motor="MN4006 KV380",
+        motor_mass=0.068,
+        torque=0.5,
+    ),
+    Built(
+        title="Aalborg Cubli, catch from 9.7 deg",
+        specification="aalborg_cubli",
+        spin_inertia=6.01e-4,
+        wheel_mass=0.222,
+        radius="over 52",
+        motor="EC 45 flat 50 W",
+        motor_mass=None,
+        torque=0.134,
+    ),
+    Built(
+        title="REx Hopper, catch from 14 deg",
+        specification="rex_hopper",
+        spin_inertia=6.60959e-3,
+        wheel_mass=0.78203,
+        radius="over 92",
+        motor="R100 KV90",
+        motor_mass=0.731,
+        torque=11.24,
+    ),
+    Built(
+        title="REx Hopper in the air, 26.6 deg about each axis; built: its wheel for yaw",
+        specification="rex_hopper_flight",
+        spin_inertia=8.2888e-4,
+        wheel_mass=0.329528,
+        radius="over 50",
+        motor="R80 KV110",
+        motor_mass=0.354,
+        torque=4.0,
+        asked=MappingProxyType({"same motor": as_stated}),
+    ),
+    Built(
+        title="Satellite of 50 kg, 45 deg in 10 s about each axis",
+        specification="satellite",
+        spin_inertia=1.364e-3,
+        wheel_mass=nan,
+        radius="-",
+        motor="-",
+        motor_mass=None,
+        torque=0.1,
+        speed=7000.0 * pi / 30.0,
+        whole=0.9,
+        asked=MappingProxyType({"orthogonal": hardest_slews, "pyramid": as_pyramid}),
+    ),
+    Built(
+        title="A person's backpack, pushed from the side",
+        specification="backpack",
+        spin_inertia=nan,
+        wheel_mass=nan,
+        radius="-",
+        motor="-",
+        motor_mass=None,
+        torque=nan,
+        asked=MappingProxyType({"as stated": as_stated, "for the side alone": on_edge}),
+    ),
+)
+
+
+def lightest(stated: Specification) -> OcsDesign | Infeasible:
+    """The lightest device for what is stated, planned and flown, or why there is none.
+
+    Nothing is kept for robots that are built otherwise.
+    """
+    nominal = replace(stated, requirement=replace(stated.requirement, reliability=0.5))
+    with TemporaryDirectory() as folder:
+        try:
+            return design_ocs(nominal, out=Path(folder) / "ocs").design
+        except Infeasible as refused:
+            return refused
+
+
 def rows(built: Built) -> Iterator[tuple[str, ...]]:
     """The lines of a machine's table, each with what it is of."""
     stated = read_specification(HERE / f"{built.specification}.toml")
-    same = lightest(stated, built.incidence)
-    free = lightest(with_any_motor(stated), None if built.incidence else 0.0)
-    both = (same, free)
-    yield "", "built", "same motor", "any motor"
-    yield "motor", built.motor, *(one.motor.name.removeprefix("Antigravity ") for one in both)
-    yield "gear", "direct", *(_gear(one) for one in both)
-    yield "rim of", "", *(one.material.name for one in both)
-    yield "spin inertia, g m2", *_figures(built.spin_inertia, both, "spin_inertia", 1e3, 3)
-    yield "wheel, g", *_figures(built.wheel_mass, both, "wheel_mass", 1e3, 0)
-    yield "outer radius, mm", built.radius, *(f"{one.outer_radius * 1e3:.0f}" for one in both)
-    yield "wheel speed, rpm", _speed(built.momentum / built.spin_inertia), *map(_peak, both)
-    yield "incidence, deg", f"{degrees(built.incidence):.0f}", *map(_incidence, both)
-    yield "one module, g", built.module_mass, *(f"{one.mass / 2.0 * 1e3:.0f}" for one in both)
+    found = {name: lightest(change(stated)) for name, change in built.asked.items()}
+    devices = [each for each in found.values() if isinstance(each, OcsDesign)]
+    yield "", "built", *(name for name, each in found.items() if isinstance(each, OcsDesign))
+    wheels = [each.ocs.flywheel for each in devices]
+    yield "wheels", "", *(str(len(each.ocs.modules)) for each in devices)
+    yield (
+        "motor",
+        built.motor,
+        *(each.ocs.motor.name.removeprefix("Antigravity ") for each in devices),
+    )
+    yield "rim of", "", *(wheel.material for wheel in wheels)
+    yield _line("spin inertia, g m2", 1e3, 3, built.spin_inertia, [w.spin_inertia for w in wheels])
+    yield _line("wheel, g", 1e3, 0, built.wheel_mass, [wheel.mass for wheel in wheels])
+    yield "outer radius, mm", built.radius, *(f"{w.outer_radius * 1e3:.0f}" for w in wheels)
+    limits = [each.ocs.motor.torque_limit or nan for each in devices]
+    yield _line("torque limit, N m", 1.0, 2, built.torque, limits)
+    flown = [[run for run in each.validation if run.ocs] for each in devices]
+    yield "flown", "", *(f"{sum(r.passed is True for r in runs)} of {len(runs)}" for runs in flown)
+    tops = [max(_top_speed(run) for run in runs) for runs in flown]
+    yield _line("wheel speed, rpm", 30.0 / pi, 0, built.speed, tops)
+    modules = [each.ocs.mass_total / len(each.ocs.modules) for each in devices]
+    yield "one module, g", built.module_mass, *(f"{mass * 1e3:.0f}" for mass in modules)
+    for name, each in found.items():
+        if isinstance(each, Infeasible):
+            yield (f"{name}: {each.message}",)
 
 
-def _figures(
-    built: float, both: Sequence[Candidate], name: str, scale: float, digits: int
-) -> Iterator[str]:
-    for figure in (built, *(getattr(one, name) for one in both)):
-        yield f"{figure * scale:.{digits}f}"
+def _top_speed(run: ValidationRecord) -> float:
+    """Highest wheel speed of a flight [rad/s]."""
+    return float(run.metrics["peak_wheel_speed"] or 0.0)
 
 
-def _gear(one: Candidate) -> str:
-    ratio = "" if one.gear.ratio == 1.0 else f", {one.gear.ratio:.3g}"
-    return f"{one.gear.name}{ratio}"
-
-
-def _peak(one: Candidate) -> str:
-    return _speed(max(demand.peak_speed for demand in one.demands))
-
-
-def _speed(speed: float) -> str:
-    return f"{speed * 30.0 / pi:.0f}"
-
-
-def _incidence(one: Candidate) -> str:
-    return f"{degrees(one.incidence):.0f}"
+def _line(
+    label: str, scale: float, digits: int, built: float, found: list[float]
+) -> tuple[str, ...]:
+    cells = ("-" if isnan(each) else f"{each * scale:.{digits}f}" for each in (built, *found))
+    return label, *cells
 
 
 def main() -> None:
@@ -185,7 +235,7 @@ def main() -> None:
         print(f"{built.title}\n")
         for label, *cells in rows(built):
             print(f"{label:19}" + "".join(f"{cell:>{WIDTH}}" for cell in cells))
-        print()
+        print(flush=True)
 
 
 if __name__ == "__main__":

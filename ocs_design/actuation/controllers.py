@@ -7,9 +7,7 @@ Flights last a second or two, so that what heats a board for good does not choos
 from dataclasses import dataclass
 from math import sqrt
 
-from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import Motor
-from ocs_design.actuation.supply import Supply
 
 PHASE_PER_LINE = 2.0 / sqrt(3.0)
 """Amplitude of a phase's sine over the current of `Motor`: see the text of `actuation.motor`."""
@@ -49,7 +47,7 @@ KNOWN = (
 """From bare boards to one in a heat spreader: the rule is 0.5 to 2.3 times their mass."""
 
 BASE_MASS, MASS_PER_CURRENT = 0.0081, 0.000232
-"""Of the rule [kg, kg/A]."""
+"""Mass at no current, and what each ampere adds, of the rule [kg, kg/A]."""
 
 
 def controller_mass(phase_current: float) -> float:
@@ -62,28 +60,3 @@ def controller_mass_of(motor: Motor) -> float:
     if motor.peak_torque is None or not motor.torque_constant:
         return 0.0
     return controller_mass(PHASE_PER_LINE * motor.peak_torque / motor.torque_constant)
-
-
-@dataclass(frozen=True)
-class ControllerDemand:
-    """What each controller must stand.
-
-    Attributes:
-        phase_current: amplitude, at the torque limit of its motor [A].
-        supply_current: drawn and fed back, all that the supply gives: one wheel may take it [A].
-        voltage: of the supply [V].
-    """
-
-    phase_current: float
-    supply_current: float
-    voltage: float
-
-
-def controller_demand(drive: Drive, supply: Supply | None) -> ControllerDemand | None:
-    """What the controller of each wheel must stand; None where its motor or supply is unknown."""
-    limit, k_t = drive.torque_limit, drive.torque_constant
-    if limit is None or k_t is None or supply is None:
-        return None
-    current = limit / (drive.gear_ratio * drive.gear_efficiency * k_t)
-    at_bus = min(supply.power / supply.voltage, current)
-    return ControllerDemand(PHASE_PER_LINE * current, at_bus, supply.voltage)

@@ -29,11 +29,14 @@ PLANNED = (1.0 + RESERVE) / 2.0
 its hardest maneuver just takes `RESERVE` of them: half of the rest lets a plan be smoother than
 that, the other half is left to the feedback."""
 
+_NO_SPEED = 1e-9
+"""Share of its line, or [rad/s], that is left to a wheel which begins at its top speed."""
+
 FIGURES_HINT = (
-    "Choose another motor, or state its figures in a catalogue file of your own; "
-    "see docs/catalogue.md#motors"
+    "Choose another motor, or state its figures in a file of your own with --motors FILE; "
+    "`ocs-design catalogue --help` says how"
 )
-"""Where a motor's source does not give what is needed."""
+"""Cure where a motor's source does not give what is needed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +66,20 @@ class DriveLine:
             torque_limit=self.torque_limit * share,
             speed_max=self.speed_max * share,
             power_max=self.power_max * share,
+        )
+
+    def begun(self, speed: float | FloatArray) -> "DriveLine":
+        """The line over the change of a wheel's speed, from one that it begins with [rad/s].
+
+        It is that of the same winding at a voltage that is less by the one of that speed. Braking
+        counts as stronger than it is by as much.
+        """
+        left = np.maximum(1.0 - speed / np.asarray(self.no_load_speed), _NO_SPEED)
+        return replace(
+            self,
+            stall_torque=self.stall_torque * left,
+            no_load_speed=self.no_load_speed * left,
+            speed_max=np.maximum(self.speed_max - speed, _NO_SPEED),
         )
 
 
@@ -282,10 +299,19 @@ class Drive:
 
         Both its torque at rest and its speed without load shrink by it: the slope stays.
         """
-        if self.stall_torque is None or self.torque_constant is None:
-            return 1.0
-        gain = self.gear_ratio * self.gear_efficiency * self.torque_constant
-        return 1.0 - gain * (self.no_load_current or 0.0) / self.stall_torque
+        return 1.0 if self.stall_torque is None else 1.0 - self.friction / self.stall_torque
+
+    @property
+    def friction(self) -> float:
+        """N eta k_t I_0, what the motor's own friction takes of the torque at the wheel [N m]."""
+        gain = self.gear_ratio * self.gear_efficiency * (self.torque_constant or 0.0)
+        return gain * (self.no_load_current or 0.0)
+
+    @property
+    def at_the_air_gap(self) -> "Drive":
+        """The drive before its own friction takes its part, for models that have it themselves."""
+        limit = None if self.torque_limit is None else self.torque_limit + self.friction
+        return replace(self, torque_limit=limit, no_load_current=None)
 
 
 def _finite(limit: float | FloatArray) -> float | None:

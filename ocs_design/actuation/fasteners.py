@@ -100,6 +100,30 @@ class Screw:
 
 
 @dataclass(frozen=True)
+class PropertyClass:
+    """Strength of screws up to M16 (ISO 898-1, table 3).
+
+    Attributes:
+        proof: stress under proof load [Pa]. yields: least yield strength [Pa].
+        depth: of thread in aluminium over the diameter, at least: it grows with the preload.
+    """
+
+    proof: float
+    yields: float
+    depth: float
+
+
+USUAL_CLASS = "8.8"
+"""Of screws where nothing asks for more."""
+
+CLASSES = {
+    USUAL_CLASS: PropertyClass(580e6, 640e6, 1.0),
+    "10.9": PropertyClass(830e6, 940e6, 1.4),
+    "12.9": PropertyClass(970e6, 1100e6, 1.7),
+}
+
+
+@dataclass(frozen=True)
 class Fastening:
     """Equal screws of one module.
 
@@ -108,6 +132,7 @@ class Fastening:
         thickness: of what they go through [m].
         purpose: what they hold, and what to mind.
         depth: of their threads over their diameter, at least.
+        strength: their property class.
     """
 
     screw: Screw
@@ -115,6 +140,13 @@ class Fastening:
     thickness: float
     purpose: str
     depth: float = 1.0
+    strength: str = USUAL_CLASS
+
+    @property
+    def designation(self) -> str:
+        """Designation of the screw, with its class where it is not the usual one."""
+        strength = "" if self.strength == USUAL_CLASS else f" - {self.strength}"
+        return self.screw.designation(self.length) + strength
 
     @property
     def length(self) -> float:
@@ -152,6 +184,7 @@ SCREWS = (
     Screw("M4", 4.0e-3, 4.5e-3, 3.3e-3, 7.0e-3, 4.0e-3, 0.7e-3, 3.0e-3, 2.0e-3),
     Screw("M5", 5.0e-3, 5.5e-3, 4.2e-3, 8.5e-3, 5.0e-3, 0.8e-3, 4.0e-3, 2.5e-3),
     Screw("M6", 6.0e-3, 6.6e-3, 5.0e-3, 10.0e-3, 6.0e-3, 1.0e-3, 5.0e-3, 3.0e-3),
+    Screw("M8", 8.0e-3, 9.0e-3, 6.8e-3, 13.0e-3, 8.0e-3, 1.25e-3, 6.0e-3, 4.0e-3),
 )
 """Clearance holes: ISO 273:1979, medium; drills: ISO 2306:1972; heads and
 sockets: ISO 4762:2004; pitches: ISO 262."""

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import pi, sin
 
-from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.fasteners import USUAL_CLASS, screw
 
 
 class TorqueConstantConvention(StrEnum):
@@ -38,7 +38,7 @@ class ResistanceConvention(StrEnum):
 
     LINE_LINE = "line-line"
     PHASE = "phase"
-    """From a line to the star point."""
+    """Resistance from a line to the star point."""
 
 
 _PER_SIX_STEP = {
@@ -73,7 +73,7 @@ class Face(StrEnum):
 
 
 BY_CONVENTION = "threads by convention"
-"""In `Motor.confidence`: threads are those that makers use for motors of that size."""
+"""Words in `Motor.confidence`: threads are those that makers use for motors of that size."""
 
 
 class MotorKind(StrEnum):
@@ -93,9 +93,9 @@ class ShaftForm(StrEnum):
     PLAIN = "plain"
     """A cylinder, for a clamp or a collet."""
     FLAT = "d-flat"
-    """With a flat, for a set screw beside the clamp."""
+    """Shaft with a flat, for a set screw beside the clamp."""
     THREAD = "thread"
-    """With a thread, for a nut that presses the wheel on a shoulder."""
+    """Shaft with a thread, for a nut that presses the wheel on a shoulder."""
 
 
 @dataclass(frozen=True)
@@ -106,11 +106,13 @@ class BoltCircle:
         diameter: of the circle that they are on [m].
         bolts: how many.
         thread: of each, such as "M3".
+        screws: property class of the screws in them.
     """
 
     diameter: float
     bolts: int
     thread: str
+    screws: str = USUAL_CLASS
 
     def __str__(self) -> str:
         """Text for people, as in `4 x M3 on 25 mm`."""
@@ -330,7 +332,7 @@ table 1.1). Continuous torques of the catalogue's rows ask for 10 and more.
 """
 
 TEMPERATURE_RISE = 75.0
-"""Of the winding above air of 25 degrees [K]; insulation of class B stands 130 (IEC 60085)."""
+"""Rise of the winding above air of 25 degrees [K]; insulation of class B stands 130 (IEC 60085)."""
 
 COPPER_COEFFICIENT = 0.00393
 """Change of copper's resistance per degree, over that at 20 degrees [1/K] (IEC 60028)."""

@@ -21,7 +21,7 @@ OUT_OF_REACH = 1e-9
 """
 
 STRAY_MAX = float(np.radians(1.0))
-"""By how much a turn may end off level about an axis that the wheels do not reach [rad]."""
+"""Largest angle off level about an axis that the wheels do not reach, at a turn's end [rad]."""
 
 
 class TiltInertia(NamedTuple):

@@ -100,10 +100,20 @@ def held(axes: ArrayLike, momentum: ArrayLike) -> Held:
     along = np.where(np.abs(along) <= _ROUNDING * length * size, 0.0, along)
     figures = np.abs(along) / np.where(spanned, whole, 1.0)
     figures = np.where(spanned | (along == 0.0), figures, np.inf)
-    most = figures.max(axis=0)
+    # Without any axis there is no facet either.
+    nothing = (reach.max(axis=0) == 0.0) & (size > 0.0)
+    most = np.where(nothing, np.inf, figures.max(axis=0))
     touched = np.where(figures >= most * (1.0 - _EDGE), np.sign(along), 0.0)
     sense = (touched[:, None] * np.where(spanned[:, None], np.sign(levers), 0.0)).sum(axis=0)
     return Held(most, np.moveaxis(np.sign(sense), 0, -1))
+
+
+def without_each(axes: FloatArray) -> tuple[FloatArray, ...]:
+    """Axes with one column after the other zero: n times the shape (..., d, n).
+
+    A zero axis reaches nothing: the zonotope is that of the others.
+    """
+    return tuple(axes * row for row in 1.0 - np.eye(axes.shape[-1]))
 
 
 def held_by_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
@@ -159,6 +169,12 @@ class WheelTask:
         duration: T [s], shape (...).
         inertia: of the whole, wheels braked.
         axes: of the wheels about roll and pitch, as columns, shape (..., 2, n).
+        one_stops: whether the others must do it with any one of the wheels left out.
+        upright: I_zz of the whole [kg m^2], shape (...), where a heading is asked too of wheels
+            that reach it, and swept, momentum and axes have a third component; None: they have
+            not, and the heading is left to itself.
+        begins: speed of all wheels at the start, where they turn as swept and momentum say
+            [rad/s], shape (...).
     """
 
     swept: ArrayLike
@@ -166,9 +182,24 @@ class WheelTask:
     duration: ArrayLike
     inertia: TiltInertia
     axes: FloatArray
+    one_stops: bool = False
+    upright: FloatArray | None = None
+    begins: ArrayLike = 0.0
 
     def load(self) -> "WheelLoad":
-        """What it asks of the busiest wheel; see the module's text."""
+        """What it asks of the busiest wheel; see the module's text.
+
+        With any one of them left out it is the most that any asks for, in each figure.
+        """
+        if self.one_stops:
+            lefts = without_each(self.axes)
+            loads = [replace(self, axes=left, one_stops=False).load() for left in lefts]
+            return WheelLoad(
+                excess=np.max([load.excess for load in loads], axis=0),
+                held=np.max([load.held for load in loads], axis=0),
+                coupling=np.min([load.coupling for load in loads], axis=0),
+                begins=np.max([load.begins for load in loads], axis=0),
+            )
         swept, momentum, _ = np.broadcast_arrays(self.swept, self.momentum, self.axes[..., 0])
         (turned, kept), senses = held(self.axes, np.stack([swept, momentum]))
         turning = turned > 0.0
@@ -178,19 +209,29 @@ class WheelTask:
 
         (x, y), product = np.moveaxis(self.inertia.diagonal, -1, 0), self.inertia.product
         determinant = x * y - product**2
-        rolled, pitched = np.moveaxis(asked, -1, 0)
+        rolled, pitched, *yawed = np.moveaxis(asked, -1, 0)
         rates = y * rolled - product * pitched, x * pitched - product * rolled
-        roll, pitch = _wheels_first(self.axes, most.ndim)
+        roll, pitch, *up = _wheels_first(self.axes, most.ndim)
         own = roll**2 * y + pitch**2 * x - 2.0 * (roll * pitch) * product
-        alone = (own / determinant).max(axis=0)
+        own = own / determinant
+        if self.upright is not None:
+            own = own + up[0] ** 2 / self.upright
+        alone = own.max(axis=0)
         usable = (most > 0.0) & np.isfinite(most)
         sense = np.moveaxis(sense, -1, 0)
-        parts = sense * (rates[0] / determinant * roll + rates[1] / determinant * pitch)
-        parts = parts / np.where(usable, most, 1.0)
+        parts = rates[0] / determinant * roll + rates[1] / determinant * pitch
+        if self.upright is not None:
+            parts = parts + yawed[0] / self.upright * up[0]
+        parts = sense * parts / np.where(usable, most, 1.0)
         least = np.where(sense == 0.0, np.inf, parts).min(axis=0)
         # A wheel that the trunk works against is as good as one that it does not help.
         coupling = np.maximum(np.where(usable, least, alone), _UNHELPED * alone)
-        return WheelLoad(turned, kept, coupling)
+        begins = np.zeros(())
+        if np.any(self.begins):
+            # Of the busiest wheels, the one that has begun most of its change can do the least.
+            begins = np.where(sense == 0.0, -np.inf, sense * self.begins).max(axis=0)
+            begins = np.where(np.isfinite(begins), begins, 0.0)
+        return WheelLoad(turned, kept, coupling, begins)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -235,7 +276,7 @@ class WheelBound(WheelTask):
         lengths = np.abs(self.axes) / np.sqrt(diagonal)[..., None]
         longest, whole, rho = lengths.max(axis=-1), lengths.sum(axis=-1), np.minimum(share, _LOOSE)
         gives = (longest * (whole + rho * whole[..., ::-1]) / (1.0 - rho**2)).sum(axis=-1)
-        return replace(load, coupling=gives)
+        return replace(load, coupling=gives, begins=-np.abs(self.begins))
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,11 +287,13 @@ class WheelLoad:
         excess: phi(P) [N m s^2]; inf: an axis is out of reach.
         held: phi(L) [N m s]; likewise.
         coupling: kappa [1 / (kg m^2)].
+        begins: its speed at the start, positive where it has begun what it must do [rad/s].
     """
 
     excess: FloatArray
     held: FloatArray
     coupling: FloatArray
+    begins: FloatArray
 
     def angle(self, spin_inertia: ArrayLike) -> FloatArray:
         """Angle by which a wheel of that spin inertia turns beyond its final speed [rad]."""
@@ -282,7 +325,8 @@ def wheel_slew_time(
     there = (asked_of > 0.0) & np.isfinite(asked_of)
     half = 1.0 / (2.0 * load.coupling)
     h = np.where(there, np.minimum(asked_of, half), half)
-    time = slew_time(load.angle(h), load.reduced_inertia(h, armature), line, load.final_speed(h))
+    line, reduced = line.begun(load.begins), load.reduced_inertia(h, armature)
+    time = slew_time(load.angle(h), reduced, line, load.final_speed(h))
     return np.where(there | (load.excess + load.held == 0.0), time, np.inf)
 
 
@@ -318,7 +362,7 @@ def spin_demand(
         coupling=load.coupling,
         armature=np.asarray(armature, dtype=np.float64),
         least=np.asarray(least, dtype=np.float64),
-        drive=UnitDrive.of(line),
+        drive=UnitDrive.of(line.begun(load.begins)),
     )
 
 
@@ -329,7 +373,8 @@ def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
     so large that it takes much of the given inertia upon itself (I_red falls short of h) may still
     beat that; it counts as out of reach for want of torque.
     """
-    load, torque = task.load(), UnitDrive.of(line).torque
+    load = task.load()
+    torque = UnitDrive.of(line.begun(load.begins)).torque
     duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
     final = load.held
     with np.errstate(invalid="ignore"):

@@ -26,7 +26,7 @@ CLEARANCE = 5e-3
 """Least distance between the pitch circles of the two pulleys [m]."""
 
 TEETH_IN_MESH = 6
-"""On the smaller pulley, below which a fifth of the working tension is lost per tooth
+"""Teeth on the smaller pulley below which a fifth of the working tension is lost per tooth
 (SDP/SI, Handbook of timing belts, section 13.3)."""
 
 LOSS_PER_TOOTH = 0.2

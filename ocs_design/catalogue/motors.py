@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import inf
 from pathlib import Path
@@ -11,7 +11,7 @@ from types import MappingProxyType
 import msgspec
 
 from ocs_design.actuation.drive import missing_figures
-from ocs_design.actuation.fasteners import SCREW_NAMES
+from ocs_design.actuation.fasteners import CLASSES, SCREW_NAMES, USUAL_CLASS
 from ocs_design.actuation.motor import (
     DIRECT,
     BoltCircle,
@@ -60,6 +60,7 @@ class MotorSheet:
         shaft_form: what a hub can hold on to.
         rotor_bolt_circle_m, rotor_bolts, rotor_thread: threads in what turns, on the wheel's side:
             diameter of their circle, number, and size such as M3.
+        rotor_screws: property class of the screws that the wheel takes there, if not 8.8.
         stator_bolt_circle_m, stator_bolts, stator_thread: the same in what stands still, on its
             `stator_face`.
         source: where the figures come from. confidence: good, second-hand, ...
@@ -102,6 +103,7 @@ class MotorSheet:
     kind: MotorKind | None = None
     voltage_max_v: float | None = None
     shaft_form: ShaftForm | None = None
+    rotor_screws: str | None = None
 
     @property
     def torque_constant(self) -> float | None:
@@ -114,7 +116,7 @@ class MotorSheet:
 
     @property
     def resistance(self) -> float | None:
-        """Between two lines [ohm]."""
+        """Resistance between two lines [ohm]."""
         if self.resistance_ohm is None or self.resistance_between is None:
             return None
         return line_to_line_resistance(self.resistance_ohm, self.resistance_between)
@@ -122,7 +124,8 @@ class MotorSheet:
     @property
     def rotor(self) -> BoltCircle | None:
         """Threads in what turns; None unless all of their figures are stated."""
-        return _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
+        found = _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
+        return found and replace(found, screws=self.rotor_screws or USUAL_CLASS)
 
     @property
     def stator(self) -> BoltCircle | None:
@@ -226,16 +229,16 @@ def _speed(speed_rpm: float | None) -> float | None:
 
 
 SPEED_CONSTANT_TOLERANCE = 0.05
-"""Of k_t times Kv: Kv is printed in round numbers, and 3.8 % occur."""
+"""Error of k_t times Kv: Kv is printed in round numbers, and 3.8 % occur."""
 
 NO_LOAD_TOLERANCE = 0.05
-"""Of the no-load speed: friction and iron losses take up to 3.6 %."""
+"""Error of the no-load speed: friction and iron losses take up to 3.6 %."""
 
 STALL_TOLERANCE = 0.03
-"""Of stall torque and stall current: data sheets compute them, and 2.1 % occur."""
+"""Error of stall torque and stall current: data sheets compute them, and 2.1 % occur."""
 
 PEAK_TOLERANCE = 0.05
-"""By which a peak torque may exceed k_t times the peak current: 2.0 % occur."""
+"""Share by which a peak torque may exceed k_t times the peak current: 2.0 % occur."""
 
 
 def _contradictions(sheet: MotorSheet) -> Iterator[str]:
@@ -305,10 +308,10 @@ def _close(stated: float, expected: float, tolerance: float) -> bool:
 
 
 LEAST_BOLTS = {"rotor": 3, "stator": 2}
-"""With two holes a wheel's inertia is not the same about every axis across it."""
+"""Fewest bolts: with two a wheel's inertia is not the same about every axis across it."""
 
 LIGAMENT = 1.0e-3
-"""Of material between the screws' holes and the shaft, and between each other, at least [m]."""
+"""Least material between the screws' holes and the shaft, and between each other [m]."""
 
 
 def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None) -> Iterator[str]:
@@ -348,6 +351,8 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
         yield f"rated_voltage_v is {voltage:g}, above voltage_max_v, {most:g}"
     if sheet.shaft_form is not None and sheet.shaft_diameter_m is None:
         yield "shaft_form says nothing without shaft_diameter_m"
+    if sheet.rotor_screws is not None and sheet.rotor_screws not in CLASSES:
+        yield f"rotor_screws is {sheet.rotor_screws!r}, which is none of {', '.join(CLASSES)}"
     if (sheet.stator is None) != (sheet.stator_face is None):
         yield "stator_face and the stator's bolt circle say nothing without each other"
     if not sheet.remark:

@@ -118,7 +118,7 @@ def _toml_rows(text: str, name: str, kind: str, faults: list[str]) -> Iterator[R
 
 
 Reader = Callable[[object], object]
-"""From a cell to its value; raises ValueError with what is wrong."""
+"""Function from a cell to its value; raises ValueError with what is wrong."""
 
 C = TypeVar("C", bound=StrEnum)
 

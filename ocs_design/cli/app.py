@@ -347,7 +347,13 @@ def catalogue(
     ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """What can be chosen, with sources."""
+    """What can be chosen, with sources.
+
+    A motor of your own is a [[motor]] of a TOML file or a row of a CSV file for --motors: name,
+    maker, source, mass_kg, kv_rpm_per_v or kt_nm_per_a, resistance_ohm, resistance_between
+    ("line-line"), peak_current_a, rated_voltage_v. With -v the list says what a motor lacks to be
+    built with.
+    """
     from ocs_design.report.text.catalogue import listing
     from ocs_design.report.text.console import make_console
 

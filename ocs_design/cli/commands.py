@@ -113,9 +113,8 @@ def _ask_robot(
     stated: "Specification", start_from: Callable[["Specification"], "Start"]
 ) -> "Start":
     """What is stated, with a robot if the user names one."""
-    if any(
-        item is not None for item in (stated.robot.file, stated.robot.mass, stated.robot.inertia)
-    ):
+    own = stated.robot
+    if any(item is not None for item in (own.file, own.mass, own.inertia, own.human)):
         return start_from(stated)
 
     def read(answer: str) -> "Start":
@@ -237,9 +236,10 @@ def export(
     from ocs_design.report.text.answers import print_export
     from ocs_design.report.text.console import Steps, make_console
     from ocs_design.report.text.layout import warn
+    from ocs_design.requirement.values import names_in
     from ocs_design.workflows.export import ON_DESIGN, export_order, finishing, read_order
 
-    names = [name.strip() for text in formats or () for name in text.split(",")]
+    names = [name for text in formats or () for name in names_in(text)]
     chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
     console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
     steps = Steps(aside, quiet=output.quiet or output.as_json)
@@ -408,6 +408,8 @@ def validate(
     seed: opt.Seed = None,
     until_width: UntilWidth = None,
     certify: opt.Certify = False,
+    survives: opt.Survives = None,
+    detection: opt.Detection = None,
     scheduler: Scheduler = None,
     sample: OneSample = None,
     replay: CaseFile = None,
@@ -427,8 +429,9 @@ def validate(
     With --samples also many times over with what reality adds: sensors, delay, friction, and a
     robot, device and motors that are not quite as designed, drawn from [reality] of the
     specification. The same seed gives the same samples wherever they are flown. With --certify no
-    more of them than it takes to be sure of the reliability that was asked for. Exit code 1: a
-    scenario fails as designed, or the certificate falls short.
+    more of them than it takes to be sure of the reliability that was asked for. With --survives one
+    a drive stops on the way. Exit code 1: a scenario fails as designed, a landing with a drive
+    stopped is beyond the allowance, or the certificate falls short.
     """
     from ocs_design.report.text.console import Steps, make_console
 

@@ -77,6 +77,8 @@ def _report_any(
     extra = re.fullmatch(r"Got unexpected extra argument.* \((.*)\)", message)
     if extra and any(extra[1] in units for units in UNITS.values()):
         hint = f"write a number and its unit as one word, as in 50mm; {hint}"
+    elif extra and re.fullmatch(r"[-+\d.,e]+\w*", extra[1]):
+        hint = f"an option takes one word, as in --r-max 50mm or --joint FL_KFE=0.5; {hint}"
     elif re.fullmatch(r"No such option: -\w", message):
         hint = f"an option of several letters has two dashes; {hint}"
     if as_json:

@@ -77,6 +77,14 @@ Inertia: TypeAlias = Annotated[
         help="Robot by hand: inertia about its centre of mass [kg m2].",
     ),
 ]
+Human: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--human",
+        metavar="PERSON",
+        help="A person who wears the device, e.g. '75kg 1.75m with 10kg': mass, height, payload.",
+    ),
+]
 Weighed: TypeAlias = Annotated[
     Text,
     typer.Option(
@@ -137,6 +145,23 @@ Reliability: TypeAlias = Annotated[
         help="Share of robots that shall pass as built; 0.99 by default, 0.5: nominal.",
     ),
 ]
+Survives: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--survives",
+        autocompletion=completion.one_of("one", "none"),
+        metavar="MOTORS",
+        help="one, or 'any one motor': land level though any drive stops in flight.",
+    ),
+]
+Detection: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--detection",
+        metavar="TIME",
+        help="Until a drive that stops is known to have stopped; 20ms by default.",
+    ),
+]
 JumpHeight: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
@@ -195,13 +220,38 @@ CatchOption: TypeAlias = Annotated[
         help="Stop a trunk that turns at lift-off, e.g. 'pitch 45deg/s in 0.5s'; repeatable.",
     ),
 ]
+PivotOption: TypeAlias = Annotated[
+    Text,
+    typer.Option(
+        "--pivot",
+        metavar="POINT",
+        help="What it balances or stands up on: X,Y,Z, or 'X,Y,Z along left' for an edge.",
+    ),
+]
+BalanceOption: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--balance",
+        metavar="UPSET",
+        help="Get over a tilt on the pivot, 'pitch 5deg', or a push, '0.5 N s at 0,0,0.1'; "
+        "repeatable.",
+    ),
+]
+StandUpOption: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--stand-up",
+        metavar="TILT",
+        help="Stand up on the pivot, e.g. 'roll 36deg in 0.3s', 'roll 45deg by brake'; repeatable.",
+    ),
+]
 Gravity: TypeAlias = Annotated[
     Text,
     typer.Option(
         "--gravity",
         autocompletion=completion.of_key("requirement.gravity"),
         metavar="GRAVITY",
-        help="earth (default), moon, mars, or e.g. 3.7m/s2.",
+        help="earth (default), moon, mars, orbit, or e.g. 3.7m/s2.",
     ),
 ]
 WheelSpeedMax: TypeAlias = Annotated[
@@ -454,6 +504,7 @@ ROBOT_OPTIONS: Mapping[str, object] = {
     "robot": RobotFile,
     "mass": Mass,
     "inertia": Inertia,
+    "human": Human,
     "weighed": Weighed,
     "spec": Spec,
     "trunk": Trunk,
@@ -468,6 +519,8 @@ TASK_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
     "rate_change": RateChange,
     "reliability": Reliability,
+    "survives": Survives,
+    "detection": Detection,
     "jump_height": JumpHeight,
     "kick": KickOption,
     "fall": Fall,
@@ -475,6 +528,9 @@ TASK_OPTIONS: Mapping[str, object] = {
     "flip": FlipOption,
     "turn": TurnOption,
     "catch": CatchOption,
+    "pivot": PivotOption,
+    "balance": BalanceOption,
+    "stand_up": StandUpOption,
     "gravity": Gravity,
     "wheel_speed_max": WheelSpeedMax,
     "torque_max": TorqueMax,
@@ -534,7 +590,7 @@ OUTPUT_OPTIONS: Mapping[str, object] = {
     "quiet": Quiet,
     "no_color": NoColor,
 }
-"""Of each field of `Output`."""
+"""Options of the fields of `Output`."""
 
 
 def with_output(command: Command) -> Command:

@@ -110,8 +110,7 @@ class Infeasible(OcsError):
         relaxations: Mapping[str, float],
         hint: str = "",
     ) -> None:
-        more = "What can be done about it: see docs/howto-infeasible.md"
-        super().__init__(message, hint=f"{hint} {more}".strip())
+        super().__init__(message, hint=hint)
         self.binding = tuple(binding)
         self.required_spin_inertia = required_spin_inertia
         self.largest_spin_inertia = largest_spin_inertia

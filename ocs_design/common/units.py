@@ -13,10 +13,10 @@ from reprlib import repr as shortened
 from ocs_design.common.errors import QuantityError, UsageError
 
 LARGEST = 1e15
-"""In SI; whatever is measured here is far below, and the fifth power of a length must be finite."""
+"""Largest value, SI: whatever is measured here is far below, and its fifth power must be finite."""
 
 CELL_NOMINAL, CELL_FULL = 3.7, 4.2
-"""Of one cell of lithium polymer [V], as makers of packs state them."""
+"""Voltages of one cell of lithium polymer [V], as makers of packs state them."""
 
 LONGEST_QUANTITY = 64
 """Characters; more is not a number, and long exponents would cost time."""

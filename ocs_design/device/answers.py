@@ -6,7 +6,12 @@ from dataclasses import dataclass
 import msgspec
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.device.records import RobotRecord
+from ocs_design.device.records import (
+    ReliabilityRecord,
+    RobotRecord,
+    SurvivalRecord,
+    ValidationRecord,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +50,7 @@ class LayoutAnswer:
         layout: its name. wheels: how many. mass: of the device [kg]. motor: its name.
         momentum: that the wheels take at their highest speed about roll, pitch and yaw, each alone
             [N m s]. momentum_without_one: the least of it with any one wheel lost.
+        survives: maneuvers that it does with any one wheel left out, by closed form.
         open: what keeps it from being built, as far as its place on the trunk tells.
         without: why there is no device; empty if there is one.
     """
@@ -55,6 +61,7 @@ class LayoutAnswer:
     motor: str = ""
     momentum: tuple[float, float, float] = (0.0, 0.0, 0.0)
     momentum_without_one: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    survives: tuple[str, ...] = ()
     open: tuple[str, ...] = ()
     without: str = ""
 
@@ -268,6 +275,170 @@ class Exported:
 
     def __repr__(self) -> str:
         return f"<Exported to {self.folder}: {len(self.files)} files>"
+
+
+RESULT_FILE = "monte_carlo.json"
+"""Record of a campaign, written last: a folder without it is not complete, and the same command
+completes it."""
+
+CONFIDENCE = 0.95
+"""Confidence of the intervals of all shares."""
+
+QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
+BINS = 12
+"""Shares at which a spread is told, and bars of its histogram."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Share:
+    """A probability, estimated.
+
+    Attributes:
+        passed, flown: successes and trials.
+        estimate: their ratio.
+        low, high: ends of the exact interval at `CONFIDENCE`.
+    """
+
+    passed: int
+    flown: int
+    estimate: float
+    low: float
+    high: float
+
+    @property
+    def width(self) -> float:
+        """Width of the interval."""
+        return self.high - self.low
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cause:
+    """A drawn quantity that the outcome goes with.
+
+    Attributes:
+        quantity: see `uncertainty.quantities`.
+        correlation: Spearman's, of the quantity with the severity, -1..1.
+        either_way: it is the distance of the quantity from its median that counts.
+    """
+
+    quantity: str
+    correlation: float
+    either_way: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spread:
+    """How a figure of the flights is spread, SI.
+
+    Attributes:
+        quantiles: at `QUANTILES`.
+        counts: of `BINS` equal bins from the lowest value to the highest.
+    """
+
+    quantiles: tuple[float, ...]
+    counts: tuple[int, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScenarioSummary:
+    """One scenario.
+
+    Attributes:
+        scenario: its name. success: how often it passes.
+        faults: how often each kept a flight from passing.
+        attitude_error: largest of roll and pitch at touchdown, and of what a flip lacks [rad].
+        peak_wheel_speed, peak_wheel_torque: in flight [rad/s], [N m].
+        causes: what bad outcomes go with. worst: samples, the worst first.
+        advice: how to mend what fails, where that is known; one sentence or empty.
+        level: how many touch down level; None: there is no touchdown.
+        stands: how many are upright at the end, whatever their legs bear; None: there are none.
+    """
+
+    scenario: str
+    success: Share
+    faults: Mapping[str, int]
+    attitude_error: Spread | None
+    peak_wheel_speed: Spread | None
+    peak_wheel_torque: Spread | None
+    causes: tuple[Cause, ...]
+    worst: tuple[int, ...]
+    advice: str = ""
+    level: int | None = None
+    stands: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class MonteCarloRecord:
+    """A campaign.
+
+    Attributes:
+        seed: of all samples. samples: that were flown. asked: for at most.
+        confidence: of the intervals.
+        reality: the distribution of each key of `[reality]`, SI.
+        success: how often one robot passes all scenarios.
+        scenarios: one by one.
+        certificate: where one was asked for, see `certificate`.
+    """
+
+    seed: int
+    samples: int
+    asked: int
+    confidence: float
+    reality: Mapping[str, str]
+    success: Share
+    scenarios: tuple[ScenarioSummary, ...]
+    certificate: ReliabilityRecord | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampleRecord:
+    """The one sample that was flown: its values by name, SI."""
+
+    seed: int
+    index: int
+    values: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Validated:
+    """What came of it.
+
+    `validation` has the flights as designed, or those of `sample` if that is given.
+    """
+
+    schema_version: int
+    design: str
+    robot: str
+    warnings: tuple[str, ...]
+    validation: tuple[ValidationRecord, ...]
+    sample: SampleRecord | None = None
+    monte_carlo: MonteCarloRecord | None = None
+    survival: SurvivalRecord | None = None
+
+    @property
+    def exit_code(self) -> int:
+        """0, or 1 if a scenario does not pass with the device, or what was asked is not met."""
+        failed = any(run.ocs and run.passed is not True for run in self.validation)
+        failed |= self.survival is not None and bool(self.survival.lost)
+        certified = None if self.monte_carlo is None else self.monte_carlo.certificate
+        return 1 if failed or (certified is not None and certified.verdict == "falls short") else 0
+
+    def __repr__(self) -> str:
+        flown = [run.passed for run in self.validation if run.ocs]
+        told = f"{flown.count(True)} of {len(flown)} flights pass"
+        if self.survival is not None:
+            told += f", {len(self.survival.lost)} of {len(self.survival.flights)} lost by a drive"
+        if self.monte_carlo is not None:
+            found = self.monte_carlo.success
+            told += f"; {found.passed:,} of {found.flown:,} robots as they might be built"
+            if self.monte_carlo.certificate is not None:
+                told += f", {self.monte_carlo.certificate.verdict}"
+        return f"<Validated {self.robot}: {told}>"
+
+    def _repr_html_(self) -> str:
+        from ocs_design import as_html  # noqa: PLC0415 - the report stands above
+
+        return as_html(self)
 
 
 def to_json(answer: object) -> bytes:

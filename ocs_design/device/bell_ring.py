@@ -17,7 +17,7 @@ from ocs_design.device.joints import top_speed
 from ocs_design.parts.joints import OVERSPEED, SERVICE, Joint, Ring, TurningRings
 
 GLUE_GAP = 0.1e-3
-"""Between bell and ring [m]: what epoxy fills and a printed fixture keeps even."""
+"""Gap between bell and ring [m]: what epoxy fills and a printed fixture keeps even."""
 
 BELL_SHARE = 0.45
 """Straight part of a bell over its motor's length: 11 of the 25 mm of an MN5006."""
@@ -27,7 +27,7 @@ EPOXY_STRENGTH = 15e6
 that toughened epoxies such as 3M DP460 are sold with."""
 
 BELL_DENSITY, BELL_MODULUS = 7850.0, 207e9
-"""Of bells, which are of steel [kg/m^3, Pa]."""
+"""Density and modulus of bells, which are of steel [kg/m^3, Pa]."""
 
 
 @dataclass(frozen=True)

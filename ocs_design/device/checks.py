@@ -94,8 +94,15 @@ def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
         yield "plate.thread and plate.foot_thread must be " + ", ".join(SCREW_NAMES)
     if len(plate.trunk) != len(plate.sleeves):
         yield "plate.trunk and plate.sleeves must have one length each"
-    if plate.half_length < 2.0 * plate.radius:
-        yield "plate.half_length is below twice plate.radius"
+    if plate.arms < 2 or not plate.shape.fits:
+        yield "plate.half_length leaves no room between its ends"
+    if plate.levels and len(plate.levels) != len(plate.rows):
+        yield "plate.rows and plate.levels must have one length each"
+    mast = plate.mast
+    if mast is not None and not (plate.trunk and 0.0 < 2.0 * mast.wall < mast.side):
+        yield "plate.mast has no bore or no screws"
+    if mast is not None and not (mast.low < mast.high and mast.back > 0.0 <= mast.spacer):
+        yield "plate.mast has an end or an arm of no length"
     if not 0.0 < plate.neck <= plate.radius:
         yield "plate.neck is not between 0 and plate.radius"
     lengths = np.array([*plate.position, *plate.sleeves, *np.ravel([*plate.trunk, *plate.feet])])
@@ -146,7 +153,7 @@ def device_warnings(
         return ()
     heavy = (
         f"the device weighs {device.mass:.3g} kg, {share:.0%} of the robot: more than {HEAVY:.0%} "
-        "is rarely wanted; its legs must carry it"
+        "is rarely wanted; the robot must carry it, which nothing here checks"
     )
     if strict:
         raise SpecificationError(f"--strict: {heavy}", hint="Ask for less, or allow larger wheels.")

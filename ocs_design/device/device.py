@@ -17,7 +17,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
 
 NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
-"""Of the assumed motor, which weighs nothing."""
+"""Carrier of the assumed motor, which weighs nothing."""
 
 
 @dataclass(frozen=True)

@@ -197,16 +197,16 @@ def _shaft_joints(device: Device) -> Iterator[Joint]:
         yield Joint(SHAFT_JOINT, torque, None, "N m", unknown)
     elif mounting is not None and mounting.rotor is not None:
         circle = mounting.rotor
-        held, figures = screw(circle.thread), (circle.bolts, circle.radius)
-        tight = format_quantity(tightening_torque(held), "N m", digits=2)
-        force = f"{preload(held):,.0f} N"
+        held, figures = screw(circle.thread), (circle.bolts, circle.radius, circle.screws)
+        tight = format_quantity(tightening_torque(held, circle.screws), "N m", digits=2)
+        force = f"{preload(held, circle.screws):,.0f} N"
         yield Joint(
             SHAFT_JOINT,
             torque,
             hub_joint(mounting, 0.0),
             "N m",
-            f"friction under {circle}, class 8.8, tightened with {tight} to {force}, against "
-            f"{SERVICE:g} x peak torque",
+            f"friction under {circle}, class {circle.screws}, tightened with {tight} to {force}, "
+            f"against {SERVICE:g} x peak torque",
         )
         yield Joint(
             "shaft joint, screws in shear",

@@ -57,7 +57,7 @@ _AZIMUTHS: Mapping[LayoutName, tuple[float, ...]] = {
     LayoutName.TRIAD: (90.0, 210.0, 330.0),
     LayoutName.PYRAMID: (45.0, 135.0, 225.0, 315.0),
 }
-"""Of axes, and of the modules around their middle, from forward towards the left [deg]."""
+"""Directions of axes, and of modules about their middle, from forward to the left [deg]."""
 
 
 @dataclass(frozen=True)
@@ -89,6 +89,12 @@ class Layout:
     def __len__(self) -> int:
         """Number of wheels."""
         return int(self.axes(0.0).shape[-1])
+
+    @property
+    def tilting(self) -> int:
+        """Number of wheels that turn the trunk about roll and pitch, and share the power for it."""
+        tilted = np.abs(self.axes(ISOTROPIC)[:2]).max(axis=0) > OUT_OF_REACH
+        return int(np.count_nonzero(tilted))
 
     @property
     def text(self) -> str:

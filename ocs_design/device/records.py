@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 import msgspec
+import numpy as np
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.supply import Supply
@@ -18,7 +19,7 @@ from ocs_design.common.arrays import Matrix, Vector, matrix, vector
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, read_plain_file
 from ocs_design.common.units import format_quantity
-from ocs_design.device.device import NO_CARRIER, Flywheel
+from ocs_design.device.device import NO_CARRIER, Device, Flywheel, Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
@@ -283,10 +284,10 @@ class SelectionRecord:
 SCHEMA_VERSION = 2
 
 OLDEST_VERSION = 1
-"""Of the documents that are still read."""
+"""Version of the oldest documents that are still read."""
 
 LARGEST = 16 << 20
-"""Of a `design.json` [bytes]; that of a humanoid takes a fiftieth."""
+"""Largest `design.json` [bytes]; that of a humanoid takes a fiftieth."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -333,6 +334,8 @@ class RequirementRecord:
     """What was asked of the device, and everything that was assumed to ask it.
 
     `reliability` is the share of robots that shall pass as built; None: none was asked for.
+    `detection` is the time until it is known that a drive has stopped [s], where the device shall
+    land level though any one does; None: it need not.
     """
 
     maneuvers: tuple[ManeuverRecord, ...]
@@ -343,6 +346,7 @@ class RequirementRecord:
     demands: tuple[DemandRecord, ...]
     assumptions: tuple[str, ...]
     reliability: float | None = None
+    detection: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -427,6 +431,24 @@ class OcsRecord:
         "by-hand",
     ] = "pair"
 
+    def device(self, supply: Supply | None = None) -> Device:
+        """The device that was designed, to the last digit; `supply` is what feeds it."""
+        modules = (
+            Module(each.name, np.array(each.axis), np.array(each.position)) for each in self.modules
+        )
+        return Device(
+            self.incidence,
+            tuple(modules),
+            self.flywheel,
+            self.motor,
+            self.carrier,
+            supply,
+            plate=self.plate,
+            guard_wall=self.guard_wall,
+            foot_plate=self.foot_plate,
+            layout=self.axes,
+        )
+
     @property
     def axes(self) -> Layout:
         """Layout of the modules' axes."""
@@ -490,6 +512,53 @@ class ValidationRecord:
     can_stand: bool | None = None
     level: bool | None = None
     stands: bool | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoppedRecord:
+    """One flight in which a drive stops and its wheel runs on.
+
+    Attributes:
+        scenario: name of the maneuver. module: whose drive. instant: from lift-off [s].
+        lands: whether it comes down within the allowance; None: not judged.
+        tilt: larger of roll and pitch off what is asked at touchdown [rad]; None: not judged.
+        reason: for `lands`, one sentence.
+    """
+
+    scenario: str
+    module: str
+    instant: float
+    lands: bool | None
+    tilt: float | None
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurvivalRecord:
+    """How the device lands when any one drive stops at any instant.
+
+    Attributes:
+        detection: time until the law knows of it [s].
+        flights: of every drive at several instants of each maneuver.
+        mass_without: of the lightest device that need not survive it [kg]; None: not looked for.
+    """
+
+    detection: float
+    flights: tuple[StoppedRecord, ...]
+    mass_without: float | None = None
+
+    @property
+    def lost(self) -> tuple[StoppedRecord, ...]:
+        """Flights that do not come down within the allowance, or are not judged."""
+        return tuple(each for each in self.flights if each.lands is not True)
+
+    @property
+    def worst(self) -> StoppedRecord:
+        """The flight that ends worst: of those lost, if there are any."""
+        return max(
+            self.lost or self.flights,
+            key=lambda each: float("inf") if each.tilt is None else each.tilt,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -619,6 +688,7 @@ class OcsDesign:
     lighter: Lighter | None = None
     buildable: Buildable = field(default_factory=lambda: Buildable(yes=None))
     validation: tuple[ValidationRecord, ...]
+    survival: SurvivalRecord | None = None
     reliability: ReliabilityRecord | None = None
     control: ControlRecord | None = None
     reality: Mapping[str, str] = field(default_factory=dict)
@@ -672,6 +742,8 @@ def read_design(path: AnyPath) -> OcsDesign:
         hint = "give a design.json, which `ocs-design size` writes"
         if content.lstrip().startswith(b"<"):
             raise OcsError(f"{path}: is a robot or other XML, not a design", hint=hint) from error
+        if path.suffix == ".toml":
+            raise OcsError(f"{path}: is a specification, not a design", hint=hint) from error
         raise OcsError(f"{path}: not a design.json: {error}", hint=hint) from error
     if not OLDEST_VERSION <= version <= SCHEMA_VERSION:
         raise OcsError(

@@ -1,21 +1,23 @@
 """What a module fills, as cylinders in B: for what it is near, and what could hit it."""
 
 from dataclasses import dataclass
+from math import hypot, sqrt
 
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Module
+from ocs_design.parts.carrier_plate import CarrierPlate, directions
 from ocs_design.parts.foot import BASE_THICKNESS, Foot
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of
 from ocs_design.parts.printed import WALL
-from ocs_design.robot.tree import Drum
+from ocs_design.robot.tree import BACKWARDS, Drum
 
 PLATE_DISCS = 0.5
 """Distance of the discs that stand for a plate's neck, over half its width."""
 
-_UP = np.array([0.0, 0.0, 1.0])
+_LEFT, _UP = np.eye(3)[1:]
 
 
 def motor_mount(device: Device) -> MotorMount:
@@ -84,44 +86,87 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
     return ModuleSolids((drum, *driving), (base,))
 
 
-def plate_solids(device: Device) -> tuple[Drum, ...]:
+def plate_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
     """What the plate under the feet fills, none without one: discs side by side, and its sleeves.
 
-    The first and the last disc of each plate are its ends. Between two of them the neck's edge is
-    up to 3 % of their radius farther out. The roundings where it meets the ends are left out.
+    The first discs of each plate are its ends. Between two others the neck's edge is up to 3 % of
+    their radius farther out. The roundings where it meets the ends are left out. Tubes
+    of a mast, the last, are four cylinders each, around a quarter of their section.
     """
-    plate = device.plate
     if plate is None:
         return ()
-    middle, straight = np.array(plate.position), plate.half_length - plate.radius
-    count = 1 + int(np.ceil(2.0 * straight / (PLATE_DISCS * plate.neck)))
-    up = plate.thickness / 2.0 * _UP
-    along_neck = [(across, plate.neck) for across in np.linspace(-straight, straight, count)[1:-1]]
+    middle, up = np.array(plate.position), plate.thickness / 2.0 * _UP
+    count = int(np.ceil(plate.across / (PLATE_DISCS * plate.neck)))
+    along_neck = [(share / count * plate.across, plate.neck) for share in range(count)]
     discs = [
-        Drum(middle + up + np.array([row, across, 0.0]), _UP, radius, plate.thickness)
-        for row in plate.rows
-        for across, radius in ((-straight, plate.radius), *along_neck, (straight, plate.radius))
+        Drum(middle + up + [row + out * x, out * y, level], _UP, radius, plate.thickness)
+        for row, level in zip(plate.rows, plate.heights, strict=True)
+        for out, radius in ((plate.across, plate.radius), *along_neck)
+        for x, y in directions(plate.arms)
     ]
     sleeves = [
-        Drum(middle + np.array([x, y, -length / 2.0]), _UP, plate.sleeve_radius, length)
-        for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
+        Drum(
+            middle + place.position - length / 2.0 * place.rotation[:, 2],
+            place.rotation[:, 2],
+            plate.sleeve_radius,
+            length,
+        )
+        for place, length in zip(plate.screw_places, plate.sleeves, strict=True)
         if length > 0.0
     ]
-    return (*discs, *sleeves)
+    return (*discs, *sleeves, *mast_solids(plate))
 
 
-def plate_heads(device: Device) -> tuple[Drum, ...]:
+def mast_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
+    """Upright and arms of the mast that carries the plates; none without one."""
+    if plate is None or plate.mast is None:
+        return ()
+    mast, middle, backwards = plate.mast, np.array(plate.position), BACKWARDS[:, 2]
+    quarter, arm = mast.side / 4.0, mast.back + plate.neck
+    tubes = [(mast.face - 2.0 * quarter, (mast.low + mast.high) / 2.0, _UP, mast.high - mast.low)]
+    tubes += [
+        (arm / 2.0 - plate.neck, level - 2.0 * quarter, backwards, arm) for level in plate.heights
+    ]
+    drums = [
+        Drum(
+            middle + [x, aside, z] + off * np.cross(axis, _LEFT),
+            axis,
+            sqrt(2.0) * quarter,
+            length,
+        )
+        for x, z, axis, length in tubes
+        for aside in (quarter, -quarter)
+        for off in (quarter, -quarter)
+    ]
+    if mast.spacer > 0.0:
+        low, high = plate.block
+        count = int(np.ceil(mast.spacer / (2.0 * quarter)))
+        half = mast.spacer / count / 2.0
+        drums += [
+            Drum(
+                middle + np.array([mast.face + off, aside, (low + high) / 2.0]),
+                _UP,
+                hypot(half, quarter),
+                high - low,
+            )
+            for off in half * np.arange(1, 2 * count, 2)
+            for aside in (quarter, -quarter)
+        ]
+    return tuple(drums)
+
+
+def plate_heads(plate: CarrierPlate | None) -> tuple[Drum, ...]:
     """Heads of the screws that hold the plate on the trunk."""
-    plate = device.plate
     if plate is None:
         return ()
-    held, top = plate.screw, np.array([*plate.position[:2], plate.top])
+    held, middle = plate.screw, np.array(plate.position)
+    off = plate.clamped + held.head_height / 2.0
     return tuple(
         Drum(
-            top + np.array([x, y, held.head_height / 2.0]),
-            _UP,
+            middle + place.position + off * place.rotation[:, 2],
+            place.rotation[:, 2],
             held.head_diameter / 2.0,
             held.head_height,
         )
-        for x, y in plate.trunk
+        for place in plate.screw_places
     )

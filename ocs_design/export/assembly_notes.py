@@ -182,7 +182,10 @@ def trunk_notes(device: Device) -> tuple[str, ...]:
             "degrees to the lateral direction on a circle of "
             f"{format_quantity(2.0 * printed_foot(device).slot_radius, 'mm', digits=3)}",
         )
-    x, y, _ = plate.position
+    x, y, z = plate.position
+    if plate.mast is not None:
+        # Of its back: to the left and up.
+        x, y = y, z
     places = ", ".join(
         f"({1e3 * (x + along):.1f}, {1e3 * (y + across):.1f})" for along, across in plate.trunk
     )
@@ -192,6 +195,12 @@ def trunk_notes(device: Device) -> tuple[str, ...]:
         if longest > 0.0
         else ""
     )
+    if plate.mast is not None:
+        return (
+            f"a mast behind the trunk carries the feet; the trunk's back needs threads "
+            f"{plate.thread} for its {len(plate.trunk)} screws at y, z = {places} mm of the base "
+            f"frame{sleeved}; whether its wall bears them is not looked at",
+        )
     return (
         f"a plate carries the feet; the trunk needs threads {plate.thread} for its "
         f"{len(plate.trunk)} screws at x, y = {places} mm of the base frame{sleeved}",

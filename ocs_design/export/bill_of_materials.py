@@ -16,7 +16,13 @@ from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import foot_screws, printed_foot, printed_parts
 from ocs_design.export.electrics import electrics
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.parts.carrier_plate import SLEEVE_WALL, CarrierPlate, plate_part, sleeve_part
+from ocs_design.parts.carrier_plate import (
+    SLEEVE_WALL,
+    CarrierPlate,
+    mast_part,
+    plate_part,
+    sleeve_part,
+)
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 
@@ -115,7 +121,7 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
 
 def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
     """The plate under the feet, its sleeves and the screws that hold it on the trunk."""
-    size = f"{_mm(2.0 * plate.radius)} x {_mm(2.0 * plate.half_length)} x {_mm(plate.thickness)}"
+    size = " x ".join(map(_mm, plate.sizes))
     made = (
         f"milled or cut by water jet to plate.dxf (`export --formats dxf` writes it), "
         f"neck {_mm(2.0 * plate.neck)}; "
@@ -123,18 +129,32 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
     )
     mass = plate_part(plate.each[0]).mass()
     yield BillRow("plate under the feet", len(plate.rows), plate.material, size, mass, made)
+    mast, under = plate.mast, "plate"
+    if mast is not None:
+        stock, under = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
+        spacer = f", a block of {_mm(mast.spacer)} before it" if mast.spacer > 0.0 else ""
+        made = (
+            f"upright of {_mm(mast.high - mast.low)}{spacer}, {len(plate.rows)} arms of "
+            f"{_mm(mast.back + plate.neck)}, welded, and a plate on each arm"
+        )
+        mass = mast_part(plate, mast).mass()
+        yield BillRow("mast", 1, plate.material, stock, mass, made)
+        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(SLEEVE_WALL)} wall"
+        made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
+        mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
+        yield BillRow("sleeve in the mast", count, plate.material, stock, mass, made)
     for length in sorted({length for length in plate.sleeves if length > 0.0}):
         stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(SLEEVE_WALL)} wall"
-        made = f"cut to {_mm(length)}, between plate and trunk"
+        made = f"cut to {_mm(length)}, between {under} and trunk"
         count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
-        yield BillRow("sleeve under the plate", count, plate.material, stock, mass, made)
+        yield BillRow(f"sleeve under the {under}", count, plate.material, stock, mass, made)
     for held in plate.fastenings:
         yield _screws(held, 1, held.purpose)
 
 
 def _screws(held: Fastening, modules: int, source: str) -> BillRow:
     """Equal screws of that many modules."""
-    name = f"screw {held.screw.designation(held.length)}"
+    name = f"screw {held.designation}"
     return BillRow(name, modules * held.count, "steel", "", held.screw.mass(held.length), source)
 
 

@@ -9,7 +9,7 @@ from ocs_design.actuation.fasteners import Fastening
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.solids import motor_mount
 from ocs_design.parts.cage import cage_part
-from ocs_design.parts.carrier_plate import plate_part
+from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.foot import TRUNK_SCREWS, Foot, foot_part
 from ocs_design.parts.housing import Housing, guard_ring, housing_parts
 from ocs_design.parts.part import Part
@@ -65,8 +65,14 @@ def wheel_pieces(flywheel: Flywheel) -> Mapping[str, Part]:
 
 
 def plate_pieces(device: Device) -> Mapping[str, Part]:
-    """The plate under the feet by the name of its file; none where there is none."""
-    return {} if device.plate is None else {"plate": plate_part(device.plate)}
+    """The plate under the feet, and its mast, by the names of their files, where there are any."""
+    plate = device.plate
+    if plate is None:
+        return {}
+    if plate.mast is None:
+        return {"plate": plate_part(plate)}
+    # One of the plates on its arms, which are alike.
+    return {"plate": plate_part(plate.each[0]), "mast": mast_part(plate, plate.mast)}
 
 
 def printed_foot(device: Device) -> Foot:

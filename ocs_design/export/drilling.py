@@ -53,6 +53,8 @@ class Drilling:
         holes: to be drilled into the trunk [mm].
         screw: that goes there.
         items: the drawing, holes with their coordinates, feet and plate [mm].
+        upwards: whether it is the trunk's back, coordinates up and to the left; else its top,
+            forward and to the left.
     """
 
     robot: str
@@ -60,6 +62,7 @@ class Drilling:
     holes: tuple[Point, ...]
     screw: Screw
     items: tuple[Item, ...]
+    upwards: bool = False
 
     @property
     def title(self) -> str:
@@ -67,6 +70,7 @@ class Drilling:
         return (
             f"{self.robot}: drill {len(self.holes)} holes of {MILLIMETRES * self.drill:.3g} mm for "
             f"{self.screw.name} at the crosses; coordinates in mm in the frame of {self.trunk}"
+            f"{', z and y: its back, seen from behind' if self.upwards else ''}"
         )
 
     @property
@@ -99,6 +103,10 @@ def drilling_of(subject: Subject) -> Drilling | None:
         x, y, _ = plate.position
         holes = _millimetres([(x + along, y + across) for along, across in plate.trunk])
         thread = plate.screw
+    mast = None if plate is None else plate.mast
+    if plate is not None and mast is not None:
+        _, y, z = plate.position
+        holes = _millimetres([(z + up, y + across) for across, up in plate.trunk])
     radius = MILLIMETRES * thread.tapping_drill / 2.0
     items: list[Item] = []
     for hole in holes:
@@ -106,19 +114,26 @@ def drilling_of(subject: Subject) -> Drilling | None:
             (hole[0] + radius, hole[1] - radius - 1.0), f"{hole[0]:.1f}, {hole[1]:.1f}", 1.8
         )
         items += [Circle(hole, radius), *_cross(hole, radius + CROSS), words]
-    for module in (each for each in device.modules if each.name in standing):
+    for module in (each for each in device.modules if each.name in standing and mast is None):
         (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
         base = MILLIMETRES * foot.base_radius
         items += [Circle(middle, base, THIN), *_cross(middle, CROSS)]
         items.append(Text((middle[0] + base / 2.0, middle[1]), f"{module.name} foot", 2.5))
-    if plate is not None:
+    if plate is not None and mast is not None:
+        low, high = (MILLIMETRES * (plate.position[2] + end) for end in (mast.low, mast.high))
+        half = MILLIMETRES * mast.side / 2.0
+        ends = (low, -half), (high, -half), (high, half), (low, half)
+        items.append(Polyline((*ends, ends[0]), THIN))
+    elif plate is not None:
         for shape in plate.shapes:
             corners = _millimetres((flat_outline(shape.outline()) + plate.position[:2]).tolist())
             items.append(Polyline((*corners, corners[0]), THIN))
         items += [Circle(each, radius, THIN) for each in _millimetres(feet)]
     items += [*_cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
-    items.append(Text((3.0 * CROSS, -1.0), "forward", 2.5))
-    return Drilling(subject.name, subject.seat.trunk, holes, thread, tuple(items))
+    items.append(Text((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
+    return Drilling(
+        subject.name, subject.seat.trunk, holes, thread, tuple(items), upwards=mast is not None
+    )
 
 
 def _millimetres(places: list[Point] | list[list[float]]) -> tuple[Point, ...]:

@@ -42,6 +42,8 @@ def write(subject: Subject, folder: Path) -> Notes:
     """Write `flywheel.dxf`, or one for each of the wheel's pieces, `plate.dxf`, `drilling.dxf`."""
     pieces = {**wheel_pieces(subject.device.flywheel), **plate_pieces(subject.device)}
     for name, piece in pieces.items():
+        if name == "mast":
+            continue
         (folder / f"{name}.dxf").write_text(dxf_text(piece), encoding="utf-8", newline="\n")
     if drilling := drilling_of(subject):
         text = drilling_text(drilling)

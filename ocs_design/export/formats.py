@@ -6,7 +6,6 @@ the command line, its help and `--formats all` follow. Importing this loads no w
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from functools import cached_property
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -18,8 +17,6 @@ from ocs_design.common.installing import extra_command
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
     from ocs_design.device.records import MarginRecord, OcsDesign
-    from ocs_design.export.assembly.content import Assembly
-    from ocs_design.export.robot_model import RobotModel
     from ocs_design.robot.robot import Mount, Robot
 
 Notes: TypeAlias = tuple[str, ...]
@@ -76,21 +73,6 @@ class Subject:
             margins=design.margins,
             fitting=design.ocs.fitting,
         )
-
-    @cached_property
-    def assembly(self) -> "Assembly":
-        """How it is built, for paper and for the report."""
-        from ocs_design.export.assembly.content import Assembly  # noqa: PLC0415  its booklet's
-
-        return Assembly(self.name, self.device, self.margins, self.fitting)
-
-    @cached_property
-    def model(self) -> "RobotModel":
-        """Robot and device in MuJoCo, made when the first format asks for it."""
-        # MuJoCo takes a third of a second to import, and half of the formats do without.
-        from ocs_design.export.robot_model import robot_model  # noqa: PLC0415
-
-        return robot_model(self.carrier, self.device)
 
     @property
     def carrier(self) -> "Robot":

@@ -15,6 +15,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.naming import IMU
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh, primitive_mesh
+from ocs_design.export.robot_model import model_of
 from ocs_design.export.visuals import Color
 from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP, quaternion
 from ocs_design.robot.rotations import rotation_from_quaternion
@@ -35,8 +36,9 @@ _MOST_UINT16 = 65535
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `<name>_ocs.glb`, the robot in its nominal posture."""
     path = folder / f"{subject.name}_ocs.glb"
-    export_robot_glb(subject.model.compiled, subject.carrier.posture, path)
-    return subject.model.warnings
+    model = model_of(subject)
+    export_robot_glb(model.compiled, subject.carrier.posture, path)
+    return model.warnings
 
 
 def export_robot_glb(model: mujoco.MjModel, posture: Mapping[str, float], path: Path) -> Path:

@@ -20,7 +20,7 @@ from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, highest_speed, la
 from ocs_design.export.offscreen import shown_box
 from ocs_design.export.physics import STEADY_LEGS, leg_joints
 from ocs_design.export.png import png_bytes
-from ocs_design.export.robot_model import HOLD, HOME, RobotModel
+from ocs_design.export.robot_model import HOLD, HOME, RobotModel, model_of
 from ocs_design.export.snapshot import snapshot
 from ocs_design.export.templates import fill, in_comment, numbers, quoted, template_text
 from ocs_design.export.visuals import WHEEL_MESH
@@ -47,7 +47,7 @@ _INERTIAL_NAMES = {"pos": "ipos", "quat": "iquat", "diaginertia": "inertia"}
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `<name>_ocs.xml` with its meshes and textures, `scene.xml`, and `README.md`."""
-    model, name = subject.model, f"{subject.name}_ocs"
+    model, name = model_of(subject), f"{subject.name}_ocs"
     path = export_robot_mjcf(model, folder / f"{name}.xml")
     data = mujoco.MjData(model.compiled)
     mujoco.mj_resetDataKeyframe(model.compiled, data, model.compiled.key(HOME).id)
@@ -117,7 +117,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         data: of its keyframe, kinematics computed.
         file, picture: their names.
     """
-    robot, device, model = subject.carrier, subject.device, subject.model
+    robot, device, model = subject.carrier, subject.device, model_of(subject)
     motor, wheel, torque = device.motor, device.flywheel, largest_torque(device.motor)
     speed, legs = highest_speed(motor), leg_joints(robot)
     figures = {
@@ -159,6 +159,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "name": subject.name,
         "picture": picture,
         "model": file,
+        "file": file.removesuffix(".xml"),
         "trunk": robot.trunk,
         "count": str(len(device.modules)),
         "figures": "".join(f"| {what} | {figure} |\n" for what, figure in figures.items()),

@@ -16,7 +16,7 @@ from ocs_design.export.film import OFFSCREEN, Take, add_white_sky, written_take
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh, part_mesh, solid_mesh
 from ocs_design.export.opengl import draw
-from ocs_design.export.robot_model import RobotModel
+from ocs_design.export.robot_model import RobotModel, model_of
 from ocs_design.export.stl import wheel_meshes
 from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, SHELL, Color, cage_placement
 from ocs_design.parts.cage import cage_part
@@ -41,7 +41,7 @@ class Shown:
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `wheel.png`, `module.png` and `robot.png`; a note where OpenGL does not work."""
     try:
-        pictures = draw_pictures(subject.device, subject.carrier, subject.model)
+        pictures = draw_pictures(subject.device, subject.carrier, model_of(subject))
     except MissingToolError as error:
         return (f"{error}; {error.hint}" if error.hint else str(error),)
     for name, content in pictures.items():

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import PurePath
+from weakref import WeakKeyDictionary
 
 import mujoco
 import numpy as np
@@ -10,6 +11,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.device.naming import PLATE, PREFIX, carrier_name, flywheel_names, require_free
 from ocs_design.export.attach import add_sensors, attach_device
+from ocs_design.export.formats import Subject
 from ocs_design.export.physics import (
     add_drives,
     flight_options,
@@ -53,6 +55,16 @@ class RobotModel:
     driven: bool
 
 
+_MODELS: WeakKeyDictionary[Subject, RobotModel] = WeakKeyDictionary()
+
+
+def model_of(subject: Subject) -> RobotModel:
+    """Model of the subject's robot and device: several formats write it, and it goes with it."""
+    if subject not in _MODELS:
+        _MODELS[subject] = robot_model(subject.carrier, subject.device)
+    return _MODELS[subject]
+
+
 def robot_model(robot: Robot, device: Device) -> RobotModel:
     """Model of robot, wheels, motors and sensors, with the shapes of the device."""
     built = build_spec(robot)
@@ -63,7 +75,10 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
         meet_no_link(spec)
         for pair in list(spec.excludes):
             spec.delete(pair)
-    _name_free_joint(spec)
+    names = {joint.name for joint in spec.joints}
+    for joint in spec.joints:
+        if joint.type == mujoco.mjtJoint.mjJNT_FREE and not joint.name:
+            joint.name = unused_name(FREE_JOINT, "", names)
     # A robot that brings its own actuators keeps them, and gets no others.
     driven = not spec.actuators
     if driven:
@@ -102,13 +117,6 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
     spec.compiler.saveinertial = True
     _add_home(spec, robot, driven=driven)
     return RobotModel(spec, compiled(spec), built.warnings, driven)
-
-
-def _name_free_joint(spec: mujoco.MjSpec) -> None:
-    names = {joint.name for joint in spec.joints}
-    for joint in spec.joints:
-        if joint.type == mujoco.mjtJoint.mjJNT_FREE and not joint.name:
-            joint.name = unused_name(FREE_JOINT, "", names)
 
 
 def _hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:

@@ -44,6 +44,8 @@ def write(subject: Subject, folder: Path) -> Notes:
     taken = {
         joint.get("name") for system in urdf.iter("ros2_control") for joint in system.iter("joint")
     }
+    children = {child.get("link") for child in urdf.findall("joint/child")}
+    links = (link.get("name", "") for link in urdf.findall("link"))
     values = {
         "package": package,
         "file": file,
@@ -52,7 +54,7 @@ def write(subject: Subject, folder: Path) -> Notes:
         "count": str(len(device.modules)),
         "macro": f"{package.removesuffix('_description')}_ros2_control",
         "plugin": MOCK_PLUGIN,
-        "root": json.dumps(_root_link(urdf)),
+        "root": json.dumps(next((link for link in links if link not in children), "")),
         "distance": numbers(3.0 * robot.gyration_radius + 1.0),
         **_controllers(robot, joint_names(device)),
     }
@@ -125,13 +127,6 @@ def _best(paths: Iterable[Path], name: PurePosixPath) -> Path | None:
 
     best = max(paths, key=alike, default=None)
     return best if best is not None and alike(best) else None
-
-
-def _root_link(urdf: ET.Element) -> str:
-    """Link that is no joint's child."""
-    children = {child.get("link") for child in urdf.findall("joint/child")}
-    links = (link.get("name", "") for link in urdf.findall("link"))
-    return next((link for link in links if link not in children), "")
 
 
 def _control_joints(robot: Robot, joints: Iterable[str]) -> Iterator[str]:

@@ -50,7 +50,7 @@ from ocs_design.export.device_parts import (
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.module_bodies import carrier_placement, wheel_placement
 from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, Color
-from ocs_design.parts.carrier_plate import plate_part
+from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.part import Part
 from ocs_design.parts.solids import Prism, Revolution, Solid
@@ -107,9 +107,12 @@ def device_bytes(device: Device) -> bytes:
         place = wheel_placement(each) @ carrier_placement(each)
         assembly.put(module, whole, place, each.name)
     if device.plate is not None:
-        plate = assembly.add_part("plate", plate_part(device.plate), ALUMINIUM)
-        place = Placement(np.eye(3), np.array(device.plate.position))
-        assembly.put(plate, whole, place, "plate")
+        plate, mast = device.plate, device.plate.mast
+        bodies = [(plate_part(each), each.position) for each in plate.each]
+        bodies += [] if mast is None else [(mast_part(plate, mast), plate.position)]
+        for part, position in bodies:
+            label = assembly.add_part(part.name, part, ALUMINIUM)
+            assembly.put(label, whole, Placement(np.eye(3), np.array(position)), part.name)
     return assembly.written("device")
 
 
@@ -238,8 +241,7 @@ def _bytes(writer: STEPControl_Writer, name: str) -> bytes:
 def part_brep(part: Part) -> TopoDS_Shape:
     """Boundary representation of the part [mm], without edges inside its faces.
 
-    Raises:
-        ValueError: its solids do not make one piece.
+    Plates that stand apart, which are one part, are a compound.
     """
     joined = reduce(
         lambda left, right: BRepAlgoAPI_Fuse(left, right).Shape(), map(_shape, part.joined)
@@ -247,13 +249,11 @@ def part_brep(part: Part) -> TopoDS_Shape:
     whole = reduce(lambda left, hole: BRepAlgoAPI_Cut(left, _shape(hole)).Shape(), part.cut, joined)
     cleaner = ShapeUpgrade_UnifySameDomain(whole, True, True, False)
     cleaner.Build()
-    # Boolean operations hand back a compound.
+    # Boolean operations hand back a compound of one piece as well.
     found = TopExp_Explorer(cleaner.Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
     solid = found.Current()
     found.Next()
-    if found.More():
-        raise ValueError(f"{part.name} is not one piece")
-    return solid
+    return cleaner.Shape() if found.More() else solid
 
 
 def _shape(solid: Solid) -> TopoDS_Shape:

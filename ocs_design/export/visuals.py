@@ -18,7 +18,7 @@ from ocs_design.export.meshes import Mesh, merged, part_mesh
 from ocs_design.export.module_bodies import carrier_placement
 from ocs_design.export.stl import METRES, stl_bytes, wheel_stl
 from ocs_design.parts.cage import Cage, cage_part
-from ocs_design.parts.carrier_plate import CarrierPlate, plate_part, sleeve_part
+from ocs_design.parts.carrier_plate import CarrierPlate, directions, plate_bodies
 from ocs_design.parts.foot import BASE_THICKNESS, Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
@@ -95,13 +95,14 @@ def device_meshes(device: Device) -> Mapping[Path, bytes]:
 
 
 def plate_mesh(plate: CarrierPlate) -> Mesh:
-    """The plate with its sleeves, in its own frame."""
-    meshes = [part_mesh(plate_part(plate), _SECTIONS)]
-    for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True):
-        if length > 0.0:
-            sleeve = part_mesh(sleeve_part(plate, length), _SECTIONS)
-            meshes.append(Mesh(sleeve.vertices + np.array([x, y, 0.0]), sleeve.triangles))
-    return merged(meshes)
+    """The plate with its sleeves and its mast, in its own frame."""
+    return merged(
+        [
+            Mesh(mesh.vertices @ place.rotation.T + place.position, mesh.triangles)
+            for part, place in plate_bodies(plate)
+            for mesh in (part_mesh(part, _SECTIONS),)
+        ]
+    )
 
 
 def plate_visuals(device: Device) -> tuple[Visual, ...]:
@@ -114,22 +115,38 @@ def plain_plate_visuals(device: Device) -> tuple[Visual, ...]:
     plate = device.plate
     if plate is None:
         return ()
-    half, straight = plate.thickness / 2.0, plate.half_length - plate.radius
+    half, arm = plate.thickness / 2.0, plate.across / 2.0
     sleeves = (
-        _cylinder("plate", plate.sleeve_radius, length / 2.0, _shifted(x, y, -length / 2.0))
-        for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
+        _cylinder(
+            "plate", plate.sleeve_radius, length / 2.0, place @ _shifted(0.0, 0.0, -length / 2.0)
+        )
+        for place, length in zip(plate.screw_places, plate.sleeves, strict=True)
         if length > 0.0
     )
     bodies = (
         body
-        for row in plate.rows
+        for row, level in zip(plate.rows, plate.heights, strict=True)
+        for x, y in directions(plate.arms).tolist()
+        for outward in (_shifted(row, 0.0, level + half) @ _towards(x, y),)
         for body in (
-            Visual("plate", ShapeKind.BOX, (plate.neck, straight, half), _shifted(row, 0.0, half)),
-            _cylinder("plate", plate.radius, half, _shifted(row, straight, half)),
-            _cylinder("plate", plate.radius, half, _shifted(row, -straight, half)),
+            Visual("plate", ShapeKind.BOX, (plate.neck, arm, half), outward @ _shifted(0, arm, 0)),
+            _cylinder("plate", plate.radius, half, outward @ _shifted(0, plate.across, 0)),
         )
     )
-    return (*bodies, *sleeves)
+    return (*bodies, *sleeves, *_plain_mast(plate))
+
+
+def _plain_mast(plate: CarrierPlate) -> Iterator[Visual]:
+    """Boxes for a mast's tubes; none without one."""
+    mast = plate.mast
+    if mast is not None:
+        half, tall = mast.side / 2.0, (mast.high - mast.low) / 2.0
+        upright = _shifted(mast.face - half, 0.0, mast.low + tall)
+        yield Visual("plate", ShapeKind.BOX, (half, half, tall), upright)
+        arm = (mast.back + plate.neck) / 2.0
+        for level in plate.heights:
+            place = _shifted(mast.back - arm, 0.0, level - half)
+            yield Visual("plate", ShapeKind.BOX, (arm, half, half), place)
 
 
 @lru_cache(maxsize=1)
@@ -201,6 +218,11 @@ def _cylinder(name: str, radius: float, half_length: float, place: Placement) ->
 
 def _mesh(name: str, path: Path, place: Placement) -> Visual:
     return Visual(name, ShapeKind.MESH, (1.0, 1.0, 1.0), place, path)
+
+
+def _towards(x: float, y: float) -> Placement:
+    """The y axis that way, a unit vector, and z as it is."""
+    return Placement(np.array([[y, x, 0.0], [-x, y, 0.0], [0.0, 0.0, 1.0]]), np.zeros(3))
 
 
 def _shifted(x: float, y: float, z: float) -> Placement:

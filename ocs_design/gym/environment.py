@@ -19,7 +19,6 @@ from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath
 from ocs_design.export.film import Take, film_model, render_takes
 from ocs_design.export.physics import STEP
-from ocs_design.monte_carlo.uncertainty import built
 from ocs_design.requirement.maneuver import End, Maneuver, Shove, TurnTo
 from ocs_design.requirement.specification import Specification
 from ocs_design.simulation.metrics import Metrics, measure
@@ -35,7 +34,7 @@ BOUND = 10.0
 """Largest size of a normalised observation; flights that are judged stay below 4."""
 
 SAMPLES = 2**31
-"""Of which an episode draws one."""
+"""Number of samples of which an episode draws one."""
 
 
 class OcsFlight(gymnasium.Env[Observation, Observation]):
@@ -144,10 +143,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         flight = self._campaign.flights[self._number]
         self._world = flight.world
         if self._randomise:
-            drawn_robot = self._campaign.sample(sample)
-            self._world = built(
-                flight.world, drawn_robot, self._number, self._campaign.air, self._period
-            )
+            self._world = self._campaign.built(self._campaign.sample(sample), self._number)
         self._pilot = PilotedFlight(self._world, hold)
         self._pitch, self._landed = 0.0, False
         self._poses = [self._pilot.pose]

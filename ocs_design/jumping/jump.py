@@ -86,8 +86,8 @@ def jump_of(maneuver: Maneuver) -> Jump | None:
         case Disturbance():
             forward, upward = maneuver.takeoff_velocity
             return Jump(forward, upward, maneuver.gravity)
-        case TurnTo() if any(maneuver.rate) or maneuver.wheel_speed:
-            # No push-off is planned that leaves these.
+        case TurnTo() if any(maneuver.rate) or maneuver.wheel_speed or not maneuver.gravity:
+            # No push-off is planned that leaves these, and none is needed in orbit.
             return None
         case Flip() | TurnTo():
             upward = sqrt(2.0 * maneuver.gravity * maneuver.jump_height)

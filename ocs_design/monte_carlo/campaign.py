@@ -25,6 +25,7 @@ from ocs_design.simulation.metrics import Metrics, objection
 from ocs_design.simulation.scenario import Options, Run, fly, world_builder
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
+from ocs_design.simulation.wheel_law import MotorLimits
 from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory.flight import Trajectory
 
@@ -52,12 +53,14 @@ class Campaign:
         flights: one of each scenario, as designed.
         uncertainty: how everything is spread.
         air: drag of a wheel.
+        limits: of a motor before friction, which is drawn, takes its part.
         seed: of all samples. hold: steps of the physics per control step.
     """
 
     flights: tuple[Flight, ...]
     uncertainty: Uncertainty
     air: AirDrag
+    limits: MotorLimits
     seed: int
     hold: int
 
@@ -67,10 +70,18 @@ class Campaign:
 
     def worlds(self, sample: Sample) -> list[World]:
         """Every scenario of one robot."""
-        return [
-            built(flight.world, sample, number, self.air, self.hold * STEP)
-            for number, flight in enumerate(self.flights)
-        ]
+        return [self.built(sample, number) for number in range(len(self.flights))]
+
+    def built(self, sample: Sample, number: int) -> World:
+        """Scenario `number` of one robot."""
+        return built(
+            self.flights[number].world,
+            sample,
+            number,
+            air=self.air,
+            limits=self.limits,
+            period=self.hold * STEP,
+        )
 
     def judged(self, metrics: Metrics | None, number: int) -> Verdict:
         """The verdict on a flight of scenario `number`."""
@@ -113,11 +124,13 @@ def make_campaign(
         Flight(maneuver, world, stands, objection(world))
         for maneuver, world, stands in zip(maneuvers, worlds, can_stand, strict=True)
     )
-    return Campaign(flights, uncertainty, air_drag(device.flywheel), seed, options.hold)
+    wheels = len(device.modules)
+    limits = MotorLimits.of(device.motor.at_the_air_gap, device.supply, wheels)
+    return Campaign(flights, uncertainty, air_drag(device.flywheel), limits, seed, options.hold)
 
 
 MEMORY = 512 << 20
-"""Of the worlds that are flown at once [bytes]; a humanoid's meshes are in each of its models."""
+"""Memory of the worlds flown at once [bytes]; a humanoid's meshes are in each of its models."""
 
 
 def fly_samples(
@@ -169,7 +182,8 @@ def _flown_at_once(
             figures = (getattr(found, name) for name in METRICS)
             metrics[row] = [np.nan if figure is None else float(figure) for figure in figures]
     values = np.stack([sample.values for sample in samples])
-    names = quantities(campaign.uncertainty.layout)
+    drawn = campaign.uncertainty
+    names = quantities(drawn.layout, one_stops=drawn.detection is not None)
     return Outcomes(np.array(indices), values, metrics, codes, names)
 
 
@@ -199,20 +213,20 @@ class Case:
     values: Mapping[str, float]
     metrics: Mapping[str, Mapping[str, float | None]]
 
-    def drawn(self, layout: Layout) -> Sample:
-        """The sample itself, of a device with this layout.
+    def drawn(self, layout: Layout, detection: float | None = None) -> Sample:
+        """The sample itself, of a device with this layout, whose drives stop or not.
 
         Raises:
             OcsError: it lacks a quantity that is drawn.
         """
-        names = quantities(layout)
+        names = quantities(layout, one_stops=detection is not None)
         if missing := [name for name in names if name not in self.values]:
             raise OcsError(
                 f"case of sample {self.sample}: says nothing of {', '.join(missing)}",
                 hint="it is of another version; draw it again with --seed and --sample",
             )
         values = np.array([self.values[name] for name in names])
-        return Sample(self.seed, self.sample, layout, values)
+        return Sample(self.seed, self.sample, layout, values, detection)
 
 
 def case_of(campaign: Campaign, outcomes: Outcomes, row: int, scenario: int, design: str) -> Case:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import OutputError
+from ocs_design.device.answers import RESULT_FILE
 from ocs_design.export.folder import output_error, whole_file
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
@@ -155,8 +156,6 @@ def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> 
 
 CAMPAIGN_FILE = "campaign.json"
 BLOCKS = "samples"
-RESULT_FILE = "monte_carlo.json"
-"""It is written last: a folder without it is not complete, and the same command completes it."""
 
 _HINT = "choose another folder with -o, or start anew with --force"
 

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import msgspec
 
+from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord
 from ocs_design.export.folder import output_error
 from ocs_design.export.staging import clear_leftovers, staging_beside
 from ocs_design.monte_carlo.campaign import Campaign, case_of, write_case
-from ocs_design.monte_carlo.outcomes import RESULT_FILE, Outcomes, write_tables
-from ocs_design.monte_carlo.summary import MonteCarloRecord
+from ocs_design.monte_carlo.outcomes import Outcomes, write_tables
 
 WORST_FOLDER = "worst"
 

@@ -2,45 +2,29 @@
 
 import copy
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import cos, sin, sqrt
 from types import MappingProxyType
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.records import ReliabilityRecord, ValidationRecord
+from ocs_design.device.answers import (
+    BINS,
+    CONFIDENCE,
+    QUANTILES,
+    Cause,
+    MonteCarloRecord,
+    ScenarioSummary,
+    Share,
+    Spread,
+)
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
-from ocs_design.monte_carlo.uncertainty import Sample
 from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
 from ocs_design.simulation.scenario import Options, fly
 from ocs_design.simulation.verdict import LANDING_TOLERANCE, Fault, landing_attitude
 from ocs_design.simulation.world import World
-
-CONFIDENCE = 0.95
-
-
-@dataclass(frozen=True, kw_only=True)
-class Share:
-    """A probability, estimated.
-
-    Attributes:
-        passed, flown: successes and trials.
-        estimate: their ratio.
-        low, high: ends of the exact interval at `CONFIDENCE`.
-    """
-
-    passed: int
-    flown: int
-    estimate: float
-    low: float
-    high: float
-
-    @property
-    def width(self) -> float:
-        """Width of the interval."""
-        return self.high - self.low
 
 
 def share(passed: int, flown: int, confidence: float = CONFIDENCE) -> Share:
@@ -65,21 +49,6 @@ SIGNIFICANT = 4.0
 """Standard deviations of a rank correlation of independent numbers; 60 are looked at at a time."""
 
 MOST_CAUSES = 4
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cause:
-    """A drawn quantity that the outcome goes with.
-
-    Attributes:
-        quantity: see `uncertainty.quantities`.
-        correlation: Spearman's, of the quantity with the severity, -1..1.
-        either_way: it is the distance of the quantity from its median that counts.
-    """
-
-    quantity: str
-    correlation: float
-    either_way: bool
 
 
 def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> FloatArray:
@@ -243,74 +212,8 @@ REMEDIES: Mapping[str, Callable[[World], World]] = MappingProxyType(
 """Changes that may keep a robot on its feet."""
 
 
-QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
-BINS = 12
 WORST = 3
 """Cases of each scenario that are kept."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Spread:
-    """How a figure of the flights is spread, SI.
-
-    Attributes:
-        quantiles: at `QUANTILES`.
-        counts: of `BINS` equal bins from the lowest value to the highest.
-    """
-
-    quantiles: tuple[float, ...]
-    counts: tuple[int, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class ScenarioSummary:
-    """One scenario.
-
-    Attributes:
-        scenario: its name. success: how often it passes.
-        faults: how often each kept a flight from passing.
-        attitude_error: largest of roll and pitch at touchdown, and of what a flip lacks [rad].
-        peak_wheel_speed, peak_wheel_torque: in flight [rad/s], [N m].
-        causes: what bad outcomes go with. worst: samples, the worst first.
-        advice: how to mend what fails, where that is known; one sentence or empty.
-        level: how many touch down level; None: there is no touchdown.
-        stands: how many are upright at the end, whatever their legs bear; None: there are none.
-    """
-
-    scenario: str
-    success: Share
-    faults: Mapping[str, int]
-    attitude_error: Spread | None
-    peak_wheel_speed: Spread | None
-    peak_wheel_torque: Spread | None
-    causes: tuple[Cause, ...]
-    worst: tuple[int, ...]
-    advice: str = ""
-    level: int | None = None
-    stands: int | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class MonteCarloRecord:
-    """A campaign.
-
-    Attributes:
-        seed: of all samples. samples: that were flown. asked: for at most.
-        confidence: of the intervals.
-        reality: the distribution of each key of `[reality]`, SI.
-        success: how often one robot passes all scenarios.
-        scenarios: one by one.
-        certificate: where one was asked for, see `certificate`.
-    """
-
-    seed: int
-    samples: int
-    asked: int
-    confidence: float
-    reality: Mapping[str, str]
-    success: Share
-    scenarios: tuple[ScenarioSummary, ...]
-    certificate: ReliabilityRecord | None = None
 
 
 def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarloRecord:
@@ -372,55 +275,3 @@ def _spread(values: FloatArray) -> Spread | None:
     return Spread(
         quantiles=tuple(np.quantile(finite, QUANTILES).tolist()), counts=tuple(counts.tolist())
     )
-
-
-@dataclass(frozen=True, kw_only=True)
-class SampleRecord:
-    """The one sample that was flown: its values by name, SI."""
-
-    seed: int
-    index: int
-    values: Mapping[str, float]
-
-    @classmethod
-    def of(cls, sample: Sample) -> "SampleRecord":
-        """The record of a sample."""
-        return cls(seed=sample.seed, index=sample.index, values=sample.by_name)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Validated:
-    """What came of it.
-
-    `validation` has the flights as designed, or those of `sample` if that is given.
-    """
-
-    schema_version: int
-    design: str
-    robot: str
-    warnings: tuple[str, ...]
-    validation: tuple[ValidationRecord, ...]
-    sample: SampleRecord | None = None
-    monte_carlo: MonteCarloRecord | None = None
-
-    @property
-    def exit_code(self) -> int:
-        """0, or 1 if a scenario does not pass with the device, or what was asked is not met."""
-        failed = any(run.ocs and run.passed is not True for run in self.validation)
-        certified = None if self.monte_carlo is None else self.monte_carlo.certificate
-        return 1 if failed or (certified is not None and certified.verdict == "falls short") else 0
-
-    def __repr__(self) -> str:
-        flown = [run.passed for run in self.validation if run.ocs]
-        told = f"{flown.count(True)} of {len(flown)} flights pass"
-        if self.monte_carlo is not None:
-            found = self.monte_carlo.success
-            told += f"; {found.passed:,} of {found.flown:,} robots as they might be built"
-            if self.monte_carlo.certificate is not None:
-                told += f", {self.monte_carlo.certificate.verdict}"
-        return f"<Validated {self.robot}: {told}>"
-
-    def _repr_html_(self) -> str:
-        from ocs_design import as_html  # noqa: PLC0415 - the report stands above
-
-        return as_html(self)

@@ -3,6 +3,7 @@
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import mujoco
 import numpy as np
@@ -25,16 +26,24 @@ from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
 from ocs_design.simulation.launch import Push
 from ocs_design.simulation.schedule import SURE
-from ocs_design.simulation.wheel_law import USED
+from ocs_design.simulation.wheel_law import USED, MotorLimits, StoppedDrive
 from ocs_design.simulation.world import World
 
 KEYS = tuple(spreads())
 
 
-def quantities(layout: Layout) -> tuple[str, ...]:
-    """Every number that is drawn for a sample of a device with this layout, in order."""
+STOPPED, SHARE = STOPS = ("stopped_drive", "stopped_at")
+"""Number of the drive that stops, from 1, and share of the flight that has passed then."""
+
+
+def quantities(layout: Layout, *, one_stops: bool = False) -> tuple[str, ...]:
+    """Every number that is drawn for a sample of a device with this layout, in order.
+
+    `one_stops`: whether a drive stops in every flight. It is drawn last: all else stays.
+    """
     parts = ((key, part) for key in KEYS for part in parts_of(key, layout.names))
-    return tuple(f"{key}.{part}" if part else key for key, part in parts)
+    names = tuple(f"{key}.{part}" if part else key for key, part in parts)
+    return (*names, *STOPS) if one_stops else names
 
 
 @dataclass(frozen=True)
@@ -43,20 +52,32 @@ class Uncertainty:
 
     Attributes:
         spreads: by key. layout: of the device.
+        detection: time until the law knows of a drive that stops, where one does in every flight
+            [s]; None: all run.
     """
 
     spreads: Mapping[str, Distribution]
     layout: Layout
+    detection: float | None = None
 
     @classmethod
-    def of(cls, stated: UncertaintySection, robot: Robot, device: Device) -> "Uncertainty":
+    def of(
+        cls,
+        stated: UncertaintySection,
+        robot: Robot,
+        device: Device,
+        detection: float | None = None,
+    ) -> "Uncertainty":
         """What is stated, and the defaults in place of the rest."""
         complete = complete_uncertainty(stated, standing_height(robot), device.motor)
-        return cls({key: getattr(complete, key) for key in KEYS}, device.layout)
+        return cls({key: getattr(complete, key) for key in KEYS}, device.layout, detection)
 
     def written(self) -> Mapping[str, str]:
         """Text that differs between any two sets of distributions (SI)."""
-        return {key: spread.written() for key, spread in self.spreads.items()}
+        texts = {key: spread.written() for key, spread in self.spreads.items()}
+        if self.detection is None:
+            return texts
+        return {**texts, STOPPED: f"any one, at any instant, known after {self.detection!r}"}
 
 
 def key_of(name: str) -> str:
@@ -72,32 +93,54 @@ class Sample:
         seed, index: which the values follow from, whatever else is drawn with them.
         layout: of the device.
         values: SI, in the order of `quantities`, shape (numbers,).
+        detection: see `Uncertainty`.
     """
 
     seed: int
     index: int
     layout: Layout
     values: FloatArray
+    detection: float | None = None
 
     @classmethod
     def draw(cls, uncertainty: Uncertainty, seed: int, index: int) -> "Sample":
         """Sample `index` of `seed`, by a counter-based generator of its own."""
-        names = quantities(uncertainty.layout)
+        names, detection = quantities(uncertainty.layout), uncertainty.detection
         generator = np.random.Generator(np.random.Philox(_sequence(seed, index)))
         values = [
             uncertainty.spreads[key_of(name)].at(part)
             for name, part in zip(names, generator.random(len(names)).tolist(), strict=True)
         ]
-        return cls(seed, index, uncertainty.layout, np.array(values))
+        if detection is not None:
+            which, when = generator.random(len(STOPS)).tolist()
+            values += [1.0 + int(which * len(uncertainty.layout)), when]
+        return cls(seed, index, uncertainty.layout, np.array(values), detection)
 
     @property
     def by_name(self) -> Mapping[str, float]:
         """The values by name."""
-        return dict(zip(quantities(self.layout), self.values.tolist(), strict=True))
+        names = quantities(self.layout, one_stops=self.detection is not None)
+        return dict(zip(names, self.values.tolist(), strict=True))
+
+    def stopped(self, world: World) -> StoppedDrive | None:
+        """The drive that stops in a flight; None: all run."""
+        if self.detection is None:
+            return None
+        wheel, instant = int(self.only(STOPPED)) - 1, self.only(SHARE) * world.flight_time
+        return StoppedDrive(wheel, instant, self.detection)
+
+    @cached_property
+    def _by_key(self) -> Mapping[str, FloatArray]:
+        """All parts of each key."""
+        counts = {key: len(parts_of(key, self.layout.names)) for key in KEYS}
+        if self.detection is not None:
+            counts |= dict.fromkeys(STOPS, 1)
+        parts = np.split(self.values, np.cumsum([*counts.values()])[:-1])
+        return dict(zip(counts, parts, strict=True))
 
     def of(self, key: str) -> FloatArray:
         """All parts of a key of `[reality]`, shape (parts,)."""
-        return np.array([value for name, value in self.by_name.items() if key_of(name) == key])
+        return self._by_key[key]
 
     def only(self, key: str) -> float:
         """Value of a key that has no parts."""
@@ -116,7 +159,15 @@ PUSH_OFF_END = 5e-3
 """Time in which a sample's rate at take-off comes about, once it is known to fly [s]."""
 
 
-def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float) -> World:
+def built(
+    world: World,
+    sample: Sample,
+    flight: int,
+    *,
+    air: AirDrag,
+    limits: MotorLimits,
+    period: float,
+) -> World:
     """Flight of one robot as it was built.
 
     Args:
@@ -124,6 +175,8 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float
         sample: see `Sample`.
         flight: its number, for the noise.
         air: drag of a wheel, the same for all.
+        limits: of a motor as designed, before friction takes its part. The law counts on them here,
+            as one does that leaves the current of friction to the drive.
         period: of the wheel law [s].
     """
     model = copy.copy(world.model)
@@ -145,7 +198,14 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float
     model.actuator_ctrllimited[motors] = model.actuator_forcelimited[motors] = 0
     mujoco.mj_setConst(model, mujoco.MjData(model))
 
-    law, constant = world.law, 1.0 + sample.of("torque_constant_error")
+    # What friction is drawn is taken off once, from what the motor gives.
+    law = replace(
+        world.law,
+        no_load_speed=np.array([USED * limits.no_load_speed]),
+        torque_limit=np.array([limits.torque_limit]),
+        power_max=np.array([USED * limits.power_max]),
+    )
+    constant = 1.0 + sample.of("torque_constant_error")
     voltage = 1.0 + sample.only("bus_voltage_error")
     resistance = 1.0 + sample.of("resistance_error")
     imperfections = Imperfections(
@@ -156,12 +216,12 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float
         stream=sample.noise(flight),
         torque_gain=constant,
         # V = R i + k_t w (docs/theory.md, The motor).
-        no_load_speed=law.no_load_speed / USED * voltage / constant,
-        line_slope=law.line_slope * resistance / constant**2,
-        torque_limit=law.torque_limit * constant,
-        copper=law.copper * resistance / constant**2,
-        efficiency=law.efficiency.item(),
-        power_max=law.power_max.item() / USED,
+        no_load_speed=limits.no_load_speed * voltage / constant,
+        line_slope=limits.line_slope * resistance / constant**2,
+        torque_limit=limits.torque_limit * constant,
+        copper=limits.copper * resistance / constant**2,
+        efficiency=limits.efficiency,
+        power_max=limits.power_max,
         coulomb=sample.of("coulomb_friction"),
         viscous=sample.of("viscous_friction"),
         air=air,
@@ -172,7 +232,15 @@ def built(world: World, sample: Sample, flight: int, air: AirDrag, period: float
     if world.takes_off:
         impulse = world.body.actuated_inertia[:, :2] @ sample.of("takeoff_rate")
         pushes = (*pushes, Push(impulse / PUSH_OFF_END, max(SURE, period), PUSH_OFF_END))
-    return replace(world, model=model, imperfections=imperfections, pushes=pushes)
+    return replace(
+        world,
+        model=model,
+        law=law,
+        limits=limits if world.limits else None,
+        imperfections=imperfections,
+        pushes=pushes,
+        stopped=sample.stopped(world),
+    )
 
 
 def _alter_trunk(model: mujoco.MjModel, trunk: int, base: FloatArray, sample: Sample) -> None:

@@ -16,8 +16,7 @@ from math import pi
 from typing import Generic
 
 from ocs_design.actuation.motor import BoltCircle
-from ocs_design.parts.foot import plate_back
-from ocs_design.parts.housing import half_height
+from ocs_design.parts.housing import half_height, plate_back
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
@@ -87,7 +86,7 @@ class Posts(Generic[Real]):
 
 
 NO_POSTS: Posts[float] = Posts()
-"""Of a motor that is not in a cage."""
+"""Posts of a motor that is not in a cage."""
 
 
 @dataclass(frozen=True)

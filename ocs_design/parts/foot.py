@@ -16,7 +16,7 @@ from typing import Any, Generic
 import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening, screw
-from ocs_design.parts.housing import Housing, housing_outer_radius
+from ocs_design.parts.housing import Housing, housing_outer_radius, plate_back
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
@@ -84,11 +84,6 @@ STANDING = Placement(UPRIGHT, np.zeros(3))
 def wheel_height(outer_radius: Real) -> Real:
     """Height of the wheel's centre above the foot's underside [m]."""
     return housing_outer_radius(outer_radius) + (BASE_THICKNESS + CLEARANCE)
-
-
-def plate_back(half: Real, thickness: Real | float) -> Real:
-    """Distance of the plate's back from the middle of a housing of that half height [m]."""
-    return half + thickness
 
 
 def base_radius(

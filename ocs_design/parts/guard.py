@@ -30,10 +30,10 @@ FOOT, INCH, POUND_FORCE = 0.3048, 0.0254, 4.4482216152605
 """[m], [m], [N]: exact, international yard and pound agreement of 1959."""
 
 BRL = 672.0
-"""Of the formula above, with ft lbf and in."""
+"""Constant of the formula above, with ft lbf and in."""
 
 STEP = 1e-4
-"""Of the walls of rings that are built [m]."""
+"""Step of the walls of rings that are built [m]."""
 
 BUILT = 1.25
 """Thickness that is built over the one that is just perforated (BC-TOP-9A)."""
@@ -42,7 +42,7 @@ STEEL_STRENGTH, ALUMINIUM_STRENGTH = 360e6, 310e6
 """Tensile strengths [Pa]: least of S235 (EN 10025-2), typical of 6061-T6 (ASM)."""
 
 ALUMINIUM_DENSITY = 2700.0
-"""Of 6061-T6 [kg/m^3]."""
+"""Density of 6061-T6 [kg/m^3]."""
 
 
 @dataclass(frozen=True)

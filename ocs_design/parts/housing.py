@@ -14,7 +14,7 @@ from typing import Generic
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening, Screw
 from ocs_design.common.errors import PartError
-from ocs_design.parts.moments import MassMoments, Real, ring
+from ocs_design.parts.moments import MassMoments, Real, cylinder_mass, ring
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
     CLEARANCE,
@@ -28,9 +28,8 @@ from ocs_design.parts.printed import (
     ear_holes,
     eared,
 )
-from ocs_design.parts.rim import cylinder_mass
-from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared, Shape
-from ocs_design.parts.solids import Prism
+from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
+from ocs_design.parts.solids import Prism, Shape
 
 FIRST_EAR = pi / 4.0
 """Angle from the x axis [rad]: nothing stands out below, above, before and behind."""
@@ -46,6 +45,11 @@ def housing_outer_radius(outer_radius: Real) -> Real:
 def half_height(height: Real) -> Real:
     """Distance from the wheel's middle to the outside of floor and lid [m]."""
     return height / 2.0 + (CLEARANCE + PANEL)
+
+
+def plate_back(half: Real, thickness: Real | float) -> Real:
+    """Distance of the plate's back from the middle of a housing of that half height [m]."""
+    return half + thickness
 
 
 @dataclass(frozen=True)

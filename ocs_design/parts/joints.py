@@ -22,7 +22,7 @@ from math import floor, inf, pi, sin
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Screw, screw
+from ocs_design.actuation.fasteners import CLASSES, USUAL_CLASS, Screw, screw
 from ocs_design.actuation.motor import Mounting
 from ocs_design.common.arrays import FloatArray
 
@@ -250,12 +250,6 @@ def holed_peaks(
 
 # --- screws -----------------------------------------------------------------------------------
 
-PROOF_STRESS = 580e6
-"""Of screws of property class 8.8 up to M16 [Pa]: ISO 898-1, table 3."""
-
-SCREW_YIELD = 640e6
-"""Of screws of property class 8.8 up to M16 [Pa]: ISO 898-1, table 3."""
-
 PRELOAD_SHARE = 0.75
 """Preload over proof load of a joint that is taken apart again: Shigley, equation 8-31."""
 
@@ -274,28 +268,29 @@ def stress_area(held: Screw) -> float:
     return pi / 4.0 * (held.diameter - 0.9382 * held.pitch) ** 2
 
 
-def preload(held: Screw) -> float:
-    """Force that a screw of class 8.8 is tightened to, 0.75 of its proof load [N]."""
-    return PRELOAD_SHARE * PROOF_STRESS * stress_area(held)
+def preload(held: Screw, strength: str = USUAL_CLASS) -> float:
+    """Force that a screw of a property class is tightened to, 0.75 of its proof load [N]."""
+    return PRELOAD_SHARE * CLASSES[strength].proof * stress_area(held)
 
 
-def tightening_torque(held: Screw) -> float:
+def tightening_torque(held: Screw, strength: str = USUAL_CLASS) -> float:
     """Torque for that preload [N m]; see `Screw.torque`."""
-    return held.torque(preload(held))
+    return held.torque(preload(held, strength))
 
 
-def friction_torque(held: Screw, count: int, radius: float) -> float:
+def friction_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
     """Torque that screws on a circle carry by friction under their least preload [N m].
 
     Args:
         held: each of them. count: of them. radius: of their circle [m].
+        strength: their property class.
     """
-    return FRICTION * count * preload(held) / TIGHTENING_FACTOR * radius
+    return FRICTION * count * preload(held, strength) / TIGHTENING_FACTOR * radius
 
 
-def shear_torque(held: Screw, count: int, radius: float) -> float:
+def shear_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
     """Torque at which their threads yield in shear, should the faces slip [N m]."""
-    return _SHEAR_SHARE * SCREW_YIELD * stress_area(held) * count * radius
+    return _SHEAR_SHARE * CLASSES[strength].yields * stress_area(held) * count * radius
 
 
 # --- shafts -----------------------------------------------------------------------------------
@@ -305,7 +300,7 @@ BOND_STRENGTH = 25e6
 made for such joints, is sold with for pins and collars of ISO 10123, at least."""
 
 BOND_SHARE = 0.5
-"""Of that: half is left at 80 deg C, on stainless steel and in wide gaps."""
+"""Share of that: half is left at 80 deg C, on stainless steel and in wide gaps."""
 
 
 def cylinder_torque(diameter: float, length: float, shear: float) -> float:
@@ -328,7 +323,7 @@ def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
     """
     circle, shaft = mounting.rotor, mounting.shaft_diameter
     if circle is not None:
-        return friction_torque(screw(circle.thread), circle.bolts, circle.radius)
+        return friction_torque(screw(circle.thread), circle.bolts, circle.radius, circle.screws)
     return (
         None if shaft is None else cylinder_torque(shaft, bond_length, BOND_SHARE * BOND_STRENGTH)
     )

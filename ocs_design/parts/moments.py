@@ -168,6 +168,11 @@ def mass_properties(moments: MassMoments[Any]) -> MassProperties:
     return MassProperties(float(moments.mass), com, np.trace(about) * np.eye(3) - about)
 
 
+def cylinder_mass(inner_radius: Real, outer_radius: Real, height: Real, density: float) -> Real:
+    """Mass m = pi rho h (R^2 - r^2) [kg]."""
+    return np.pi * density * height * (outer_radius**2 - inner_radius**2)
+
+
 def nothing() -> MassMoments[float]:
     """Moments of no body at all."""
     return MassMoments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

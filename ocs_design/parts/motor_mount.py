@@ -12,11 +12,10 @@ from math import inf, sin
 from operator import add
 from typing import Generic, NamedTuple, Protocol
 
-from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening, screw
+from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.parts.cage import FLOOR, HALF_POST, NO_POSTS, Cage, Posts
-from ocs_design.parts.foot import plate_back
-from ocs_design.parts.housing import half_height
+from ocs_design.parts.housing import half_height, plate_back
 from ocs_design.parts.moments import MassMoments, Real, nothing, ring
 from ocs_design.parts.printed import LID_SCREW, PANEL, PLATE_THICKNESS, WALL, MountHoles, ear_radius
 from ocs_design.parts.rim import BOLTED_HUB_HEIGHT, HUB_WALL, hub_height
@@ -175,7 +174,8 @@ def mount_of(
     if rotor is not None:
         # Counted with what stands still. Their spin inertia is left out: it would be 0.3 % of that
         # of the lightest wheel on such a motor, and on the safe side.
-        fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, f"wheel on rotor; {_DEPTH}", 1.0)
+        depth = CLASSES[rotor.screws].depth
+        fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, f"wheel on rotor; {_DEPTH}", depth)
         wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, by_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
         held = _through_walls(stator, foot_plate, f"motor on housing and foot; {_DEPTH}", 1.0)
@@ -257,7 +257,7 @@ def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: f
 
 
 def _fastening(circle: BoltCircle, thickness: float, purpose: str, depth: float) -> Fastening:
-    return Fastening(screw(circle.thread), circle.bolts, thickness, purpose, depth)
+    return Fastening(screw(circle.thread), circle.bolts, thickness, purpose, depth, circle.screws)
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Motor, Mounting
-from ocs_design.parts.moments import Carrier, MassMoments, Real
+from ocs_design.parts.moments import Carrier, MassMoments, Real, cylinder_mass
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.shapes import Disc
@@ -75,7 +75,7 @@ BOLTED_HUB_HEIGHT = 3.0e-3
 """[m] of a hub that screws clamp: the heads of M3 press it with 150 MPa."""
 
 HEAD_ROOM = 0.5e-3
-"""Between the heads of a hub's screws and the lid that they turn in front of, at least [m]."""
+"""Least room between the heads of a hub's screws and the lid that they turn under [m]."""
 
 HUB_WALL = 2.0e-3
 """Least wall around bore and bolts [m]."""
@@ -104,11 +104,6 @@ SMALLEST_LIGHTENING = 3.0e-3
 
 _BORES = 400
 """Bores at which holes are looked at, from wide to narrow; 2 % apart."""
-
-
-def cylinder_mass(inner_radius: Real, outer_radius: Real, height: Real, density: float) -> Real:
-    """Mass m = pi rho h (R^2 - r^2) [kg]."""
-    return np.pi * density * height * (outer_radius**2 - inner_radius**2)
 
 
 def cylinder_spin_inertia(

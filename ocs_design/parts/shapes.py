@@ -8,7 +8,7 @@ the plane z = 0, about the origin: area [m^2], first [m^3] and second ones [m^4]
 from dataclasses import dataclass
 from functools import cached_property
 from math import asin, cos, pi, sin, tan
-from typing import Any, Generic, Protocol
+from typing import Any, Generic
 
 import numpy as np
 
@@ -18,21 +18,6 @@ from ocs_design.parts.outline import Outline
 
 EAR_COUNT = 4
 """Ears around a band: between below, above, before and behind, where nothing stands out."""
-
-
-class Shape(Protocol[Real]):
-    """A region of a plane."""
-
-    @property
-    def area(self) -> Real:
-        """Area [m^2]."""
-
-    @property
-    def moments(self) -> MassMoments[Real]:
-        """Moments about the origin, of unit density."""
-
-    def outline(self) -> Outline:
-        """The edge of a shape of numbers."""
 
 
 @dataclass(frozen=True, eq=False)

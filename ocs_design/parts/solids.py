@@ -3,17 +3,31 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import pi
-from typing import Any, Generic, TypeAlias
+from typing import Any, Generic, Protocol, TypeAlias
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.parts.moments import MassMoments, Real, product
 from ocs_design.parts.outline import Outline
-from ocs_design.parts.shapes import Shape
 from ocs_design.robot.tree import Placement
 
 HERE = Placement.identity()
+
+
+class Shape(Protocol[Real]):
+    """A region of a plane."""
+
+    @property
+    def area(self) -> Real:
+        """Area [m^2]."""
+
+    @property
+    def moments(self) -> MassMoments[Real]:
+        """Moments about the origin, of unit density."""
+
+    def outline(self) -> Outline:
+        """The edge of a shape of numbers."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -163,11 +163,11 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
     yield "mass of a module", f"{', '.join(shown)} {unit}"
     plate = ocs.plate
     if plate is not None:
-        sizes = 2.0 * plate.radius, 2.0 * plate.half_length, plate.thickness
-        text = " x ".join(tenths(length) for length in sizes)
+        text = " x ".join(tenths(length) for length in plate.sizes)
         count = len(plate.rows)
         name, its = ("carrier plate", "its") if count == 1 else (f"{count} carrier plates", "their")
-        yield name, f"{grams(plate.mass)} with {its} screws, {text} mm"
+        on = "" if plate.mast is None else " on a mast behind the trunk"
+        yield name, f"{grams(plate.mass)} with {its} screws, {text} mm{on}"
     yield "total mass", f"{grams(ocs.mass_total)} ({share_of_robot(design)})"
     controllers = len(ocs.modules) * ocs.motor.controller_mass
     if controllers > _NO_MASS:

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.records import OcsDesign, ValidationRecord
-from ocs_design.report.quantities import degrees, degrees_number, rpm, rpm_number
-from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air
-from ocs_design.report.table import Cell, Table, Tone, Toned, columns
+from ocs_design.device.records import OcsDesign, SurvivalRecord, ValidationRecord
+from ocs_design.report.quantities import degrees, degrees_number, grams, rpm, rpm_number
+from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air, was_on_pivot
+from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
 from ocs_design.simulation.metrics import UPRIGHT_TILT
 from ocs_design.simulation.verdict import LANDING_TOLERANCE
 
@@ -19,10 +19,11 @@ WORSE = np.radians(1.0)
 SPENT = 0.95
 """Share of its top speed from which a wheel takes up next to nothing more."""
 
-_COLUMNS = columns(
-    "<verdict", "touchdown\npitch [deg]", "\nroll [deg]", "end\npitch [deg]",
-    "\nroll [deg]", "turned [deg]", "wheel\nspeed [rpm]", "motor\ntorque [N m]",
+_COLUMNS = (
+    "\nroll [deg]", "end\npitch [deg]", "\nroll [deg]", "turned [deg]", "wheel\nspeed [rpm]",
+    "motor\ntorque [N m]",
 )  # fmt: skip
+"""Behind the verdict and the pitch at touchdown."""
 
 # A robot that fails without the device is what one expects, and no alarm.
 _WITH = {
@@ -51,7 +52,18 @@ def device_table(runs: Sequence[ValidationRecord]) -> Table:
 
 def _flight_table(first: str, names: Iterable[str], runs: Sequence[ValidationRecord]) -> Table:
     rows = tuple((name, *_flight_row(run)) for name, run in zip(names, runs, strict=True))
-    return Table((*columns(first), *_COLUMNS), rows)
+    judged = {"when due" if was_on_pivot(run) else "touchdown" for run in runs}
+    when = " or ".join(sorted(judged, reverse=True)) or "touchdown"
+    return Table(columns(first, "<verdict", f"{when}\npitch [deg]", *_COLUMNS), rows)
+
+
+def flights_title(runs: Iterable[ValidationRecord]) -> str:
+    """What the angles of `short_verdict` are, over a table of these flights."""
+    pivots = [was_on_pivot(run) for run in runs]
+    if all(pivots):
+        return "degrees off balance when it is to be upright"
+    balance = ", or off balance" if any(pivots) else ""
+    return f"degrees off level at touchdown{balance}, or turned"
 
 
 def _flight_row(run: ValidationRecord) -> tuple[Cell, ...]:
@@ -121,6 +133,50 @@ def flight_remarks(design: OcsDesign) -> Iterator[str]:
         if run.note:
             about.setdefault(run.note, []).append(run.scenario)
     yield from (f"{', '.join(names)}: {note}" for note, names in about.items())
+
+
+SURVIVAL_TITLE = "A drive stops: degrees off in the end, by the share of the flight until then"
+
+
+def survival_sentence(survival: SurvivalRecord) -> str:
+    """Whether it lands though a drive stops, how in the worst case, and when it does not."""
+    count, lost, worst = len(survival.flights), survival.lost, survival.worst
+    tilt = "not judged" if worst.tilt is None else f"{degrees(worst.tilt)} off in the end"
+    case = f"worst: drive {worst.module} stops {worst.instant:.2f} s into {worst.scenario}, {tilt}"
+    if not lost:
+        return f"any one drive may stop ({count} flights); {case}"
+    by_scenario: dict[str, dict[str, None]] = {}
+    for each in lost:
+        by_scenario.setdefault(each.scenario, {})[f"{each.instant:.2f}"] = None
+    when = (f"{name} {listed(list(instants))} s" for name, instants in by_scenario.items())
+    return (
+        f"{len(lost)} of {count} flights end beyond the allowance, of drives that stop at: "
+        f"{'; '.join(when)}; {case}"
+    )
+
+
+def survival_cost(design: OcsDesign) -> str:
+    """What the device weighs more than one that need not survive; empty where that is unknown."""
+    found = design.survival
+    if found is None or found.mass_without is None:
+        return ""
+    more = design.ocs.mass_total - found.mass_without
+    return f"{grams(more)} more than without ({grams(found.mass_without)})"
+
+
+def survival_table(survival: SurvivalRecord) -> Table:
+    """Angle off at touchdown by the drive that stops and the share of the flight until then."""
+    rows: dict[tuple[str, str], list[Cell]] = {}
+    for each in survival.flights:
+        told = "-" if each.tilt is None else degrees_number(each.tilt)
+        tone = Tone.PLAIN if each.lands else Tone.FAIL
+        rows.setdefault((each.scenario, each.module), []).append(Toned(told, tone))
+    count = max(map(len, rows.values()))
+    shares = (f"{part / count:.0%}" for part in range(count))
+    return Table(
+        columns("<scenario", "<drive", *shares),
+        tuple((*names, *cells) for names, cells in rows.items()),
+    )
 
 
 def falls(runs: Sequence[ValidationRecord]) -> str:

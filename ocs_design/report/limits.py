@@ -326,24 +326,16 @@ def _curve(kept: ReserveRecord) -> str:
     return f"The same motor and material weigh {curve}."
 
 
-def _is_worth(price: PriceRecord) -> bool:
-    return price.mass_change < -_NOTHING
-
-
-def _values(price: PriceRecord) -> tuple[str, str]:
-    limit = LIMITS[price.limit]
-    before, after = (significant(value * limit.per_si, 4) for value in (price.value, price.changed))
-    return before, f"{after} {limit.unit}".rstrip()
-
-
 def _change(price: PriceRecord) -> str:
     if LIMITS[price.limit] is TIME:
         return f"{price.changed - price.value:+.0%}"
-    return " to ".join(_values(price))
+    limit = LIMITS[price.limit]
+    before, after = (significant(value * limit.per_si, 4) for value in (price.value, price.changed))
+    return f"{before} to {after} {limit.unit}".rstrip()
 
 
 def _saved(price: PriceRecord) -> str:
-    return f"{-1e3 * price.mass_change:.2f} g" if _is_worth(price) else "nothing"
+    return f"{-1e3 * price.mass_change:.2f} g" if price.mass_change < -_NOTHING else "nothing"
 
 
 def _rim_limits(design: OcsDesign) -> Iterator[tuple[Cell, ...]]:

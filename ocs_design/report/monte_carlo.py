@@ -5,12 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ocs_design.common.units import ceiled, floored
+from ocs_design.device.answers import MonteCarloRecord, Share, Spread
 from ocs_design.device.records import ReliabilityRecord
-from ocs_design.monte_carlo.summary import (
-    MonteCarloRecord,
-    Share,
-    Spread,
-)
 from ocs_design.report.table import Table, columns
 
 _BARS = " ▁▂▃▄▅▆▇█"

@@ -1,9 +1,10 @@
 """Facts about the choice of the drive: what was asked of it, the lightest ones, those ruled out."""
 
 from collections import Counter
+from collections.abc import Iterable
 
 from ocs_design.actuation.motor import DIRECT
-from ocs_design.device.records import RankedRecord, SelectionRecord
+from ocs_design.device.records import ManeuverRecord, RankedRecord, SelectionRecord
 from ocs_design.report.quantities import degrees_number, grams, inertia_number, rpm_number
 from ocs_design.report.table import Rows, Table, columns, counted, listed
 
@@ -45,12 +46,17 @@ _SHOWN = 5e-4
 """Relative difference of spin inertias that their four digits do not show."""
 
 
-def task_note(selection: SelectionRecord) -> str:
-    """What the needed times are, and which maneuver decides."""
+def task_note(selection: SelectionRecord, maneuvers: Iterable[ManeuverRecord]) -> str:
+    """What the needed times are, of these maneuvers, and which of them decides."""
     needed = (
         f"Needed: the shortest time with {selection.reserve:.0%} of voltage, current and speed "
         "limit."
     )
+    if any("pivot" in each.parameters for each in maneuvers):
+        needed += (
+            " On a pivot both times are of a turn without gravity that asks for the same torque "
+            "and momentum."
+        )
     most = max((task.spin_inertia for task in selection.tasks), default=0.0)
     tied = [task.source for task in selection.tasks if task.spin_inertia > most * (1.0 - _SHOWN)]
     if not selection.binding_maneuver or not tied:

@@ -17,7 +17,7 @@ _SIDE = 300.0
 
 _EDGE = 34.0
 _COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a6d00", "#6a3d9a")
-"""Of the legs; they differ for most eyes (Okabe and Ito 2008), and each foot is named."""
+"""Colours of the legs; they differ for most eyes (Okabe and Ito 2008), and each foot is named."""
 
 _VIEWS = (
     ("from the right", (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),

@@ -12,14 +12,13 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name
-from ocs_design.device.answers import PostureLine
+from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord, PostureLine
 from ocs_design.device.records import OcsDesign, ValidationRecord
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.time_series import series_file
-from ocs_design.monte_carlo.outcomes import RESULT_FILE
-from ocs_design.monte_carlo.summary import MonteCarloRecord
 from ocs_design.report.bodies import ShownBody, read_bodies
 from ocs_design.simulation.engine import Poses
+from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.scenario import Run
 
 RunMetrics: TypeAlias = Mapping[str, float | bool | None]
@@ -36,6 +35,7 @@ class Flight:
         lift_off: when it leaves the ground, or is pushed as it stands [s]; None: it never does.
         touchdown: when it comes down [s]; None: it never does.
         poses: to show it again; None: only its time series are known.
+        on_pivot: see `was_on_pivot`.
     """
 
     scenario: str
@@ -44,6 +44,7 @@ class Flight:
     lift_off: float | None
     touchdown: float | None
     poses: Poses | None
+    on_pivot: bool = False
 
     @property
     def time(self) -> FloatArray:
@@ -89,6 +90,19 @@ def was_in_the_air(lift_off: float | None, touchdown: float | None) -> bool:
     return lift_off is not None and (touchdown is None or touchdown > lift_off)
 
 
+def was_on_pivot(run: Run | ValidationRecord) -> bool:
+    """Whether a run stood on a pivot: it is judged by its stand alone, and was not pushed.
+
+    What others have for touchdown is when it is to be upright.
+    """
+    found = run.metrics
+    if isinstance(found, Metrics):
+        times = found.lift_off_time, found.touchdown_time
+    else:
+        times = lift_off_and_touchdown(found or {})
+    return run.level is None and run.stands is not None and was_in_the_air(*times)
+
+
 def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | None]:
     """Times of a recorded run [s]; None: it never does so."""
     # Older versions do not record the lift-off, and all of their flights start in the air.
@@ -106,6 +120,7 @@ def flights_of(runs: Sequence[Run]) -> tuple[Flight, ...]:
             None if run.metrics is None else run.metrics.lift_off_time,
             None if run.metrics is None else run.metrics.touchdown_time,
             run.poses,
+            was_on_pivot(run),
         )
         for run in runs
     )
@@ -172,7 +187,9 @@ def _recorded_flight(folders: Sequence[Path], record: ValidationRecord) -> Fligh
     values = np.array(rows, dtype=np.float64)
     columns = dict(zip(heading, values.T, strict=True))
     lift_off, touchdown = lift_off_and_touchdown(record.metrics)
-    return Flight(record.scenario, record.ocs, columns, lift_off, touchdown, None)
+    return Flight(
+        record.scenario, record.ocs, columns, lift_off, touchdown, None, was_on_pivot(record)
+    )
 
 
 def _first_file(folders: Sequence[Path], name: str) -> Path | None:

@@ -69,9 +69,9 @@ class Table:
         return Table(self.columns[:columns], tuple(row[:columns] for row in self.rows))
 
 
-def counted(count: int, noun: str, plural: str = "") -> str:
+def counted(count: int, noun: str) -> str:
     """Number and noun, as in `1 note` and `3 notes`."""
-    return f"{count:,} {noun if count == 1 else plural or noun + 's'}"
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
 
 def listed(texts: Sequence[str]) -> str:

@@ -3,14 +3,20 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ocs_design.device.records import Buildable, OcsDesign, ReliabilityRecord, ValidationRecord
-from ocs_design.report.flights import falls
+from ocs_design.device.records import (
+    Buildable,
+    OcsDesign,
+    ReliabilityRecord,
+    SurvivalRecord,
+    ValidationRecord,
+)
+from ocs_design.report.flights import falls, survival_sentence
 from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned
 from ocs_design.report.warnings import turned_by_hand
 
 SEPARATOR = "  \N{MIDDLE DOT}  "
-"""Between the parts of the line."""
+"""Text between the parts of the line."""
 
 
 @dataclass(frozen=True)
@@ -41,22 +47,35 @@ def headline(design: OcsDesign) -> Headline:
     """Verdict on a design and its flights."""
     runs = [run for run in design.validation if run.ocs]
     first = _buildable(design)
-    flights = (*_flights(runs), *_certified(design.reliability))
+    flights = (*_flights(runs), *_survives(design.survival), *_certified(design.reliability))
     if design.buildable.yes is False and design.buildable.open:
         point = design.buildable.open[0]
         return Headline((first, *flights), f"{point.what}; {point.cure}")
     by_hand = next(iter(turned_by_hand(design)), "")
-    matter = _of_flights(runs) or by_hand or _sure(design.reliability)
+    matter = _of_flights(runs) or _lost(design.survival) or by_hand or _sure(design.reliability)
     return Headline((first, *flights), matter)
 
 
 def flights_headline(
-    runs: Sequence[ValidationRecord], reliability: ReliabilityRecord | None = None
+    runs: Sequence[ValidationRecord],
+    reliability: ReliabilityRecord | None = None,
+    survival: SurvivalRecord | None = None,
 ) -> Headline:
     """Verdict on flights alone, of which those with the device count, and their certificate."""
     carrying = [run for run in runs if run.ocs]
-    parts = (*_flights(carrying), *_certified(reliability))
-    return Headline(parts, _of_flights(carrying) or _sure(reliability))
+    parts = (*_flights(carrying), *_survives(survival), *_certified(reliability))
+    return Headline(parts, _of_flights(carrying) or _lost(survival) or _sure(reliability))
+
+
+def _survives(found: SurvivalRecord | None) -> Iterator[Toned]:
+    """How many landings with a stopped drive are within the allowance; nothing without such."""
+    if found is not None:
+        count = len(found.flights)
+        yield _share("a drive stopped", count - len(found.lost), count, Tone.FAIL)
+
+
+def _lost(found: SurvivalRecord | None) -> str:
+    return survival_sentence(found) if found is not None and found.lost else ""
 
 
 def _sure(found: ReliabilityRecord | None) -> str:

@@ -130,7 +130,8 @@ def _motor_notes(design: OcsDesign) -> Iterator[str]:
         )
     if BY_CONVENTION in motor.confidence:
         yield (
-            f"threads of {motor.name} are usual for its size: compare its drawing before you order"
+            f"the bolt threads of {motor.name} are assumed, as usual for motors of its size: look "
+            "at its drawing before you order screws"
         )
     if motor.rotor_inertia_source:
         yield f"rotor inertia is an {motor.rotor_inertia_source}"

@@ -178,10 +178,15 @@ def spin_demands(
     """
 
     def demand(
-        source: str, momentum: FloatArray, at: float, torque: FloatArray | None = None
+        source: str,
+        momentum: FloatArray,
+        at: float,
+        torque: FloatArray | None = None,
+        begins: float = 0.0,
     ) -> SpinDemand:
         """Demand of a momentum [N m s] and, where a time is set, a least torque [N m]."""
-        least = spin_inertia_for(momentum, at, requirement.wheel_speed_max)
+        left = requirement.wheel_speed_max - begins
+        least = spin_inertia_for(momentum, at, left) if left > 0.0 else float("inf")
         per_motor = 0.0 if torque is None else per_wheel(torque, at)
         return SpinDemand(source, at, momentum, least, per_motor)
 
@@ -191,7 +196,11 @@ def spin_demands(
         at = incidence if maneuver.incidence is None else maneuver.incidence
         turned = whole.within_reach(authority(at), maneuver.stray)
         momentum, torque = maneuver.momentum(turned, height), maneuver.least_torque(turned, height)
-        found.append(demand(maneuver.name, momentum, at, torque))
+        slew = maneuver.slew(turned, height)
+        _, pitch = slew.swept if slew.swept.any() else slew.momentum
+        # Both wheels of a pair pitch the trunk alike, and one of them rolls it the other way.
+        begins = float(np.sign(pitch)) * slew.begins if pitch else abs(slew.begins)
+        found.append(demand(maneuver.name, momentum, at, torque, begins))
     if requirement.rate_change is not None:
         momenta = rate_momenta(whole, requirement.rate_change)
         for axis, momentum in zip(AXES, momenta, strict=True):

@@ -1,6 +1,10 @@
 """Keys of a specification that contradict each other, or cannot be meant for the robot."""
 
 from collections.abc import Iterable, Iterator
+from itertools import chain
+from math import pi
+
+import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import material
@@ -9,11 +13,14 @@ from ocs_design.common.units import format_quantity
 from ocs_design.requirement.choices import highest_rated_voltage, unknown_names
 from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
 from ocs_design.requirement.maneuver import (
+    Balance,
     Disturbance,
     Drop,
     Flip,
     Maneuver,
+    Pivoted,
     Requirement,
+    StandUp,
     TurnTo,
     Unforeseen,
 )
@@ -29,7 +36,9 @@ from ocs_design.requirement.specification import (
     PAIR,
     PYRAMID,
     STEEL,
+    TURNS,
     WHEELS,
+    WORDS,
     FlywheelSection,
     OcsSection,
     Specification,
@@ -46,7 +55,7 @@ OF_WEBS = (
 """Keys of `[flywheel]` that plain rims on massless spokes have nothing of."""
 
 FEWEST_HOLES, MOST_HOLES = 3, 100
-"""In a face: fewer leave a rim with two inertias across its axis."""
+"""Holes in a face: fewer leave a rim with two inertias across its axis."""
 
 
 def contradictions(specification: Specification) -> Iterator[str]:
@@ -54,15 +63,19 @@ def contradictions(specification: Specification) -> Iterator[str]:
     flywheel, robot = specification.flywheel, specification.robot
     bore, radius = flywheel.r_min, flywheel.r_max
     if bore is not None and radius is not None and bore >= radius:
-        yield f"flywheel.r_min: {bore:g} m must be below r_max, {radius:g} m"
+        most, least = format_quantity(radius, "mm"), format_quantity(bore, "mm")
+        yield f"flywheel: r_max, {most}, leaves no room over r_min, {least}"
     low, high = flywheel.h_min, flywheel.h_max
     if low is not None and high is not None and low > high:
-        yield f"flywheel.h_min: {low:g} m must not be above h_max, {high:g} m"
+        most, least = format_quantity(high, "mm"), format_quantity(low, "mm")
+        yield f"flywheel: h_max, {most}, is below h_min, {least}"
 
     if (robot.mass is None) != (robot.inertia is None):
         yield "robot: mass and inertia come together"
     if robot.file is not None and robot.mass is not None:
         yield "robot: state either a file or mass and inertia, not both"
+    if robot.human is not None and (robot.file is not None or robot.mass is not None):
+        yield "robot: human is in place of a file, and of mass and inertia"
 
     yield from without_motor(specification)
     yield from _axes_and_places(specification.ocs)
@@ -85,7 +98,62 @@ def contradictions(specification: Specification) -> Iterator[str]:
 
     if specification.maneuvers and specification.requirement.maneuvers is not None:
         yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
+    yield from _without_gravity(specification)
     yield from _too_short_flights(specification.maneuvers)
+
+
+def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
+    """What no pivot, or none of these wheels, allows, one line each."""
+    where, axis = f"maneuver.{maneuver.name}", maneuver.axis
+    tilt = float(np.linalg.norm(maneuver.tilt))
+    if tilt > pi / 2.0:
+        yield (
+            f"{where}: tilted by {format_quantity(tilt, 'deg')} it would lie below its pivot: "
+            "90 deg at most"
+        )
+    if axis is None:
+        axes = np.reshape(stated.axes or (), (-1, 3))[:, :2]
+        alone = (
+            np.linalg.matrix_rank(axes) < len(axes.T) if len(axes) else stated.layout == "single"
+        )
+        if alone:
+            yield (
+                f"{where}: on a point it falls about roll and pitch, and these wheels act about "
+                "one of them: state the edge that it stands on, or ocs.layout with more wheels"
+            )
+        return
+    if abs(axis[2]) > _LEVEL:
+        yield f"{where}.edge: must be level in the trunk's frame, so its z must be 0"
+    if tilt and abs(abs(maneuver.tilt @ axis) - tilt) > _LEVEL:
+        along = ", ".join(f"{each:.3g}" for each in axis)
+        yield (
+            f"{where}: roll and pitch tilt it about an axis other than the edge, which is along "
+            f"({along}): it turns about its edge alone"
+        )
+
+
+_LEVEL = 1e-6
+"""Of a direction, rounding."""
+
+
+def _without_gravity(specification: Specification) -> Iterator[str]:
+    """Jumps and falls in orbit, and turns whose jump or time is not stated, one line each."""
+    asked = specification.requirement
+    if asked.gravity == 0.0:
+        falling = [word for word in WORDS if word not in TURNS and getattr(asked, word)]
+        if specification.takes_default_maneuvers:
+            falling.append("maneuvers")
+        for word in falling:
+            yield f"requirement.{word}: nothing jumps or falls in orbit: ask for a turn or a catch"
+        if any(each.duration is None for word in TURNS for each in getattr(asked, word) or ()):
+            yield "requirement: in orbit a turn needs its time: 'yaw 90deg in 60s'"
+    for maneuver in specification.maneuvers:
+        turns = isinstance(maneuver, TurnTo)
+        if not maneuver.gravity and not turns:
+            yield f"maneuver.{maneuver.name}: nothing falls in orbit: ask for a turn or a catch"
+        if isinstance(maneuver, TurnTo) and bool(maneuver.gravity) != bool(maneuver.jump_height):
+            told = "is missing" if maneuver.gravity else "there is no jump in orbit"
+            yield f"maneuver.{maneuver.name}.jump_height: {told}"
 
 
 def _axes_and_places(stated: OcsSection) -> Iterator[str]:
@@ -108,6 +176,8 @@ def _axes_and_places(stated: OcsSection) -> Iterator[str]:
 def _of_a_pair(specification: Specification) -> Iterator[str]:
     """What only two incident wheels have, where other axes are asked for, one line each."""
     stated = specification.ocs
+    if stated.co_design and specification.requirement.notices is not None:
+        yield "ocs.co_design: plans with all wheels, and requirement.survives wants one left out"
     layout = stated.layout if stated.axes is None else "by hand"
     if layout in {None, PAIR, ALL_LAYOUTS}:
         return
@@ -132,6 +202,8 @@ def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
     """Jumps that end before what they are for."""
     for maneuver in maneuvers:
         match maneuver:
+            case Maneuver(gravity=0.0) | TurnTo(jump_height=0.0):
+                continue
             case Disturbance(onset=needed):
                 what = "its torque starts"
             case Flip(duration=needed) | TurnTo(duration=needed):
@@ -165,6 +237,8 @@ def without_motor(specification: Specification) -> Iterator[str]:
         yield f"ocs.guard: says nothing where motor.name is {NO_MOTOR!r}"
     if specification.ocs.lighter_by is not None:
         yield f"ocs.lighter_by: needs a motor: motor.name is {NO_MOTOR!r}"
+    if specification.requirement.notices is not None:
+        yield f"requirement.survives: needs a motor: motor.name is {NO_MOTOR!r}"
     if specification.ocs.co_design:
         yield f"ocs.co_design: needs a motor: motor.name is {NO_MOTOR!r}"
 
@@ -182,13 +256,17 @@ def unfit_for_robot(
     """
     position, name = specification.ocs.position, specification.flywheel.material
     yield from _oversized(specification, robot, robot_size)
-    if position is not None and position[1] <= 0.0:
+    stated = specification.ocs
+    of_pair = stated.axes is None and stated.layout in {None, PAIR, ALL_LAYOUTS}
+    if position is not None and of_pair and position[1] <= 0.0:
         yield (
             f"ocs.position: y = {format_quantity(position[1], 'mm')} is not on the left side: "
             "the left wheel needs y > 0"
         )
     yield from _empty_room(specification.flywheel, envelope)
     yield from _impossible(requirement, robot)
+    pivoted = (each for each in requirement.maneuvers if isinstance(each, Pivoted))
+    yield from chain.from_iterable(_off_its_pivot(each, stated) for each in pivoted)
     yield from _overfed(specification)
     try:
         if name not in {None, STEEL, AUTO}:
@@ -290,7 +368,7 @@ def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:
 def _zeros(maneuver: Maneuver) -> str:
     """Which keys are zero, so that nothing is asked; empty: something is. Yaw never is."""
     match maneuver:
-        case Drop(roll=0.0, pitch=0.0):
+        case Drop(roll=0.0, pitch=0.0) | StandUp(roll=0.0, pitch=0.0):
             return "roll and pitch are 0"
         case Flip(angle=0.0):
             return "angle is 0"
@@ -298,5 +376,7 @@ def _zeros(maneuver: Maneuver) -> str:
             return "roll, pitch and yaw, and the rates about roll and pitch are 0"
         case Unforeseen(torque=(0.0, 0.0, _)):
             return "torque about roll and pitch is 0"
+        case Balance() if not any((*maneuver.tilt, *maneuver.struck[:2])):
+            return "tilt, rate and impulse about roll and pitch are 0"
         case _:
             return ""

@@ -127,8 +127,8 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
     if not complete:
         raise SpecificationError(
             "no motor can be built with: " + "; ".join(map(_lacks, offered[:MOST_NAMED])),
-            hint="Fill in the figures (docs/catalogue.md#what-a-builder-needs), name the motor "
-            "with --motor, or see what any motor would do with --motors-any",
+            hint="Fill in the figures, name the motor with --motor, or see what any motor would do "
+            "with --motors-any",
         )
     rated = tuple(found for found in complete if _highest_voltage(found) >= voltage)
     if not rated:

@@ -7,22 +7,28 @@ and a torque that turns both alike with I / T^2.
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 from math import inf, pi, radians, sqrt
 from types import MappingProxyType
 
 import numpy as np
 
 from ocs_design.actuation.supply import Supply
+from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.maneuver import (
     STANDARD_GRAVITY,
+    Actuation,
+    Balance,
     Catch,
     Disturbance,
     Drop,
     Flip,
     Maneuver,
+    Pivoted,
     Shove,
+    StandUp,
     TurnTo,
 )
 from ocs_design.requirement.specification import RequirementSection
@@ -227,8 +233,8 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
     Raises:
         SpecificationError: a kick hits no link of the robot, or a point off it.
     """
-    gravity = asked.gravity or STANDARD_GRAVITY
-    disturbance, drop, back_flip = default_maneuvers(robot, gravity)
+    gravity = STANDARD_GRAVITY if asked.gravity is None else asked.gravity
+    disturbance, drop, back_flip = default_maneuvers(robot, gravity or STANDARD_GRAVITY)
     maneuvers: list[Maneuver] = []
     notes: list[str] = []
 
@@ -239,8 +245,8 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
         maneuvers.append(replace(maneuver, name=name))
         notes.append(f"{name}: {told or maneuver.summary}{note}.")
 
-    upward = disturbance.takeoff_velocity[1]
-    for height in asked.jump_height or (upward**2 / (2.0 * gravity),):
+    highest = disturbance.takeoff_velocity[1] ** 2 / (2.0 * disturbance.gravity)
+    for height in asked.jump_height or (highest,):
         jump = _jump(disturbance, height)
         assumed = " (the paper's, scaled)" if asked.jump_height is None else ""
         of_jump = f", in a vertical jump of {height:.3g} m{assumed}"
@@ -250,9 +256,10 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
         if asked.jump_height and not any((asked.kick, asked.flip, asked.turn, asked.catch)):
             add(jump, f"{of_jump}; the torque is that of the paper's first test, scaled")
     share = back_flip.duration / back_flip.flight_time
-    heights = back_flip.jump_height, upward**2 / (2.0 * gravity)
-    for turn in _turns(asked, gravity, share, heights):
-        add(turn, "")
+    heights = back_flip.jump_height, highest
+    turns = ((turn, "") for turn in _turns(asked, gravity, share, heights))
+    for each, note in chain(turns, _pivoted(asked, gravity, robot)):
+        add(each, note)
     for height in asked.jump_height or (back_flip.jump_height,):
         for angle in asked.flip or ():
             flip = replace(back_flip, name="flip", gravity=gravity, jump_height=height, angle=angle)
@@ -307,6 +314,71 @@ def _turns(
             )
 
 
+SETTLING, CLIMBING = 8.0, 4.0
+"""Times of a catch and of a climb where none is stated, over that in which a tilt grows e-fold."""
+
+
+def _pivoted(
+    asked: RequirementSection, gravity: float, robot: Robot
+) -> Iterator[tuple[Pivoted, str]]:
+    """What is asked for about the pivot, and a note on the time that was assumed.
+
+    Raises:
+        SpecificationError: no pivot is stated, or nothing that happens on it.
+    """
+    if asked.pivot is None:
+        if asked.balance or asked.stand_up:
+            ground = format_quantity(-standing_height(robot), "mm", 3)
+            raise SpecificationError(
+                "requirement.pivot: is missing: what does the robot balance or stand up on?",
+                hint="State a point in the trunk's frame, 'X,Y,Z', or an edge, 'X,Y,Z along left'; "
+                f"the ground is at z = {ground}.",
+            )
+        return
+    if not (asked.balance or asked.stand_up):
+        raise SpecificationError(
+            "requirement.pivot: nothing happens on it",
+            hint="Ask for balance or stand_up, or leave it out.",
+        )
+    pivot, edge = asked.pivot.point, asked.pivot.along or (0.0, 0.0, 0.0)
+
+    def lasting(one: Pivoted, stated: float | None, times: float) -> tuple[Pivoted, str]:
+        """The maneuver in the time that is stated, or in so many e-foldings of a tilt."""
+        one = one.on(robot.mass_properties)
+        grows = format_quantity(1.0 / one.quickness, "ms", 3)
+        note = f"; the time is {times:g} times that in which a tilt grows e-fold, {grows}"
+        return replace(one, duration=stated or times / one.quickness), "" if stated else note
+
+    for upset in asked.balance or ():
+        caught = Balance(name="balance", gravity=gravity, duration=1.0, pivot=pivot, edge=edge)
+        if isinstance(upset, Kick):
+            point = _point(upset.point, robot)
+            x, y, z = (upset.impulse * _along(upset, point)).tolist()
+            yield lasting(replace(caught, impulse=(x, y, z), point=point), None, SETTLING)
+        else:
+            tilted = replace(caught, roll=upset.roll, pitch=upset.pitch)
+            yield lasting(tilted, upset.duration, SETTLING)
+    for climb in asked.stand_up or ():
+        up = StandUp(
+            name="stand up",
+            gravity=gravity,
+            duration=1.0,
+            pivot=pivot,
+            edge=edge,
+            roll=climb.tilt.roll,
+            pitch=climb.tilt.pitch,
+            actuation=Actuation.BRAKE if climb.brake else Actuation.MOTOR,
+        )
+        yield lasting(up, climb.tilt.duration, CLIMBING)
+
+
+def _along(kick: Kick, point: Vector3) -> FloatArray:
+    """Unit vector of a kick; sideways towards the middle where none is stated, shape (3,)."""
+    sideways = (0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0)
+    along = np.array(sideways if kick.along is None else kick.along)
+    return np.asarray(along / np.linalg.norm(along))
+
+
 def _jump_for(
     duration: float | None, height: float | None, default: float, share: float, gravity: float
 ) -> tuple[float, float]:
@@ -339,9 +411,8 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     moves that by p / m. Here both are those of the robot without the device, whose joints hold.
     """
     point = np.array(_point(kick.point, robot))
-    sideways = np.array([0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0])
-    along = sideways if kick.along is None else np.array(kick.along)
-    impulse = kick.impulse * along / np.linalg.norm(along)
+    along = _along(kick, _point(kick.point, robot))
+    impulse = kick.impulse * along
     kicked = replace(
         jump,
         name="kick",
@@ -393,7 +464,7 @@ _TURNS = 0.1
 """Rate about z above which a kick is said to turn the robot [rad/s]."""
 
 _MOST_LINKS = 20
-"""That a message names."""
+"""Most links that a message names."""
 
 
 def example_shove(robot: Robot, gravity: float = STANDARD_GRAVITY) -> Shove:
@@ -430,6 +501,32 @@ def example_turns(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[Turn
             name="turn", gravity=LUNAR_GRAVITY, yaw=pi / 2.0, duration=quarter, jump_height=jump
         ),
         Catch(name="catch", gravity=gravity, rate=rate, duration=stop, jump_height=hop),
+    )
+
+
+def example_pivots(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[Balance, StandUp]:
+    """A catch and a climb on the line below the trunk's middle: figures to start from."""
+    below, time = (0.0, 0.0, -standing_height(robot)), Scale.of(robot).time(gravity)
+    forward = (0.0, 1.0, 0.0)
+    tilt, lying = radians(5.0), radians(45.0)
+    return (
+        Balance(
+            name="balance",
+            gravity=gravity,
+            pivot=below,
+            edge=forward,
+            pitch=tilt,
+            duration=1.5 * time,
+        ),
+        StandUp(
+            name="stand up",
+            gravity=gravity,
+            pivot=below,
+            edge=forward,
+            pitch=lying,
+            duration=time,
+            actuation=Actuation.BRAKE,
+        ),
     )
 
 

@@ -110,7 +110,9 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
     if faults:
         count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
         raise SpecificationError(
-            f"{name} has {count}:", problems=faults, hint="for every key see docs/specification.md"
+            f"{name} has {count}:",
+            problems=faults,
+            hint="`ocs-design init` writes a file that has every key",
         )
     return specification
 
@@ -130,7 +132,8 @@ def _specification(content: Mapping[str, object], faults: Faults) -> Specificati
     if not isinstance(tables, list):
         faults.append("maneuver: write each maneuver as a [[maneuver]] table")
         tables = []
-    gravity = sections["requirement"].gravity or STANDARD_GRAVITY
+    asked = sections["requirement"].gravity
+    gravity = STANDARD_GRAVITY if asked is None else asked
     for index, entry in enumerate(tables):
         table = faults.table(entry, f"maneuver[{index}]")
         maneuver = _maneuver(table, index, gravity, faults)

@@ -11,7 +11,7 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
 from ocs_design.common.units import format_quantity, to_unit
-from ocs_design.requirement.checks import unfit_for_robot
+from ocs_design.requirement.checks import contradictions, unfit_for_robot
 from ocs_design.requirement.choices import MotorChoice, motor_choice
 from ocs_design.requirement.froude import (
     LIMIT_OF_KEY,
@@ -28,7 +28,7 @@ from ocs_design.requirement.froude import (
     standing_height,
     worded_maneuvers,
 )
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Requirement
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Pivoted, Requirement
 from ocs_design.requirement.specification import (
     ALUMINIUM_WEB,
     AUTO,
@@ -36,12 +36,14 @@ from ocs_design.requirement.specification import (
     BALANCING_DIAMETER,
     CHAMFER,
     CONTROL_PERIOD,
+    DETECTION,
     DISC,
     EQUAL_RATE,
     FINGERS,
     LIGHTENING,
     MORE_PAIRS,
     NO_WEB,
+    NONE_STOPS,
     PAIR,
     PROJECTIONS,
     RELIABILITY,
@@ -56,9 +58,10 @@ from ocs_design.requirement.specification import (
     ValidationSection,
 )
 from ocs_design.requirement.uncertainty import default_uncertainty
-from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.manual import person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot
+from ocs_design.robot.recognition import question_about
 from ocs_design.robot.robot import Robot
 
 
@@ -78,7 +81,11 @@ def default_specification(
     return Specification(
         robot=RobotSection(posture=robot.posture_name),
         requirement=RequirementSection(
-            gravity=STANDARD_GRAVITY, maneuvers="paper", reliability=RELIABILITY
+            gravity=STANDARD_GRAVITY,
+            maneuvers="paper",
+            reliability=RELIABILITY,
+            survives=NONE_STOPS,
+            detection=DETECTION,
         ),
         ocs=OcsSection(layout=PAIR, alpha_criterion=EQUAL_RATE, co_design=False, guard=FINGERS),
         flywheel=FlywheelSection(
@@ -111,7 +118,7 @@ def default_specification(
 
 
 SCALES = 0.02
-"""Of a robot's mass over what it weighs: a battery or a harness that its file lacks is more."""
+"""Error of a robot's mass, relative: a battery or a harness that its file lacks is more."""
 
 
 def read_specified_robot(
@@ -154,8 +161,11 @@ def read_specified_robot(
                 f"in millimetres? See `ocs-design inspect {stated.file}`",
             )
         if sure and robot.recognition is not None and not robot.recognition.sure:
-            question = robot.recognition.question()
+            question = question_about(robot.recognition)
             raise RobotError(f"{stated.file}: {question.message}", hint=question.hint)
+    elif stated.human is not None:
+        who = stated.human
+        robot = person(who.mass, who.height, who.payload, stated.name or "person")
     elif stated.mass is not None and stated.inertia is not None:
         robot = robot_by_hand(stated.mass, stated.inertia, name=stated.name or "robot")
     elif stated.mass is not None or stated.inertia is not None:
@@ -166,8 +176,8 @@ def read_specified_robot(
     else:
         raise UsageError(
             "no robot is given",
-            hint="give a robot file, or --mass and --inertia, or [robot] in the specification; "
-            "see docs/tutorial.md",
+            hint="give a robot file, or --mass and --inertia, or --human, or [robot] in the "
+            "specification; `ocs-design demo` needs none",
         )
     weighed = stated.weighed
     if weighed is not None and not 1e-2 < weighed / robot.mass < 1e2:
@@ -201,7 +211,8 @@ def _assumptions(
     """One sentence for everything that was not specified; the rest has its defaults filled in."""
     flywheel, motor, scale = specification.flywheel, specification.motor, Scale.of(robot)
 
-    if robot.standing_height is None:
+    landing = (each.gravity for each in requirement.maneuvers if not isinstance(each, Pivoted))
+    if robot.standing_height is None and any(landing):
         height = format_quantity(requirement.standing_height, "mm", 3)
         yield f"No legs: the trunk stands {height} high, {SOLO12.name}'s scaled by gyration radius."
     if specification.takes_default_maneuvers:
@@ -245,11 +256,14 @@ def _assumptions(
             f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
             "the rest is the feedback's."
         )
-        if specification.requirement.reliability is None:
-            yield (
-                f"Reliability: {RELIABILITY:.0%} of robots shall pass with what is drawn "
-                "(`[reality]`)."
-            )
+        asked, noticed = specification.requirement, requirement.detection or 0.0
+        assumed = {
+            f"Reliability: {RELIABILITY:.0%} of robots shall pass with what is drawn "
+            "(`[reality]`).": asked.reliability is None,
+            f"Detection: that a drive has stopped is known {format_quantity(noticed, 'ms')} later."
+            "": asked.notices is not None and asked.detection is None,
+        }
+        yield from (text for text, holds in assumed.items() if holds)
         return
     if specification.requirement.wheel_speed_max is None:
         speed = format_quantity(requirement.wheel_speed_max, "rpm")
@@ -344,6 +358,9 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         SpecificationError: keys that contradict each other or the robot; all are listed.
     """
     flywheel, asked = specification.flywheel, specification.requirement
+    # Options of a command and arguments of Python come by no file that was checked.
+    if against := tuple(contradictions(specification)):
+        raise SpecificationError("what is asked for does not go together:", problems=against)
     if robot.standing_height is not None and robot.standing_height <= 0.0:
         raise SpecificationError(
             f"the frame of the trunk {robot.trunk!r} is {-1e3 * robot.standing_height:.0f} mm "
@@ -365,6 +382,7 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         wheel_speed_max=asked.wheel_speed_max or WHEEL_SPEED_MAX,
         spin_inertia=asked.spin_inertia,
         standing_height=standing_height(robot),
+        detection=asked.notices,
     ).on(robot.mass_properties)
     faults = tuple(unfit_for_robot(specification, robot, robot_size, requirement, envelope))
     if faults:

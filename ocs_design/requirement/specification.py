@@ -42,10 +42,17 @@ from ocs_design.requirement.words import (
     GRAVITY,
     TURN_TEXT,
     About,
+    Climb,
+    ClimbText,
     Kick,
     KickText,
+    Person,
+    PersonText,
+    Pivot,
+    PivotText,
     Tilt,
     TiltText,
+    UpsetText,
 )
 
 Section = TypeVar("Section")
@@ -61,7 +68,7 @@ EQUAL_RATE = CRITERIA[1]
 
 PAIR, PYRAMID = "pair", "pyramid"
 MORE_PAIRS = ("double-pair", "triple-pair")
-"""What is tried in turn where none is stated and no motor is strong enough for a pair."""
+"""What is tried in turn where none is stated and no pair does it."""
 
 WHEELS = {
     "single": 1,
@@ -119,8 +126,16 @@ BALANCING_DIAMETER, BALANCING_DEPTH = 1.6e-3, 1.0e-3
 RELIABILITY = 0.99
 """Share of robots that shall pass, where nothing is stated."""
 
+NONE_STOPS, ONE_STOPS = "none", "any one motor"
+SURVIVED = (NONE_STOPS, ONE_STOPS, "one")
+"""Drives that may stop in flight, the last word short for the one before."""
+
+DETECTION = 0.02
+"""Until it is known that a drive has stopped, where nothing is stated [s]: four control steps, in
+which a wheel that should be driven changes its speed by less than it should."""
+
 CONTROL_PERIOD = 0.005
-"""From one torque of the wheels to the next, where nothing is stated [s]."""
+"""Time from one torque of the wheels to the next, where nothing is stated [s]."""
 
 PROJECTIONS = ("pseudo-inverse", "transpose")
 """How a torque on the trunk becomes torques of the wheels (docs/theory.md, The control law)."""
@@ -152,14 +167,31 @@ class RobotSection:
             "inertia about the centre of mass: Ixx, Iyy, Izz[, Ixy, Ixz, Iyz]",
         ),
     ] = None
+    human: Annotated[
+        Person | None, Key(PersonText(), "a person in place of a file, who wears the device")
+    ] = None
     weighed: Annotated[
         float | None,
         Key(Quantity(Dimension.MASS), "what the robot weighs on scales, to check its file's parts"),
     ] = None
 
 
-WORDS = ("jump_height", "kick", "fall", "tilt", "flip", "turn", "catch")
+WORDS = (
+    "jump_height",
+    "kick",
+    "fall",
+    "tilt",
+    "flip",
+    "turn",
+    "catch",
+    "pivot",
+    "balance",
+    "stand_up",
+)
 """Keys of `[requirement]` that ask for a maneuver (`froude.worded_maneuvers`)."""
+
+TURNS = ("turn", "catch")
+"""Those of them that need no gravity."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -196,6 +228,16 @@ class RequirementSection:
         tuple[About, ...] | None,
         Key(Several(CATCH_TEXT), "rates at lift-off that the wheels stop"),
     ] = None
+    pivot: Annotated[
+        Pivot | None, Key(PivotText(), "point or edge that balance and stand_up are about")
+    ] = None
+    balance: Annotated[
+        tuple[About | Kick, ...] | None,
+        Key(Several(UpsetText()), "tilt or impulse to get over on the pivot"),
+    ] = None
+    stand_up: Annotated[
+        tuple[Climb, ...] | None, Key(Several(ClimbText()), "tilt to stand up from on the pivot")
+    ] = None
     maneuvers: Annotated[
         str | None,
         Key(Choice(("paper", "none")), "the paper's three beside what else is asked, or none"),
@@ -203,6 +245,19 @@ class RequirementSection:
     reliability: Annotated[
         float | None, Key(Chance(), "share of robots that shall pass as built (`[reality]`)")
     ] = None
+    survives: Annotated[
+        str | None, Key(Choice(SURVIVED), "whether it lands level though a drive stops in flight")
+    ] = None
+    detection: Annotated[
+        float | None,
+        Key(Quantity(Dimension.TIME), "time until it is known that a drive has stopped"),
+    ] = None
+
+    @property
+    def notices(self) -> float | None:
+        """Time until a stopped drive is known [s], where the device survives one; else None."""
+        survives = self.survives not in {None, NONE_STOPS}
+        return (self.detection or DETECTION) if survives else None
 
     @property
     def is_worded(self) -> bool:
@@ -472,9 +527,11 @@ def merge(base: Specification, override: Specification) -> Specification:
     words replace all that `base` asks for: they are the requirement.
     """
     if override.robot.file is not None:
-        base = replace(base, robot=replace(base.robot, mass=None, inertia=None))
+        base = replace(base, robot=replace(base.robot, mass=None, inertia=None, human=None))
     elif override.robot.mass is not None or override.robot.inertia is not None:
-        base = replace(base, robot=replace(base.robot, file=None))
+        base = replace(base, robot=replace(base.robot, file=None, human=None))
+    elif override.robot.human is not None:
+        base = replace(base, robot=replace(base.robot, file=None, mass=None, inertia=None))
     if override.requirement.is_worded:
         asked = replace(base.requirement.without_words(), maneuvers=None)
         base = replace(base, requirement=asked, maneuvers=())

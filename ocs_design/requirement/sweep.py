@@ -15,6 +15,7 @@ from ocs_design.requirement.maneuver import (
     Drop,
     Flip,
     Maneuver,
+    Pivoted,
     Shove,
     TurnTo,
     kind_of,
@@ -53,6 +54,8 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
             return replace(maneuver, takeoff_velocity=(forward, upward))
         case Shove():
             return replace(maneuver, settling=maneuver.settling * factor)
+        case Pivoted():
+            return replace(maneuver, duration=maneuver.duration * factor)
         case _:
             return maneuver
 

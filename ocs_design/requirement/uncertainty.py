@@ -69,7 +69,7 @@ class Constant(Distribution):
 
 @dataclass(frozen=True)
 class Uniform(Distribution):
-    """Between two ends, `low <= high`."""
+    """Uniform between two ends, `low <= high`."""
 
     low: float
     high: float

@@ -324,7 +324,7 @@ class Names(Value[str]):
 
 
 NAME_SEPARATOR = ", "
-"""Between the names of a `Names`."""
+"""Text between the names of a `Names`."""
 
 
 def names_in(text: str) -> tuple[str, ...]:
@@ -471,10 +471,10 @@ HIGHEST_VOLTAGE = 1000.0
 """[V], beyond any robot's supply."""
 
 MOST_TURNS = 10
-"""Of a flip; no animal and no machine comes near."""
+"""Most turns of a flip; no animal and no machine comes near."""
 
 HEIGHT = Quantity(Dimension.LENGTH, most_bare=20.0, likely="mm")
-"""Of a jump or a fall: from higher than a house nothing with legs lands."""
+"""Height of a jump or a fall: from higher than a house nothing with legs lands."""
 
 WHEEL_SPEED = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
 TRUNK_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s")

@@ -35,9 +35,13 @@ DIRECTIONS: Mapping[str, Vector3] = MappingProxyType(
         "down": (0.0, 0.0, -1.0),
     }
 )
-"""In B."""
+"""Unit vectors in B by their names."""
 
-GRAVITY = NamedQuantity(Dimension.ACCELERATION, words={"earth": 9.81, "moon": 1.62, "mars": 3.71})
+GRAVITY = NamedQuantity(
+    Dimension.ACCELERATION,
+    Sign.NOT_NEGATIVE,
+    words={"earth": 9.81, "moon": 1.62, "mars": 3.71, "orbit": 0.0},
+)
 """Earth's and the Moon's as the paper takes them; Mars: NASA, Mars Fact Sheet."""
 
 FLIP = NamedQuantity(
@@ -94,22 +98,49 @@ class KickText(Value[Kick]):
         return Kick(
             Quantity(Dimension.IMPULSE).read(impulse, where),
             _row(at, Dimension.LENGTH, f"{where}, at") if "," in at else Text().read(at, where),
-            None if along is None else self._direction(along, f"{where}, along"),
+            None if along is None else _direction(along, f"{where}, along"),
         )
 
-    def _direction(self, text: str, where: str) -> Vector3:
-        """Three numbers, not all zero, or one of `DIRECTIONS`."""
-        if text.casefold() in DIRECTIONS:
-            return DIRECTIONS[text.casefold()]
-        if "," not in text:
+
+@dataclass(frozen=True)
+class Person:
+    """Mass and payload [kg] and height [m] of a person."""
+
+    mass: float
+    height: float
+    payload: float = 0.0
+
+    def __str__(self) -> str:
+        carrying = f" with {self.payload!r} kg" if self.payload else ""
+        return f"{self.mass!r} kg {self.height!r} m{carrying}"
+
+
+@dataclass(frozen=True)
+class PersonText(Value[Person]):
+    """A person: mass, height and, if there is any, payload."""
+
+    _PARTS = re.compile(r"\s*([\d.]+ *[a-z]+)[\s,]+([\d.]+ *[a-z]+)(?:\s+with\s+(.+?))?\s*", re.I)
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return "MASS HEIGHT, and if you like with PAYLOAD"
+
+    def read(self, raw: object, where: str) -> Person:
+        """Value that `raw` stands for (`Value.read`)."""
+        parts = self._PARTS.fullmatch(raw) if isinstance(raw, str) else None
+        if parts is None:
             raise SpecificationError(
-                f"{where}: {shortened(text)} is no direction",
-                hint=f"Write 0,1,0, or one of {', '.join(DIRECTIONS)}.",
+                f"{where}: {shortened(raw)} does not say how heavy and how tall",
+                hint="Write '75kg 1.75m', or '75kg 1.75m with 10kg'.",
             )
-        row = _row(text, Dimension.RATIO, where)
-        if not any(row):
-            raise SpecificationError(f"{where}: {text} is no direction", hint="Write 0,1,0.")
-        return row
+        mass, height, payload = parts.groups()
+        of_mass = Quantity(Dimension.MASS)
+        return Person(
+            of_mass.read(mass, f"{where}, mass"),
+            Quantity(Dimension.LENGTH, most=3.0).read(height, f"{where}, height"),
+            of_mass.read(payload, f"{where}, payload") if payload else 0.0,
+        )
 
 
 @dataclass(frozen=True)
@@ -226,6 +257,115 @@ CATCH_TEXT = AboutText(
     "rad/s",
     "roll 20deg/s pitch 45deg/s in 0.5s",
 )
+
+
+TILT_TEXT = AboutText(
+    MappingProxyType(dict.fromkeys(("roll", "pitch", "yaw"), TILT)), "rad", "pitch 5deg in 1s"
+)
+
+
+def _tilt(raw: object, where: str) -> About:
+    """A tilt from upright; a heading is none."""
+    tilt = TILT_TEXT.read(raw, where)
+    if tilt.yaw:
+        raise SpecificationError(
+            f"{where}: yaw is no tilt", hint=f"Write {TILT_TEXT.example!r}, or roll."
+        )
+    return tilt
+
+
+@dataclass(frozen=True)
+class UpsetText(Value[About | Kick]):
+    """What a robot on a pivot is to get over: a tilt, or an impulse."""
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return f"{TILT_TEXT.takes}, or {KickText().takes}"
+
+    def read(self, raw: object, where: str) -> About | Kick:
+        """Value that `raw` stands for (`Value.read`)."""
+        kicked = isinstance(raw, str) and " at " in raw
+        return KickText().read(raw, where) if kicked else _tilt(raw, where)
+
+
+@dataclass(frozen=True)
+class Climb:
+    """A tilt that a robot stands up from, and whether a brake gives it the momentum."""
+
+    tilt: About
+    brake: bool
+
+    def __str__(self) -> str:
+        return f"{self.tilt}{_BY_BRAKE if self.brake else ''}"
+
+
+_BY_BRAKE = " by brake"
+
+
+@dataclass(frozen=True)
+class ClimbText(Value[Climb]):
+    """A tilt, a time if one is stated, and `by brake` if it is."""
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return "as in 'roll 45deg in 0.5s', 'roll 45deg by brake'"
+
+    def read(self, raw: object, where: str) -> Climb:
+        """Value that `raw` stands for (`Value.read`)."""
+        brake = isinstance(raw, str) and raw.casefold().rstrip().endswith(_BY_BRAKE)
+        tilt = str(raw).rstrip()[: -len(_BY_BRAKE)] if brake else raw
+        return Climb(_tilt(tilt, where), brake)
+
+
+@dataclass(frozen=True)
+class Pivot:
+    """A point in B that a robot stands on [m], and the direction of its edge; None: a point."""
+
+    point: Vector3
+    along: Vector3 | None = None
+
+    def __str__(self) -> str:
+        along = "" if self.along is None else f" along {','.join(map(repr, self.along))}"
+        return f"{','.join(map(repr, self.point))}{along}"
+
+
+@dataclass(frozen=True)
+class PivotText(Value[Pivot]):
+    """A point, and the direction of an edge through it."""
+
+    @property
+    def takes(self) -> str:
+        """What may be written, in words (`Value.takes`)."""
+        return "X,Y,Z, and for an edge along X,Y,Z or a word such as left"
+
+    def read(self, raw: object, where: str) -> Pivot:
+        """Value that `raw` stands for (`Value.read`)."""
+        point, _, along = raw.partition(" along ") if isinstance(raw, str) else ("", "", "")
+        if "," not in point:
+            raise SpecificationError(
+                f"{where}: {shortened(raw)} is no point that a robot stands on",
+                hint="Write '0,0,-0.2', or '0,0,-0.2 along left' for an edge; metres in the "
+                "trunk's frame.",
+            )
+        at = _row(point, Dimension.LENGTH, where)
+        return Pivot(at, _direction(along.strip(), f"{where}, along") if along else None)
+
+
+def _direction(text: str, where: str) -> Vector3:
+    """Three numbers, not all zero, or one of `DIRECTIONS`."""
+    if text.casefold() in DIRECTIONS:
+        return DIRECTIONS[text.casefold()]
+    if "," not in text:
+        raise SpecificationError(
+            f"{where}: {shortened(text)} is no direction",
+            hint=f"Write 0,1,0, or one of {', '.join(DIRECTIONS)}.",
+        )
+    row = _row(text, Dimension.RATIO, where)
+    if not any(row):
+        raise SpecificationError(f"{where}: {text} is no direction", hint="Write 0,1,0.")
+    return row
 
 
 def _row(text: str, dimension: Dimension, where: str) -> Vector3:

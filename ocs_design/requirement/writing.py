@@ -33,7 +33,7 @@ from ocs_design.requirement.values import (
     Value,
     WordOr,
 )
-from ocs_design.requirement.words import About, Kick, Tilt
+from ocs_design.requirement.words import About, Climb, Kick, Person, Pivot, Tilt
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
@@ -156,7 +156,7 @@ def _plain(value: object) -> str:
     match value:
         case bool():
             return str(value).lower()
-        case str() | Kick() | Tilt() | About():
+        case str() | Kick() | Person() | Tilt() | About() | Climb() | Pivot():
             return _text(str(value))
         case tuple():
             return f"[{', '.join(map(_plain, value))}]"
@@ -225,6 +225,11 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         "robot.inertia": KeyNote(
             "In place of a file, with the mass.", "read", "[0.032, 0.055, 0.070]"
         ),
+        "robot.human": KeyNote(
+            "In place of a file: mass, height, payload.",
+            "read",
+            '"75kg 1.75m with 10kg"',
+        ),
         "robot.weighed": KeyNote(
             "Tells when the parts in the file do not add up to it.", "not checked", '"2.5 kg"'
         ),
@@ -273,12 +278,32 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "not asked",
             '"roll 20 deg/s pitch 45 deg/s in 0.5 s"',
         ),
+        "requirement.pivot": KeyNote(
+            "Of balance and stand_up, in the trunk's frame, below the centre of mass.",
+            "not asked",
+            '"0,0,-0.2 along left"',
+        ),
+        "requirement.balance": KeyNote(
+            "To be upright again on the pivot: a tilt from where it balances, or an impulse.",
+            "not asked",
+            '"pitch 5 deg in 1 s"',
+        ),
+        "requirement.stand_up": KeyNote(
+            "From a tilt to upright on the pivot, by the motors or by stopping the wheels.",
+            "not asked",
+            '"pitch 45 deg by brake"',
+        ),
         "requirement.maneuvers": KeyNote(
             "paper: beside a rate_change or a spin_inertia; leave it out where you state your own."
         ),
         "requirement.reliability": KeyNote(
             "0.5: sized for a robot just as its file says; more keeps a reserve for [reality]."
         ),
+        "requirement.survives": KeyNote(
+            "any one motor, or one: sized and flown so that it lands level whichever drive stops, "
+            "at any instant of a maneuver; its wheel runs on."
+        ),
+        "requirement.detection": KeyNote("Until then the other drives go on as before."),
         "ocs.layout": KeyNote(
             "double-pair, triple-pair: four and six wheels at a pair's axes; single: on pitch; "
             "triad: three in the horizontal plane; orthogonal: x, y, z; pyramid: four. "
@@ -379,7 +404,7 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
         ),
         "validation.desaturate": KeyNote("true: wheels let go of their momentum after landing."),
         "reality.file": KeyNote(
-            "Your own distributions; docs/monte_carlo.md has the package's, with their sources.",
+            "Your own distributions; `size -v` lists the package's.",
             "the package's",
             '"my_reality.toml"',
         ),
@@ -416,6 +441,8 @@ MANEUVER_NOTES: Mapping[str, str] = MappingProxyType(
         "turn": "A turn to any attitude during a vertical jump, heading included.",
         "catch": "A stop of a trunk that turns as it leaves the ground.",
         "flip": "A turn in pitch during a vertical jump; a back-flip is negative.",
+        "balance": "A tilt, rate or impulse of a robot on a pivot, which feedback alone undoes.",
+        "stand-up": "A climb from a tilt to upright about a pivot, by motors or by a brake.",
     }
 )
 """What each kind of maneuver is."""
@@ -450,6 +477,22 @@ FIELD_NOTES: Mapping[str, str] = MappingProxyType(
         "pitch": "at release",
         "jump_height": "of the centre of mass",
         "angle": "of pitch",
+        "pivot": "that it stands on, in the trunk's frame",
+        "edge": "direction of the edge that it stands on; zeros: a point",
+        "actuation": "motor, or brake: wheels spun up before are stopped in an instant",
+        **{
+            f"{kind}.{name}": note
+            for kind in ("balance", "stand-up")
+            for name, note in (
+                ("roll", "at the start, from where it balances"),
+                ("pitch", "at the start"),
+                ("duration", "until it is upright and at rest"),
+                ("wheel_speed", "of all wheels at the start"),
+                ("end", "level, or attitude: with its heading too"),
+            )
+        },
+        "balance.rate": "of the trunk at the start, about its x, y and z",
+        "balance.impulse": "of a force at the start",
     }
 )
 """What each field of a `[[maneuver]]` is; by `kind.field`, of that kind alone."""

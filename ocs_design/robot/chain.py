@@ -23,7 +23,7 @@ _SHORT = 0.5
 """Share of a limb's length below which a stretched limb may not be stretched yet."""
 
 _TURNS = (0.5, -0.5)
-"""Where the ascent starts again, from zero [rad]."""
+"""Angles where the ascent starts again, from zero [rad]."""
 
 _FARTHER = 0.01
 """Share of a limb's length by which another start must be better, for rounding not to decide."""

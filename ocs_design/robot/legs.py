@@ -122,7 +122,9 @@ def _lowest_surface(body: Body, down: FloatArray) -> Foot:
         ahead, behind = extent_of(touching, side), extent_of(touching, -side)
         if ahead is not None and behind is not None:
             middle = middle + 0.5 * (ahead - behind) * side
-    return Foot(touching[0].link, middle, 0.0)
+    # A sole of several links, such as a sensor in each corner, goes by its body's name.
+    links = {shape.link for shape in touching}
+    return Foot(links.pop() if len(links) == 1 else body.name, middle, 0.0)
 
 
 _PARALLEL = 0.97

@@ -24,7 +24,8 @@ class Limb:
 
     Attributes:
         base, first, last: indices of the body that it hangs on, of its first and its last body.
-        chain: of its bodies. hinges: its own joints, a wheel's not counted.
+        chain: of its bodies.
+        hinges: its own joints and those that follow another limb's, a wheel's not counted.
         hip: origin of its first joint [m]. tip: at rest [m].
         axes: of its first two joints at rest, shape (n, 3).
         depth: of the stretched tip below the root's origin [m].
@@ -95,13 +96,19 @@ class Anatomy:
         rest = chain.pose(chain.neutral())
         hinge = chain.driven[0] if chain.driven else 0
         hip = rest.origins[hinge]
+        # Nao's right hip follows the left one, and is a joint of its leg all the same; of a finger
+        # that follows its neighbour the greater part does.
+        led = sum(
+            joint.mimic is not None and joint.mimic[0] not in chain.names for joint in chain.joints
+        )
+        own = len(chain.driven)
         lowest = float(up @ chain.pose(chain.stretched(local, -up)).point(local))
         return Limb(
             base,
             first,
             last,
             chain,
-            len(chain.driven) - is_wheel(end),
+            own + (led if led < own else 0) - is_wheel(end),
             hip,
             rest.point(local),
             rest.axes[hinge : hinge + 2],

@@ -219,8 +219,8 @@ def check_mass_properties(tree: Tree, warnings: Warnings) -> None:
         raise RobotError(
             f"the floating base has no mass: no <inertial> with a mass in {links}",
             hint=f"give link {base.name!r} its mass and inertia; if it only holds the robot in the "
-            "world, remove it together with its joint, or make that joint floating; "
-            "see docs/howto-inertials.md",
+            "world, remove it together with its joint, or make that joint floating. For a first "
+            "answer the whole robot's figures are enough: --mass and --inertia IXX,IYY,IZZ",
         )
     check_whole(tree.locked_mass_properties({}, base.name), tree)
     for body in tree.bodies:
@@ -249,5 +249,6 @@ def check_whole(weighed: MassProperties, tree: Tree) -> None:
         first = f", first of {listed([repr(name) for name in worst])}" if worst else ""
         raise RobotError(
             f"the robot as a whole {defect}",
-            hint=f"correct the inertias in the file{first}; see docs/howto-inertials.md",
+            hint=f"correct the inertias in the file{first}: in kg m2, about each link's own centre "
+            "of mass",
         )

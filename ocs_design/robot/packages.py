@@ -13,7 +13,7 @@ UPWARDS, DOWNWARDS, MOST_FOLDERS = 4, 2, 3000
 looked for: 50 ms."""
 
 MOST_PACKAGES = 3
-"""Of which the folders are looked for."""
+"""Most packages whose folders are looked for."""
 
 
 def roots_of(file: Path) -> tuple[Path, ...]:

@@ -21,6 +21,9 @@ from ocs_design.robot.tree import LARGEST_NUMBER, Tree
 
 ZERO = "zero"
 STAND = "stand"
+OUTSIDE = "the posture is outside the limits of:"
+"""How a warning of joints beyond their limits begins."""
+
 _LIMIT_TOLERANCE = 1e-6
 
 
@@ -77,7 +80,7 @@ def resolve_posture(
     ]
     warnings = chosen.warnings
     if outside:
-        warnings += (f"the posture is outside the limits of: {listed(outside)}",)
+        warnings += (f"{OUTSIDE} {listed(outside)}",)
     height = standing_height(tree, trunk, legs, values) if legs else None
     return replace(
         chosen,

@@ -7,8 +7,6 @@ may be any.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
 from itertools import combinations
 
 import numpy as np
@@ -18,7 +16,7 @@ from ocs_design.common.errors import RobotError
 from ocs_design.robot.legs import ancestors, find_legs, find_trunk, leg_of
 from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
 from ocs_design.robot.links import listed
-from ocs_design.robot.robot import Leg
+from ocs_design.robot.robot import CLOSED, NO_LEGS, SPINE, Doubt, Leg, Reading, Recognition, Sign
 from ocs_design.robot.tree import Tree
 
 SURE = 0.8
@@ -30,139 +28,17 @@ _LIKELY = 0.3
 _SHOWN = 0.5
 """Confidence from which on a reading that is not sure is shown at all."""
 
+
 _MOST_ANSWERS = 3
 """Likely answers that are shown."""
-
-
-@dataclass(frozen=True)
-class Sign:
-    """One thing that a person would look at.
-
-    Attributes:
-        what: as a sentence, where it holds. against: as a sentence, where it does not.
-        holds: whether it does; None where the file does not tell.
-        weight: among the signs.
-    """
-
-    what: str
-    against: str
-    holds: bool | None
-    weight: float = 1.0
-
-
-@dataclass(frozen=True)
-class Doubt:
-    """Something that speaks against a reading however good its signs are.
-
-    Attributes:
-        what: as a sentence.
-        factor: by which it lowers the confidence.
-    """
-
-    what: str
-    factor: float
-
 
 _STATED = (Sign("stated", "", holds=True),)
 
 _FIXED = "the robot is fixed to the world in its file"
 
 NAMES = "their names are those of legs"
-SPINE = (
-    "the legs branch from several bodies, with joints between them (a spine), which are held where "
-    "they are at zero"
-)
-CLOSED = (
-    "limbs share a hip in pairs, as five-bar legs do whose loop the file leaves open: one of each "
-    "pair is the leg, and the other is held where it is at zero"
-)
 
 _SPINE = (Doubt(SPINE, 0.7),)
-
-
-@dataclass(frozen=True, eq=False)
-class Reading:
-    """One way to read a robot.
-
-    Attributes:
-        trunk: link that carries the device.
-        legs: in file order; empty for a robot without.
-        signs: that it is judged by.
-        doubts: that lower its confidence.
-    """
-
-    trunk: str
-    legs: tuple[Leg, ...]
-    signs: tuple[Sign, ...]
-    doubts: tuple[Doubt, ...] = ()
-
-    @cached_property
-    def confidence(self) -> float:
-        """Share of the known signs that hold, by weight, times the factors of the doubts."""
-        known = [sign for sign in self.signs if sign.holds is not None]
-        total = sum(sign.weight for sign in known)
-        held = sum(sign.weight for sign in known if sign.holds)
-        share = held / total if total else 0.5
-        return share * float(np.prod([doubt.factor for doubt in self.doubts]))
-
-    @property
-    def liberties(self) -> tuple[str, ...]:
-        """What is taken otherwise than the robot has it, one sentence each."""
-        return tuple(each.what for each in self.doubts if each.what in {SPINE, CLOSED})
-
-    @property
-    def options(self) -> str:
-        """The options of the command line that state it."""
-        return f"--trunk {self.trunk} --legs {','.join(leg.name for leg in self.legs) or NO_LEGS}"
-
-
-NO_LEGS = "none"
-"""In place of the legs' names: the robot has none."""
-
-
-@dataclass(frozen=True, eq=False)
-class Recognition:
-    """What was recognised of a robot.
-
-    Attributes:
-        reading: that the program goes on with.
-        likely: readings to choose from where it is not sure, the likeliest first.
-        stated: what the user named: neither, `trunk`, `legs` or both.
-    """
-
-    reading: Reading
-    likely: tuple[Reading, ...] = ()
-    stated: frozenset[str] = field(default_factory=frozenset)
-
-    @property
-    def sure(self) -> bool:
-        """Whether nothing has to be asked."""
-        return not self.likely
-
-    def question(self) -> RobotError:
-        """What to ask the user, with the likely answers."""
-        best = self.likely[0]
-        against = [
-            *(doubt.what for doubt in best.doubts),
-            *(sign.against for sign in best.signs if sign.holds is False),
-        ]
-        found = (
-            f"{len(best.legs)} legs ({listed([leg.name for leg in best.legs], most=6)}) on "
-            f"'{best.trunk}'"
-            if best.legs
-            else f"no legs, and '{best.trunk}' as the trunk"
-        )
-        answers = "; or ".join(
-            f"{each.options} ({each.confidence:.0%})" if each.legs else each.options
-            for each in self.likely[:_MOST_ANSWERS]
-        )
-        none = f"; or --legs {NO_LEGS}" if f"--legs {NO_LEGS}" not in answers else ""
-        why = "; ".join(against) or "nothing certain"
-        return RobotError(
-            f"trunk and legs are not clear: most likely {found}, at {best.confidence:.0%} "
-            f"confidence ({SURE:.0%} needed). Against it: {why}",
-            hint=f"say which: {answers}{none}. `inspect ROBOT --picture FILE.svg` draws them",
-        )
 
 
 def recognise(
@@ -214,9 +90,39 @@ def recognise(
     asked = sorted({id(each): each for each in (best, *likely)}.values(), key=_order)
     if all(each.legs for each in asked):
         asked.append(none)
+    root = tree.bodies[0].name
+    if trunk is None and none in asked and none.trunk != root:
+        # An upper body's heaviest link is its chest, but it may be meant to sit on its pelvis.
+        asked.append(anatomy.without_legs(None, likely=not arms, body=root))
     # Who only looks, and does not have to be sure, is shown the likeliest.
     shown = asked[0] if asked[0].confidence >= _SHOWN else none
     return Recognition(shown, tuple(asked), _stated(trunk, None))
+
+
+def question_about(found: Recognition) -> RobotError:
+    """What to ask the user about a robot that is not sure, with the likely answers."""
+    best = found.likely[0]
+    against = [
+        *(doubt.what for doubt in best.doubts),
+        *(sign.against for sign in best.signs if sign.holds is False),
+    ]
+    told = (
+        f"{len(best.legs)} legs ({listed([leg.name for leg in best.legs], most=6)}) on "
+        f"'{best.trunk}'"
+        if best.legs
+        else f"no legs, and '{best.trunk}' as the trunk"
+    )
+    answers = "; or ".join(
+        f"{each.options} ({each.confidence:.0%})" if each.legs else each.options
+        for each in found.likely[:_MOST_ANSWERS]
+    )
+    none = f"; or --legs {NO_LEGS}" if f"--legs {NO_LEGS}" not in answers else ""
+    why = "; ".join(against) or "nothing certain"
+    return RobotError(
+        f"trunk and legs are not clear: most likely {told}, at {best.confidence:.0%} "
+        f"confidence ({SURE:.0%} needed). Against it: {why}",
+        hint=f"say which: {answers}{none}. `inspect ROBOT --picture FILE.svg` draws them",
+    )
 
 
 def _speaks(reading: Reading, what: str) -> bool | None:
@@ -308,17 +214,23 @@ class _Readings(Anatomy):
                     lighter = Doubt(f"'{name}' is lighter than '{each.trunk}'", 0.9)
                     yield Reading(name, each.legs, each.signs, (*each.doubts, lighter))
 
-    def without_legs(self, trunk: str | None, *, likely: bool) -> Reading:
-        """The reading of a robot without legs: the heaviest body is the trunk."""
-        name = trunk or find_trunk(self.tree, ())
-        body = self.tree.body_of_link[name]
-        share = self.masses[body].mass / max(self.robot.mass, 1e-300)
+    def without_legs(self, trunk: str | None, *, likely: bool, body: str | None = None) -> Reading:
+        """The reading of a robot without legs.
+
+        Args:
+            trunk: link that the user named, whose mass and place are not doubted.
+            likely: whether some limbs look like legs.
+            body: that is taken for the trunk; None: the heaviest.
+        """
+        name = trunk or body or find_trunk(self.tree, ())
+        index = self.tree.body_of_link[name]
+        share = self.masses[index].mass / max(self.robot.mass, 1e-300)
         signs = (
             Sign("no limbs look like legs", "some limbs look like legs", not likely),
             Sign(
                 "the trunk is the root of the file",
                 f"'{name}' is not the root of the file",
-                body == 0,
+                index == 0,
             ),
             Sign(
                 "the trunk has a third of the mass",
@@ -331,7 +243,7 @@ class _Readings(Anatomy):
             return Reading(name, (), signs[:1])
         chain = len(self.tree.bodies) > 2 and all(len(each) < 2 for each in self.children.values())
         doubts = (
-            *((Doubt("the robot is one chain, as an arm is", 0.6),) if chain and body else ()),
+            *((Doubt("the robot is one chain, as an arm is", 0.6),) if chain and index else ()),
             *((Doubt(_FIXED, 0.75),) if self.floats() is False else ()),
         )
         return Reading(name, (), signs, doubts)

@@ -1,19 +1,15 @@
-"""The robot as every later step sees it: one frozen value."""
+"""The robot as every later step sees it, one frozen value, and how sure its trunk and legs are."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from functools import cached_property
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.tree import Placement, Tree
-
-if TYPE_CHECKING:
-    # It holds legs of this module.
-    from ocs_design.robot.recognition import Recognition
 
 
 class Format(StrEnum):
@@ -62,6 +58,104 @@ class Mount:
     placement: Placement
 
 
+NO_LEGS = "none"
+"""In place of the legs' names: the robot has none."""
+
+SPINE = (
+    "the legs branch from several bodies, with joints between them (a spine), which are held where "
+    "they are at zero"
+)
+CLOSED = (
+    "limbs share a hip in pairs, as five-bar legs do whose loop the file leaves open: one of each "
+    "pair is the leg, and the other is held where it is at zero"
+)
+
+
+@dataclass(frozen=True)
+class Sign:
+    """One thing that a person would look at.
+
+    Attributes:
+        what: as a sentence, where it holds. against: as a sentence, where it does not.
+        holds: whether it does; None where the file does not tell.
+        weight: among the signs.
+    """
+
+    what: str
+    against: str
+    holds: bool | None
+    weight: float = 1.0
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Something that speaks against a reading however good its signs are.
+
+    Attributes:
+        what: as a sentence.
+        factor: by which it lowers the confidence.
+    """
+
+    what: str
+    factor: float
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """One way to read a robot.
+
+    Attributes:
+        trunk: link that carries the device.
+        legs: in file order; empty for a robot without.
+        signs: that it is judged by.
+        doubts: that lower its confidence.
+    """
+
+    trunk: str
+    legs: tuple[Leg, ...]
+    signs: tuple[Sign, ...]
+    doubts: tuple[Doubt, ...] = ()
+
+    @cached_property
+    def confidence(self) -> float:
+        """Share of the known signs that hold, by weight, times the factors of the doubts."""
+        known = [sign for sign in self.signs if sign.holds is not None]
+        total = sum(sign.weight for sign in known)
+        held = sum(sign.weight for sign in known if sign.holds)
+        share = held / total if total else 0.5
+        return share * float(np.prod([doubt.factor for doubt in self.doubts]))
+
+    @property
+    def liberties(self) -> tuple[str, ...]:
+        """What is taken otherwise than the robot has it, one sentence each."""
+        return tuple(each.what for each in self.doubts if each.what in {SPINE, CLOSED})
+
+    @property
+    def options(self) -> str:
+        """The options of the command line that state it."""
+        return f"--trunk {self.trunk} --legs {','.join(leg.name for leg in self.legs) or NO_LEGS}"
+
+
+@dataclass(frozen=True, eq=False)
+class Recognition:
+    """What was recognised of a robot.
+
+    Attributes:
+        reading: that the program goes on with.
+        likely: readings to choose from where it is not sure, the likeliest first.
+        stated: what the user named: neither, `trunk`, `legs` or both.
+    """
+
+    reading: Reading
+    likely: tuple[Reading, ...] = ()
+    stated: frozenset[str] = field(default_factory=frozenset)
+
+    @property
+    def sure(self) -> bool:
+        """Whether nothing has to be asked."""
+        return not self.likely
+
+
 @dataclass(frozen=True, eq=False)
 class Robot:
     """A robot at its nominal posture.
@@ -86,6 +180,7 @@ class Robot:
         mount: how B is fixed to the file's own link; None if `trunk` is a link of the file.
         recognition: how sure trunk and legs are, and what else they may be; None by hand.
         mesh_cure: how the meshes that were not found would be; empty: none is missing.
+        worn_at: point in B that modules stand around on a person's back [m]; None: of no person.
     """
 
     name: str
@@ -103,8 +198,9 @@ class Robot:
     standing_height: float | None
     warnings: tuple[str, ...]
     mount: Mount | None = None
-    recognition: "Recognition | None" = None
+    recognition: Recognition | None = None
     mesh_cure: str = ""
+    worn_at: tuple[float, float, float] | None = None
 
     @property
     def mass(self) -> float:

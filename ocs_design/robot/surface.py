@@ -1,4 +1,4 @@
-"""The upper surface of a trunk: how high it is at each place, as far as its shapes are known.
+"""The upper surface of a trunk, and its back: how high they are, as far as its shapes are known.
 
 What is seen counts, for screws go into what is there; collision shapes only stand in for it.
 """
@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.robot.meshes import binary_stl_facets, check_mesh_file, load_with_trimesh
 from ocs_design.robot.robot import Format, Robot
-from ocs_design.robot.tree import Shape, ShapeKind
+from ocs_design.robot.tree import BACKWARDS, Shape, ShapeKind
 
 STEP = 1e-3
 """Distance of two places of a map, at the least [m]."""
 
 MOST_STEPS = 800
-"""Of a map along its longer side, at the most."""
+"""Most steps of a map along its longer side."""
 
 MOST_BYTES = 16 << 20
 """Sum of the meshes that are read to look at a trunk: a .dae takes 0.1 s a MB."""
@@ -57,6 +57,15 @@ class Surface:
         found = self.heights[np.clip(i, 0, rows - 1), np.clip(j, 0, columns - 1)]
         return np.where(inside, found, -np.inf)
 
+    def farthest(self, low: float, high: float, aside: float) -> float:
+        """Largest height between two x and so far to both sides of y = 0 [m]; -inf: nothing."""
+        (first, last), (right, left) = (
+            np.rint((np.array(ends) - start) / self.step).astype(np.int64)
+            for ends, start in (((low, high), self.x), ((-aside, aside), self.y))
+        )
+        cut = self.heights[max(0, first) : max(0, last + 1), max(0, right) : max(0, left + 1)]
+        return float(cut.max(initial=-np.inf))
+
     @property
     def x_range(self) -> tuple[float, float]:
         """First and last x of the surface [m]."""
@@ -72,6 +81,13 @@ def trunk_surface(robot: Robot) -> Surface | None:
     # The box of a robot by hand stands for its inertia.
     triangles = None if robot.format is Format.MANUAL else _trunk_triangles(robot)
     return None if triangles is None else surface_of(triangles)
+
+
+@lru_cache(maxsize=1)
+def trunk_back(robot: Robot) -> Surface | None:
+    """The trunk as it is seen from behind, x up and z backwards; None likewise."""
+    triangles = None if robot.format is Format.MANUAL else _trunk_triangles(robot)
+    return None if triangles is None else surface_of(triangles @ BACKWARDS)
 
 
 def _trunk_triangles(robot: Robot) -> FloatArray | None:

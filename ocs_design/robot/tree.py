@@ -20,6 +20,10 @@ LARGEST_NUMBER = 1e75
 """Largest number in a robot, SI: the square of the square of a larger one overflows."""
 
 
+BACKWARDS = frozen([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
+"""Rotation of a frame whose z axis points backwards, y to the left and x up."""
+
+
 class JointKind(StrEnum):
     """Motion of a body against its parent."""
 

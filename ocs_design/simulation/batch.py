@@ -1,7 +1,7 @@
 """Worlds that run in step: physics in MuJoCo's `rollout`, the vectorised law in between."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from threading import Event
 
 import mujoco
@@ -12,7 +12,14 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import Drives, Sensing
-from ocs_design.simulation.schedule import FlightClock, LegReferences, Pushes, References
+from ocs_design.simulation.scene import ANCHOR, whole_mass
+from ocs_design.simulation.schedule import (
+    FlightClock,
+    LegReferences,
+    Pushes,
+    References,
+    StoppedDrives,
+)
 from ocs_design.simulation.wheel_law import Target, WheelBrake, WheelLaw
 from ocs_design.simulation.world import World, start_states
 
@@ -30,7 +37,8 @@ class Recording:
             (k, n, wheels).
         com: centre of mass in the world [m], (k, n, 3).
         momentum: angular, about the centre of mass, in the world [N m s], (k, n, 3).
-        impulse: of the outer torque since the start, in the world [N m s], (k, n, 3).
+        impulse: of the outer torque since the start, and of gravity's about a pivot, in the world
+            [N m s], (k, n, 3).
         height: of the trunk's body over the floor [m], (k, n).
         contact: whether anything touches the floor before the next instant, (k, n).
         pose_stride: control steps from one recorded pose to the next; 0: none is recorded.
@@ -188,6 +196,8 @@ class Batch:
             )
         brakes = [world.desaturation for world in worlds]
         self._brake = WheelBrake(brakes, self._period) if any(brakes) else None
+        stops = any(world.stopped for world in worlds)
+        self._stopped = StoppedDrives(worlds, self._period) if stops else None
         self._chain, self._addresses = worlds[0].chain, worlds[0].addresses
         self._wheels, self._motors = list(self._addresses.wheels), list(self._addresses.motors)
         self._state = start_states(worlds)
@@ -202,6 +212,8 @@ class Batch:
         self._pushed_control = _held(np.hstack([ctrl, np.zeros((n, 6 * first.nbody))]), hold)
         self._push_address = first.nu + 6 * self._addresses.trunk + 3
         self._body_mass = np.stack([world.model.body_mass for world in worlds])
+        # Weight times lever as built, in B; those on a pivot are a batch of their own.
+        self._pull = np.stack([_pull(world) for world in worlds]) if worlds[0].body.stands else None
 
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
         """Run all worlds to their ends, once.
@@ -273,9 +285,13 @@ class Batch:
             if self._sensing is not None:
                 vertical, rate = self._sensing.measured(k, vertical, rate)
                 attitude = self._sensing.attitude(k, attitude)
+            if self._stopped is not None:
+                target = replace(target, shared=self._stopped.shared(steps))
             asked = self._decide(law, vertical, rate, speed, target, attitude=attitude)
             # The wheels wait for lift-off.
             asked[steps < 0] = 0.0
+            if self._stopped is not None:
+                asked = self._stopped.left(steps, asked)
         return asked
 
     def _driven(self, k: int, torque: FloatArray) -> FloatArray:
@@ -318,8 +334,6 @@ class Batch:
             control[:n, :, first : first + 3] = torque_on[:, None]
             wrenches = control[:n, :, self._models[0].nu :].reshape(n, self._hold, -1, 6)
             wrenches[..., :3] = (self._body_mass[:n, :, None] * acceleration[:, None])[:, None]
-        if k + 1 < len(record.time):
-            record.impulse[k + 1, :n] = record.impulse[k, :n] + (0.0 if gained is None else gained)
         self._legs.write(k, control[:n], self._clock.bears(k, record.contact[k - 1, :n]))
         control[:n, :, self._motors] = torque
         pool.rollout(
@@ -333,7 +347,29 @@ class Batch:
             state=self._states[:n],
             sensordata=self._sensors[:n],
         )
+        if self._pull is not None:
+            gained = self._by_gravity(self._pull[:n])
+        if k + 1 < len(record.time):
+            record.impulse[k + 1, :n] = record.impulse[k, :n] + (0.0 if gained is None else gained)
         self._state[:n] = self._states[:n, -1]
+
+    def _by_gravity(self, pull: FloatArray) -> FloatArray:
+        """Impulse of gravity's torque about the pivots in a control step [N m s], (n, 3).
+
+        The torque is `z x R (m g l)`, its slope `z x (w x R (m g l))`, and the integral over each
+        step of the physics that of the cubic through both at its ends.
+        """
+        n, model = len(pull), self._models[0]
+        states = np.concatenate([self._state[:n, None], self._states[:n]], axis=1)
+        qpos, qvel = np.split(states[..., 1 : 1 + model.nq + model.nv], [model.nq], axis=-1)
+        to_world = quaternions.matrix(self._chain.attitude(qpos))
+        lever = np.einsum("nsij,nj->nsi", to_world, pull)
+        rate = np.einsum("nsij,nsj->nsi", to_world, self._chain.rate(qpos, qvel))
+        up, step = np.array([0.0, 0.0, 1.0]), model.opt.timestep
+        torque, slope = np.cross(up, lever), np.cross(up, np.cross(rate, lever))
+        ends = slope[:, 0] - slope[:, -1]
+        means = 0.5 * (torque[:, 1:] + torque[:, :-1])
+        return np.asarray(step * means.sum(axis=1) + step**2 / 12.0 * ends)
 
     def _record_sensors(self, k: int, running: int) -> None:
         """Record what the sensors saw at the start of the control step; contact throughout it."""
@@ -348,6 +384,17 @@ class Batch:
         if k > 0:
             # The last Runge-Kutta stage of the step before has felt this contact already.
             record.contact[k - 1, :running] |= touches[:, 0]
+
+
+def _pull(world: World) -> FloatArray:
+    """Weight times lever about the pivot of a robot as it was built, in B [N m], shape (3,)."""
+    model, data = world.model, mujoco.MjData(world.model)
+    data.qpos[:] = world.qpos
+    mujoco.mj_kinematics(model, data)
+    built = whole_mass(model, data)
+    lever = built.com - data.xpos[model.body(ANCHOR).id]
+    to_world = quaternions.matrix(world.chain.attitude(world.qpos))
+    return np.asarray(-built.mass * model.opt.gravity[2] * lever @ to_world)
 
 
 def _held(values: FloatArray, hold: int) -> FloatArray:

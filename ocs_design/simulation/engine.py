@@ -18,6 +18,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import processors
 from ocs_design.export.physics import STEP
 from ocs_design.simulation.batch import Batch, Recording, joined
+from ocs_design.simulation.scene import ANCHOR
 from ocs_design.simulation.world import World
 
 Progress = Callable[[float], None]
@@ -33,10 +34,10 @@ def simulate(
 ) -> Recording:
     """Run all worlds to their ends.
 
-    Worlds of one time step run together, those of another after them.
+    Worlds of one time step run together, those of another after them, and so do those on a pivot.
 
     Args:
-        worlds: with models of equal sizes.
+        worlds: with models of equal sizes, but for the anchor of a pivot.
         hold: steps of `STEP` per control step, through which torques stay as they are.
         threads: of the physics; None: one per processor. The numbers do not depend on it.
         pose_rate: of the recorded poses [1/s]; None: none are, which thousands of worlds have no
@@ -47,18 +48,19 @@ def simulate(
     recordings: list[Recording] = []
     places: list[NDArray[np.intp]] = []
     steps = np.array([world.model.opt.timestep for world in worlds])
+    bodies = np.array([world.model.nbody for world in worlds])
     work = np.array([world.duration for world in worlds]) / steps
     done = 0.0
-    for step in np.unique(steps):
-        group = np.flatnonzero(steps == step)
+    for step, count in sorted(set(zip(steps.tolist(), bodies.tolist(), strict=True))):
+        group = np.flatnonzero((steps == step) & (bodies == count))
         part = float(work[group].sum() / work.sum())
         # Longest first, and of a pair of equals one to each batch.
         order = group[
             np.argsort([-worlds[index].duration for index in group.tolist()], kind="stable")
         ]
         available = min(threads or processors(), len(group))
-        count = min(available, 2)
-        shares = [order[first::count] for first in range(count)]
+        parts = min(available, 2)
+        shares = [order[first::parts] for first in range(parts)]
         batches = [
             Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate)
             for share in shares
@@ -68,7 +70,7 @@ def simulate(
         before = mujoco.get_mju_user_warning()
         mujoco.set_mju_user_warning(lambda _message: None)
         try:
-            recordings += _run_beside(batches, available // count, within)
+            recordings += _run_beside(batches, available // parts, within)
         finally:
             mujoco.set_mju_user_warning(before)
         places += shares
@@ -139,17 +141,18 @@ def poses_of(recording: Recording, index: int, world: World) -> Poses | None:
     time = recording.time[: recording.lengths[index] : recording.pose_stride]
     qpos, model = recording.qpos[: len(time), index], world.model
     data = mujoco.MjData(model)
-    position = np.empty((len(qpos), model.nbody - 1, 3))
-    attitude = np.empty((len(qpos), model.nbody - 1, 4))
+    shown = [body for body in range(1, model.nbody) if model.body(body).name != ANCHOR]
+    position = np.empty((len(qpos), len(shown), 3))
+    attitude = np.empty((len(qpos), len(shown), 4))
     for k, pose in enumerate(qpos):
         data.qpos[:] = pose
         mujoco.mj_kinematics(model, data)
-        position[k], attitude[k] = data.xpos[1:], data.xquat[1:]
+        position[k], attitude[k] = data.xpos[shown], data.xquat[shown]
     wheels = model.jnt_qposadr[model.dof_jntid[list(world.addresses.wheels)]]
     return Poses(
         time=time,
         qpos=qpos,
-        bodies=tuple(model.body(body).name for body in range(1, model.nbody)),
+        bodies=tuple(model.body(body).name for body in shown),
         position=position,
         attitude=attitude,
         wheel_angle=qpos[:, wheels],

@@ -190,19 +190,13 @@ class Drives:
         )
         if np.isfinite(self._power[:n]).any():
             # The law limits what it commands by the nominal motor's power, the supply the real one.
-            motor = np.stack(
-                [
-                    within_supply(
-                        each,
-                        speed,
-                        gain=self._gain[:n],
-                        copper=self._copper[:n],
-                        efficiency=self._efficiency[:n],
-                        power_max=self._power[:n],
-                    )
-                    for each in motor.transpose(1, 0, 2)
-                ],
-                axis=1,
+            motor = within_supply(
+                motor,
+                speed[:, None],
+                gain=self._gain[:n, None],
+                copper=self._copper[:n, None],
+                efficiency=self._efficiency[:n, None],
+                power_max=self._power[:n, None],
             )
         # So written, the mean of equal torques is that torque to the last bit.
         mean = motor[:, 0] + (motor - motor[:, :1]).mean(axis=1)
@@ -217,7 +211,7 @@ class Drives:
 
 
 AIR_DENSITY = 1.225
-"""Of the standard atmosphere at sea level, 15 degrees [kg/m^3] (ISO 2533)."""
+"""Density of the standard atmosphere at sea level, 15 degrees [kg/m^3] (ISO 2533)."""
 
 AIR_VISCOSITY = 1.4607e-5
 """Kinematic, of the same [m^2/s]."""

@@ -8,10 +8,21 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.export.physics import set_trunk
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove, TurnTo
+from ocs_design.requirement.maneuver import (
+    Disturbance,
+    Drop,
+    Flip,
+    Maneuver,
+    Pivoted,
+    Shove,
+    TurnTo,
+)
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.rotations import rotation_about
+from ocs_design.simulation import quaternions
 from ocs_design.simulation.reference import LEVEL, Profile, Quintic, Turn
+from ocs_design.sizing.trajectory.boundary import pivot_boundary
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 ROLL, PITCH = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 
@@ -122,9 +133,23 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
             if angle > 0.0:
                 turn = Turn(vector / angle, 0.0, angle, maneuver.duration, Quintic())
             rate, spin = np.array(maneuver.rate), maneuver.wheel_speed
-            return Launch(np.eye(3), None, np.array([0.0, 0.0, up]), turn, NO_PUSH, rate, spin)
+            height = None if maneuver.gravity else _AFLOAT
+            return Launch(np.eye(3), height, np.array([0.0, 0.0, up]), turn, NO_PUSH, rate, spin)
         case _:
             raise TypeError(f"no launch is known for a {type(maneuver).__name__}")
+
+
+def on_pivot(maneuver: Pivoted, gyrostat: Gyrostat) -> Launch:
+    """The start of a maneuver about a pivot, which stands at the height of the floor.
+
+    Args:
+        maneuver: of robot and device. gyrostat: of both, about the pivot.
+    """
+    asked = pivot_boundary(maneuver, gyrostat)
+    rotation = quaternions.matrix(asked.attitude)
+    height = -float((rotation @ np.array(maneuver.pivot))[2])
+    speed = maneuver.wheel_speed
+    return Launch(rotation, height, np.zeros(3), LEVEL, NO_PUSH, asked.rate, speed)
 
 
 def level_launch(maneuver: Maneuver, standing_height: float) -> Launch:
@@ -138,8 +163,13 @@ def on_the_ground(start: Launch, standing_height: float) -> Launch:
     return replace(start, height=standing_height, velocity=np.zeros(3))
 
 
-def flight_time(start: Launch, standing_height: float, gravity: float) -> float:
-    """Until the feet of the levelled robot meet the ground [s]."""
+def flight_time(maneuver: Maneuver, start: Launch, standing_height: float) -> float:
+    """Until the feet of the levelled robot meet the ground, or a turn or a catch ends [s]."""
+    if isinstance(maneuver, TurnTo):
+        return maneuver.flight_time
+    if isinstance(maneuver, Pivoted):
+        return maneuver.duration
+    gravity = maneuver.gravity
     drop = 0.0 if start.height is None else start.height - standing_height
     # Longer by what the push adds, were it at lift-off: a little too long.
     gained = start.push.acceleration[2] * start.push.duration
@@ -155,6 +185,9 @@ def _rotation_vector(rotation: FloatArray) -> FloatArray:
     angle = np.arctan2(sine, 0.5 * (np.trace(rotation) - 1.0))
     return vector * (angle / sine if sine > 0.0 else 1.0)
 
+
+_AFLOAT = 100.0
+"""Height of a robot in orbit over the model's floor, which it does not meet [m]."""
 
 _CLEARANCE = 1e-3
 """Gap under the feet at lift-off, over the standing height."""

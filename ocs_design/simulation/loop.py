@@ -118,7 +118,7 @@ def plan_margins(trajectory: Trajectory, body: Gyrostat, period: float) -> LoopM
     """
     assert trajectory.gains is not None, "only gains have margins"
     size = trajectory.gains.shape[2]
-    systems = linearised(body, trajectory.rate, trajectory.wheel_speed)
+    systems = linearised(body, trajectory.rate, trajectory.wheel_speed, trajectory.vertical)
     instants = np.linspace(0, len(systems) - 1, _INSTANTS).astype(int)
     margins = [
         loop_margins(systems[k, :, :size], systems[k, :, size:], trajectory.gains[k], period)

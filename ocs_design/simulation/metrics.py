@@ -100,9 +100,10 @@ class Metrics:
     """Figures of one run; None where there is nothing to measure.
 
     Attributes:
-        touchdown_time: of the last instant in free flight [s]; None: it never touches the floor.
+        touchdown_time: of the last instant in free flight [s], or when a robot on a pivot is to be
+            upright and at rest; None: it never touches the floor.
         touchdown_roll, touchdown_pitch: of the trunk against level at that instant, within half a
-            turn [rad].
+            turn [rad]; of a robot on a pivot against where it balances, here and below.
         touchdown_rate: of roll and pitch together at that instant [rad/s].
         turned_angle: of pitch since lift-off, whole turns counted [rad].
         heading_drift: about the vertical since lift-off [rad].
@@ -191,21 +192,30 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     last = first + int(touching[0]) if touching.size else end
     flight, after = slice(first, last + 1), slice(last, None)
     driven = flight if world.stands is None else after
+    attitude, comes_down = recording.attitude[: end + 1, index], bool(touching.size)
+    roll, pitch = series.roll, series.pitch
+    if world.settles is not None:
+        comes_down, last = True, int(np.argmin(np.abs(series.time - world.settles)))
+        flight = driven = slice(0, end + 1)
+        after = slice(last, None)
+        attitude = quaternions.product(attitude, quaternions.conjugate(world.body.upright))
+        roll, pitch = quaternions.tilt(attitude)
+        pitch = np.unwrap(pitch)
 
     # Roll and pitch have settled once they stay near where they end.
-    off = np.maximum(np.abs(series.roll - series.roll[-1]), np.abs(series.pitch - series.pitch[-1]))
+    off = np.maximum(np.abs(roll - roll[-1]), np.abs(pitch - pitch[-1]))
     moving = np.flatnonzero(off[after] > _AT_REST)
     settled = last + (int(moving[-1]) + 1 if moving.size else 0)
 
-    _, x, y, _ = recording.attitude[end, index]
+    _, x, y, _ = attitude[end]
     rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
     above = recording.height[end, index] > UPRIGHT_HEIGHT * world.standing_height
     return Metrics(
         lift_off_time=float(series.time[first]) if lift_off >= 0 else None,
         rise=float(series.com[flight, 2].max() - series.com[first, 2]),
-        touchdown_time=float(series.time[last]) if touching.size else None,
-        touchdown_roll=float(series.roll[last]),
-        touchdown_pitch=_within_half_turn(series.pitch[last]),
+        touchdown_time=float(series.time[last]) if comes_down else None,
+        touchdown_roll=float(roll[last]),
+        touchdown_pitch=_within_half_turn(pitch[last]),
         touchdown_rate=float(np.hypot(*series.rate[last, :2])),
         turned_angle=float(series.pitch[last] - series.pitch[first]),
         heading_drift=_within_half_turn(series.yaw[last] - series.yaw[first]),
@@ -214,10 +224,10 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         peak_wheel_torque=float(np.abs(series.wheel_torque[driven]).max()),
         momentum_error=_momentum_error(recording, index, flight, world),
         upright_at_end=bool(rises and above),
-        final_roll=float(series.roll[-1]),
-        final_pitch=_within_half_turn(series.pitch[-1]),
-        roll_swing=float(np.ptp(series.roll[after])),
-        pitch_swing=float(np.ptp(series.pitch[after])),
+        final_roll=float(roll[-1]),
+        final_pitch=_within_half_turn(pitch[-1]),
+        roll_swing=float(np.ptp(roll[after])),
+        pitch_swing=float(np.ptp(pitch[after])),
         settling_time=float(series.time[settled] - series.time[last]),
         nutation=_nutation(series.wheel_speed[driven], world),
     )
@@ -228,7 +238,9 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
 
     H itself is near zero in most of these flights, as trunk and wheels turn against each other, so
     the scale is the largest momentum of the wheels plus that of the trunk with its legs, as if they
-    were locked. Gravity has no moment about the centre of mass.
+    were locked. Gravity has no moment about the centre of mass. About a pivot, whose anchor has the
+    centre of mass of all there, it has, and its impulse counts like an outer one's; about an edge
+    that axis alone does.
     """
     # Between two looks at the contacts a stage of a step may feel the floor, as a foot scrapes off
     # it or is about to touch it: the first and the last control step are left out.
@@ -236,6 +248,9 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
     flight = slice(first, max(flown.stop - 1, first + 1))
     momentum, impulse = recording.momentum[flight, index], recording.impulse[flight, index]
     unexplained = momentum - momentum[0] - (impulse - impulse[0])
+    if world.body.edge is not None:
+        edge = quaternions.matrix(recording.attitude[0, index]) @ world.body.edge
+        unexplained = unexplained @ np.outer(edge, edge)
     wheels = world.body.spin_inertia * np.abs(recording.wheel_speed[flight, index]).max()
     turning = recording.rate[flight, index] @ world.body.inertia
     moved = wheels + np.linalg.norm(turning, axis=1).max()

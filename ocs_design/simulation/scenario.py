@@ -10,8 +10,9 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 
 from ocs_design.device.device import Device
+from ocs_design.device.records import StoppedRecord, SurvivalRecord
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
-from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver import Maneuver, Pivoted
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.batch import Recording
@@ -26,8 +27,15 @@ from ocs_design.simulation.metrics import (
 )
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.verdict import MOMENTUM_GATE, comes_down_well, judge, stands
-from ocs_design.simulation.wheel_law import Allocation, Gains
+from ocs_design.simulation.verdict import (
+    MOMENTUM_GATE,
+    Fault,
+    comes_down_well,
+    judge,
+    off_at_touchdown,
+    stands,
+)
+from ocs_design.simulation.wheel_law import Allocation, Gains, StoppedDrive
 from ocs_design.simulation.world import World, WorldBuilder
 from ocs_design.sizing.trajectory.flight import Trajectory
 
@@ -148,11 +156,13 @@ def run_scenarios(
     unclear = refusal(robot)
 
     # Where flights come down well but none of those stands, it is the legs or the device.
-    can_stand: list[bool | None] = [True if robot.legs else None] * len(maneuvers)
+    # In orbit there is nothing to stand on.
+    can_stand = [True if robot.legs and each.gravity else None for each in maneuvers]
     doubtful = []
     for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True)):
         down = [flight.metrics for flight in pair if comes_down_well(flight.metrics, maneuver)]
-        if robot.legs and down and not any(stands(metrics) for metrics in down):
+        lands = can_stand[index] and not isinstance(maneuver, Pivoted)
+        if lands and down and not any(stands(metrics) for metrics in down):
             doubtful.append(index)
     landings = [
         builder.level_landing(maneuvers[i], starts.get(maneuvers[i].name, BALLISTIC).carrying)
@@ -188,6 +198,58 @@ def run_scenarios(
                 )
             )
     return tuple(runs)
+
+
+STOPS = 8
+"""Instants of a maneuver at which each drive stops in turn, evenly from lift-off or release on."""
+
+
+def fly_stopped(
+    robot: Robot,
+    device: Device,
+    maneuvers: Sequence[Maneuver],
+    detection: float,
+    *,
+    options: Options | None = None,
+    references: Mapping[str, Trajectory] | None = None,
+    jumps: Mapping[str, JumpPlans] | None = None,
+    progress: Progress | None = None,
+) -> SurvivalRecord:
+    """Fly every maneuver with each drive stopping at each of `STOPS` instants, and judge landings.
+
+    Args:
+        detection: until the law knows of it [s]. The others: see `run_scenarios`.
+    """
+    chosen = options or Options()
+    builder = world_builder(robot, device, chosen)
+    flown: list[tuple[Maneuver, StoppedDrive, World]] = []
+    for maneuver in maneuvers:
+        planned, jump = (references or {}).get(maneuver.name), (jumps or {}).get(maneuver.name)
+        carrying = (jump or BALLISTIC).carrying
+        world = builder.flight(maneuver, Wheels.ACTIVE, planned, carrying)
+        for wheel in range(len(device.modules)):
+            for part in range(STOPS):
+                stopped = StoppedDrive(wheel, part / STOPS * world.flight_time, detection)
+                flown.append((maneuver, stopped, replace(world, stopped=stopped)))
+    flights = fly([world for *_, world in flown], chosen, progress)
+    found = []
+    for (maneuver, stopped, _), flight in zip(flown, flights, strict=True):
+        against = refusal(robot) or flight.objection
+        verdict = judge(flight.metrics, maneuver, can_stand=None, objection=against)
+        tilt = None
+        if flight.metrics is not None and verdict.fault is not Fault.UNSOUND:
+            tilt = off_at_touchdown(flight.metrics, maneuver)
+        found.append(
+            StoppedRecord(
+                scenario=maneuver.name,
+                module=device.modules[stopped.wheel].name,
+                instant=stopped.instant,
+                lands=verdict.passed,
+                tilt=tilt,
+                reason=verdict.reason.partition(";")[0],
+            )
+        )
+    return SurvivalRecord(detection=detection, flights=tuple(found))
 
 
 def world_builder(robot: Robot, device: Device, options: Options) -> WorldBuilder:

@@ -18,6 +18,9 @@ from ocs_design.export.physics import (
     meet_no_link,
 )
 from ocs_design.parts.moments import Carrier
+from ocs_design.requirement.maneuver import Pivoted
+from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.robot import Robot
 
@@ -86,10 +89,56 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     return spec
 
 
+ANCHOR = "ocs_pivot"
+
+ANCHORED, _LITTLE = 1e7, 1e-10
+"""Mass and inertia of an anchor over those of the robot, by which the pivot gives way, and inertia
+about what is free."""
+
+
+def _anchor(spec: mujoco.MjSpec, robot: Robot, maneuver: Pivoted) -> None:
+    """Holds a point of the trunk in place, or an edge, by a body that gravity does not pull.
+
+    The free joint stays, and with it the layout of the state. The body has so much mass that the
+    centre of mass of all is at the pivot, and for an edge so much inertia across it that nothing
+    turns but about it. All joints of the robot are held, and nothing meets the floor.
+    """
+    trunk, base = trunk_body(spec, robot)
+    mass = ANCHORED * robot.mass
+    frame, inertia = np.eye(3), np.full(3, _LITTLE * np.trace(robot.inertia))
+    if maneuver.axis is not None:
+        up = np.array([0.0, 0.0, 1.0])
+        frame = np.column_stack([up, np.cross(maneuver.axis, up), maneuver.axis])
+        inertia[:2] *= ANCHORED / _LITTLE
+    trunk.add_body(
+        name=ANCHOR,
+        pos=base.position + base.rotation @ np.array(maneuver.pivot),
+        quat=quaternion(base.rotation @ frame),
+        mass=mass,
+        inertia=inertia,
+        ipos=np.zeros(3),
+        iquat=[1.0, 0.0, 0.0, 0.0],
+        explicitinertial=True,
+        gravcomp=1.0,
+    )
+    for name in robot.tree.joints:
+        joint = spec.joint(name)
+        joint.armature, joint.frictionloss = HELD, 0.0
+        joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
+    for geom in spec.geoms:
+        geom.contype = geom.conaffinity = 0
+
+
 def compile_scene(
-    scene: mujoco.MjSpec, robot: Robot, device: Device, wheels: Wheels, gravity: float
+    scene: mujoco.MjSpec,
+    robot: Robot,
+    device: Device,
+    wheels: Wheels,
+    gravity: float,
+    *,
+    pivoted: Pivoted | None = None,
 ) -> mujoco.MjModel:
-    """The scene with the device on it; `scene` itself stays as it is."""
+    """The scene with the device on it, on a pivot if told; `scene` itself stays as it is."""
     spec = scene.copy()
     if wheels is Wheels.ABSENT:
         # Without mass, at the same place. What has a body keeps it: all worlds of a batch have the
@@ -108,6 +157,8 @@ def compile_scene(
         for geom in spec.body(name).geoms:
             geom.contype, geom.conaffinity = 0, 1
     spec.option.gravity = [0.0, 0.0, -gravity]
+    if pivoted is not None:
+        _anchor(spec, robot, pivoted)
     if wheels is not Wheels.ACTIVE:
         for name in joint_names(device):
             spec.joint(name).armature = HELD
@@ -120,6 +171,25 @@ def compile_scene(
     return model
 
 
+def whole_mass(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
+    """Robot and device as one rigid body in the world, without the anchor of a pivot.
+
+    Args:
+        model: compiled. data: with kinematics computed.
+    """
+    names = (model.body(index).name for index in range(model.nbody))
+    mass = np.array(
+        [0.0 if n == ANCHOR else m for n, m in zip(names, model.body_mass, strict=True)]
+    )
+    com = mass @ data.xipos / mass.sum()
+    axes, offset = data.ximat.reshape(-1, 3, 3), data.xipos - com
+    own = np.where(mass[:, None] > 0.0, model.body_inertia, 0.0)
+    turned = np.einsum("bij,bj,bkj->ik", axes, own, axes)
+    squares = np.einsum("b,bi,bi->", mass, offset, offset)
+    outer = np.einsum("b,bi,bj->ij", mass, offset, offset)
+    return MassProperties(float(mass.sum()), com, turned + squares * np.eye(3) - outer)
+
+
 def locked_inertia(model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatArray) -> FloatArray:
     """Inertia of everything about its centre of mass, joints locked as in `data` [kg m^2], (3, 3).
 
@@ -128,10 +198,4 @@ def locked_inertia(model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatAr
         data: with kinematics and centres of mass computed.
         rotation: of the frame to express it in, in the world, shape (3, 3).
     """
-    axes = data.ximat.reshape(-1, 3, 3)
-    offset = data.xipos - data.subtree_com[0]
-    turned = np.einsum("bij,bj,bkj->ik", axes, model.body_inertia, axes)
-    squares = np.einsum("b,bi,bi->", model.body_mass, offset, offset)
-    outer = np.einsum("b,bi,bj->ij", model.body_mass, offset, offset)
-    about_com = turned + squares * np.eye(3) - outer
-    return np.asarray(rotation.T @ about_com @ rotation)
+    return np.asarray(rotation.T @ whole_mass(model, data).inertia @ rotation)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.reference import track
-from ocs_design.simulation.wheel_law import RegulatedPlan, Target
+from ocs_design.simulation.wheel_law import RegulatedPlan, Target, shared_by_others
 from ocs_design.simulation.world import World
 
 _EARLIEST = 0.5
@@ -206,3 +206,30 @@ class Pushes:
             return None
         rows = np.maximum(steps, 0), np.arange(len(steps))
         return np.where(steps[:, None, None] < 0, 0.0, self._pushed[rows])
+
+
+class StoppedDrives:
+    """Drives that stop in flight, and what the law makes of it once it knows."""
+
+    def __init__(self, worlds: Sequence[World], period: float) -> None:
+        count, wheels = len(worlds), len(worlds[0].wheels)
+        self._last = np.full(count, np.iinfo(np.int64).max)
+        self._known, self._runs = self._last.copy(), np.ones((count, wheels), dtype=np.bool_)
+        self._shared = np.tile(np.eye(wheels), (count, 1, 1))
+        for row, world in enumerate(worlds):
+            if (stopped := world.stopped) is not None:
+                self._last[row] = round(stopped.instant / period)
+                self._known[row] = round((stopped.instant + stopped.detection) / period)
+                self._runs[row, stopped.wheel] = False
+                self._shared[row] = shared_by_others(world.body.axes, stopped.wheel)
+
+    def shared(self, steps: Steps) -> FloatArray:
+        """What each motor gives of what all are asked for, see `Target`, shape (n, m, m)."""
+        known = steps >= self._known[: len(steps)]
+        unshared = np.eye(self._runs.shape[1])
+        return np.where(known[:, None, None], self._shared[: len(steps)], unshared)
+
+    def left(self, steps: Steps, torque: FloatArray) -> FloatArray:
+        """Torques without those of motors that have stopped, shape (n, m)."""
+        runs = self._runs[: len(steps)] | (steps < self._last[: len(steps)])[:, None]
+        return np.where(runs, torque, 0.0)

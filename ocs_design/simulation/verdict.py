@@ -6,8 +6,9 @@ from math import remainder, tau
 
 import numpy as np
 
+from ocs_design.common.arrays import FloatArray
 from ocs_design.export.physics import STEADY_LEGS
-from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove, TurnTo
+from ocs_design.requirement.maneuver import End, Flip, Maneuver, Pivoted, Shove, TurnTo
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.metrics import UPRIGHT_TILT, Metrics
 from ocs_design.sizing.trajectory.boundary import boundary
@@ -33,6 +34,7 @@ class Fault(StrEnum):
     TURN = "turned too little or too far"
     LANDING = "not level at touchdown"
     STANDING = "fell after a level touchdown"
+    BALANCE = "not upright and at rest in time"
 
 
 @dataclass(frozen=True)
@@ -68,14 +70,16 @@ def judge(
         metrics: of the run; None if it became unstable.
         maneuver: that was flown.
         can_stand: whether the robot stays up on its joint drives after a level landing from this
-            flight; None for a robot without legs. Where it does not, "upright at the end" says
-            nothing about the device and is not judged.
+            flight; None for a robot without legs, and in orbit. Where it does not, "upright at the
+            end" says nothing about the device and is not judged.
         objection: to the run whatever its figures are, see `soundness`; empty if there is none.
         legs: how many it has.
     """
-    unsound = objection or _unsound(metrics)
+    unsound = objection or _unsound(metrics, maneuver)
     if metrics is None or unsound:
         return Verdict(None, unsound, Fault.UNSOUND)
+    if isinstance(maneuver, Pivoted):
+        return _balanced(metrics, maneuver)
     shoved = isinstance(maneuver, Shove)
     verdict = _shoved(metrics, can_stand) if shoved else _flown(metrics, maneuver, can_stand, legs)
     if verdict.passed is None:
@@ -92,9 +96,11 @@ def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None, legs: i
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
         return failure
-    landing, final = f"touches down at {_tilt(metrics)}", _final_tilt(metrics)
+    landing, final = f"{_ends(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
     if isinstance(maneuver, TurnTo):
         landing += f", heading turned by {_degrees(float(np.degrees(metrics.heading_drift)))} deg"
+    if not maneuver.gravity:
+        return Verdict(True, landing)
     if can_stand is None:
         ending = "; without legs there is nothing to stand on"
     elif not can_stand:
@@ -144,9 +150,24 @@ def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
     return Verdict(True, f"{swing}, is at rest after {metrics.settling_time:.2f} s and stands")
 
 
+def _balanced(metrics: Metrics, maneuver: Pivoted) -> Verdict:
+    """Verdict on a robot on a pivot; see `judge`."""
+    rate = np.degrees(metrics.touchdown_rate)
+    is_at = f"is at {_tilt(metrics)} off balance after {maneuver.duration:.3g} s, turning at "
+    is_at += f"{rate:.1f} deg/s"
+    in_time = not _off_level(metrics) and metrics.touchdown_rate <= REST_RATE
+    off = max(abs(metrics.final_roll), abs(metrics.final_pitch))
+    if not in_time or not metrics.upright_at_end or off > LANDING_TOLERANCE:
+        falls = f"{is_at}, and ends at {_final_tilt(metrics)} off balance"
+        return Verdict(False, falls, Fault.BALANCE, stands=False)
+    spin = f"{metrics.final_wheel_speed * 30.0 / np.pi:.0f} rpm"
+    held = f"{is_at}, and is held there, in the end with wheels at {spin}"
+    return Verdict(True, held, stands=True)
+
+
 def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
     """Whether a run passes in everything but standing."""
-    if metrics is None or _unsound(metrics):
+    if metrics is None or _unsound(metrics, maneuver):
         return False
     return _flight_failure(metrics, maneuver) is None
 
@@ -162,7 +183,7 @@ def stands(metrics: Metrics | None) -> bool:
     return bool(tilt <= 0.5 * UPRIGHT_TILT)
 
 
-def _unsound(metrics: Metrics | None) -> str:
+def _unsound(metrics: Metrics | None, maneuver: Maneuver) -> str:
     """Why a run says nothing; empty if it is sound."""
     if metrics is None:
         return "not judged: the simulation became unstable"
@@ -180,7 +201,7 @@ def _unsound(metrics: Metrics | None) -> str:
         )
     if metrics.lift_off_time is None:
         return "not judged: the legs do not bring the robot off the ground"
-    if metrics.touchdown_time is None:
+    if metrics.touchdown_time is None and maneuver.gravity:
         return "not judged: nothing of the robot touched the floor"
     return ""
 
@@ -199,7 +220,7 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
         turned = metrics.heading_drift
         if abs(remainder(turned - heading, tau)) > LANDING_TOLERANCE:
             made, asked = (_degrees(float(np.degrees(angle))) for angle in (turned, heading))
-            failure = f"touches down with its heading turned by {made} of {asked} deg"
+            failure = f"{_ends(maneuver)} with its heading turned by {made} of {asked} deg"
             return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics, maneuver):
         if isinstance(maneuver, Flip) and abs(remainder(maneuver.angle, tau)) > LANDING_TOLERANCE:
@@ -224,15 +245,31 @@ def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
         if metrics.touchdown_rate <= REST_RATE:
             return ""
         rate = np.degrees(metrics.touchdown_rate)
-        return f"touches down at {_tilt(metrics)}, turning at {rate:.0f} deg/s"
+        return f"{_ends(maneuver)} at {_tilt(metrics)}, turning at {rate:.0f} deg/s"
     roll, pitch, _ = landing_attitude(maneuver)
     if roll == pitch == 0.0:
         return _off_level(metrics)
-    tilt = max(abs(metrics.touchdown_roll - roll), abs(metrics.touchdown_pitch - pitch))
-    if tilt <= LANDING_TOLERANCE:
+    if off_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE:
         return ""
     asked = _angles(pitch, roll)
-    return f"touches down at {_tilt(metrics)}, not at {asked}"
+    return f"{_ends(maneuver)} at {_tilt(metrics)}, not at {asked}"
+
+
+def _vertical(roll: float, pitch: float) -> FloatArray:
+    """World's upward direction in B, of angles as `quaternions.tilt` has them, shape (3,)."""
+    return np.array([-np.sin(pitch) * np.cos(roll), np.sin(roll), np.cos(pitch) * np.cos(roll)])
+
+
+def off_at_touchdown(metrics: Metrics, maneuver: Maneuver) -> float:
+    """Off what is asked at touchdown [rad]: larger of roll and pitch, or angle of the verticals.
+
+    Of a trunk on its side the pitch is any angle: what counts there is where the vertical is.
+    """
+    roll, pitch, _ = landing_attitude(maneuver)
+    if roll == pitch == 0.0:
+        return max(abs(metrics.touchdown_roll), abs(metrics.touchdown_pitch))
+    ended = _vertical(metrics.touchdown_roll, metrics.touchdown_pitch)
+    return float(np.arccos(np.clip(ended @ _vertical(roll, pitch), -1.0, 1.0)))
 
 
 def _off_level(metrics: Metrics) -> str:
@@ -242,6 +279,10 @@ def _off_level(metrics: Metrics) -> str:
         return ""
     allowed = np.degrees(LANDING_TOLERANCE)
     return f"touches down at {_tilt(metrics)}, more than {allowed:.0f} deg off level"
+
+
+def _ends(maneuver: Maneuver) -> str:
+    return "touches down" if maneuver.gravity else "ends"
 
 
 def _tilt(metrics: Metrics) -> str:

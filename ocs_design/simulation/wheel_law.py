@@ -90,27 +90,28 @@ def within_supply(
     in f and zero at f = 0; each of its parts is `a f^2 + b f`, which is P at 2 P / (b + root).
 
     Args:
-        torque: that the motors could give [N m], (n, wheels).
-        speed: of the wheels now [rad/s], (n, wheels).
-        gain: change of speed in a control step per torque [rad/s/(N m)], shape (n, 1).
-        copper, efficiency, power_max: see `MotorLimits`, shape (n, 1).
+        torque: that the motors could give [N m], (..., wheels).
+        speed: of the wheels now [rad/s], broadcast to that.
+        gain: change of speed in a control step per torque [rad/s/(N m)], shape (..., 1).
+        copper, efficiency, power_max: see `MotorLimits`, shape (..., 1).
     """
-    limit, shaft = np.minimum(power_max[:, 0], _ENDLESS), torque * speed
-    heat = (copper * torque**2).sum(axis=1)
-    factor = np.ones_like(limit)
-    for _ in range(torque.shape[1] + 1):
+    limit, shaft = np.minimum(power_max[..., 0], _ENDLESS), torque * speed
+    heat = (copper * torque**2).sum(axis=-1)
+    factor = np.ones_like(heat)
+    for _ in range(torque.shape[-1] + 1):
         # A motor that brakes at the start may drive at the end: each change takes another look.
-        ends = factor[:, None] * gain * torque**2 + shaft
+        ends = factor[..., None] * gain * torque**2 + shaft
         share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
-        square = heat + (share * gain * torque**2).sum(axis=1)
-        factor = np.minimum(factor, _reaching(limit, square, (share * shaft).sum(axis=1)))
+        square = heat + (share * gain * torque**2).sum(axis=-1)
+        factor = np.minimum(factor, _reaching(limit, square, (share * shaft).sum(axis=-1)))
     share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
-    given = (share * shaft).sum(axis=1)
+    given = (share * shaft).sum(axis=-1)
     # Beyond the larger root, more torque burns what it brakes in the windings.
     root = np.sqrt(np.maximum(given**2 - 4.0 * heat * limit, 0.0))
     feeds = factor * (heat * factor + given) < -limit
     least = 2.0 * limit / np.where(feeds, root - given, 1.0)
-    return torque * np.where(feeds, np.minimum(factor, least), factor)[:, None]
+    scaled: FloatArray = torque * np.where(feeds, np.minimum(factor, least), factor)[..., None]
+    return scaled
 
 
 def _reaching(limit: FloatArray, square: FloatArray, linear: FloatArray) -> FloatArray:
@@ -371,6 +372,8 @@ class WheelLaw(Table):
         if target.plan is not None and attitude is not None:
             planned = target.plan.torque(attitude, rate, wheel_speed)
             asked = np.where(target.plan.holds[:, None], planned, asked)
+        if target.shared is not None:
+            asked = np.einsum("nij,nj->ni", target.shared, asked)
         return self.within_supply(
             self.within_motors(asked, wheel_speed, period), wheel_speed, period
         )
@@ -455,6 +458,8 @@ class Target:
             attitude and the wheels only damp: whatever the stance leans by, wheels that push
             against it run up to their top speed and are of no use any more.
         plan: that worlds follow with gains of their own in place of all this; None: none does.
+        shared: what each motor gives of what all are asked for, shape (n, m, m), where drives have
+            stopped (`shared_by_others`); None: all run.
     """
 
     vertical: FloatArray
@@ -463,6 +468,7 @@ class Target:
     torque: FloatArray
     stands: NDArray[np.bool_]
     plan: RegulatedPlan | None = None
+    shared: FloatArray | None = None
 
     def landed(self, contact: NDArray[np.bool_]) -> "Target":
         """Target with the worlds at rest whose feet are on the ground, as plans end there."""
@@ -475,6 +481,33 @@ class Target:
             self.stands | contact,
             None if plan is None else replace(plan, holds=plan.holds & ~contact),
         )
+
+
+@dataclass(frozen=True)
+class StoppedDrive:
+    """A drive that stops in flight: its motor gives no torque, and its wheel runs on.
+
+    Attributes:
+        wheel: which, from 0. instant: from lift-off or release [s].
+        detection: from then until the law knows of it [s].
+    """
+
+    wheel: int
+    instant: float
+    detection: float
+
+
+def shared_by_others(axes: FloatArray, wheel: int) -> FloatArray:
+    """Matrix from torques of all motors to those of the others with the same torque on the trunk.
+
+    `pinv(A_k) A`, with A_k the axes without column k, which is zero: the smallest torques, and as
+    near as the axes left allow.
+
+    Args:
+        axes: A, as columns, shape (3, n). wheel: k, whose motor is to give none.
+    """
+    runs = np.arange(axes.shape[1]) != wheel
+    return np.asarray(runs[:, None] * (np.linalg.pinv(axes * runs, rcond=OUT_OF_REACH) @ axes))
 
 
 def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:

@@ -5,7 +5,7 @@ joints (a humanoid's chest over its pelvis). For most robots the chain is empty.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -22,7 +22,7 @@ from ocs_design.export.physics import (
 )
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan, LegTrajectory
 from ocs_design.requirement.froude import Scale
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Unforeseen
+from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Pivoted, Unforeseen
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Body, JointKind
@@ -33,6 +33,7 @@ from ocs_design.simulation.launch import (
     flight_time,
     launch,
     level_launch,
+    on_pivot,
     on_the_ground,
     place,
 )
@@ -44,6 +45,7 @@ from ocs_design.simulation.scene import (
     compile_scene,
     locked_inertia,
     robot_scene,
+    whole_mass,
 )
 from ocs_design.simulation.trotting import waiting
 from ocs_design.simulation.wheel_law import (
@@ -51,8 +53,10 @@ from ocs_design.simulation.wheel_law import (
     Desaturation,
     Gains,
     MotorLimits,
+    StoppedDrive,
     WheelLaw,
 )
+from ocs_design.sizing.trajectory.boundary import HELD_ON
 from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
@@ -190,8 +194,11 @@ class World:
         flight_time: expected [s]. duration: of the run, push-off included [s].
         note: why it starts in flight where a jump was asked for; how the turn was changed to suit
             the wheels, or what is to be said of the trajectory; empty if nothing.
+        settles: when a robot on a pivot is to be upright and at rest, what touchdown is to others
+            [s]; None: it stands on none.
         imperfections: of sensors and drives; None: they are as the law believes.
         desaturation: of the wheels in stance; None: they are left to the law.
+        stopped: a drive that stops in flight; None: all run.
     """
 
     model: mujoco.MjModel
@@ -215,8 +222,10 @@ class World:
     flight_time: float
     duration: float
     note: str
+    settles: float | None = None
     imperfections: Imperfections | None = None
     desaturation: Desaturation | None = None
+    stopped: StoppedDrive | None = None
 
 
 class WorldBuilder:
@@ -275,7 +284,10 @@ class WorldBuilder:
         level: bool,
     ) -> World:
         device, legs = self._device.as_flown(maneuver), jump.legs
-        model = compile_scene(self._scene, self._robot, device, wheels, maneuver.gravity)
+        pivoted = maneuver if isinstance(maneuver, Pivoted) else None
+        model = compile_scene(
+            self._scene, self._robot, device, wheels, maneuver.gravity, pivoted=pivoted
+        )
         data = mujoco.MjData(model)
         standing = stand(self._robot, model, data)
         set_gains(model, data, self._robot)
@@ -293,15 +305,26 @@ class WorldBuilder:
             device.flywheel.spin_inertia,
             device.motor.armature,
         )
-        start = (
-            level_launch(maneuver, standing)
-            if level
-            else launch(maneuver, standing, self._drop_profile)
-        )
-        flight = flight_time(start, standing, maneuver.gravity)
-        settling = settling_time(self._robot, maneuver.gravity)
+        if pivoted is not None:
+            pivoted = pivoted.on(whole_mass(model, data))
+            body = replace(body, inertia=pivoted.inertia, pull=pivoted.pull, edge=pivoted.axis)
+            start = on_pivot(pivoted, body)
+            if trajectory is None:
+                # No brake stops what cannot be spun up, or is not there.
+                start = replace(start, rate=pivoted.struck)
+        elif level:
+            start = level_launch(maneuver, standing)
+        else:
+            start = launch(maneuver, standing, self._drop_profile)
+        flight = flight_time(maneuver, start, standing)
+        settling = settling_time(self._robot, maneuver.gravity or STANDARD_GRAVITY)
         weight = float(model.body_mass.sum()) * maneuver.gravity
         waits = waiting(maneuver, self._robot, weight, settling)
+
+        duration = (waits.duration or 0.0) + (0.0 if legs is None else legs.lift_off)
+        duration += flight + settling
+        if pivoted is not None:
+            standing, duration = -np.inf, (1.0 + HELD_ON) * pivoted.duration
 
         active = wheels is Wheels.ACTIVE
         fitted = FittedTurn(start.turn, "" if trajectory is None else trajectory.note)
@@ -348,10 +371,8 @@ class WorldBuilder:
             stands=waits.duration,
             takes_off=takes_off,
             flight_time=flight,
-            duration=(waits.duration or 0.0)
-            + (0.0 if legs is None else legs.lift_off)
-            + flight
-            + settling,
+            duration=duration,
+            settles=None if pivoted is None else pivoted.duration,
             note="; ".join(filter(None, (jump.note, fitted.note))),
             desaturation=desaturation,
         )

@@ -20,13 +20,14 @@ from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import LIGHTEST, Specification
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.design import Choice, Designed, design_device
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import LIMITS, TIME
 from ocs_design.sizing.on_robot import with_plate
 from ocs_design.sizing.relaxations import relaxations
 from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import lightest_below
+from ocs_design.sizing.sized import Choice, Designed
 
 MORE_ROOM, MORE_TIME = 1.2, 1.1
 """Factors on r_max and on the time of every maneuver."""

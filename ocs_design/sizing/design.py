@@ -1,20 +1,20 @@
 """From a resolved specification to a device, by the bound alone or with a real motor."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import cached_property
+from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.wheel_load import held, without_each
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
-from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, Criterion
-from ocs_design.device.records import ReserveRecord
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.maneuver import Requirement, StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import CONTAINING, LIGHTEST, Specification
+from ocs_design.robot.links import listed
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_sizing import size_device
@@ -29,62 +29,17 @@ from ocs_design.sizing.selection.problem import (
     selection_problem,
     specified_criterion,
 )
-from ocs_design.sizing.selection.result import Candidate, Selection
+from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import (
     device_at,
 )
-from ocs_design.sizing.sized import Sized, sized_by_bound, sized_selection
+from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_selection
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.co_design import CoDesign
 
 BY_HAND = "by hand"
 """Criterion of an incidence, or source of a spin inertia, that the user gave."""
-
-
-@dataclass(frozen=True, eq=False)
-class Choice:
-    """How motor, gear and material were chosen.
-
-    Attributes:
-        problem: what there was to choose from. selection: what came of it.
-        chosen: the lightest one, or what the co-design made of it.
-        co_design: None: not asked for.
-    """
-
-    problem: SelectionProblem
-    selection: Selection
-    chosen: Candidate
-    co_design: "CoDesign | None"
-
-
-@dataclass(frozen=True, eq=False)
-class Designed:
-    """A device and the figures behind it.
-
-    Attributes:
-        device: see `Device`. sized: see `Sized`.
-        criterion: that the incidence goes by.
-        choice: None where no motor was wanted.
-        reserve: that it keeps; None likewise. account: of what that comes to, and costs.
-        requirement: what the robot is asked for with this device on it; None: not settled yet.
-    """
-
-    device: Device
-    sized: Sized
-    criterion: str
-    choice: Choice | None
-    reserve: Reserve | None = None
-    account: Callable[[], ReserveRecord | None] = lambda: None
-    requirement: Requirement | None = None
-
-    @cached_property
-    def kept(self) -> ReserveRecord | None:
-        """What the reserve comes to, and costs: as long to find as the device.
-
-        None without a motor or maneuvers.
-        """
-        return self.account()
 
 
 KICK_ROUNDS, _KICK_SETTLED = 3, 0.01
@@ -98,6 +53,7 @@ def design_device(
     resolved: Resolved,
     *,
     advise: bool = True,
+    ranked: bool = True,
     reserve: Reserve | None = None,
 ) -> Designed:
     """The lightest device that meets the specification.
@@ -109,6 +65,7 @@ def design_device(
     Args:
         specification: what was stated. robot: that carries it. resolved: what was meant.
         advise: see `select`.
+        ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
         reserve: to keep for what is drawn; None: for the reliability that is specified.
 
     Raises:
@@ -120,9 +77,24 @@ def design_device(
     com = robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
-            designed = _designed(specification, robot, resolved, advise=advise, reserve=reserve)
+            designed = _designed(
+                specification, robot, resolved, advise=advise, ranked=ranked, reserve=reserve
+            )
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
+                calmer = _calmer(resolved.requirement)
+                if calmer is None:
+                    raise
+                resolved = replace(resolved, requirement=calmer)
+                with suppress(Infeasible):
+                    return design_device(
+                        specification,
+                        robot,
+                        resolved,
+                        advise=advise,
+                        ranked=ranked,
+                        reserve=reserve,
+                    )
                 raise
             break
         whole, asked = designed.sized.total, resolved.requirement
@@ -144,12 +116,24 @@ def design_device(
     return min(tried, key=lambda each: each[:2])[2]
 
 
+def _calmer(requirement: Requirement) -> Requirement | None:
+    """Robots stand up with less torque and more momentum; None: none that could."""
+    hasty = [isinstance(each, StandUp) and each.slower == 1.0 for each in requirement.maneuvers]
+    if not any(hasty):
+        return None
+    maneuvers = tuple(
+        each.calmer() if isinstance(each, StandUp) else each for each in requirement.maneuvers
+    )
+    return replace(requirement, maneuvers=maneuvers)
+
+
 def _designed(
     specification: Specification,
     robot: Robot,
     resolved: Resolved,
     *,
     advise: bool,
+    ranked: bool,
     reserve: Reserve | None,
 ) -> Designed:
     """The device for what is resolved; see `design_device`."""
@@ -158,8 +142,11 @@ def _designed(
         designed = _by_bound(specification, robot, resolved)
     else:
         assert resolved.reliability is not None, "there are motors to choose from"
+        require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
-        designed = _by_selection(specification, problem, robot, reserve, advise=advise)
+        designed = _by_selection(
+            specification, problem, robot, reserve, advise=advise, ranked=ranked
+        )
     device, most = designed.device, specification.ocs.mass_max
     # Nothing is lighter than the lightest: no search is needed.
     if most is None or device.mass <= most:
@@ -176,6 +163,54 @@ def _designed(
     )
 
 
+class CannotSurvive(Infeasible):
+    """The layout cannot do without any one of its wheels, whatever they weigh."""
+
+
+def require_survival(problem: SelectionProblem) -> None:
+    """Refuse a layout that cannot do a maneuver with a wheel left out, if that is asked.
+
+    Raises:
+        CannotSurvive: it cannot.
+    """
+    requirement, layout = problem.requirement, problem.layout
+    lost: dict[str, list[str]] = {}
+    if requirement.detection is None:
+        return
+    inertia = TiltInertia.uncoupled(np.diag(problem.robot.inertia)[:2])
+    asked: dict[str, tuple[float | None, FloatArray]] = {
+        maneuver.name: (maneuver.incidence, np.abs(slew.swept) + np.abs(slew.momentum))
+        for maneuver in requirement.maneuvers
+        for slew in [maneuver.slew(inertia, requirement.standing_height)]
+    }
+    if requirement.rate_change is not None:
+        asked["the rate change"] = None, np.ones(2)
+    for name, (own, momentum) in asked.items():
+        at = problem.incidence if own is None else own
+        axes = layout.axes(_SOME_ANGLE if at is None else at)[:2]
+        # Of either sense: that of roll and pitch together may lie along an axis by chance.
+        both = momentum * np.array([[1.0, 1.0], [1.0, -1.0]])
+        for wheel, left in zip(layout.names, without_each(axes), strict=True):
+            if not np.isfinite(held(left, both).most).all():
+                lost.setdefault(wheel, []).append(name)
+    if lost:
+        wheel, names = next(iter(lost.items()))
+        rest = "the others do" if len(layout.names) > 1 else "it does"
+        raise CannotSurvive(
+            f"{layout.text[0].upper()}{layout.text[1:]} does not survive that any one drive stops: "
+            f"without wheel {wheel!r} {rest} not hold the momentum about roll and pitch that "
+            f"{listed(names)} ask{'s' if len(names) == 1 else ''} for.",
+            binding=["survives"],
+            required_spin_inertia=None,
+            largest_spin_inertia=0.0,
+            relaxations={},
+        )
+
+
+_SOME_ANGLE = np.pi / 4.0
+"""Of a layout whose angle is still to be chosen [rad]: whether axes span is the same at all."""
+
+
 def _by_selection(
     specification: Specification,
     problem: SelectionProblem,
@@ -183,6 +218,7 @@ def _by_selection(
     reserve: Reserve,
     *,
     advise: bool,
+    ranked: bool,
 ) -> Designed:
     """Modules with a motor of the catalogue each, co-designed where that is asked for."""
     criterion = specified_criterion(specification)
@@ -194,7 +230,7 @@ def _by_selection(
     )
     asked = problem.requirement
     problem, selection, reserve, nominal = on_its_footing(
-        problem, criterion, robot, (reality, reserve), advise=advise
+        problem, criterion, robot, (reality, reserve), advise=advise, ranked=ranked
     )
     if specification.ocs.guard == CONTAINING:
         problem, selection = in_rings(problem, selection.best, criterion, robot)

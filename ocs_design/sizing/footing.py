@@ -7,7 +7,9 @@ its base. A plate is held by four screws, where the trunk is as flat under each 
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import inf, pi, sqrt
+from functools import lru_cache
+from itertools import product
+from math import copysign, cos, inf, pi, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,27 +18,36 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.device import Device
-from ocs_design.device.layout import PAIR, Layout
-from ocs_design.device.solids import foot_of
+from ocs_design.device.layout import ISOTROPIC, PAIR, Layout
+from ocs_design.device.solids import foot_of, mast_solids, plate_solids
 from ocs_design.parts.carrier_plate import (
     EDGE,
+    MAST_YIELD,
     SAFETY,
     STOCK,
+    TUBES,
     YIELD_STRENGTH,
     CarrierPlate,
+    Mast,
     Point,
+    directions,
+    pattern_use,
+    plate_part,
 )
 from ocs_design.parts.foot import AROUND_SLOT, TRUNK_SCREW, Foot
 from ocs_design.parts.housing import Housing
+from ocs_design.parts.printed import SHOCK
 from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.surface import Surface, trunk_surface
+from ocs_design.robot.surface import Surface, trunk_back, trunk_surface
+from ocs_design.robot.tree import Drum
 from ocs_design.sizing.placement import (
     CLEARANCE,
     Place,
     Search,
+    Size,
     Sizes,
     around,
     device_size,
@@ -51,16 +62,29 @@ PROUD = 1e-4
 """Largest height of a trunk's surface above what stands on it [m]: rounding of meshes."""
 
 HEAD_ROOM = 0.5e-3
-"""Between a screw's head and a foot's base [m]."""
+"""Room between a screw's head and a foot's base [m]."""
 
 PLATE_SCREW = screw("M3")
 
 SPREAD = 0.02
 """Least distance of a plate's screws, forward and sideways [m]: four heads of M5 and a key."""
 
+SPREAD_MAX = 0.15
+"""Largest distance of a mast's screws, up and down [m]."""
+
+MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
+
+SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
+"""Blocks between a mast and the trunk that are tried, where a limb is in its way [m]."""
+
+SENSES = (1.0, -1.0)
+
+_PATTERNS = 8
+"""Patterns of a mast's screws that are tried."""
+
 WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
-"""By which half a neck's width may grow, to find where the trunk takes its screws or to bear what
-the narrowest does not [m]."""
+"""Steps by which half a neck's width may grow, to find where the trunk takes its screws or to bear
+what the narrowest does not [m]."""
 
 SLEEVE_MAX = 0.03
 """Longest sleeve under a plate [m]: four times as long as wide, for M3."""
@@ -69,13 +93,13 @@ MODULE_SHARE = 0.1
 """Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
 
 _SAME = 1e-9
-"""Between places that are the same but for rounding [m]."""
+"""Distance between places that are the same but for rounding [m]."""
 
 _STEP = 4e-3
-"""Between places along the trunk that are tried [m], or a sixteenth of a module's reach."""
+"""Step between places along the trunk [m], or a sixteenth of a module's reach."""
 
 _PATTERN_STEP = 2e-3
-"""Between patterns of screws that are tried [m], or a fortieth of a module's reach."""
+"""Step between patterns of screws [m], or a fortieth of a module's reach."""
 
 
 @dataclass(frozen=True)
@@ -106,11 +130,13 @@ class FootContact:
 
 @dataclass(frozen=True)
 class Feet:
-    """Feet of a device, symmetric to the sagittal plane.
+    """Feet of a device.
 
     Attributes:
         x: forward coordinate of what `bases` count from, in B [m].
         bases: middles of the feet's bases over (x, 0) [m]; a pair's are left and right.
+        slopes: 1 where a base's screws are before it on its left, -1 on its right; empty where any
+            foot leans.
         radius: of the bases [m].
         slot_radius: of the circle that their screws are on [m].
         reach: radius around each that its module stays within [m].
@@ -120,6 +146,7 @@ class Feet:
 
     x: float
     bases: tuple[Point, ...]
+    slopes: tuple[float, ...]
     radius: float
     slot_radius: float
     reach: float
@@ -138,19 +165,34 @@ class Feet:
 
     @property
     def rows(self) -> tuple[float, ...]:
-        """How far before x each pair's bases stand [m]; none where they are no pairs."""
+        """How far before x the middle of each plate is [m]; none where no plate carries them.
+
+        A pair has one plate, and a ring of more.
+        """
+        if self.arms > 2:
+            return (0.0,)
         pairs = list(zip(self.bases[::2], self.bases[1::2], strict=False))
         mirrored = all(np.allclose(right, (x, -y), atol=_SAME) for (x, y), right in pairs)
-        in_pairs = 2 * len(pairs) == len(self.bases) and mirrored
+        in_pairs = 2 * len(pairs) == len(self.bases) == len(self.slopes) and mirrored
         return tuple(x for (x, _), _ in pairs) if in_pairs else ()
 
     @property
+    def arms(self) -> int:
+        """How many feet stand on each plate: all where they are evenly around, else pairs."""
+        count = len(self.bases)
+        upright = count > 2 and len(self.slopes) == count
+        ring = upright and np.allclose(self.y * directions(count), self.bases, atol=_SAME)
+        return count if ring else len(SENSES)
+
+    @property
     def screws(self) -> tuple[Point, ...]:
-        """Places of the pairs' screws over (x, 0) [m]: at 45 degrees to the lateral direction."""
+        """Places of their screws over (x, 0) [m]: at 45 degrees to the lateral direction."""
         off = self.slot_radius / sqrt(2.0)
-        left = [(off, self.y + off), (-off, self.y - off)]
-        row = (*left, *((x, -y) for x, y in left))
-        return tuple((ahead + x, y) for ahead in self.rows for x, y in row)
+        return tuple(
+            (x + sense * off, y + sense * slope * off)
+            for (x, y), slope in zip(self.bases, self.slopes, strict=True)
+            for sense in SENSES
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +222,9 @@ def footing_of(
 
     The nearest place on top of the trunk over the centre of mass where the largest module's feet
     are held, by the trunk or by a plate, and where no leg comes near. Where there is none, or the
-    trunk's shapes are not known, it is that of `place_free`. Only a pair has a plate.
+    trunk's shapes are not known, it is that of `place_free`: a mast, whose place and mass go with
+    the modules', is looked for under a chosen device (`footing_under`). Plates are those
+    of pairs, and of rings of three and more.
 
     Args:
         robot: that carries them. envelope: room for a rim.
@@ -196,11 +240,12 @@ def footing_of(
         if surface is None or layout != PAIR:
             return Footing(place, None)
         x, y, z = position
-        feet = Feet(x, ((0.0, y), (0.0, -y)), *base, mass)
+        feet = Feet(x, ((0.0, y), (0.0, -y)), SENSES, *base, mass)
         return Footing(place, _plate_of(_held_at(surface, feet, z - largest.standing)))
     if surface is not None:
         start = round(float(robot.com[0]), 6) + 0.0
-        feet = Feet(start, _ring_of(layout, largest.reach), *base, mass)
+        slopes = _slopes(layout.axes(ISOTROPIC if layout.angle is None else layout.angle))
+        feet = Feet(start, _ring_of(layout, largest.reach), slopes, *base, mass)
         found = _nearest_footing(surface, feet, Search(collision_model(robot), sizes, layout))
         if found is not None:
             return found
@@ -210,6 +255,13 @@ def footing_of(
 def _ring_of(layout: Layout, reach: float) -> tuple[Point, ...]:
     """Middles of the feet's bases of modules of this radius around theirs [m]."""
     return tuple((CLEARANCE * reach * x, CLEARANCE * reach * y) for x, y, _ in layout.ring)
+
+
+def _slopes(axes: FloatArray) -> tuple[float, ...]:
+    """On which side the screws of each foot are, see `Feet`; axes in B, shape (3, n)."""
+    if np.abs(axes[2]).max() > OUT_OF_REACH:
+        return ()
+    return tuple(copysign(1.0, x * y) for x, y in axes[:2].T.tolist())
 
 
 def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
@@ -249,7 +301,9 @@ def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | No
     size = device_size(device)
     feet = replace(feet, bases=_ring_of(layout, size.reach))
     search = Search(collision_model(robot), Sizes(size, size), layout)
-    return _nearest_footing(surface, feet, search)
+    found = _nearest_footing(surface, feet, search)
+    # Wherever they stood, so that equal modules have one mast.
+    return found or _behind(robot, replace(feet, x=0.0, bases=()), size, layout)
 
 
 def feet_of(device: Device) -> Feet:
@@ -260,7 +314,9 @@ def feet_of(device: Device) -> Feet:
     bases = tuple((float(along) - x, float(across)) for along, across in places)
     mass = device.flywheel.mass + device.carrier.mass
     size = device_size(device)
-    return Feet(x, bases, foot.base_radius, foot.slot_radius, size.reach, size.standing, mass)
+    slopes = _slopes(np.stack([module.axis for module in device.modules], axis=1))
+    base = foot.base_radius, foot.slot_radius, size.reach, size.standing
+    return Feet(x, bases, slopes, *base, mass)
 
 
 def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
@@ -284,7 +340,7 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
             lands = feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT
             found.append(_contact(name, surface, middle, feet.radius, plane=underside, lands=lands))
     if plate is not None:
-        found += _plate_contacts(surface, plate)
+        found += _plate_contacts(robot, plate)
     return tuple(found)
 
 
@@ -292,7 +348,8 @@ def _on_plate(
     name: str, plate: CarrierPlate, feet: Feet, middle: Point, underside: float
 ) -> FootContact:
     """Contact of a foot with a plate, which carries it around its screws' circle."""
-    base, gap = _disc(middle, feet.radius), abs(underside - plate.top)
+    base = _disc(middle, feet.radius)
+    gap = min(abs(underside - plate.top - level) for level in plate.heights)
     share = float(_over_plate(plate, base).mean())
     lands = _ring(middle, feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT)
     held = bool(_over_plate(plate, lands).all()) and gap <= PROUD
@@ -301,29 +358,41 @@ def _on_plate(
 
 def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
     """Whether points of B are over a plate's aluminium, its holes for screws counted as full."""
-    ahead, aside = (points - np.array(plate.position[:2])).T
-    across, over = np.abs(aside), np.zeros(len(points), dtype=bool)
-    for row in plate.rows:
-        along = np.abs(ahead - row)
-        inside = along <= plate.shape.half_width(across)
-        over |= inside & (np.hypot(along, across - plate.across) >= plate.window)
+    own, over = points - np.array(plate.position[:2]), np.zeros(len(points), dtype=bool)
+    for shape in plate.shapes:
+        inside = shape.holds(own)
+        for middle in plate.across * directions(plate.arms) + [shape.x, 0.0]:
+            inside &= np.hypot(*(own - middle).T) >= plate.window
+        over |= inside
     return over
 
 
-def _plate_contacts(surface: Surface | None, plate: CarrierPlate) -> Iterator[FootContact]:
+def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
     """Contact of each of a plate's screws, or of its sleeve, with the trunk."""
-    x, y, z = plate.position
-    outline = None if surface is None else _highest(surface, _all_over(plate))
-    for number, ((along, across), sleeve) in enumerate(
-        zip(plate.trunk, plate.sleeves, strict=True), start=1
-    ):
-        name, middle = f"plate's screw {number}", (x + along, y + across)
-        if surface is None or outline is None:
+    (x, y, z), mast = plate.position, plate.mast
+    if mast is None:
+        surface, plane = trunk_surface(robot), z
+        outline = -inf if surface is None else _highest(surface, _all_over(plate))
+    else:
+        # Seen from behind.
+        surface, plane, half = trunk_back(robot), -x - mast.face - mast.spacer, mast.side / 2.0
+        x, outline = z, -inf
+        if surface is not None:
+            block, upright = (
+                surface.farthest(z + low, z + high, half)
+                for low, high in (plate.block, (mast.low, mast.high))
+            )
+            outline = max(block, upright - mast.spacer)
+    what = "plate" if mast is None else "mast"
+    for number, (hole, sleeve) in enumerate(zip(plate.trunk, plate.sleeves, strict=True), start=1):
+        along, across = hole if mast is None else hole[::-1]
+        name, middle = f"{what}'s screw {number}", (x + along, y + across)
+        if surface is None:
             yield FootContact(name, "trunk", None, None, None, 0.0, held=None)
             continue
         radius = plate.sleeve_radius
-        found = _contact(name, surface, middle, radius, plane=z - sleeve, lands=(0.0, radius))
-        proud = max(found.proud, outline - z)
+        found = _contact(name, surface, middle, radius, plane=plane - sleeve, lands=(0.0, radius))
+        proud = max(found.proud, outline - plane)
         yield replace(found, proud=proud, held=bool(found.held) and proud <= PROUD)
 
 
@@ -375,6 +444,238 @@ def _nearest_footing(surface: Surface, feet: Feet, search: Search) -> Footing | 
     return None
 
 
+@lru_cache(maxsize=64)
+def _behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Footing | None:
+    """The place behind the trunk nearest to the robot's middle where a mast carries pairs.
+
+    They stand one above the other, on plates of one kind, by the lightest tube that bears them.
+    """
+    back, pairs = trunk_back(robot), layout.pairs
+    if back is None or not pairs:
+        return None
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    out = CLEARANCE * size.reach
+    feet = replace(feet, bases=((0.0, out), (0.0, -out)) * pairs)
+    down, up = back.x_range
+    step = size.reach / 4.0
+    heights = np.arange(down - 2.0 * size.standing, up + size.standing, step).tolist()
+    arms = [
+        plate
+        for side, wall in TUBES
+        if (plate := _on_arms(feet, Mast(side, wall, side + out, 0.0, 0.0, 0.0))) is not None
+    ]
+    if not arms:
+        return None
+    face = back.farthest(down, up, arms[0].support)
+    spots = [
+        (_placed(back, arms[0], size, height, face + spacer), height, spacer)
+        for height, spacer in product(heights, SPACERS)
+    ]
+    # A block is heavier than a longer way up.
+    for place, height, spacer in sorted(spots, key=lambda each: (each[2], search.cost(each[0]))):
+        tubes = _tubes(arms[0], place.centers(size), height, face + spacer)
+        if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.hit, tubes)):
+            continue
+        masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms)
+        for footing in (each for each in masted if each is not None):
+            # A wider tube moves modules by less than what is kept free around them.
+            if not search.is_free(footing.place):
+                break
+            if not any(map(search.hit, plate_solids(footing.plate))):
+                return footing
+    return None
+
+
+def _on_arms(feet: Feet, mast: Mast) -> CarrierPlate | None:
+    """The lightest plate across the arms of a mast that bears a pair; None: there is none."""
+    edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
+    ring = feet.slot_radius + edge
+    plates = (
+        CarrierPlate(
+            position=(0.0, 0.0, 0.0),
+            radius=ring,
+            half_length=feet.y + ring,
+            # A rounding that flat is none.
+            neck=neck if neck < ring - _PATTERN_STEP else ring,
+            thickness=thickness,
+            across=feet.y,
+            window=max(0.0, feet.slot_radius - edge),
+            feet=feet.screws,
+            trunk=(),
+            sleeves=(),
+            rows=feet.rows,
+            mast=mast,
+        )
+        for thickness in STOCK
+        for neck in (mast.side / 2.0 + wider for wider in WIDER)
+    )
+    bearing = (
+        plate
+        for plate in plates
+        if plate.stress(feet.mass, feet.height) <= MAST_YIELD
+        and plate.arm_stress(feet.mass, feet.height) <= MAST_YIELD
+    )
+    return min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)
+
+
+def _tubes(
+    plate: CarrierPlate, centers: FloatArray, height: float, face: float
+) -> tuple[Drum, ...]:
+    """Upright and arms of the plates of modules whose centers these are, see `_placed`."""
+    mast, x = plate.mast, float(centers[0, 0])
+    assert mast is not None, "a plate on arms"
+    levels = tuple((centers[:: len(SENSES), 2] - centers[0, 2]).tolist())
+    upright = replace(mast, face=-face - x, below=mast.side, high=levels[-1])
+    return mast_solids(replace(plate, position=(x, 0.0, height), levels=levels, mast=upright))
+
+
+def _placed(
+    back: Surface, plate: CarrierPlate, size: Size[float], height: float, face: float
+) -> Place:
+    """Place of pairs behind the trunk, clear of it and of a mast's upright.
+
+    Args:
+        back: of the trunk. plate: on arms. size: of a module.
+        height: of the lowest plate in B [m]. face: how far back the upright's front is [m].
+    """
+    mast, out = plate.mast, CLEARANCE * size.reach
+    assert mast is not None, "a plate on arms"
+    # An arm, as wide as across its corners, and its plate have room over the modules below.
+    room = sqrt(2.0) * mast.side + plate.thickness
+    apart = size.standing / size.reach + CLEARANCE
+    rows = range(len(plate.rows))
+    top = height + rows[-1] * (room + apart * size.reach) + plate.thickness + size.standing + out
+    x = -round(max(back.farthest(height, top, 2.0 * out), face + mast.side), 6)
+    origins = [(x, 0.0, height + plate.thickness + row * room) for row in rows]
+    sides = [(-CLEARANCE, sense * CLEARANCE) for sense in SENSES]
+    return Place(
+        tuple(origin for origin in origins for _ in SENSES),
+        tuple((*side, row * apart) for row in rows for side in sides),
+        upright=True,
+    )
+
+
+def _masted(
+    back: Surface,
+    feet: Feet,
+    plate: CarrierPlate,
+    search: Search,
+    at: tuple[float, float],
+) -> Footing | None:
+    """Pairs on a mast behind the trunk; None: it does not hold them there.
+
+    Args:
+        back, plate: see `_placed`. feet: of all modules. search: of the largest, and of limbs.
+        at: height of the lowest plate in B, and thickness of the block before the upright [m].
+    """
+    mast, (height, spacer) = plate.mast, at
+    assert mast is not None, "a plate on arms"
+    half, best, size = mast.side / 2.0, None, search.sizes.largest
+    centers = _placed(back, plate, size, height, 0.0).centers(size)[:: len(SENSES)]
+    levels = tuple((centers[:, 2] - centers[0, 2]).tolist())
+    # Where the strongest screws do not hold no others do, but they need the widest tube.
+    for held in reversed(MAST_SCREWS):
+        edge, blank, before = EDGE * held.clearance_hole, replace(plate, thread=held.name), best
+        for low, high, aside, pads in _patterns(back, feet, blank, (height, spacer, centers)):
+            bottom, top = min(low - edge, height - mast.side), max(high + edge, height + levels[-1])
+            # The block lies on what is farthest back beneath it.
+            plane = round(back.farthest(low - edge, high + edge, half), 6)
+            face = plane + spacer
+            if face < back.farthest(bottom, top, half) - PROUD:
+                continue
+            place = _placed(back, blank, size, height, face)
+            x = float(place.centers(size)[0, 0])
+            holes = [(y, z - height) for z in (low, high) for y in (aside, -aside)]
+            gaps = [
+                0.0 if plane - deep <= FLATNESS else round(plane - top, 5) for deep, top in pads
+            ]
+            arms = [height + level - half for level in levels]
+            own = replace(
+                mast,
+                face=-face - x,
+                below=height - bottom,
+                high=top - height,
+                overhang=max(0.0, *(max(arm - high, low - arm) for arm in arms)),
+                spacer=spacer,
+            )
+            masted = replace(
+                blank,
+                position=(x, 0.0, height),
+                levels=levels,
+                trunk=tuple(holes),
+                sleeves=tuple(gap for gap in gaps for _ in SENSES),
+                mast=own,
+            )
+            if (
+                masted.mast_stress(feet.mass, feet.height) <= MAST_YIELD
+                and masted.screws_use(feet.mass, feet.height) <= 1.0
+                and search.is_off(plate_solids(masted))
+            ):
+                best = Footing(place, masted)
+                break
+        if best is before and best is not None:
+            break
+    return best
+
+
+def _patterns(
+    back: Surface, feet: Feet, plate: CarrierPlate, at: tuple[float, float, FloatArray]
+) -> list[tuple[float, float, float, tuple[Point, Point]]]:
+    """Patterns of four screws that a trunk's back takes and that bear, of the shortest mast first.
+
+    Lower and upper height, how far to both sides, and how far back the trunk is at both heights, at
+    the least and at the most.
+
+    Args:
+        back: of the trunk. feet: of all modules. plate: on arms.
+        at: height of the lowest plate, thickness of the block, centers of the wheels, a row each.
+    """
+    mast, held, (height, spacer, centers) = plate.mast, plate.screw, at
+    assert mast is not None, "a plate on arms"
+    least = held.head_diameter / 2.0 + HEAD_ROOM
+    most = mast.bore / 2.0 - plate.sleeve_radius
+    force = 2.0 * feet.mass * SHOCK * len(centers)
+    wheels, off, found = float(centers[:, 2].mean()), mast.face + spacer, []
+    for aside in np.arange(least, most, _PATTERN_STEP).tolist():
+        z, pads = _pads(back, plate.sleeve_radius, aside)
+        top = pads[:, 1]
+        low, high = np.triu_indices(len(z), 1)
+        half = (z[high] - z[low]) / 2.0
+        near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
+        near &= np.abs(top[high] - top[low]) <= SLEEVE_MAX
+        low, high, half = low[near], high[near], half[near]
+        up = np.abs(wheels - (z[low] + z[high]) / 2.0)
+        used = pattern_use(held, force, (off, up), (half, np.asarray(aside)))
+        longer = np.maximum(0.0, height - z[low]) + np.maximum(0.0, z[high] - centers[-1, 2])
+        longer = np.where(used <= 1.0, longer + 1e-3 * used, np.inf)
+        for index in np.argsort(longer, kind="stable")[:_PATTERNS].tolist():
+            one, two = low[index], high[index]
+            lower, upper = ((float(deep), float(far)) for deep, far in pads[[one, two]])
+            pattern = float(z[one]), float(z[two]), aside, (lower, upper)
+            if np.isfinite(longer[index]):
+                found.append((float(longer[index]), pattern))
+    return [pattern for _, pattern in sorted(found, key=lambda each: each[0])[:_PATTERNS]]
+
+
+@lru_cache(maxsize=64)
+def _pads(back: Surface, radius: float, aside: float) -> tuple[FloatArray, FloatArray]:
+    """Heights at which a trunk's back is flat under a sleeve on either side, and how far back [m].
+
+    That is a row of two: at the least and at the most.
+
+    Args:
+        back: of the trunk. radius: of the sleeves [m]. aside: of their middles to both sides [m].
+    """
+    down, up = back.x_range
+    z = np.arange(down, up, _PATTERN_STEP)
+    lands = np.concatenate([_disc((0.0, side * aside), radius) for side in SENSES])
+    behind = back.height(z[:, None] + lands[:, 0], lands[None, :, 1] + 0.0 * z[:, None])
+    top, low = behind.max(axis=1), behind.min(axis=1)
+    with np.errstate(invalid="ignore"):
+        flat = top - low <= FLATNESS
+    return frozen(z[flat]), frozen(np.stack([low, top], axis=1)[flat])
+
+
 def _in_the_way(surface: Surface, feet: Feet, search: Search) -> bool:
     """Whether a limb is where modules of several pairs would stand on the trunk itself.
 
@@ -408,20 +709,19 @@ def _held_at(
         _contact("", surface, side, feet.radius, plane=plane, lands=lands).held for side in sides
     ):
         return float(round(plane, 6))
-    # A plate is drawn for two feet, one beside the other.
     return _plate(surface, feet, underside) if feet.rows else None
 
 
 def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlate | None:
     """The lightest plate of its necks in stock that carries all modules; None: there is none.
 
-    Each pair of them has a plate of its own, all alike and at one height.
+    Each pair of them has a plate of its own, all alike and at one height. A ring has one.
     """
     edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
     ring = feet.slot_radius + edge
     # Heads stand clear of the feet, before and behind where these are nearest to each other.
     inside = max(0.0, feet.y - SPREAD / 2.0)
-    beside = sqrt(max(0.0, _apart(feet) ** 2 - inside**2))
+    beside = sqrt(max(0.0, _apart(feet) ** 2 - inside**2)) if feet.arms == len(SENSES) else 0.0
     least = max(SPREAD / 2.0, beside + _PATTERN_STEP) + EDGE * PLATE_SCREW.clearance_hole
     blank = CarrierPlate(
         position=(feet.x, 0.0, 0.0),
@@ -436,6 +736,7 @@ def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlat
         sleeves=(),
         thread=PLATE_SCREW.name,
         rows=feet.rows,
+        arms=feet.arms,
     )
     best: CarrierPlate | None = None
     for neck in (least + wider for wider in WIDER):
@@ -443,7 +744,7 @@ def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlat
         # A rounding this flat is none.
         wide = neck if neck < radius - _PATTERN_STEP else radius
         plate = replace(blank, radius=radius, half_length=feet.y + radius, neck=wide)
-        borne = _borne(surface, feet, plate, underside) if radius <= feet.y else None
+        borne = _borne(surface, feet, plate, underside) if plate.shape.fits else None
         if borne is not None and (best is None or borne.mass < best.mass):
             best = borne
         # What is wider and as thick is heavier.
@@ -479,9 +780,11 @@ def _borne(
 
 
 def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate | None:
-    """The plate with the widest patterns of four screws that the trunk holds; None: there is none.
+    """The plate with the widest pattern of screws that the trunk holds; None: there is none.
 
-    Heads stay clear of the feet. Patterns without sleeves come first.
+    Two in each arm, as far from its middle line on either side. Of three arms and more each may
+    share its screws with the next ones. Heads stay clear of the feet and of the next arm's.
+    Patterns without sleeves come first.
     """
     if len(plate.rows) > 1:
         rows = [_screwed(surface, feet, each) for each in plate.each]
@@ -498,12 +801,27 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
     step = max(_PATTERN_STEP, feet.reach / 40.0)
     steps = [np.append(np.arange(SPREAD / 2.0, end, step), end) for end in (most, feet.y)]
     along, across = (each.ravel() for each in np.meshgrid(*steps, indexing="ij"))
-    clear = np.hypot(along, feet.y - across) >= _apart(feet)
-    along, across = along[clear], across[clear]
+    half = pi / feet.arms
+    shared = np.zeros(len(along), dtype=bool)
+    apart = across * sin(half) - along * cos(half) >= SPREAD / 2.0 - _SAME
+    if feet.arms > len(SENSES):
+        between = steps[0] / np.tan(half)
+        along, across = np.append(along, steps[0]), np.append(across, between)
+        shared = np.append(shared, np.ones(len(between), dtype=bool))
+        apart = np.append(apart, shared[shared])
+    clear = apart & (np.hypot(along, feet.y - across) >= _apart(feet))
+    along, across, shared = along[clear], across[clear], shared[clear]
     if not len(along):
         return None
     places = np.stack(
-        [np.stack([i * along, j * across], axis=1) for i in (1, -1) for j in (1, -1)], axis=1
+        [
+            np.stack([y * aside * along + x * across, y * across - x * aside * along], axis=1)
+            for sense in SENSES
+            for x, y in directions(feet.arms)
+            # Of both arms of a pair the same side: forward.
+            for aside in (sense * y if feet.arms == len(SENSES) else sense,)
+        ],
+        axis=1,
     )
     lands = _ring((0.0, 0.0), 0.0, radius)
     points = places[:, :, None] + lands + np.array([x, 0.0])
@@ -518,10 +836,11 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
     score = np.where(ok, np.minimum(along, across) + 0.1 * (along + across) + direct, -1.0)
     best = int(score.argmax())
     gaps = np.where(z - low[best] <= FLATNESS, 0.0, np.round(z - top[best], 5))
+    count = feet.arms if shared[best] else len(gaps)
     return replace(
         plate,
-        trunk=tuple((round(float(a), 6), round(float(b), 6)) for a, b in places[best]),
-        sleeves=tuple(gaps.tolist()),
+        trunk=tuple((round(float(a), 6), round(float(b), 6)) for a, b in places[best][:count]),
+        sleeves=tuple(gaps[:count].tolist()),
     )
 
 
@@ -558,12 +877,11 @@ def _ring(middle: Sequence[float], inner: float, outer: float) -> FloatArray:
 
 def _all_over(plate: CarrierPlate) -> FloatArray:
     """Points all over a plate [m], shape (n, 2)."""
-    x, y, _ = plate.position
+    wide = plate.half_length if plate.arms > 2 else plate.radius
     xs, ys = (
         np.linspace(-half, half, 1 + int(np.ceil(2.0 * half / max(1e-3, plate.radius / 40.0))))
-        for half in (plate.radius, plate.half_length)
+        for half in (wide, plate.half_length)
     )
-    along, across = (each.ravel() for each in np.meshgrid(xs, ys))
-    inside = np.abs(along) <= plate.shape.half_width(across)
-    places = np.stack([x + along[inside], y + across[inside]], axis=1)
+    places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
+    places = places[plate.shape.holds(places)] + np.array(plate.position[:2])
     return np.concatenate([places + np.array([row, 0.0]) for row in plate.rows])

@@ -14,16 +14,17 @@ from typing import Any
 from ocs_design.common.errors import Infeasible, OcsError
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.records import Alternative
-from ocs_design.requirement.maneuver import Disturbance, Drop, Maneuver, Shove
+from ocs_design.requirement.maneuver import Disturbance, Drop, Maneuver, Shove, StandUp
 from ocs_design.requirement.specification import AUTO, LIGHTEST, Specification
 from ocs_design.requirement.sweep import Task, change_text, slower
 from ocs_design.sizing.changes import Progress, unseen
-from ocs_design.sizing.design import Choice, design_device
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.on_robot import with_plate
 from ocs_design.sizing.relaxations import Relaxation, relaxations
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import lightest_below
+from ocs_design.sizing.sized import Choice
 
 MOST = 200
 """Largest change that is looked for [%]."""
@@ -232,7 +233,7 @@ def _slower_lever(task: Task, maneuver: Maneuver) -> _Lever:
 
 def _milder_lever(task: Task, maneuver: Maneuver) -> Iterator[_Lever]:
     """Less of what one maneuver asks: part of a flip is none."""
-    what = {Drop: "tilt", Disturbance: "push", Shove: "push"}.get(type(maneuver))
+    what = {Drop: "tilt", StandUp: "tilt", Disturbance: "push", Shove: "push"}.get(type(maneuver))
     if what is None:
         return
 
@@ -252,7 +253,7 @@ def _milder_lever(task: Task, maneuver: Maneuver) -> Iterator[_Lever]:
 
 def _milder(maneuver: Maneuver, share: float) -> Maneuver:
     match maneuver:
-        case Drop():
+        case Drop() | StandUp():
             return replace(maneuver, roll=maneuver.roll * share, pitch=maneuver.pitch * share)
         case Disturbance(torque=(x, y, z), velocity_change=(u, v, w), impulse=(a, b, c)):
             return replace(

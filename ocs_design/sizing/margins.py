@@ -98,10 +98,11 @@ def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> Floa
 WHEEL_SPEED, MOTOR_SPEED, MOTOR_TORQUE = "wheel speed", "motor speed", "motor torque"
 BUS_CURRENT, BUS_POWER, HOOP_STRESS = "bus current", "bus power", "hoop stress"
 RMS_CURRENT = "rms current"
+BRAKE_TORQUE, BRAKED_SHAFT = "brake torque", "shaft joint, braked"
 FED_BACK = ", fed back"
-"""Behind the name of what goes into the bus."""
+"""Words behind the name of what goes into the bus."""
 
-BOTH_MOTORS = "both motors together, ideal inverter, friction included"
+ALL_MOTORS = "all motors together, ideal inverter, friction included"
 
 
 def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margin, ...]:
@@ -162,7 +163,7 @@ def _bus_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
     limits = (None, None) if supply is None else (supply.power / supply.voltage, supply.power)
     current_max, power_max = (None if each is None else _finite(each) for each in limits)
     for name, power in (("", taken.power_drawn), (FED_BACK, taken.power_fed_back)):
-        note = "" if name else BOTH_MOTORS
+        note = "" if name else ALL_MOTORS
         yield Margin(BUS_CURRENT + name, power / wheel.bus_voltage, current_max, "A", note)
         yield Margin(BUS_POWER + name, power, power_max, "W")
     yield Margin(
@@ -185,7 +186,7 @@ def _rim_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
         yield Margin(HOOP_STRESS, stress, strength, "Pa", note, of_motion=False)
     energy = 0.5 * wheel.moved_inertia * np.sum(motion.wheel_speed**2, axis=1)
-    yield Margin("stored energy", float(energy.max()), None, "J", "both wheels with their rotors")
+    yield Margin("stored energy", float(energy.max()), None, "J", "all wheels with their rotors")
 
 
 def _heat_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:

@@ -327,7 +327,7 @@ def torque_constant(wheel: DrivenWheel) -> float:
 
 
 def resistance(wheel: DrivenWheel) -> float:
-    """Between two lines [ohm]."""
+    """Resistance between two lines [ohm]."""
     return _known(wheel.motor.resistance, "resistance", wheel)
 
 

@@ -14,7 +14,13 @@ from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.naming import flywheel_name
 from ocs_design.device.records import Clearance, OpenPoint
-from ocs_design.device.solids import ModuleSolids, module_solids, plate_heads, plate_solids
+from ocs_design.device.solids import (
+    ModuleSolids,
+    mast_solids,
+    module_solids,
+    plate_heads,
+    plate_solids,
+)
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.clearance import (
@@ -81,8 +87,8 @@ def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
     loose = [contact for contact in feet if contact.held is False and not contact.leans]
     in_pairs = any(contact.name.startswith(SIDES[0]) for contact in feet)
     more_feet = (
-        "make a plate that carries all feet, as only those of pairs are drawn, or take a pair: "
-        "--layout pair"
+        "make a plate that carries all feet, or take another layout: --layout pair, double-pair or "
+        "triad"
     )
     proud = max((contact.proud for contact in loose), default=0.0)
     if proud > PROUD:
@@ -141,7 +147,7 @@ def mounting_of(
     turned = {each.incidence: each for each in (device, *(device.as_flown(m) for m in maneuvers))}
     flown = [[module_solids(each, module) for module in each.modules] for each in turned.values()]
     solids = [solid for modules in flown for module in modules for solid in module.all]
-    solids += plate_solids(device)
+    solids += plate_solids(device.plate)
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     return Mounting(
         nearest=_nearest_part(collision, device, flown, surface),
@@ -208,7 +214,7 @@ def _nearest_part(
     """
     limbs = [part for part in collision.parts if part.limb]
     modules = [module for each in flown for module in each]
-    below = chain(plate_solids(device), *(module.foot for module in modules))
+    below = chain(plate_solids(device.plate), *(module.foot for module in modules))
     bodies = [solid for module in modules for solid in module.body]
     found = _clearance(
         collision.nearest(solid, collision.nominal, parts)
@@ -229,7 +235,7 @@ def _nearest_part(
         for (_, one), (module, other) in combinations(zip(device.modules, each, strict=True), 2):
             apart = min(collision.between(*solids) for solids in product(one.all, other.all))
             known.append(Clearance(flywheel_name(module), apart))
-    discs = plate_solids(device)[:1] + plate_heads(device)
+    discs = plate_solids(device.plate)[:1] + plate_heads(device.plate) + mast_solids(device.plate)
     known += [
         Clearance("plate", collision.between(body, solid)) for body in bodies for solid in discs
     ]

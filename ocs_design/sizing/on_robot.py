@@ -34,7 +34,7 @@ _SETTLED = 1e-3
 """Change of a plate's mass over its device's that is none: a device's follows by a hundredth."""
 
 _TOO_THICK = 0.2e-3
-"""Of feet that are left as they are [m]: 0.5 g each."""
+"""Excess thickness of feet that are left as they are [m]: 0.5 g each."""
 
 
 def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) -> Candidate:
@@ -54,6 +54,8 @@ def with_plates(
     problem: SelectionProblem,
     criterion: Criterion | None,
     robot: Robot,
+    *,
+    ranked: bool = True,
 ) -> Selection:
     """The selection with the plates that its devices stand on, the lightest with its plate first.
 
@@ -61,8 +63,12 @@ def with_plates(
 
     Args:
         problem: that was solved. criterion: see `select_by`; the first is at its own incidence.
+        ranked: False leaves out what is heavier than the lightest before it has a plate at all.
     """
-    plated = [with_plate(entry, problem, robot) for entry in selection.ranking]
+    plated: list[Candidate] = []
+    for entry in selection.ranking:
+        if ranked or all(entry.modules_mass < other.mass for other in plated):
+            plated.append(with_plate(entry, problem, robot))
     first, lightest = plated[0], min(plated, key=lambda entry: entry.mass)
     if lightest is not first and criterion is not None and problem.incidence is None:
         _, own = at_own_incidence(problem, lightest, criterion)
@@ -79,6 +85,7 @@ def on_its_footing(
     kept: tuple[Reality, Reserve],
     *,
     advise: bool,
+    ranked: bool,
 ) -> tuple[SelectionProblem, Selection, Reserve, Candidate]:
     """The selection on the footing that its best device has, with the problem that this is.
 
@@ -91,6 +98,7 @@ def on_its_footing(
 
     Args:
         problem: to solve. criterion, advise: see `select_by`. robot: that carries it.
+        ranked: see `with_plates`.
         kept: what is drawn and the reserve for it, which the lightest device without one settles.
 
     Raises:
@@ -109,6 +117,8 @@ def on_its_footing(
             again = device_at(own, best, best.incidence)
             if again is not None and criterion is not None and own.incidence is None:
                 _, again = at_own_incidence(own, again, criterion)
+            # Under a mast, which no estimate before had, another drive may be needed.
+            again = again or lightest_by(own, criterion)
             if again is None:
                 break
             at, best = own, again
@@ -134,7 +144,7 @@ def on_its_footing(
     except Infeasible:
         problem = widest
         selection = select_by(problem, criterion, advise=advise)
-    selection = with_plates(selection, problem, criterion, robot)
+    selection = with_plates(selection, problem, criterion, robot, ranked=ranked)
     for _ in range(_FOOTINGS_MAX):
         best = selection.best
         own, _ = settled(best)

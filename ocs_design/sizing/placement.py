@@ -1,6 +1,6 @@
 """Places of the modules on the trunk: its faces, and the nearest place without collisions."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Generic, NamedTuple, TypeVar
@@ -12,8 +12,8 @@ from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.device.solids import motor_mount
-from ocs_design.parts.foot import base_radius, larger, plate_back, wheel_height
-from ocs_design.parts.housing import half_height, housing_outer_radius
+from ocs_design.parts.foot import base_radius, larger, wheel_height
+from ocs_design.parts.housing import half_height, housing_outer_radius, plate_back
 from ocs_design.parts.motor_mount import Behind, HeldMotor, mount_of
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.requirement.froude import Envelope
@@ -21,7 +21,7 @@ from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing
 from ocs_design.robot.collision import CollisionModel, Nearest, Part, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Ball
+from ocs_design.robot.tree import Ball, Drum
 
 CLEARANCE = 1.1
 """Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
@@ -147,8 +147,10 @@ def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
     """Place on top of the trunk around the centre of mass, symmetric to the sagittal plane.
 
     Each module may be turned to any incidence without touching the trunk or another one. Other
-    parts of the robot are not looked at: see `free_place`.
+    parts of the robot are not looked at: see `free_place`. What a person wears is on the back.
     """
+    if robot.worn_at is not None:
+        return around(robot.worn_at, layout)
     # To the micrometre, so that no rounding error of the centre of mass reaches the files.
     forward = round(float(robot.com[0]), 6) + 0.0
     return around((forward, 0.0, round(trunk_top(robot.tree, robot.trunk), 6)), layout)
@@ -177,13 +179,13 @@ FORWARD, LEFT, UP = np.eye(3)
 ON_TOP = "on top of"
 
 STEP = 0.5
-"""Between places that are tried, over the radius of the largest module's sphere."""
+"""Step between places that are tried, over the radius of the largest module's sphere."""
 
 STAND_OFF = 2.0
 """Farthest from a face, in the same unit."""
 
 Spot = tuple[float, float, float]
-"""Where on a face: along, across and off it [m]."""
+"""Place on a face: along, across and off it [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -295,10 +297,10 @@ _ROUNDING = 2e-6
 """Places are rounded to the micrometre [m]."""
 
 _NEAR = 0.5
-"""What comes nearer than this, over a ball's radius, is looked at more closely."""
+"""Gap over a ball's or a module's radius below which it is looked at more closely."""
 
 _SIZES = 5
-"""Of a module that are tried."""
+"""Number of sizes of a module that are tried."""
 
 _HALVINGS = 5
 
@@ -391,7 +393,7 @@ class Search:
             for face in faces(self.collision.robot, self.layout)
             for spot in face.spots(self.sizes.largest.reach)
         ]
-        return sorted(found, key=lambda each: self._cost(each[0].place(each[1])))
+        return sorted(found, key=lambda each: self.cost(each[0].place(each[1])))
 
     def is_free(self, place: Place) -> bool:
         """Whether the place is free, first in the nominal posture, which is quick, then in all."""
@@ -399,16 +401,20 @@ class Search:
 
     def is_clear(self, place: Place) -> bool:
         """Whether the largest modules hit nothing in the nominal posture."""
+        return self.is_off(self._balls(place, self.sizes.largest))
+
+    def is_off(self, solids: Sequence[Ball | Drum]) -> bool:
+        """Whether solids hit no limb in the nominal posture."""
         nominal = self.collision.nominal
         return all(
-            self.collision.nearest(ball, nominal, self._others, within=-_ROUNDING) is None
-            for ball in self._balls(place, self.sizes.largest)
+            self.collision.nearest(solid, nominal, self._others, within=-_ROUNDING) is None
+            for solid in solids
         )
 
     def blocker(self, place: Place) -> Part | None:
         """What of the robot comes too near."""
         for size in self.sizes.all():
-            hits = [self._hit(ball) for ball in self._balls(place, size)]
+            hits = [self.hit(ball) for ball in self._balls(place, size)]
             found = [hit for hit in hits if hit is not None]
             if found:
                 return min(found, key=lambda hit: hit.distance).part
@@ -427,11 +433,11 @@ class Search:
                     spot = candidate
         return spot
 
-    def _hit(self, ball: Ball) -> Nearest | None:
-        """What a ball touches, or would in some posture between those that were drawn."""
-        near = self.collision.nearest(
-            ball, landing_poses(self.collision), self._others, within=_NEAR * ball.radius
-        )
+    def hit(self, ball: Ball | Drum) -> Nearest | None:
+        """What a solid touches, or would in some posture between those that were drawn."""
+        # Thin tubes are looked at as closely as the modules on them.
+        gap = _NEAR * max(ball.radius, CLEARANCE * self.sizes.smallest.reach)
+        near = self.collision.nearest(ball, landing_poses(self.collision), self._others, within=gap)
         if near is None:
             return None
         nearest = descended(self.collision, ball, near, self._ranges)
@@ -450,7 +456,7 @@ class Search:
         """All but the trunk, whose box ends at the face that the modules stand on."""
         return [part for part in self.collision.parts if part.limb]
 
-    def _cost(self, place: Place) -> float:
+    def cost(self, place: Place) -> float:
         """What the largest module adds to the inertia about roll and pitch, over the robot's."""
         robot = self.collision.robot
         x, y, z = (place.centers(self.sizes.largest) - robot.com).T

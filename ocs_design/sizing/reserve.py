@@ -50,7 +50,7 @@ faster and higher than they land. Solo12 1.058 as designed and 1.042 in the mean
 1.038, Go1 1.039, Go2 1.031; the least is taken."""
 
 RELIABILITIES = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
-"""Whose masses are told."""
+"""Reliabilities whose masses are told."""
 
 NOMINAL = 0.5
 """Reliability of a device that is designed for the mean of all that is drawn, and keeps nothing."""
@@ -344,11 +344,18 @@ class Reality:
             whole = self.flight * maneuver.flight_time
             late = energy <= device.line.power_max * (whole - time)
             time, share = (whole, 1.0) if late else (time, PLANNED)
+        axes = _built_axes(device.layout, at, drawn["incidence_error"])
+        if problem.requirement.detection is not None:
+            # One robot after the other loses another wheel, at once.
+            lost = np.arange(len(axes)) % len(device.layout)
+            axes = axes * (np.arange(len(device.layout)) != lost[:, None])[:, None]
+            time -= problem.requirement.detection
         return _Flown(
             maneuver=maneuver,
             requirement=problem.requirement,
-            designed=device.layout.axes(at)[:2],
+            designed=device.layout.axes(at),
             nominal=nominal,
+            upright=float(device.total.inertia[2, 2]),
             inertia=diagonal,
             # A turn undoes a tilt of the other sense.
             swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
@@ -356,7 +363,7 @@ class Reality:
             rates=rates,
             duration=time - drawn["torque_delay"],
             share=share,
-            axes=_built_axes(device.layout, at, drawn["incidence_error"]),
+            axes=axes,
             bias=drawn["attitude_bias"],
         )
 
@@ -426,8 +433,9 @@ class _Flown:
 
     Attributes:
         maneuver, requirement: see there.
-        designed: axes of the wheels about roll and pitch, shape (2, n).
-        nominal: inertia of robot and device as designed. inertia: as built [kg m^2], (robots, 2).
+        designed: axes of the wheels, shape (3, n).
+        nominal: inertia of robot and device as designed. upright: its I_zz [kg m^2].
+        inertia: as built [kg m^2], (robots, 2).
         swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2).
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
         duration: in which it must be done [s], shape (robots, 1).
@@ -440,6 +448,7 @@ class _Flown:
     requirement: Requirement
     designed: FloatArray
     nominal: TiltInertia
+    upright: float
     inertia: FloatArray
     swept: FloatArray
     momentum: FloatArray
@@ -452,7 +461,7 @@ class _Flown:
     @property
     def _reached(self) -> NDArray[np.bool_]:
         """Whether the wheels reach roll and pitch, shape (2,)."""
-        return np.asarray(np.abs(self.designed).max(axis=1) > OUT_OF_REACH)
+        return np.asarray(np.abs(self.designed[:2]).max(axis=1) > OUT_OF_REACH)
 
     def rate_kept(self, sure: float) -> tuple[float, float]:
         """Rates of so many deviations [rad/s]; none about an axis that its own incidence blinds."""
@@ -464,8 +473,12 @@ class _Flown:
         """The maneuver as designed, with these rates at its start."""
         reserves = {self.maneuver.name: ManeuverReserve(1.0, rate)}
         requirement = replace(self.requirement, reserves=reserves)
-        axes = self.designed[None, None]
-        return wheel_task([self.maneuver], requirement, self.nominal, axes, begun=True)
+        headed = self.maneuver.headed
+        axes = (self.designed if headed else self.designed[:2])[None, None]
+        upright = np.array([[self.upright]]) if headed else None
+        return wheel_task(
+            [self.maneuver], requirement, self.nominal, axes, begun=True, upright=upright
+        )
 
     def has(self, device: Candidate, rate: tuple[float, float]) -> float:
         """What the device does over what is asked, by the selection's own formula."""
@@ -483,16 +496,16 @@ class _Flown:
 
     def wheels(self, device: Candidate, line: DriveLine) -> tuple[FloatArray, FloatArray]:
         """What each wheel must sweep and what it can [N m s^2], with its sense, (robots, n)."""
-        held = self._each(self.momentum)
+        held, load = self._each(self.momentum), self._task((0.0, 0.0)).load()
         asked = self._each(self.swept + self.momentum * self.duration)
         demand = SpinDemand(
             sweep=np.abs(asked),
             momentum=np.abs(held),
             duration=self.duration,
-            coupling=np.asarray(self._task((0.0, 0.0)).load().coupling.item()),
+            coupling=np.asarray(load.coupling.item()),
             armature=np.asarray(device.armature),
             least=np.zeros(1),
-            drive=UnitDrive.of(line.reserved(self.share)),
+            drive=UnitDrive.of(line.reserved(self.share).begun(load.begins.item())),
         )
         can = capability(demand, np.asarray(device.spin_inertia)).sweep
         return asked, np.copysign(can, asked)

@@ -1,24 +1,33 @@
-"""Figures behind a sized device, of wheels by the bound alone or of a selected one."""
+"""A sized device and the figures behind it, of wheels by the bound alone or of a selected one."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ocs_design.actuation.wheel_load import held
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Device
 from ocs_design.device.layout import Criterion, incidence_by_criterion
+from ocs_design.device.records import ReserveRecord
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
+from ocs_design.requirement.maneuver import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
 from ocs_design.sizing.bound.rim_problem import RimProblem
 from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.device import inertia_at
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.result import Candidate
+from ocs_design.sizing.selection.result import Candidate, Selection
+
+if TYPE_CHECKING:
+    from ocs_design.sizing.trajectory.co_design import CoDesign
 
 METHOD = "branch and bound over the catalogue, each module in closed form"
 
@@ -170,3 +179,48 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
         stress = name == "hoop_stress"
         prices[name] = slope * (rim.stretch_max / rim.hoop_stress_max if stress else 1.0)
     return prices
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """How motor, gear and material were chosen.
+
+    Attributes:
+        problem: what there was to choose from. selection: what came of it.
+        chosen: the lightest one, or what the co-design made of it.
+        co_design: None: not asked for.
+    """
+
+    problem: SelectionProblem
+    selection: Selection
+    chosen: Candidate
+    co_design: "CoDesign | None"
+
+
+@dataclass(frozen=True, eq=False)
+class Designed:
+    """A device and the figures behind it.
+
+    Attributes:
+        device: see `Device`. sized: see `Sized`.
+        criterion: that the incidence goes by.
+        choice: None where no motor was wanted.
+        reserve: that it keeps; None likewise. account: of what that comes to, and costs.
+        requirement: what the robot is asked for with this device on it; None: not settled yet.
+    """
+
+    device: Device
+    sized: Sized
+    criterion: str
+    choice: Choice | None
+    reserve: Reserve | None = None
+    account: Callable[[], ReserveRecord | None] = lambda: None
+    requirement: Requirement | None = None
+
+    @cached_property
+    def kept(self) -> ReserveRecord | None:
+        """What the reserve comes to, and costs: as long to find as the device.
+
+        None without a motor or maneuvers.
+        """
+        return self.account()

@@ -12,6 +12,7 @@ from ocs_design.robot.links import listed as some_of
 from ocs_design.robot.meshes import unmeasured
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.margins import (
+    BRAKED_SHAFT,
     BUS_CURRENT,
     BUS_POWER,
     FED_BACK,
@@ -33,6 +34,7 @@ CURES: Mapping[str, str] = {
     BUS_CURRENT + FED_BACK: _SUPPLY,
     BUS_POWER + FED_BACK: _SUPPLY,
     HOOP_STRESS: "choose a stronger material (--material), or a slower motor",
+    BRAKED_SHAFT: "choose a motor with a lighter rotor or with threads in it (--motor)",
     "bearing moment": "choose a motor with stronger bearings (--motor)",
 }
 """Margins whose capacity is not to be exceeded, by name, and what can be done.
@@ -49,7 +51,7 @@ _SPARE = ("shaft joint, screws in shear",)
 """Joints that are a reserve: friction carries the torque."""
 
 TOLERANCE = 1e-3
-"""By which a capacity may be exceeded, relative: what a wheel gains within one control step, beyond
+"""Share by which a capacity may be exceeded: what a wheel gains within one control step, beyond
 the limit that its law keeps."""
 
 

@@ -72,14 +72,14 @@ USES: Mapping[str, Use] = MappingProxyType(
         "ezdxf": Use("the wheel in DXF for CAD"),
     }
 )
-"""By the package's name."""
+"""Uses by the package's name."""
 
 
 DEVELOPMENT = frozenset({"test", "dev", "docs"})
 """Extras for those who change the code."""
 
 TIME_LIMIT = 120.0
-"""To import everything [s]."""
+"""Longest time to import everything [s]."""
 
 # What a module prints on its own is no answer.
 _IMPORTING = """
@@ -306,7 +306,7 @@ def compiler() -> Finding:
 
 
 SCHEMA_VERSION = 1
-"""Of the document; that of `design_file` cannot be had where a package is missing."""
+"""Version of the document; that of `design_file` cannot be had where a package is missing."""
 
 
 def examine() -> Examination:

@@ -117,6 +117,7 @@ class Task:
         references: what the device tracks, by the maneuver's name.
         jumps: how the legs make a maneuver, by its name.
         warnings: about the robot, which were not there when the device was sized.
+        detection: time until a stopped drive is known, where one stops in flights too [s].
     """
 
     path: Path
@@ -129,6 +130,7 @@ class Task:
     references: Mapping[str, Trajectory]
     jumps: Mapping[str, JumpPlans]
     warnings: tuple[str, ...]
+    detection: float | None = None
 
 
 def read_task(
@@ -190,10 +192,14 @@ def read_task(
         references=references,
         jumps=jump_plans(control, robot, device, maneuvers),
         warnings=warnings,
+        detection=stated.requirement.notices
+        if stated.requirement.survives is not None
+        else design.requirement.detection,
     )
 
 
 def flown_hash(design: OcsDesign, control: ControlRecord) -> str:
     """SHA-256 of what of a design is flown: device, maneuvers and wheel law."""
-    flown = (design.ocs, design.requirement.maneuvers, control)
+    asked, stops = design.requirement, design.requirement.detection
+    flown = (design.ocs, asked.maneuvers, control, *(() if stops is None else (stops,)))
     return hashlib.sha256(msgspec.json.encode(flown, order="deterministic")).hexdigest()

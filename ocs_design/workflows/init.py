@@ -9,7 +9,7 @@ from ocs_design.common.files import safe_name
 from ocs_design.device.answers import Initialized
 from ocs_design.device.records import SCHEMA_VERSION
 from ocs_design.export.folder import write_whole
-from ocs_design.requirement.froude import SOLO12, example_shove, example_turns
+from ocs_design.requirement.froude import SOLO12, example_pivots, example_shove, example_turns
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
 from ocs_design.requirement.resolving import default_specification, read_specified_robot
 from ocs_design.requirement.specification import Specification
@@ -55,7 +55,8 @@ def read_start(
     Raises:
         OcsError: see `read_specified_robot`.
     """
-    given = (stated.robot.file, stated.robot.mass, stated.robot.inertia)
+    own = stated.robot
+    given = (own.file, own.mass, own.inertia, own.human)
     robot = (
         read_specified_robot(stated, package_paths=package_paths, strict=strict)
         if any(item is not None for item in given)
@@ -73,7 +74,11 @@ def read_start(
     default = default_specification(
         scaled_to, kp=gains.stiffness, kd=gains.damping, gravity=gravity
     )
-    examples = (example_shove(scaled_to, gravity), *example_turns(scaled_to, gravity))
+    examples = (
+        example_shove(scaled_to, gravity),
+        *example_turns(scaled_to, gravity),
+        *example_pivots(scaled_to, gravity),
+    )
     return Start(stated, robot, default, examples)
 
 

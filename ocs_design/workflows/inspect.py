@@ -22,8 +22,7 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.robot.leg_geometry import axis_name, up_axis
 from ocs_design.robot.legs import ANKLED_JOINTS, is_wheel
 from ocs_design.robot.posture import posture_sensitivity
-from ocs_design.robot.recognition import Recognition
-from ocs_design.robot.robot import Leg, Robot
+from ocs_design.robot.robot import Leg, Recognition, Robot
 
 
 def inspect_robot(

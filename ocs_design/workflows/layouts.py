@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.actuation.wheel_load import held
+from ocs_design.actuation.wheel_load import held, without_each
 from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.files import AnyPath
@@ -14,10 +14,12 @@ from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
 from ocs_design.device.records import SCHEMA_VERSION
 from ocs_design.report.text.console import Steps, Tell
 from ocs_design.requirement.reading import specification_of
-from ocs_design.requirement.specification import LAYOUTS, Specification
+from ocs_design.requirement.specification import DETECTION, LAYOUTS, Specification
 from ocs_design.requirement.sweep import Task
-from ocs_design.sizing.design import Designed, design_device
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
+from ocs_design.sizing.selection.device import survived
+from ocs_design.sizing.sized import Designed
 from ocs_design.workflows.pareto import read_task
 
 
@@ -50,7 +52,9 @@ def compare_layouts(
         with steps.step(f"size {layout}") as step:
             task = read_task(asked, package_paths=paths, strict=strict)
             try:
-                designed = design_device(asked, task.robot, task.resolved, advise=False)
+                designed = design_device(
+                    asked, task.robot, task.resolved, advise=False, ranked=False
+                )
             except Infeasible as error:
                 answers.append(LayoutAnswer(layout=layout, without=str(error)))
                 step.note = "no device"
@@ -75,6 +79,9 @@ def _answer(layout: str, task: Task, designed: Designed) -> LayoutAnswer:
         momentum=vector(each * reach(device.axes)),
         momentum_without_one=vector(each * reach_without_one(device.axes)),
         open=tuple(point.what for point in open_points),
+        survives=()
+        if designed.choice is None
+        else survived(designed.choice.problem, designed.choice.chosen, DETECTION),
     )
 
 
@@ -89,8 +96,4 @@ def reach(axes: FloatArray) -> FloatArray:
 
 def reach_without_one(axes: FloatArray) -> FloatArray:
     """Reach with any one of the wheels lost; see `reach`."""
-    wheels = axes.shape[1]
-    if wheels == 1:
-        return np.zeros(3)
-    left = [reach(np.delete(axes, lost, axis=1)) for lost in range(wheels)]
-    return np.asarray(np.min(left, axis=0))
+    return np.asarray(np.min([reach(left) for left in without_each(axes)], axis=0))

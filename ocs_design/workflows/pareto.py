@@ -137,7 +137,8 @@ def lightest_device(task: Task) -> FrontDevice:
         )
     stated = task.specification
     alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
-    choice = design_device(alone, task.robot, task.resolved, advise=False).choice
+    designed = design_device(alone, task.robot, task.resolved, advise=False, ranked=False)
+    choice = designed.choice
     assert choice is not None, "there are motors to choose from"
     best = choice.chosen
     return recorded(

@@ -1,5 +1,6 @@
 """From live values to the records of `design.json`."""
 
+import csv
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -13,7 +14,7 @@ from ocs_design.common.arrays import matrix, vector
 from ocs_design.common.units import format_quantity
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.device import Device
-from ocs_design.device.joints import joints_of
+from ocs_design.device.joints import SHAFT_JOINT, joints_of
 from ocs_design.device.layout import heading_drift
 from ocs_design.device.records import (
     SCHEMA_VERSION,
@@ -39,19 +40,22 @@ from ocs_design.device.records import (
     RobotRecord,
     SelectionRecord,
     SizingRecord,
+    SurvivalRecord,
     Tool,
     ValidationRecord,
     recorded,
 )
 from ocs_design.export.assembly_notes import device_notes, trunk_notes
 from ocs_design.export.time_series import export_time_series, series_file
+from ocs_design.parts.joints import SERVICE
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
-from ocs_design.requirement.maneuver import Maneuver, kind_of
+from ocs_design.requirement.maneuver import Maneuver, StandUp, kind_of
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scenario import Run
-from ocs_design.sizing.design import Choice, Designed
 from ocs_design.sizing.margins import (
+    BRAKE_TORQUE,
+    BRAKED_SHAFT,
     HOOP_STRESS,
     MOTOR_TORQUE,
     WHEEL_SPEED,
@@ -62,7 +66,7 @@ from ocs_design.sizing.margins import (
 from ocs_design.sizing.motion import DrivenWheel, Motion
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.sizing.selection.prices import mass_prices
-from ocs_design.sizing.sized import Sized
+from ocs_design.sizing.sized import Choice, Designed, Sized
 from ocs_design.workflows.buildable import buildable
 from ocs_design.workflows.flying import trajectories
 
@@ -85,7 +89,8 @@ def record_margins(
             Margin(joint.name, joint.demand, joint.capacity, joint.unit, joint.note)
             for joint in joints_of(designed.device)
         )
-        found = (*_of_drive(designed.choice, designed.device, resolved, motions), *held)
+        braked = tuple(_braked(resolved, designed, plans))
+        found = (*_of_drive(designed.choice, designed.device, resolved, motions, braked), *held)
     wheel, envelope = designed.device.flywheel, resolved.envelope
     room = (
         Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"),
@@ -97,7 +102,13 @@ def record_margins(
 
 def _planned(plans: Mapping[str, "Reference"]) -> Iterator[tuple[str, Motion]]:
     for name, path in trajectories(plans).items():
-        yield name, Motion.along(path)
+        motion = Motion.along(path)
+        yield name, motion
+        if plans[name].spun:
+            # Before the brake stops them in an instant all wheels run at up to this speed.
+            wheels = np.full((2, motion.wheel_speed.shape[1]), plans[name].spun)
+            still = np.zeros((2, 3))
+            yield name, Motion(np.array([0.0, 1e-3]), wheels, 0.0 * wheels, still, still)
 
 
 def _flown(runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
@@ -131,6 +142,7 @@ def _of_drive(
     device: Device,
     resolved: Resolved,
     motions: Sequence[tuple[str, Motion]],
+    braked: Sequence[tuple[str, Sequence[Margin]]],
 ) -> tuple[Margin, ...]:
     chosen, stated = choice.chosen, choice.problem.wheel_speed_max
     wheel = DrivenWheel(
@@ -148,10 +160,34 @@ def _of_drive(
         device.supply,
     )
     maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
-    return worst(
+    driven = (
         (name, margins(motion, device.as_flown(maneuvers[name]).axes, wheel))
         for name, motion in motions
     )
+    return worst((*driven, *braked))
+
+
+def _braked(
+    resolved: Resolved, designed: Designed, plans: Mapping[str, "Reference"]
+) -> Iterator[tuple[str, tuple[Margin, ...]]]:
+    """What a brake that grips the wheels, as the Cubli's does, asks of them and their joints."""
+    device, drive = designed.device, designed.device.motor
+    shaft = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
+    for maneuver in resolved.requirement.maneuvers:
+        plan = plans.get(maneuver.name)
+        if not isinstance(maneuver, StandUp) or plan is None or not plan.spun:
+            continue
+        slowed = plan.spun / maneuver.stop
+        where = f"from {format_quantity(plan.spun, 'rpm')} in {1e3 * maneuver.stop:.2g} ms"
+        wheel = device.flywheel.spin_inertia * slowed
+        rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * slowed
+        rows = [
+            Margin(BRAKE_TORQUE, wheel, None, "N m", f"on each wheel and what holds it, {where}"),
+        ]
+        if shaft is not None:
+            note = f"{SERVICE:g} x what stops the rotor, {where}, by a brake that grips the wheel"
+            rows.append(Margin(BRAKED_SHAFT, rotor, shaft.capacity, "N m", note))
+        yield maneuver.name, tuple(rows)
 
 
 def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) -> Iterator[Margin]:
@@ -238,13 +274,36 @@ def record_run(run: Run) -> ValidationRecord:
     return recorded(ValidationRecord, run, metrics=metrics)
 
 
-def write_runs(runs: Sequence[Run], folder: Path) -> None:
-    """One CSV a flight, below `folder`."""
+STOPPED_FILE = "stopped.csv"
+"""Which drive stopped, when, and how the flight ended, a row for each."""
+
+
+def write_runs(runs: Sequence[Run], folder: Path, survival: SurvivalRecord | None = None) -> None:
+    """One CSV a flight, below `folder`, and one of all in which a drive stops."""
     if runs:
         (folder / FOLDER).mkdir()
     for run in runs:
         path = folder / FOLDER / series_file(run.scenario, ocs=run.ocs)
         export_time_series(run.series.columns(), path)
+    if survival is not None:
+        with (folder / FOLDER / STOPPED_FILE).open("w", encoding="utf-8", newline="") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(
+                ("scenario", "drive", "stopped_s", "known_s", "lands", "off_rad", "reason")
+            )
+            for each in survival.flights:
+                known = each.instant + survival.detection
+                writer.writerow(
+                    (
+                        each.scenario,
+                        each.module,
+                        f"{each.instant:.6g}",
+                        f"{known:.6g}",
+                        "" if each.lands is None else str(each.lands).lower(),
+                        "" if each.tilt is None else f"{each.tilt:.6g}",
+                        each.reason,
+                    )
+                )
 
 
 HOUSING_ASSUMED = (
@@ -340,6 +399,7 @@ def _requirement(resolved: Resolved, sized: Sized) -> RequirementRecord:
         ),
         assumptions=(*resolved.assumptions, *housing),
         reliability=resolved.reliability,
+        detection=requirement.detection,
     )
 
 

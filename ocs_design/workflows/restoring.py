@@ -12,7 +12,7 @@ import numpy as np
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.device.checks import check_device
-from ocs_design.device.device import Device, Module
+from ocs_design.device.device import Device
 from ocs_design.device.records import (
     ManeuverRecord,
     OcsRecord,
@@ -22,6 +22,7 @@ from ocs_design.requirement.maneuver import MANEUVER_KINDS, Maneuver
 from ocs_design.requirement.values import Choice, Quantities
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Format, Mount, Robot
 from ocs_design.robot.source import STANDARD_INPUT, read_source
@@ -45,21 +46,7 @@ def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
     Raises:
         OcsError: no such device can be: the file was edited.
     """
-    modules = tuple(
-        Module(each.name, np.array(each.axis), np.array(each.position)) for each in record.modules
-    )
-    device = Device(
-        record.incidence,
-        modules,
-        record.flywheel,
-        record.motor,
-        record.carrier,
-        supply,
-        plate=record.plate,
-        guard_wall=record.guard_wall,
-        foot_plate=record.foot_plate,
-        layout=record.axes,
-    )
+    device = record.device(supply)
     check_device(device)
     return device
 
@@ -129,8 +116,12 @@ def robot_of(record: RobotRecord, path: Path | str, package_paths: Mapping[str, 
             hint="give the robot that the device was sized for, or size one for this robot",
         )
     values = robot.tree.complete(record.posture)
+    # What is said of the file's zero is not true of the posture that it was sized in.
+    told = (each for each in robot.warnings if not each.startswith(OUTSIDE))
+    beyond = (each for each in record.warnings if each.startswith(OUTSIDE))
     return replace(
         robot,
+        warnings=(*told, *beyond),
         posture=values,
         posture_name=record.posture_name,
         standing_height=record.standing_height,

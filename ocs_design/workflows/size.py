@@ -1,6 +1,7 @@
 """The whole chain on one page: read, require, size, export, prove, record."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
@@ -10,10 +11,19 @@ import numpy as np
 
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.common.files import AnyPath, safe_name
+from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.device import Device
 from ocs_design.device.naming import require_no_device
-from ocs_design.device.records import DESIGN_FILE, Lighter, OcsDesign, Owed, design_to_json
+from ocs_design.device.records import (
+    DESIGN_FILE,
+    Lighter,
+    OcsDesign,
+    Owed,
+    SurvivalRecord,
+    design_to_json,
+)
+from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.jumping.jump import JumpPlans
@@ -28,7 +38,7 @@ from ocs_design.monte_carlo.certificate import (
 from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
 from ocs_design.monte_carlo.results import write_results
 from ocs_design.monte_carlo.running import ThisMachine, run_campaign
-from ocs_design.monte_carlo.summary import MonteCarloRecord, summarised
+from ocs_design.monte_carlo.summary import summarised
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.charts.figures import FOLDER, all_charts
 from ocs_design.report.charts.files import write_svgs
@@ -39,12 +49,23 @@ from ocs_design.report.text.console import Steps, Tell
 from ocs_design.report.video.film import film_or_tell
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.froude import standing_height
-from ocs_design.requirement.maneuver import Disturbance, End, Maneuver, Requirement, TurnTo
+from ocs_design.requirement.maneuver import (
+    Disturbance,
+    End,
+    Maneuver,
+    Pivoted,
+    Requirement,
+    StandUp,
+    TurnTo,
+)
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import Resolved, read_specified_robot, resolve
 from ocs_design.requirement.specification import (
+    AUTO,
+    LIGHTEST,
     MORE_PAIRS,
     NO_MOTOR,
+    PYRAMID,
     RELIABILITY,
     WHEELS,
     Specification,
@@ -53,24 +74,26 @@ from ocs_design.requirement.specification import (
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.uncertainty import complete_uncertainty, uncertainty_texts
 from ocs_design.robot.collision import forget_collision_model
+from ocs_design.robot.links import listed
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.engine import POSE_RATE
-from ocs_design.simulation.scenario import Run, run_scenarios
+from ocs_design.simulation.engine import POSE_RATE, Progress
+from ocs_design.simulation.scenario import Run, fly_stopped, run_scenarios
 from ocs_design.simulation.trotting import require_trot
 from ocs_design.sizing.alternatives import alternatives, owed_to
 from ocs_design.sizing.bound.rim_program import load_solver
-from ocs_design.sizing.design import Designed, design_device
+from ocs_design.sizing.design import CannotSurvive, design_device
 from ocs_design.sizing.lighter import lighter_by
 from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
 from ocs_design.sizing.reserve import Reserve
-from ocs_design.sizing.selection.advice import Refused, unasked
+from ocs_design.sizing.selection.advice import NO_ROOM, Refused, unasked
+from ocs_design.sizing.sized import Designed
 from ocs_design.workflows.flying import control_of, flight_options, flown_hash, trajectories
 from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.recording import record_design, write_runs
 
 CERTIFICATE_FOLDER = "certificate"
-"""Of the many flights of `--certify`."""
+"""Folder of the many flights of `--certify`."""
 
 if TYPE_CHECKING:
     from ocs_design.jumping.planning import JumpPlanning
@@ -99,6 +122,7 @@ class Outcome:
         certified = self.design.reliability
         failed = any(run.ocs and run.passed is not True for run in self.runs)
         failed |= certified is not None and certified.verdict == "falls short"
+        failed |= self.design.survival is not None and bool(self.design.survival.lost)
         return 1 if failed or self.design.buildable.yes is False else 0
 
     def __fspath__(self) -> str:
@@ -193,6 +217,9 @@ def design_ocs(
             files={},
             package_paths=paths,
         )
+        if proof.survival is not None:
+            alone = _mass_without_survival(specification, sized, steps)
+            design = replace(design, survival=replace(proof.survival, mass_without=alone))
         if proof.certificate is not None:
             flown = proof.certificate
             design = replace(design, reliability=flown.record.certificate)
@@ -234,55 +261,107 @@ def _sized_or_advised(
 ) -> tuple[Specification, _Sized]:
     """Size the device; if nothing meets the specification, search for what would.
 
-    Where no layout is stated, more pairs are tried first.
+    Where neither layout nor incidence is stated, the lightest incidence and more pairs are tried
+    first.
 
     Returns:
-        Specification with the layout that was taken, and what it came to.
+        Specification with the layout and the incidence that were taken, and what it came to.
     """
-    with steps.step("size the device") as step:
-        try:
-            sized = _size(specification, robot, strict=strict)
-        except Refused as error:
-            refused, step.note = error, "nothing meets the specification"
-        else:
-            step.note = _what_was_sized(sized.designed)
-            return specification, sized
-    for layout in _more_pairs(specification):
-        more, wheels = replace(specification.ocs, layout=layout), WHEELS[layout]
-        asked = replace(specification, ocs=more)
-        with steps.step(f"size a device of {wheels} wheels") as step:
+    tried: list[Refused] = []
+    for asked in (specification, *_more(specification)):
+        more = asked.ocs.layout if tried else None
+        lightest = asked.ocs.alpha_criterion != specification.ocs.alpha_criterion
+        what = "the device" if more is None else f"a device of {WHEELS[more]} wheels"
+        with steps.step(f"size {what}{' at its lightest incidence' * lightest}") as step:
             try:
                 sized = _size(asked, robot, strict=strict)
-            except Refused:
+            except Refused as error:
+                tried.append(error)
                 step.note = "nothing meets the specification"
                 continue
-            told = f"Layout: {layout}, for no motor is strong enough for two wheels."
-            resolved = sized.resolved
-            resolved = replace(resolved, assumptions=(told, *resolved.assumptions))
-            which = _what_was_sized(sized.designed)
-            step.note = f"no motor is strong enough for two; {which}"
-            return asked, replace(sized, resolved=resolved)
+            except CannotSurvive as error:
+                step.note = "nothing meets the specification"
+                if tried:
+                    continue
+                error.hint = f"{_survivors(specification, robot, step.update)} {error.hint}"
+                raise
+            step.note = _what_was_sized(sized.designed)
+        if not tried:
+            return specification, sized
+        told, few = [], []
+        if more is not None:
+            told.append(f"Layout: {more}, {WHEELS[more]} wheels. With two: {tried[0].message}")
+            if specification.motor.name not in {None, AUTO}:
+                few.append(f"{WHEELS[more]} wheels are needed. With two: {tried[0].message}")
+        if lightest:
+            told.append(f"Incidence: the lightest. At alpha*: {tried[-1].message}")
+        resolved = sized.resolved
+        resolved = replace(resolved, assumptions=(*told, *resolved.assumptions))
+        return asked, replace(sized, resolved=resolved, remarks=(*few, *sized.remarks))
+    # What lacks room is told of what was asked for, what is too weak of what came closest.
+    at_angle = [each for each in tried if each.problem.incidence is not None]
+    closest = tried[0]
+    if closest.nearest.reason not in NO_ROOM:
+        closest = min(at_angle, key=lambda each: each.nearest.shortfall, default=closest)
     with steps.step("look for the smallest changes that would do") as step:
-        advised = refused.advised(step.update, default=specification.asks_nothing)
-    advised.assumptions, advised.warnings = refused.assumptions, refused.warnings
+        advised = closest.advised(step.update, default=specification.asks_nothing)
+    advised.assumptions, advised.warnings = closest.assumptions, closest.warnings
     raise advised
 
 
-def _more_pairs(specification: Specification) -> Iterator[str]:
-    """Layouts of more pairs, where none is stated and they allow all that is."""
+def _more(specification: Specification) -> Iterator[Specification]:
+    """What is tried in turn instead: the lightest incidence, and layouts of more pairs.
+
+    Only what is not stated changes, and only as far as all that is stated allows it.
+    """
     stated = specification.ocs
     if stated.layout is not None or stated.axes is not None:
         return
-    for layout in MORE_PAIRS:
-        if not any(contradictions(replace(specification, ocs=replace(stated, layout=layout)))):
-            yield layout
+    free = stated.alpha is None and stated.alpha_criterion is None
+    for layout in (None, *MORE_PAIRS):
+        for criterion in (stated.alpha_criterion, LIGHTEST)[: 1 + free]:
+            ocs = replace(stated, layout=layout, alpha_criterion=criterion)
+            asked = replace(specification, ocs=ocs)
+            if ocs != stated and not any(contradictions(asked)):
+                yield asked
+
+
+SURVIVORS = ("triad", *MORE_PAIRS[:1], PYRAMID)
+"""Layouts that reach roll and pitch with any one wheel left out, the fewest wheels first."""
+
+
+def _survivors(specification: Specification, robot: Robot, progress: Progress) -> str:
+    """What would survive a stopped drive, with its mass, in place of a layout that cannot."""
+    masses: dict[str, float] = {}
+    for done, layout in enumerate(SURVIVORS):
+        progress(done / len(SURVIVORS))
+        ocs = replace(
+            specification.ocs, layout=layout, axes=None, position=None, alpha=None,
+            alpha_criterion=None,
+        )  # fmt: skip
+        asked = replace(specification, ocs=ocs)
+        if any(contradictions(asked)):
+            continue
+        resolved = resolve(asked, robot, size(robot.tree, robot.posture, robot.trunk))
+        with suppress(Infeasible):
+            designed = design_device(asked, robot, resolved, advise=False, ranked=False)
+            masses[layout] = designed.device.mass
+    if not masses:
+        return "No layout that survives it has a device either."
+    told = listed([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
+    return (
+        f"What survives it weighs: {told}. At which instants a device that need not survive lands "
+        "all the same, `validate DESIGN --survives one` tells."
+    )
 
 
 def _unmade(sized: _Sized, plans: Mapping[str, "Reference"]) -> Iterator[str]:
     """Turns that the device does not make, with the time that they would take."""
     for maneuver in sized.resolved.requirement.maneuvers:
         planned = plans.get(maneuver.name)
-        if isinstance(maneuver, TurnTo) and planned is not None and planned.trajectory is None:
+        if planned is None or planned.trajectory is not None:
+            continue
+        if isinstance(maneuver, TurnTo | StandUp):
             yield f"{maneuver.name}: {planned.note}"
 
 
@@ -300,10 +379,12 @@ def _large_enough(
     for _ in range(TURN_ROUNDS):
         asked = sized.resolved.requirement.maneuvers
         estimates = dict(sized.estimates)
-        turns = {each.name: each for each in asked if isinstance(each, TurnTo)}
+        turns = {each.name: each for each in asked if isinstance(each, TurnTo | StandUp)}
         for name, planned in _plan(sized, list(turns.values())).items():
             # Momentum goes with the inverse of the time, torque with its square.
             more = SPARE if planned.needed is None else SPARE * planned.needed**1.5
+            # What falls over from most tilts tells little.
+            more = more if planned.part is None else SPARE / max(planned.part, 0.5)
             headed = turns[name].end != End.LEVEL
             if planned.trajectory is None or (headed and planned.share > LEAST_SPARE):
                 estimates[name] = more * estimates.get(name, 1.0)
@@ -330,7 +411,9 @@ def _size(
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
     factors = estimates or {}
     maneuvers = tuple(
-        replace(each, estimate=factors.get(each.name, 1.0)) if isinstance(each, TurnTo) else each
+        replace(each, estimate=factors.get(each.name, 1.0))
+        if isinstance(each, TurnTo | Pivoted)
+        else each
         for each in resolved.requirement.maneuvers
     )
     resolved = replace(resolved, requirement=replace(resolved.requirement, maneuvers=maneuvers))
@@ -396,6 +479,18 @@ def _what_must_give(
         )
 
 
+def _mass_without_survival(
+    specification: Specification, sized: _Sized, steps: Steps
+) -> float | None:
+    """Mass of the lightest device that need not survive a stopped drive [kg], if there is one."""
+    requirement = replace(sized.resolved.requirement, detection=None)
+    resolved = replace(sized.resolved, requirement=requirement)
+    with steps.step("size a device that need not survive"), suppress(Infeasible):
+        free = design_device(specification, sized.robot, resolved, advise=False, ranked=False)
+        return free.device.mass
+    return None
+
+
 def _begin_jumps(
     stated: ValidationSection, robot: Robot, resolved: Resolved
 ) -> "JumpPlanning | None":
@@ -424,6 +519,7 @@ class _Proof:
     plans: Mapping[str, "Reference"]
     jumps: Mapping[str, JumpPlans]
     runs: tuple[Run, ...]
+    survival: SurvivalRecord | None = None
     certificate: _Certificate | None = None
 
 
@@ -446,7 +542,21 @@ def _prove(sized: _Sized, stated: ValidationSection, steps: Steps) -> _Proof:
             jumps=jumps,
             progress=step.update,
         )
-    return _Proof(plans, jumps, runs)
+    survival, detection = None, sized.resolved.requirement.detection
+    if detection is not None:
+        with steps.step("fly them with each drive stopping on the way") as step:
+            survival = fly_stopped(
+                sized.robot,
+                sized.designed.device,
+                sized.resolved.requirement.maneuvers,
+                detection,
+                options=flight_options(control_of(stated, sized.robot)),
+                references=trajectories(plans),
+                jumps=jumps,
+                progress=step.update,
+            )
+            step.note = f"{len(survival.lost)} of {len(survival.flights)} end beyond the allowance"
+    return _Proof(plans, jumps, runs, survival)
 
 
 def _certify(
@@ -470,7 +580,9 @@ def _certify(
             references=trajectories(proof.plans),
             jumps=proof.jumps,
             can_stand=[run.can_stand for run in proof.runs if run.ocs],
-            uncertainty=Uncertainty.of(specification.reality, robot, device),
+            uncertainty=Uncertainty.of(
+                specification.reality, robot, device, sized.resolved.requirement.detection
+            ),
             seed=stated.seed or 0,
         )
         with steps.step(f"fly the certificate, round {number}") as step:
@@ -516,7 +628,7 @@ def _write_flights(
     """Write the flights as designed, film them if asked for; why a film is missing."""
     if not proof.runs:
         return ()
-    write_runs(proof.runs, folder)
+    write_runs(proof.runs, folder, proof.survival)
     if not stated.video:
         return ()
     with steps.step("film the flights"):
@@ -569,7 +681,7 @@ def _plan(sized: _Sized, maneuvers: Sequence[Maneuver]) -> Mapping[str, "Referen
 
 
 def _who_flies(jumps: Mapping[str, JumpPlans]) -> str:
-    """Which jumps the legs do not make."""
+    """Names of the jumps that the legs do not make."""
     names = [name for name, plans in jumps.items() if plans.carrying.legs is None]
     return f"at lift-off starts: {', '.join(names)}" if names else ""
 
@@ -584,7 +696,7 @@ def _write_report(
         flights=flights_of(runs),
         postures=posture_lines(subject.carrier),
         command=command,
-        assembly=subject.assembly,
+        assembly=assembly_of(subject),
     )
     write_svgs(tuple(all_charts(story)), folder / FOLDER)
     whole = replace(design, files=recorded_hashes(folder))

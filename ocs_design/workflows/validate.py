@@ -9,6 +9,7 @@ from pathlib import Path
 from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath
+from ocs_design.device.answers import SampleRecord, Validated
 from ocs_design.device.records import (
     DESIGN_FILE,
     SCHEMA_VERSION,
@@ -23,8 +24,8 @@ from ocs_design.monte_carlo.campaign import Campaign, Case, make_campaign, read_
 from ocs_design.monte_carlo.certificate import ROUND, SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
 from ocs_design.monte_carlo.results import write_results
-from ocs_design.monte_carlo.running import Cluster, ThisMachine, narrow, run_campaign
-from ocs_design.monte_carlo.summary import SampleRecord, Validated, summarised
+from ocs_design.monte_carlo.running import AT_ONCE, Cluster, ThisMachine, narrow, run_campaign
+from ocs_design.monte_carlo.summary import summarised
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import Steps, Tell
@@ -35,12 +36,12 @@ from ocs_design.requirement.specification import (
     merge_section,
 )
 from ocs_design.simulation.engine import POSE_RATE
-from ocs_design.simulation.scenario import Run, refusal, run_scenarios
+from ocs_design.simulation.scenario import Run, fly_stopped, refusal, run_scenarios
 from ocs_design.workflows.flying import Task, flight_options, flown_hash, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 
 SAMPLES_VERSION = 2
-"""Of the samples in a folder, which a later run goes on with."""
+"""Version of the samples in a folder, which a later run goes on with."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -226,14 +227,31 @@ def validated(request: Request, steps: Steps) -> Validation:
     if request.sample is not None or request.replay is not None:
         campaign = campaign_of(request, task, runs)
         if request.replay is not None:
-            sample = case_for(task, request.replay).drawn(task.device.layout)
+            sample = case_for(task, request.replay).drawn(task.device.layout, task.detection)
         else:
             sample = campaign.sample(request.sample or 0)
         with steps.step(f"fly sample {sample.index} of seed {sample.seed}"):
             flown = replayed(campaign, sample, pose_rate=request.pose_rate)
-        found = replace(_validated(task, flown), sample=SampleRecord.of(sample))
+        found = replace(
+            _validated(task, flown),
+            sample=SampleRecord(seed=sample.seed, index=sample.index, values=sample.by_name),
+        )
         return _kept(request, task, flown, found)
-    return _kept(request, task, runs, _validated(task, runs))
+    found = _validated(task, runs)
+    if task.detection is not None:
+        with steps.step("fly them with each drive stopping on the way") as step:
+            survival = fly_stopped(
+                task.robot,
+                task.device,
+                task.maneuvers,
+                task.detection,
+                options=flight_options(task.control),
+                references=task.references,
+                jumps=task.jumps,
+                progress=step.update,
+            )
+        found = replace(found, survival=survival)
+    return _kept(request, task, runs, found)
 
 
 def watch(answer: Validation) -> None:
@@ -260,6 +278,7 @@ def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> 
     asked, folder = request.samples or (0 if test is None else test.most), request.out
     campaign = campaign_of(request, task, runs)
     enough = None if request.until_width is None else narrow(request.until_width)
+    enough = enough if test is None else test.decided
     storage = None
     if folder is not None:
         # What the numbers of a campaign follow from.
@@ -281,9 +300,9 @@ def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> 
         outcomes = run_campaign(
             campaign,
             blocks_of(asked),
-            workers=cluster or ThisMachine(),
+            workers=cluster or ThisMachine(at_once=AT_ONCE if enough is None else 1),
             storage=storage,
-            enough=enough if test is None else test.decided,
+            enough=enough,
             progress=step.update,
         )
         certified = None if test is None else certificate(test, campaign, outcomes)
@@ -318,7 +337,7 @@ def campaign_of(request: Request, task: Task, runs: Sequence[Run | ValidationRec
         references=task.references,
         jumps=task.jumps,
         can_stand=[run.can_stand for run in runs if run.ocs],
-        uncertainty=Uncertainty.of(task.uncertainty, task.robot, task.device),
+        uncertainty=Uncertainty.of(task.uncertainty, task.robot, task.device, task.detection),
         seed=task.design.seed if seed is None else seed,
     )
 
@@ -366,7 +385,11 @@ def write_flights(
         OutputError: the folder cannot be written, or exists already.
     """
     with staged_folder(folder, force=force) as staging:
-        write_runs(runs, staging)
+        write_runs(runs, staging, found.survival)
         design = replace(task.design, validation=found.validation, files=file_hashes(staging))
+        if found.survival is not None:
+            before = task.design.survival
+            alone = None if before is None else before.mass_without
+            design = replace(design, survival=replace(found.survival, mass_without=alone))
         (staging / DESIGN_FILE).write_bytes(design_to_json(design))
     return design

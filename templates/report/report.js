@@ -88,7 +88,7 @@ class Replay {
     const apart = this.chosen.length > 1 ? this.scene.apart : 0;
     const robots = this.chosen.map((flight, i) => ({ device: flight.ocs, ...this.posed(flight, apart * (0.5 - i)) }));
     const middle = [0, 1, 2].map((k) => robots.reduce((sum, robot) => sum + robot.middle[k], 0) / robots.length);
-    this.viewer.show(robots, 0, find("scene-follow").checked ? middle : null);
+    this.viewer.show(robots, this.chosen.every((flight) => flight.floor) ? 0 : null, find("scene-follow").checked ? middle : null);
   }
 
   // Between two recorded frames; the turns of the wheels are counted, so that they never jump.

@@ -161,7 +161,7 @@ class Viewer {
     return { array: made, count: indices.length, color: surface.color };
   }
 
-  // What to draw: for each robot the frames of its bodies, and whether it carries the device.
+  // What to draw: for each robot the frames of its bodies, and whether it carries the device. Ground null: no floor.
   show(robots, ground, target) {
     this.shown = robots; this.ground = ground;
     if (target) this.camera.target = target;
@@ -196,7 +196,7 @@ class Viewer {
     gl.clearColor(...this.color("backgroundColor"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST); gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     this.drawSurfaces(view, eye);
-    this.drawFloor(view);
+    if (this.ground !== null) this.drawFloor(view);
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
   }
 

@@ -1,21 +1,17 @@
 """The rule for controllers' masses against what can be bought."""
 
 from dataclasses import replace
-from math import sqrt
 
 import numpy as np
 import pytest
-from wheels import EC45
 
 from ocs_design.actuation.controllers import (
     BASE_MASS,
     KNOWN,
     MASS_PER_CURRENT,
-    controller_demand,
     controller_mass,
     controller_mass_of,
 )
-from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.motors import motors
 
 
@@ -38,11 +34,3 @@ def test_a_motor_by_hand():
     motor = replace(next(iter(motors().values())), peak_torque=0.55, torque_constant=0.0212)
     assert controller_mass_of(motor) == pytest.approx(0.0151, abs=1e-4)
     assert controller_mass_of(replace(motor, torque_constant=None)) == 0.0
-
-
-def test_a_controller_stands_the_peak_torque_and_what_the_supply_gives():
-    drive = replace(EC45, torque_constant=0.02, resistance=0.1, torque_limit=0.6)
-    found = controller_demand(drive, Supply(24.0, power_max=480.0))
-    assert found.phase_current == pytest.approx(30.0 * 2.0 / sqrt(3.0))
-    assert (found.supply_current, found.voltage) == (20.0, 24.0)
-    assert controller_demand(EC45, Supply(24.0)) is None

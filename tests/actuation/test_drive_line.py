@@ -3,6 +3,7 @@
 import math
 from dataclasses import fields, replace
 
+import driven_wheels
 import numpy as np
 import pytest
 
@@ -18,23 +19,13 @@ from ocs_design.actuation.drive import (
 from ocs_design.actuation.motor import DIRECT, Motor
 from ocs_design.common.errors import OcsError
 
-EC45 = Motor(
-    name="EC 45 flat 70 W",
-    maker="maxon",
-    mass=0.141,
-    diameter=0.0428,
+RPM = math.pi / 30.0
+EC45 = replace(
+    driven_wheels.EC45,
     length=None,
-    torque_constant=0.0369,
-    resistance=0.608,
-    rated_voltage=24.0,
-    no_load_speed=6110 * math.pi / 30.0,
-    speed_max=1e4 * math.pi / 30.0,
-    peak_torque=1.0,
+    no_load_speed=6110 * RPM,
+    speed_max=1e4 * RPM,
     peak_current=39.5,
-    continuous_torque=0.128,
-    rotor_inertia=1.81e-5,
-    source="data sheet",
-    confidence="good",
 )
 
 

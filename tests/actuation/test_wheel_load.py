@@ -1,6 +1,6 @@
 """Smallest spin inertia: worked examples, the law that time falls, brute force, reasons."""
 
-from dataclasses import replace
+from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
@@ -19,6 +19,7 @@ from ocs_design.actuation.wheel_load import (
     slew_reason,
     smallest_spin_inertia,
     wheel_slew_time,
+    without_each,
 )
 from ocs_design.device.layout import PAIR, Layout, LayoutName
 
@@ -406,3 +407,78 @@ def test_layouts_against_optimal_control(layout):
         assert found[1] == INF
     else:
         assert 0.97 < found[1] / both < 1.34
+
+
+@pytest.mark.parametrize(
+    ("name", "elevation", "published"),
+    [(LayoutName.ORTHOGONAL, 0.0, 8.6e-5), (LayoutName.PYRAMID, 35.0, 3.7e-5)],
+)
+def test_wheels_that_reach_yaw_turn_it_directly(name, elevation, published):
+    """90 deg of yaw in 2 s of the same body, I_zz = 0.068 kg m^2, as published to two digits."""
+    wheels, upright = Layout(name).axes(np.radians(elevation)), np.array(0.068)
+    swept = np.array([0.0, 0.0, upright * np.pi / 2.0])
+    turn = WheelTask(swept, np.zeros(3), 2.0, axes(ROLL, BODY), wheels, upright=upright)
+    assert 0.97 < float(smallest_spin_inertia(turn, EC45)) / published < 1.0
+    # What is asked about roll and pitch on top is added to the busiest wheel.
+    more = replace(turn, swept=swept + np.array([0.01, 0.0, 0.0]))
+    assert more.load().excess > turn.load().excess * (1.0 - 1e-12)
+    level = WheelTask([0.01, 0.0], np.zeros(2), 2.0, axes(ROLL, BODY), wheels[:2])
+    assert more.load().excess >= level.load().excess
+
+
+@settings(deadline=None)
+@given(st.integers(2, 6), st.integers(0, 2**32 - 1))
+def test_what_is_left_of_the_gauge_is_the_linear_programmes(wheels, seed):
+    """With one wheel left out the busiest of the others holds no less than with all."""
+    rng = np.random.default_rng(seed)
+    axes = rng.normal(size=(2, wheels)) * np.array([1.0, rng.choice([1.0, 0.0])])[:, None]
+    momentum = axes[:, 0] + axes[:, 1]
+    for lost, left in enumerate(without_each(axes)):
+        others = np.delete(axes, lost, axis=1)
+        each = np.hstack([np.eye(wheels - 1), -np.ones((wheels - 1, 1))])
+        answer = linprog(
+            np.append(np.zeros(wheels - 1), 1.0),
+            A_eq=np.hstack([others, np.zeros((2, 1))]),
+            b_eq=momentum,
+            A_ub=np.vstack([each, each * np.append(-np.ones(wheels - 1), 1.0)]),
+            b_ub=np.zeros(2 * (wheels - 1)),
+            bounds=[(None, None)] * (wheels - 1) + [(0.0, None)],
+        )
+        found = held(left, momentum).most
+        assert found == pytest.approx(answer.fun if answer.success else INF, rel=1e-9)
+        assert found >= held(axes, momentum).most * (1.0 - 1e-12)
+
+
+@pytest.mark.parametrize("name", [LayoutName.TRIAD, LayoutName.DOUBLE_PAIR, LayoutName.PAIR])
+def test_a_task_that_survives_asks_for_the_most_of_all_that_are_left(name):
+    layout, momentum = Layout(name), np.zeros(2)
+    all_axes = layout.axes(0.7)[:2]
+    task = WheelTask([0.01, 0.02], momentum, 0.4, axes(ROLL, BODY), all_axes, one_stops=True)
+    loads = [replace(task, axes=left, one_stops=False).load() for left in without_each(all_axes)]
+    assert task.load().excess == max(load.excess for load in loads)
+    assert task.load().excess >= replace(task, one_stops=False).load().excess
+    assert np.isinf(task.load().excess) == (name is LayoutName.PAIR)
+
+
+@pytest.mark.parametrize(("pitch", "sense"), [(1.0, 1.0), (-1.0, -1.0)])
+def test_a_wheel_that_begins_the_other_way_changes_its_speed_by_more(pitch, sense):
+    """From -w it may change by w + w_max: h = L / (w + w_max), of both wheels of a pair."""
+    top, w, duration = 200.0, 70.0, 1e6
+    line = DriveLine(np.inf, top, 1e9, np.inf)
+    momentum = np.array([0.0, pitch * 0.01])
+    task = WheelTask(0.0 * momentum, momentum, duration, axes(ROLL, BODY), pair(0.6))
+    per_wheel = 0.01 / (2.0 * np.cos(0.6))
+    for begins in (-sense * w, sense * w):
+        found = smallest_spin_inertia(replace(task, begins=begins), line)
+        assert found == pytest.approx(per_wheel / (top - sense * begins), rel=1e-6)
+    # A pair rolls the trunk by wheels that turn against each other: one of them is no better off.
+    rolled = replace(task, momentum=momentum[::-1], begins=-w)
+    assert smallest_spin_inertia(rolled, line) == pytest.approx(
+        0.01 / (2.0 * np.sin(0.6)) / (top - w), rel=1e-6
+    )
+
+
+def test_a_wheel_that_begins_the_other_way_is_one_at_a_higher_voltage():
+    """`tau_s (1 - (w + u) / w_0)` over the change u of the speed, capped as before."""
+    begun = DriveLine(2.0, 100.0, 0.5, 80.0, 60.0).begun(-25.0)
+    assert astuple(begun) == pytest.approx((2.5, 125.0, 0.5, 105.0, 60.0))

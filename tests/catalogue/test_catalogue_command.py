@@ -21,7 +21,7 @@ remark = "wound by hand"
 """
 
 
-@pytest.mark.parametrize("what", ["motors", "gears"])
+@pytest.mark.parametrize("what", ["motors", "gears", "materials"])
 def test_the_listing_is_the_file(what):
     listed = run("catalogue", what, "--json").document[what]
     path = ROOT / "ocs_design" / "catalogue" / f"{what}.csv"

@@ -1,15 +1,45 @@
-"""The materials' figures and how they are found."""
+"""Rows of all catalogues and how they are found, and the materials' figures."""
 
 import pytest
 
+from ocs_design.catalogue.gears import gear, gears
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material, materials
+from ocs_design.catalogue.motors import motor, motors
 from ocs_design.common.errors import OcsError, SpecificationError
 
 
-def test_sorted_and_each_with_a_source():
-    assert list(materials()) == sorted(materials())
-    assert all(found.source for found in materials().values())
-    assert all(name == found.name for name, found in materials().items())
+@pytest.mark.parametrize("catalogue", [motors, gears, materials])
+def test_catalogues_are_sorted_have_sources_and_stay_as_they_are(catalogue):
+    rows = catalogue()
+    assert list(rows) == sorted(rows)
+    assert all(found.source and name == found.name for name, found in rows.items())
+    with pytest.raises(TypeError):
+        rows["mine"] = next(iter(rows.values()))
+
+
+@pytest.mark.parametrize(
+    ("find", "asked", "offered"),
+    [
+        (motor, "EC 45 flat 70 W 41181", "EC 45 flat 70 W 411812"),
+        (motor, "r80 kv11", "R80 KV110"),
+        (motor, "mn5006 kv450", "Antigravity MN5006 KV450"),
+        (motor, "T-Motor MN5006", "Antigravity MN5006 KV450"),
+        (gear, "GT3 2mm x 66mm", "GT3 2 mm x 6 mm"),
+        (material, "stainles-304", "stainless-304"),
+    ],
+)
+def test_an_unknown_name_gets_the_closest(find, asked, offered):
+    with pytest.raises(SpecificationError, match=asked) as caught:
+        find(asked)
+    assert offered in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("find", "asked", "name"),
+    [(motor, "r80-kv110", "R80 KV110"), (gear, "gt3-2mm x 6MM", "GT3 2 mm x 6 mm")],
+)
+def test_capitals_spaces_and_dashes_of_a_name_do_not_matter(find, asked, name):
+    assert find(asked).name == name
 
 
 def test_densities_are_those_of_metals():
@@ -25,17 +55,6 @@ def test_the_papers_material_is_known_by_its_density_only():
     paper = material("stainless-paper")
     assert paper.density == 7860.0
     assert paper.yield_strength is paper.ultimate_strength is paper.poisson_ratio is None
-
-
-def test_the_catalogue_cannot_be_changed():
-    with pytest.raises(TypeError):
-        materials()["mine"] = material(DEFAULT_MATERIAL)
-
-
-def test_an_unknown_name_gets_the_closest():
-    with pytest.raises(SpecificationError, match="stainles-304") as caught:
-        material("stainles-304")
-    assert "stainless-304" in caught.value.hint
 
 
 def test_a_name_like_no_other_gets_the_whole_list():

@@ -70,6 +70,7 @@ FAULTS = {
     "one bolt": ({"stator_bolts": 1}, "stator_bolts is 1; it must be 2 or more"),
     "half a bolt": ({"rotor_bolts": 3.5}, "rotor_bolts: 3.5 is not a whole number"),
     "no bolts": ({"rotor_bolts": 0}, "rotor_bolts: 0 is not positive"),
+    "no class": ({"rotor_screws": "9.9"}, "rotor_screws is '9.9', which is none of 8.8, 10.9"),
     "inch thread": ({"rotor_thread": "4-40"}, "rotor_thread is '4-40', which is none of M2, M2.5"),
     "wide circle": ({"rotor_bolt_circle_m": 0.05}, "0.05, but the motor is only 0.05 m wide"),
     "thick shaft": ({"shaft_diameter_m": 0.06}, "shaft_diameter_m is 0.06, but the motor is only"),
@@ -116,7 +117,12 @@ def test_rows_with_threads_say_where_they_are_from():
 
 def test_it_is_in_the_json_and_in_words():
     (row,) = json.loads(motors_to_json([motor("MN5212 KV340")]))["motors"]
-    assert row["mounting"]["rotor"] == {"diameter": 0.017, "bolts": 3, "thread": "M3"}
+    assert row["mounting"]["rotor"] == {
+        "diameter": 0.017,
+        "bolts": 3,
+        "thread": "M3",
+        "screws": "8.8",
+    }
     said = motor_mounting(motor("MN5212 KV340").mounting)
     assert said == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"
     assert motor_mounting(None) == ""

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from ocs_design.common.errors import OcsError
-from ocs_design.device.checks import check_device
+from ocs_design.device.checks import check_device, device_warnings
 from ocs_design.device.records import read_design
+from ocs_design.robot.mass import MassProperties
 from ocs_design.workflows.restoring import device_of
 
 DESIGN = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json")
@@ -54,3 +55,9 @@ def test_modules_without_direction_or_place_are_refused(change):
     left, right = DEVICE.modules
     with pytest.raises(OcsError, match="of module left"):
         check_device(replace(DEVICE, modules=(replace(left, **change), right)))
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.29, 0), (0.31, 1)])
+def test_a_device_that_is_a_third_of_the_robot_is_minded(share, told):
+    robot = MassProperties(DEVICE.mass / share, np.zeros(3), np.eye(3))
+    assert len(device_warnings(DEVICE, robot)) == told

@@ -11,8 +11,6 @@ from pathlib import Path
 import pytest
 from commands import BOUND, SOLO12, everything_in, run
 
-from ocs_design.export.folder import file_hashes
-
 
 @contextmanager
 def small_disk(folder, kib):
@@ -72,10 +70,3 @@ def test_a_parent_that_is_read_only(folder):
         "cannot be written to choose a folder that you may write to with -o", result.said
     )
     assert everything_in(folder) == ["locked"]
-
-
-def test_a_failing_run_keeps_the_output_that_it_was_to_replace(folder):
-    assert run("size", SOLO12, *BOUND, "--no-validate", "-o", "out").code == 0
-    before = file_hashes(folder)
-    assert run("size", SOLO12, *BOUND, "--r-max", "6mm", "-o", "out", "--force").code == 4
-    assert file_hashes(folder) == before

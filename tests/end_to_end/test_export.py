@@ -213,7 +213,11 @@ def test_the_json_document_names_what_was_made(solo12):
     assert set(result.document["files"]) == set(made_in("again"))
 
 
-@pytest.mark.parametrize("content", [None, b"", b"{}", b'{"schema_version": 99}', b"\xff\xfe"])
+NO_DESIGN = (None, b"", b"{}", b"[1, 2]", b"not json", b"\xff\xfe")
+NO_DESIGN = (*NO_DESIGN, b'{"schema_version": 99}', b'{"schema_version": 1}')
+
+
+@pytest.mark.parametrize("content", NO_DESIGN)
 def test_what_is_no_design_is_an_error_with_nothing_written(folder, content):
     if content is not None:
         Path("design.json").write_bytes(content)

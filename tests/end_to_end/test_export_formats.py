@@ -9,6 +9,7 @@ from renewed import files_in, made_in
 
 from ocs_design.export import formats
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS
+from ocs_design.workflows.export import ON_DESIGN
 
 
 @pytest.mark.parametrize("each", USUAL_FORMATS, ids=lambda each: each.name)
@@ -63,12 +64,10 @@ def test_a_library_that_does_not_load_is_a_missing_tool(solo12, monkeypatch, nam
     assert "cannot be loaded" in result.said
 
 
-def test_dxf_of_each_piece_and_the_same_every_time(solo12):
-    for folder in ("one", "two"):
-        assert run("export", solo12, "-o", folder, "-q", "--formats", "dxf").code == 0
+def test_dxf_of_each_piece(solo12):
+    assert run("export", solo12, "-o", "one", "-q", "--formats", "dxf").code == 0
     pieces = {f"cad/{path.stem}.dxf" for path in (solo12 / "cad").glob("flywheel*.stl")}
     assert set(files_in("one")) == {"design.json", *pieces}
-    assert files_in("one") == files_in("two")
 
 
 def test_formats_are_listed_with_commas_or_one_by_one(solo12):
@@ -86,4 +85,5 @@ def test_an_unknown_format_is_wrong_usage(solo12):
     result = run("export", solo12, "-o", "again", "--formats", "stl,dwg", "--json")
     assert result.code == 2
     assert "dwg" in result.document["error"]["message"]
-    assert all(each.name in result.document["error"]["hint"] for each in FORMATS)
+    known = {*(each.name for each in FORMATS), *ON_DESIGN}
+    assert all(name in result.document["error"]["hint"] for name in known)

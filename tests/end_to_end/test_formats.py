@@ -116,12 +116,6 @@ def check_same(found, expected):
     )
 
 
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 @pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.exhaustive)])
 def test_every_format_gives_the_same_design(folder, mjcf, motor):
     text = Path(SOLO12).read_bytes()

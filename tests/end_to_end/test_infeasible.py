@@ -28,6 +28,15 @@ RELAXATION = re.compile(
 )
 
 
+def refused(*typed):
+    """What the JSON says of a device that cannot be; nothing stands beside it, and none is left."""
+    result = run("size", *typed, "--json")
+    error = result.document["error"]
+    assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
+    assert everything_in(".") == []
+    return error
+
+
 @pytest.mark.parametrize(
     "robot_given",
     [
@@ -43,12 +52,9 @@ RELAXATION = re.compile(
     ],
 )
 def test_what_the_hint_proposes_works_as_it_is_printed(folder, limits, robot_given):
-    result = run("size", *robot_given, *limits, *WHEELS_ALONE, "--json")
-    error = result.document["error"]
-    assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
+    error = refused(*robot_given, *limits, *WHEELS_ALONE)
     assert error["binding"]
     assert error["largest_spin_inertia"] < error["required_spin_inertia"]
-    assert everything_in(folder) == []
     proposed = {match["key"]: match for match in RELAXATION.finditer(error["hint"] + " ")}
     assert set(proposed) | {"hoop_stress"} == set(error["relaxations"]) | {"hoop_stress"}
     assert error["relaxations"]
@@ -60,68 +66,58 @@ def test_what_the_hint_proposes_works_as_it_is_printed(folder, limits, robot_giv
 
 
 def test_a_missing_authority_is_no_matter_of_size(folder):
-    result = run("size", SOLO12, "--alpha", "0", "--motor", "none", "--json")
-    error = result.document["error"]
-    assert (result.code, error["binding"], error["relaxations"]) == (4, ["incidence"], {})
+    error = refused(SOLO12, "--alpha", "0", "--motor", "none")
+    assert (error["binding"], error["relaxations"]) == (["incidence"], {})
     assert "roll momentum" in error["message"]
 
 
 def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
-    result = run("size", SOLO12, "--alpha", "0", "--motor", "R80 KV110", "--json")
-    error = result.document["error"]
-    assert (result.code, error["relaxations"], error["required_spin_inertia"]) == (4, {}, None)
+    error = refused(SOLO12, "--alpha", "0", "--motor", "R80 KV110")
+    assert (error["relaxations"], error["required_spin_inertia"]) == ({}, None)
     assert "axis out of reach" in error["message"]
     # That is so, and no limit of the room has any part in it.
     assert "another incidence there is a device: leave out --alpha" in error["hint"]
     assert "limit" not in error["hint"]
-    assert everything_in(folder) == []
 
 
 @pytest.mark.exhaustive
 def test_a_motor_that_is_too_weak_is_told_how_much_time_it_needs(folder):
     """No limit of the room mends a torque: Solo12's own motor needs longer for the drop."""
-    result = run("size", SOLO12, "--motor", "Antigravity 4004 KV300", "--json")
-    error = result.document["error"]
-    assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
+    error = refused(SOLO12, "--motor", "Antigravity 4004 KV300")
     for words in ("Antigravity 4004 KV300", "24 V", "drop", "0.385 s given"):
         assert words in error["message"]
     assert set(error["relaxations"]) == {"time"}
     assert 1.0 < error["relaxations"]["time"] < 2.0
-    assert everything_in(folder) == []
 
 
 @pytest.mark.exhaustive
 def test_a_robot_that_no_motor_can_turn(folder):
     """What is missing, and what would do."""
-    result = run("size", "--mass", "200", "--inertia", "40,60,60", "--json")
-    error = result.document["error"]
-    assert (result.code, error["kind"], error["binding"]) == (4, "infeasible", ["torque"])
-    assert re.search(r"None of \d+ motors can do it at \d+ V; .* comes closest", error["message"])
+    error = refused("--mass", "200", "--inertia", "300,450,450")
+    assert error["binding"] == ["torque"]
+    assert re.search(r"None of \d+ motors can do it at \d+ V.*; .* comes closest", error["message"])
     assert NEEDED_MOTOR.search(error["hint"]), error["hint"]
-    # Sixteen times too slow: no limit is loosened that far.
+    # Far too slow, with six wheels too: no limit is loosened that far.
     assert error["relaxations"] == {}
     assert "not even changed 10-fold" in error["hint"]
-    assert everything_in(folder) == []
 
 
 def test_two_motors_that_are_both_too_weak(folder):
     """Four times Solo12, with motors of its size: more time would do, and so would a third one."""
     weak = ("--mass", "10", "--inertia", "0.3,0.45,0.5", "--motor", f"{TOO_WEAK}, MN4014 KV400")
-    result = run("size", *weak, "--json")
-    error = result.document["error"]
-    assert (result.code, error["kind"], error["binding"]) == (4, "infeasible", ["torque"])
-    assert "None of 2 motors can do it at 24 V; MN4014 KV400 comes closest" in error["message"]
+    error = refused(*weak)
+    assert error["binding"] == ["torque"]
+    said = r"None of 2 motors can do it at 24 V with \d wheels; MN4014 KV400 comes closest"
+    assert re.search(said, error["message"])
     assert NEEDED_MOTOR.search(error["hint"]), error["hint"]
     assert set(error["relaxations"]) == {"time"}
-    for key in ("disturbance takeoff_velocity", "drop height", "back-flip jump_height", "duration"):
+    for key in ("drop height", "back-flip jump_height", "duration"):
         assert key in error["hint"]
-    assert everything_in(folder) == []
 
 
 @pytest.mark.exhaustive
 def test_the_figures_of_a_refusal_are_those_of_its_words(folder):
-    result = run("size", SOLO12, "--motor", "R80 KV110", "--r-max", "12mm", "--json")
-    error = result.document["error"]
+    error = refused(SOLO12, "--motor", "R80 KV110", "--r-max", "12mm")
     words = re.search(r"needs a wheel of (\S+) kg m\^2, (\S+) fits", error["message"])
     assert f"{error['required_spin_inertia']:.3g}" == words[1]
     assert f"{error['largest_spin_inertia']:.3g}" == words[2]

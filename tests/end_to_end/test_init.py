@@ -8,7 +8,6 @@ import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 
-import pytest
 from commands import BY_HAND, PROGRAM, SOLO12, environment, run
 
 from ocs_design.requirement.reading import read_specification
@@ -17,12 +16,6 @@ from ocs_design.requirement.specification import RobotSection, Specification
 from ocs_design.workflows.init import read_start
 
 SOLO12_SPECIFICATION = Specification(robot=RobotSection(file=SOLO12))
-
-
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def on_a_terminal(answers, *arguments):

@@ -11,6 +11,8 @@ from anatomy import LEGGED as WALKING
 from commands import PROGRAM, environment
 from robots import ROBOTS
 
+from ocs_design.parts.carrier_plate import TUBES
+
 # Upper bodies of a humanoid: its legs are not in their files.
 LEGGED = [*WALKING, *(name for name in ANATOMY if name.startswith("alex_description"))]
 
@@ -84,6 +86,16 @@ def test_size_ends_with_a_design_and_its_proof_or_with_the_motor_that_would_do(n
 def test_wheels_without_motors_end_with_a_design_and_its_proof(name, tmp_path):
     code, document = size(name, tmp_path / "out", "--motor", "none")
     check_proof(name, tmp_path / "out", code, document)
+
+
+@pytest.mark.slow
+def test_a_humanoid_carries_them_on_its_back(tmp_path):
+    """Where its back is flat enough for screws, and out of reach of its feet in a landing."""
+    code, document = size("g1_description/urdf/g1_29dof_rev_1_0", tmp_path / "out", "--no-validate")
+    assert document["buildable"] == {"yes": True, "open": []}
+    assert code == 0
+    assert document["ocs"]["plate"]["mast"]["side"] in {side for side, _ in TUBES}
+    assert {"mast.stl", "plate.stl"} <= {each.name for each in tmp_path.glob("out/cad/*")}
 
 
 def check_refusal(error):

@@ -113,13 +113,6 @@ def test_every_capacity_is_that_of_its_part(sized):
     assert margins["voltage line"]["capacity"] == 1.0
 
 
-def test_a_margin_is_capacity_over_demand(sized):
-    for margin in sized[1].design["margins"]:
-        if margin["margin"] is not None:
-            factor = margin["capacity"] / margin["demand"]
-            assert margin["margin"] == pytest.approx(factor, rel=1e-12)
-
-
 def test_the_rms_current_is_that_of_the_flight(sized):
     """The worse of the whole run and of lift-off to touchdown."""
     flown = sized[1]

@@ -1,19 +1,15 @@
 """`inspect`, `bound` and `catalogue`, and what cannot be read back as a design."""
 
-import csv
 import json
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import BOUND, BY_HAND, ROOT, SOLO12, run
+from commands import BOUND, BY_HAND, SOLO12, run
 from products import equal_rate
 
 from ocs_design import __version__
-from ocs_design.common.errors import OcsError
 from ocs_design.common.installing import extra_command
-from ocs_design.device.records import read_design
 
 PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
 
@@ -63,24 +59,6 @@ def test_a_bound_that_makes_no_sense_is_wrong_usage(options, words):
     assert words in result.said
 
 
-def test_the_catalogue_is_its_file():
-    listed = run("catalogue", "materials", "--json").document["materials"]
-    path = Path(ROOT / "ocs_design" / "catalogue" / "materials.csv")
-    rows = {row["name"]: row for row in csv.DictReader(path.read_text().splitlines())}
-    assert {material["name"] for material in listed} == set(rows)
-    for material in listed:
-        row = rows[material["name"]]
-        assert material["density"] == float(row["density_kg_m3"])
-        assert material["source"] == row["source"]
-        assert material["name"] in run("catalogue", "materials").said
-
-
-def test_an_unknown_catalogue_is_wrong_usage():
-    result = run("catalogue", "cheeses")
-    assert result.code == 2
-    assert "catalogue materials" in result.said
-
-
 def test_inspect_says_what_size_goes_by():
     found = run("inspect", SOLO12, "--json").document
     robot = found["robot"]
@@ -95,31 +73,6 @@ def test_inspect_says_what_size_goes_by():
     assert f"equal-rate {np.degrees(alpha):.3f}" in text
     assert "Joints at stand" not in text
     assert "FL_HFE 0.6435 36.9" in run("inspect", SOLO12, "-v").said
-
-
-@pytest.mark.parametrize(
-    "content",
-    [
-        b"",
-        b"{}",
-        b"[1, 2]",
-        b"not json",
-        b"\xff\xfe",
-        b'{"schema_version": 99}',
-        b'{"schema_version": 1}',
-    ],
-)
-def test_what_is_no_design_is_told(tmp_path, content):
-    path = tmp_path / "design.json"
-    path.write_bytes(content)
-    with pytest.raises(OcsError) as caught:
-        read_design(path)
-    assert str(path) in caught.value.message
-
-
-def test_a_design_that_is_not_there_is_told(tmp_path):
-    with pytest.raises(OcsError, match="No such file"):
-        read_design(tmp_path / "design.json")
 
 
 def test_the_bound_alone_names_the_extra_that_it_needs(monkeypatch, tmp_path):

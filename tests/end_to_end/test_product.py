@@ -160,16 +160,6 @@ def test_the_pieces_are_watertight_bodies_and_weigh_what_they_should(product, de
     check_weight(list(zip(meshes, densities(device.flywheel), strict=True)), device)
 
 
-def test_the_robots_mesh_is_the_whole_wheel(product, device):
-    wheel = device.flywheel
-    mesh = trimesh.load_mesh(product.folder / "robot/meshes/ocs_flywheel.stl")
-    bodies = sorted(mesh.split(), key=lambda body: -body.extents[0])
-    check_weight(list(zip(bodies, densities(wheel), strict=True)), device)
-    height = wheel.height if wheel.web is None else max(wheel.height, wheel.web["hub"]["height"])
-    size = np.array([2.0 * wheel.outer_radius] * 2 + [height])
-    np.testing.assert_allclose(mesh.extents, size, rtol=1e-4)
-
-
 @pytest.mark.parametrize("name", [name for name in FILES if name.startswith("validation/")])
 def test_time_series_can_be_read_with_their_units(product, document, name):
     with (product.folder / name).open(newline="") as file:

@@ -13,7 +13,6 @@ from renewed import files_in
 from ocs_design.common.errors import OcsError
 from ocs_design.device.records import read_design
 from ocs_design.report.story import read_campaign, story_in
-from ocs_design.workflows.export import ON_DESIGN
 
 DOC = (Path(__file__).parents[2] / "docs" / "report.md").read_text()
 
@@ -64,13 +63,6 @@ def test_in_its_own_folder_everything_else_stays(design):
     assert run("export", design, "-o", design, "--force", "-q", "--formats", "report").code == 0
     after = files_in(design)
     assert {name for name in after if after[name] != before.get(name)} == {"report.html"}
-
-
-def test_names_are_listed_with_those_of_the_formats(design):
-    result = run("export", design, "-o", "again", "--formats", "nothing")
-    assert result.code == 2
-    for name in ON_DESIGN:
-        assert name in result.said
 
 
 def test_flights_come_from_their_files_as_they_were_flown(product):

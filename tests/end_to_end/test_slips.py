@@ -33,6 +33,7 @@ FILES = {
     "solo12.toml": '[flywheel]\nrmax = "50mm"\n',
     "side.urdf.xacro": '<robot name="r"><link name="$(arg side)"/></robot>',
     "done/design.json": "{}",
+    "newer/design.json": '{"schema_version": 9}',
     "mine/notes.txt": "mine",
 }
 

@@ -2,29 +2,28 @@
 
 import importlib.util
 import sys
+from dataclasses import replace
 from functools import cache
-from math import cos, degrees, pi, sqrt
+from math import sqrt
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from ocs_design.actuation.drive import DriveLine
-from ocs_design.actuation.slew import slew_time
-from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia
-from ocs_design.device.layout import module_axes
+from ocs_design import Infeasible
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
-from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import read_specification
-from ocs_design.requirement.resolving import read_specified_robot
+from ocs_design.requirement.resolving import read_specified_robot, resolve
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.design import design_device
+from ocs_design.sizing.trajectory.boundary import pivot_boundary
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.plans import drive_line_of, gentlest
+from ocs_design.workflows.pareto import read_task
 
 ROOT = Path(__file__).parents[2]
 MACHINES = ROOT / "examples" / "machines"
-HEAVIER = 10.0
-"""How much more inert, and how much less turned, the specifications have the bodies on a foot."""
 
 
 def load(name):
@@ -37,81 +36,32 @@ def load(name):
 
 
 standing = load("standing")
-ROLL, PITCH = standing.REX_HOPPER_INERTIA
-STANDING = {
-    "wheelbot": standing.wheelbot(),
-    "aalborg_cubli": standing.aalborg_cubli(),
-    "rex_hopper, roll": standing.rex_hopper(ROLL),
-    "rex_hopper, pitch": standing.rex_hopper(PITCH),
-}
-
-
-@pytest.mark.parametrize("machine", STANDING.values(), ids=list(STANDING))
-def test_the_push_brings_the_machine_up_to_where_it_coasts_upright(machine):
-    def motion(_, state):
-        gravity = machine.gravity_moment * np.sin(state[0])
-        return [state[1], (gravity - machine.torque) / machine.inertia]
-
-    end = (0.0, machine.push_time)
-    pushed = solve_ivp(motion, end, [machine.tilt, 0.0], rtol=1e-11, atol=1e-12).y[:, -1]
-    energy = machine.inertia * pushed[1] ** 2 / 2.0
-    assert pushed[1] < 0.0
-    assert energy == pytest.approx(machine.gravity_moment * (1.0 - cos(pushed[0])), rel=1e-7)
-
-
-@pytest.mark.parametrize("machine", STANDING.values(), ids=list(STANDING))
-def test_the_turn_without_gravity_takes_the_same_torque_and_momentum(machine):
-    angle, duration = machine.turn
-    # One wheel with an inertia far below the machine's, torque alone.
-    wheel = 1e-6 * machine.inertia
-    line = DriveLine(np.inf, 1e12, machine.torque, np.inf)
-    time = float(slew_time(machine.inertia * angle / wheel, wheel, line))
-    assert time == pytest.approx(duration, rel=1e-9)
-    assert machine.torque * time / 2.0 == pytest.approx(machine.momentum, rel=1e-9)
-
-
-def test_a_wheel_weaker_than_gravity_does_not_stand_up():
-    weak = standing.Standing("weak", inertia=1.0, gravity_moment=1.0, tilt=0.5, torque=0.4)
-    with pytest.raises(ValueError, match="gravity is stronger"):
-        _ = weak.push_time
 
 
 def specification(name):
     return read_specification(MACHINES / f"{name}.toml")
 
 
-@pytest.mark.parametrize(
-    ("name", "axis", "machine", "copies"),
-    [
-        ("wheelbot", 1, "wheelbot", 2),
-        ("aalborg_cubli", 1, "aalborg_cubli", 2),
-        ("rex_hopper", 0, "rex_hopper, roll", 1),
-        ("rex_hopper", 1, "rex_hopper, pitch", 1),
-    ],
-)
-def test_the_specifications_ask_for_these_turns(name, axis, machine, copies):
-    stated = specification(name)
+@pytest.mark.parametrize("name", standing.MACHINES)
+def test_a_specification_has_the_machine_without_its_wheels(name):
+    stated, machine = specification(name), standing.MACHINES[name]
     robot = read_specified_robot(stated)
-    wanted = STANDING[machine]
-    angle, duration = wanted.turn
-    inertia = np.diag(robot.inertia)[:2]
-    assert inertia[axis] == pytest.approx(copies * wanted.inertia * HEAVIER, rel=5e-4)
-    slews = [
-        one.slew(TiltInertia.uncoupled(inertia), standing_height(robot)) for one in stated.maneuvers
-    ]
-    (slew,) = [one for one in slews if one.swept[axis] > 0.0]
-    assert slew.swept[axis] == pytest.approx(copies * wanted.inertia * angle, rel=5e-4)
-    assert slew.duration == pytest.approx(duration, rel=2e-4)
-
-
-def test_rex_hopper_aims_its_leg_within_its_jump():
-    stated = specification("rex_hopper_flight")
-    robot = read_specified_robot(stated)
-    flight = 2.0 * sqrt(2.0 * 0.5 / 9.807)  # actuator_calc.ipynb
+    assert robot.mass == pytest.approx(machine.body.mass, abs=1e-4)
+    largest = np.abs(machine.body.inertia).max()
+    np.testing.assert_allclose(robot.inertia, machine.body.inertia, atol=5e-4 * largest)
+    # Of a pair only the left wheel's place is stated.
+    stated_at = np.reshape(stated.ocs.position, (-1, 3))
+    np.testing.assert_allclose(stated_at, machine.positions[: len(stated_at)], atol=6e-5)
     for maneuver in stated.maneuvers:
-        slew = maneuver.slew(TiltInertia.uncoupled(np.ones(2)), standing_height(robot))
-        assert slew.duration == pytest.approx(flight, rel=2e-3)
-        assert degrees(slew.swept.max()) == pytest.approx(degrees(np.arctan(0.5)), rel=1e-4)
+        np.testing.assert_allclose(maneuver.pivot, machine.pivot, atol=6e-5)
+
+
+def test_a_body_less_a_part_and_with_it_again_is_the_same():
+    body, part = standing.REX_HOPPER, standing.Body.of(0.7, (0.1, -0.2, 0.3), (1e-3, 2e-3, 2e-3))
+    again = body - part + part
+    assert again.mass == pytest.approx(body.mass)
+    np.testing.assert_allclose(again.com, body.com, atol=1e-12)
+    np.testing.assert_allclose(again.inertia, body.inertia, atol=1e-12)
 
 
 REX_HOPPER_LINKS = """
@@ -148,11 +98,10 @@ def test_rex_hopper_is_the_sum_of_its_links():
         arm = data.xipos[body] - com
         inertia += turn @ np.diag(model.body_inertia[body]) @ turn.T
         inertia += model.body_mass[body] * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    robot = read_specified_robot(specification("rex_hopper_flight"))
-    assert robot.mass == pytest.approx(model.body_mass.sum(), abs=5e-5)
-    np.testing.assert_allclose(robot.inertia, inertia, atol=1e-6)
-    assert np.diag(inertia)[:2] == pytest.approx(standing.REX_HOPPER_INERTIA, abs=1e-6)
-    assert com[2] == pytest.approx(0.0057, abs=5e-5)
+    whole = standing.REX_HOPPER
+    assert whole.mass == pytest.approx(model.body_mass.sum(), abs=5e-5)
+    np.testing.assert_allclose(whole.inertia, inertia, atol=1e-6)
+    np.testing.assert_allclose(whole.com - [0.0, 0.0, 0.45], com, atol=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -165,57 +114,84 @@ def test_the_room_for_a_rim_is_that_of_the_wheel_as_built(name, mass, spin, acro
     height = sqrt(12.0 / mass * (across - spin / 2.0))
     assert room.h_max == pytest.approx(height, rel=0.02)
     gyration = sqrt(spin / mass)
-    assert room.r_max >= gyration * (1.0 - 2e-3)
-    outer = max(room.r_max, gyration)
-    inner = sqrt(max(2.0 * spin / mass - outer**2, 0.0))
-    if outer - inner > 1e-3:
-        density = mass / (pi * height * (outer**2 - inner**2))
-        assert cylinder_spin_inertia(inner, outer, height, density) == pytest.approx(spin)
-        assert cylinder_transverse_inertia(inner, outer, height, density) == pytest.approx(across)
+    assert room.r_max >= gyration
+    inner = sqrt(max(2.0 * spin / mass - room.r_max**2, 0.0))
+    if inner > 0.0:
+        density = mass / (np.pi * height * (room.r_max**2 - inner**2))
+        whole = inner, room.r_max, height, density
+        assert cylinder_spin_inertia(*whole) == pytest.approx(spin)
+        assert cylinder_transverse_inertia(*whole) == pytest.approx(across)
 
 
-def test_the_wheelbots_own_motor_line_asks_for_nearly_its_own_wheel():
-    """Figures of docs/machines.md: 1.6 N m at rest and 2,700 rpm without load."""
-    line = DriveLine(1.6, 2700.0 * pi / 30.0, np.inf, np.inf)
-    machine = STANDING["wheelbot"]
-    angle, duration = machine.turn
-    inertia = 2.0 * machine.inertia * HEAVIER
-    task = WheelTask(
-        swept=np.array([0.0, inertia * angle / HEAVIER]),
-        momentum=np.zeros(2),
-        duration=duration,
-        inertia=TiltInertia.uncoupled([inertia, inertia]),
-        axes=module_axes(0.0)[:2],
-    )
-    assert float(smallest_spin_inertia(task, line)) == pytest.approx(0.545e-3, rel=1e-3)
-    reserved = float(smallest_spin_inertia(task, line.reserved()))
-    assert reserved == pytest.approx(0.603e-3, rel=1e-3)
-
-
-def test_a_machine_comes_out_as_it_was_built(comparison):
-    """What docs/machines.md claims of REx Hopper, and the same for Wheelbot's wheel."""
+@pytest.mark.slow
+@pytest.mark.parametrize("axis", ["roll", "pitch"])
+def test_rex_hopper_as_built_catches_itself_from_16_degrees(axis):
+    """Planned with everything that its motors have, in the whole machine as published."""
     stated = specification("rex_hopper")
-    free = comparison.lightest(comparison.with_any_motor(stated), None)
-    assert free.motor.name == "R100 KV90"
-    assert free.gear.name == "direct"
-    assert degrees(free.incidence) == pytest.approx(45.0, abs=1.5)
-    built = {one.specification: one for one in comparison.MACHINES}
-    for name, share in (("rex_hopper", 0.69), ("wheelbot", 1.01)):
-        same = comparison.lightest(specification(name), built[name].incidence)
-        assert same.spin_inertia / built[name].spin_inertia == pytest.approx(share, abs=0.01)
+    nominal = replace(stated, requirement=replace(stated.requirement, reliability=0.5))
+    task = read_task(nominal, package_paths={}, strict=False)
+    device = design_device(nominal, task.robot, task.resolved, advise=False, ranked=False).device
+    whole = standing.REX_HOPPER
+    body = MassProperties(whole.mass, whole.com, whole.inertia)
+    for degrees, catches in ((16.0, True), (17.0, False)):
+        start = {"roll": 0.0, "pitch": 0.0, axis: np.radians(degrees)}
+        catch = replace(stated.maneuvers[0], pivot=(0.0, 0.0, 0.0), **start).on(body)
+        built = Gyrostat(catch.inertia, device.axes, 6.60959e-3, 0.0, catch.pull, catch.axis)
+        planned = gentlest(pivot_boundary(catch, built), built, drive_line_of(device))
+        assert (not planned.failure) == catches
+
+
+BUS = (180.0, np.array([18.0, 28.0, 22.0]))
+"""Mass and inertia of the satellite of the sizing table."""
+
+SLEWS = [(10.0, 20.0), (30.0, 30.0), (60.0, 60.0), (90.0, 60.0), (45.0, 10.0)]
+"""Its slews: angle [deg] and time [s]."""
+
+
+def test_the_satellite_is_the_tables_in_small_and_slews_as_the_table_has_it():
+    stated = specification("satellite")
+    robot = read_specified_robot(stated)
+    mass, inertia = BUS
+    np.testing.assert_allclose(
+        np.diag(robot.inertia), inertia * (robot.mass / mass) ** (5.0 / 3.0), rtol=5e-4
+    )
+    asked = resolve(stated, robot, 1.0).requirement.maneuvers
+    angles = np.degrees([each.roll + each.pitch + each.yaw for each in asked])
+    turned = set(zip(angles.round(6).tolist(), [each.duration for each in asked], strict=True))
+    assert turned == {(90.0, 60.0), (45.0, 10.0)}
+    # Those that are left out take less torque, 4 I theta / T^2, and less momentum, 2 I theta / T.
+    hardest = 45.0 / 10.0**2, 45.0 / 10.0
+    assert all(angle / time**2 <= hardest[0] for angle, time in SLEWS)
+    assert all(angle / time <= hardest[1] for angle, time in SLEWS)
+
+
+def test_the_push_is_what_an_ankle_takes():
+    """75 kg with the centre of mass at 0.559 of 1.75 m: 4.75 N s at 2 cm."""
+    push = standing.Push(75.0, 0.559 * 1.75)
+    assert push.impulse == pytest.approx(4.75, abs=0.01)
+    (maneuver,) = specification("backpack").maneuvers
+    assert np.linalg.norm(maneuver.impulse) == pytest.approx(push.impulse, rel=1e-2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["wheelbot", "aalborg_cubli", "rex_hopper", "rex_hopper_flight"])
+def test_a_machine_is_sized_and_does_what_it_does(name):
+    design = load("compare").lightest(specification(name))
+    assert all(run.passed for run in design.validation if run.ocs)
+
+
+@pytest.mark.slow
+def test_the_wheel_of_the_mini_wheelbot_has_no_room_here():
+    refused = load("compare").lightest(specification("mini_wheelbot"))
+    assert isinstance(refused, Infeasible)
+    assert "no rim of that size fits" in refused.message
 
 
 @pytest.mark.exhaustive
-def test_the_page_shows_what_the_script_prints(comparison, capsys):
-    comparison.main()
+def test_the_page_shows_what_the_script_prints(capsys):
+    script = load("compare")
+    script.lightest = cache(script.lightest)
+    script.main()
     printed = [line.rstrip() for line in capsys.readouterr().out.rstrip().splitlines()]
     page = (ROOT / "docs" / "machines.md").read_text()
     assert "\n".join(printed) in page
-
-
-@pytest.fixture(scope="module")
-def comparison():
-    script = load("compare")
-    # Each device takes seconds.
-    script.lightest = cache(script.lightest)
-    return script

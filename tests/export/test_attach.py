@@ -91,18 +91,6 @@ def test_the_users_defaults_and_compiler_do_not_reach_the_wheels(tmp_path):
     assert model.body_subtreemass[1] == pytest.approx(7.0 + 2.0 * device.flywheel.mass, rel=1e-12)
 
 
-def test_keyframes_keep_each_joints_value(tmp_path):
-    model = with_device(read_mjcf(tmp_path), paper_device())
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, model.key("home").id)
-    assert (data.joint("first").qpos[0], data.joint("second").qpos[0]) == (0.11, 0.12)
-    assert (data.joint("first").qvel[0], data.joint("second").qvel[0]) == (0.21, 0.22)
-    assert (data.actuator("first").ctrl[0], data.actuator("second").ctrl[0]) == (0.31, 0.32)
-    for name in ("ocs_left", "ocs_right"):
-        assert data.joint(name).qpos[0] == data.joint(name).qvel[0] == 0.0
-        assert data.actuator(name).ctrl[0] == 0.0
-
-
 @pytest.mark.parametrize(
     ("drive", "limit"),
     [

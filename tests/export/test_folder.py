@@ -1,13 +1,12 @@
 """The output folder appears complete or not at all."""
 
 import errno
-import hashlib
 
 import pytest
 
 from ocs_design.common.errors import OutputError
 from ocs_design.device.records import DESIGN_FILE
-from ocs_design.export.folder import check_target, file_hashes, staged_folder
+from ocs_design.export.folder import check_target, staged_folder
 
 
 def make_output(folder, text="old"):
@@ -103,9 +102,3 @@ def test_a_full_disk_is_an_error_with_a_cure_and_leaves_nothing(tmp_path):
         raise full
     assert "free some space" in caught.value.hint
     assert names(tmp_path) == []
-
-
-def test_hashes_cover_every_file_by_relative_path(tmp_path):
-    (tmp_path / "cad").mkdir()
-    (tmp_path / "cad" / "a.stl").write_bytes(b"solid")
-    assert file_hashes(tmp_path) == {"cad/a.stl": hashlib.sha256(b"solid").hexdigest()}

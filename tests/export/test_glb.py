@@ -128,13 +128,6 @@ def test_colours_are_linear_and_opacity_is_kept(shapes, tmp_path):
     np.testing.assert_allclose(box, [0.2140, 0.0509, 0.0, 1.0], atol=2e-4)
 
 
-def test_equal_robots_give_equal_bytes(tmp_path):
-    robot = read_robot(SOLO12)
-    first = export_robot_glb(robot_model(robot, DEVICE).compiled, robot.posture, tmp_path / "a.glb")
-    again = export_robot_glb(robot_model(robot, DEVICE).compiled, robot.posture, tmp_path / "b.glb")
-    assert first.read_bytes() == again.read_bytes()
-
-
 def test_the_posture_is_the_robots(tmp_path):
     robot = read_robot(SOLO12)
     _, stand = drawn(robot, tmp_path)

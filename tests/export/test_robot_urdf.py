@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pinocchio_model
 from robots import SOLO12
-from wheels import motor, paper_device
+from wheels import paper_device
 
 from ocs_design.common.errors import RobotError
 from ocs_design.export.urdf import export_robot_urdf
@@ -43,21 +43,6 @@ def test_the_users_file_stays_byte_for_byte(path, tmp_path):
     assert result[:place] == content[:place]
     assert result.endswith(content[place:])
     assert content == path.read_bytes()
-
-
-def test_a_windows_file_in_latin_1_stays_byte_for_byte(tmp_path):
-    text = SOLO12.read_text().replace("\n", "\r\n")
-    text = text.split("?>", 1)[1] if text.startswith("<?xml") else text
-    content = f'<?xml version="1.0" encoding="iso-8859-1"?><!-- é -->{text}'.encode("latin-1")
-    (tmp_path / "in.urdf").write_bytes(content)
-    robot = read_robot(tmp_path / "in.urdf")
-    result = export_robot_urdf(robot, paper_device(), tmp_path / "out.urdf").read_bytes()
-    place = content.rindex(b"</robot>")
-    assert result[:place] == content[:place]
-    assert result.endswith(content[place:])
-    assert result.count(b"\n") == result.count(b"\r\n")
-    again = read_robot(tmp_path / "out.urdf")
-    assert again.mass == pytest.approx(robot.mass + 2.0 * paper_device().flywheel.mass, rel=1e-12)
 
 
 def test_a_robot_by_hand_is_written_in_full(tmp_path):
@@ -102,38 +87,12 @@ def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element):
         export_robot_urdf(read_robot(tmp_path / "in.urdf"), paper_device(), tmp_path / "out.urdf")
 
 
-def test_exporting_twice_is_a_clash(tmp_path):
-    export_robot_urdf(read_robot(SOLO12), paper_device(), tmp_path / "once.urdf")
-    with pytest.raises(RobotError, match="ocs_left_flywheel"):
-        export_robot_urdf(
-            read_robot(tmp_path / "once.urdf"), paper_device(), tmp_path / "twice.urdf"
-        )
-
-
 def test_the_wheels_mesh_lies_beside_the_file_in_metres(tmp_path):
     text = exported_text(read_robot(SOLO12), tmp_path)
     assert text.count(f'filename="{WHEEL_MESH}"') == 2
     np.testing.assert_allclose(
         trimesh.load_mesh(tmp_path / WHEEL_MESH).extents, [0.06, 0.06, 0.01], rtol=1e-4
     )
-
-
-@pytest.mark.parametrize(
-    ("drive", "effort", "velocity"),
-    [(motor(754.0, torque_limit=1.5), 1.5, 754.0), (motor(754.0, stall_torque=0.5), 0.5, 754.0)],
-)
-def test_limits_of_the_motor_are_in_the_file(tmp_path, drive, effort, velocity):
-    model = pinocchio_model(exported_text(HAND, tmp_path, paper_device(drive=drive)))
-    for name in ("ocs_left", "ocs_right"):
-        index = model.idx_vs[model.getJointId(name)]
-        assert model.upperEffortLimit[index] == effort
-        assert model.upperVelocityLimit[index] == velocity
-
-
-def test_bytes_are_the_same_every_time(tmp_path):
-    robot, device = read_robot(SOLO12), paper_device()
-    first = export_robot_urdf(robot, device, tmp_path / "a.urdf").read_bytes()
-    assert export_robot_urdf(robot, device, tmp_path / "b.urdf").read_bytes() == first
 
 
 def test_names_that_need_escaping_are_escaped(tmp_path):

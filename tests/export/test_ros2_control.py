@@ -3,7 +3,6 @@
 from xml.etree import ElementTree as ET
 
 import pytest
-from robots import SOLO12
 from seats import TRUNK, TrunkOnly, expanded
 from wheels import driven_device, geared, motor, paper_device
 
@@ -65,11 +64,3 @@ def test_a_motor_without_limit_has_no_bounds(tmp_path):
     (system,) = systems(path.read_text())
     check_system(system, paper_device(), "", MOCK_PLUGIN)
     assert not bounds(system)
-
-
-def test_it_can_be_pasted_as_its_comment_says(tmp_path):
-    text = export_snippet_ros2_control(driven_device(), tmp_path / "a.urdf").read_text()
-    part = text.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
-    robot = SOLO12.read_text().replace("</robot>", part + "</robot>")
-    (system,) = systems(robot)
-    check_system(system, driven_device(), "", MOCK_PLUGIN)

@@ -34,7 +34,6 @@ BRANCHED = """<mujoco model="branched">
   <sensor><jointpos name="a" joint="nod"/><accelerometer name="b" site="nose"/>
     <jointvel name="c" joint="knee"/></sensor>
 </mujoco>"""
-FIELDS = ("key_qpos", "key_qvel", "key_ctrl", "key_act")
 
 
 def with_keyframes(spec):
@@ -151,14 +150,6 @@ def test_sensors_measure_what_their_names_say(tmp_path):
     assert (measured["ocs_left_torque"], measured["ocs_right_torque"]) == (0.25, 0.0)
     np.testing.assert_allclose(measured["ocs_imu_attitude"], [0.8, 0.0, 0.6, 0.0], atol=1e-15)
     np.testing.assert_allclose(measured["ocs_imu_rate"], [0.1, 0.2, 0.3], atol=1e-15)
-
-
-def test_the_command_is_bounded_by_the_motor(tmp_path):
-    model = written_again(SOLO12, None, tmp_path / "out")
-    limit = DEVICE.motor.torque_limit
-    for side in ("left", "right"):
-        np.testing.assert_array_equal(model.actuator(f"ocs_{side}").ctrlrange, [-limit, limit])
-        assert model.actuator_ctrllimited[model.actuator(f"ocs_{side}").id]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """The device alone, put into robots the way that each snippet's own comment says."""
 
-import re
 from dataclasses import replace
 
 import mujoco
@@ -8,9 +7,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import xacro
-from exported import check_moments, check_wheels_in_pinocchio, pinocchio_model
-from robots import ROBOTS, SOLO12
-from wheels import motor, paper_device
+from exported import pinocchio_model
+from robots import ROBOTS
+from wheels import paper_device
 
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
@@ -24,12 +23,6 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 
 TRUNK = "base_link"
-ROBOT = f"""<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
-  <xacro:include filename="ocs.urdf.xacro"/>
-  <link name="{TRUNK}"><inertial><mass value="1"/>
-    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  CALL
-</robot>"""
 MJCF = """<mujoco><asset><model name="ocs" file="ocs.xml"/></asset><worldbody>
   <body name="trunk"><freejoint/><geom size="0.1" mass="2"/>
     <body name="leg"><joint name="hip" axis="0 1 0"/><geom size="0.05" mass="1"/></body>
@@ -39,70 +32,6 @@ MJCF = """<mujoco><asset><model name="ocs" file="ocs.xml"/></asset><worldbody>
 
 def carrier(trunk):
     return replace(robot_by_hand(2.5, (0.03, 0.05, 0.07)), trunk=trunk)
-
-
-@pytest.mark.parametrize("drive", [motor(), motor(754.0, torque_limit=1.0)])
-def test_the_urdf_snippet_is_a_urdf(tmp_path, drive):
-    device = paper_device(drive=drive)
-    text = export_snippet_urdf(device, carrier(TRUNK), tmp_path / "ocs.urdf").read_text()
-    check_wheels_in_pinocchio(pinocchio_model(text), device, TRUNK)
-
-
-def test_the_urdf_snippet_can_be_pasted(tmp_path):
-    device = paper_device()
-    text = export_snippet_urdf(device, carrier(TRUNK), tmp_path / "ocs.urdf").read_text()
-    part = text.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
-    model = pinocchio_model(SOLO12.read_text().replace("</robot>", part + "</robot>"))
-    check_wheels_in_pinocchio(model, device, TRUNK)
-
-
-def expand(folder, call):
-    (folder / "robot.urdf.xacro").write_text(ROBOT.replace("CALL", call))
-    return xacro.process_file(str(folder / "robot.urdf.xacro")).toxml()
-
-
-def test_the_macro_gives_the_device(tmp_path):
-    device = paper_device()
-    export_snippet_xacro(device, carrier(TRUNK), tmp_path / "ocs.urdf.xacro")
-    text = expand(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>')
-    check_wheels_in_pinocchio(pinocchio_model(text), device, TRUNK)
-
-
-def test_the_macro_takes_another_angle_and_a_prefix(tmp_path):
-    export_snippet_xacro(paper_device(), carrier(TRUNK), tmp_path / "ocs.urdf.xacro")
-    call = f'<xacro:ocs parent="{TRUNK}" prefix="front_" incidence="0.25"/>'
-    model = pinocchio_model(expand(tmp_path, call))
-    check_wheels_in_pinocchio(model, paper_device(0.25), TRUNK, prefix="front_")
-
-
-def test_the_call_in_the_macros_comment_works(tmp_path):
-    text = export_snippet_xacro(
-        paper_device(), carrier(TRUNK), tmp_path / "ocs.urdf.xacro"
-    ).read_text()
-    calls = re.findall(r"<xacro:ocs .*/>", text)
-    assert calls
-    check_wheels_in_pinocchio(pinocchio_model(expand(tmp_path, calls[0])), paper_device(), TRUNK)
-
-
-def test_the_mjcf_snippet_can_be_attached(tmp_path):
-    device = paper_device(drive=motor(754.0, torque_limit=1.0))
-    text = export_snippet_mjcf(device, carrier("trunk"), tmp_path / "ocs.xml").read_text()
-    assert all(line.strip() in text for line in re.findall(r"<(?:model|attach) .*/>", MJCF))
-    (tmp_path / "robot.xml").write_text(MJCF)
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    for module in device.modules:
-        name = f"ocs_{module.name}"
-        check_moments(np.diag(model.body(f"{name}_flywheel").inertia), device)
-        np.testing.assert_allclose(data.joint(name).xaxis, module.axis, atol=1e-9)
-        np.testing.assert_allclose(data.joint(name).xanchor, module.position, atol=1e-9)
-        np.testing.assert_array_equal(model.actuator(name).ctrlrange, [-1.0, 1.0])
-
-
-def test_the_mjcf_snippet_stands_alone(tmp_path):
-    path = export_snippet_mjcf(paper_device(), carrier("trunk"), tmp_path / "ocs.xml")
-    assert mujoco.MjModel.from_xml_path(str(path)).nu == 2
 
 
 @pytest.mark.parametrize("export", [export_snippet_urdf, export_snippet_xacro, export_snippet_mjcf])

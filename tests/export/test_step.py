@@ -1,6 +1,6 @@
 """STEP files, read again by Open CASCADE, against the closed form."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.module_bodies import carrier_placement, wheel_placement
 from ocs_design.export.step import STEEL, device_bytes, module_bytes, step_bytes
 from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT
-from ocs_design.parts.carrier_plate import plate_part
+from ocs_design.parts.carrier_plate import Mast, mast_part, plate_part
 from ocs_design.robot.tree import Placement
 
 TOLERANCE = 1e-9
@@ -140,6 +140,7 @@ COLORS = {
     **dict.fromkeys(("drum", "lid", "foot", "cage"), PRINT),
     "motor": MOTOR,
     "plate": ALUMINIUM,
+    "mast": ALUMINIUM,
     "flywheel": STEEL,
 }
 
@@ -165,20 +166,43 @@ def test_a_module_has_all_its_pieces_in_their_places(tmp_path):
     assert isinstance(read(tmp_path / "module.step"), TopoDS_Shape)
 
 
-def test_the_device_has_every_module_in_its_place_and_the_plate(tmp_path):
-    device = DEVICES["on a plate"]
+ON_A_PLATE = DEVICES["on a plate"].plate
+ON_A_MAST = replace(
+    ON_A_PLATE,
+    feet=2 * ON_A_PLATE.feet,
+    rows=(0.0, 0.0),
+    levels=(0.0, 0.28),
+    mast=Mast(side=0.05, wall=0.003, face=0.17, below=0.05, high=0.3, overhang=0.2),
+)
+TWO_PLATES = replace(
+    ON_A_PLATE,
+    feet=tuple((x + row, y) for row in (0.2, -0.2) for x, y in ON_A_PLATE.feet),
+    trunk=tuple((x + row, y) for row in (0.2, -0.2) for x, y in ON_A_PLATE.trunk),
+    sleeves=2 * ON_A_PLATE.sleeves,
+    rows=(0.2, -0.2),
+)
+
+
+@pytest.mark.parametrize("plate", [ON_A_PLATE, TWO_PLATES, ON_A_MAST])
+def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate):
+    device = replace(DEVICES["on a plate"], plate=plate)
     (tmp_path / "device.step").write_bytes(device_bytes(device))
-    found = {each.path: each for each in tree(tmp_path / "device.step")}
+    found = tree(tmp_path / "device.step")
     frames = [wheel_placement(each) @ carrier_placement(each) for each in device.modules]
-    expected = {
-        ("device", module.name, name): (part, frame @ place)
+    expected = [
+        (("device", module.name, name), part, frame @ place)
         for module, frame in zip(device.modules, frames, strict=True)
         for name, (part, place) in placed_parts(device).items()
-    }
-    here = Placement(np.eye(3), np.array(device.plate.position))
-    expected["device", "plate"] = plate_part(device.plate), here
-    assert set(found) == set(expected)
-    for path, (part, place) in expected.items():
-        check_solid(found[path], part, place, COLORS[path[-1]])
-    wheels = [found["device", module.name, "flywheel"].solid.com for module in device.modules]
+    ]
+    bodies = [(plate_part(each), each.position) for each in plate.each]
+    bodies += [(mast_part(plate, plate.mast), plate.position)] if plate.mast else []
+    expected += [
+        (("device", part.name), part, Placement(np.eye(3), np.array(position)))
+        for part, position in bodies
+    ]
+    assert [each.path for each in found] == [path for path, *_ in expected]
+    for each, (path, part, place) in zip(found, expected, strict=True):
+        check_solid(each, part, place, COLORS[path[-1]])
+    assert step_bytes(plate_part(plate)).count(b"MANIFOLD_SOLID_BREP(") == len(plate.each)
+    wheels = [each.solid.com for each in found if each.path[-1] == "flywheel"]
     np.testing.assert_allclose(wheels, [module.position for module in device.modules], atol=1e-9)

@@ -8,10 +8,8 @@ from wheels import paper_device
 
 from ocs_design.device.device import Web
 from ocs_design.export.device_parts import wheel_geometry
-from ocs_design.export.drawing.wheel_sheet import device_hash, wheel_drawing, write
-from ocs_design.export.formats import Subject
+from ocs_design.export.drawing.wheel_sheet import device_hash, wheel_drawing
 from ocs_design.parts.rim import WEB_MATERIAL, WEB_THICKNESS, Hub
-from ocs_design.workflows.restoring import RecordedSeat
 
 DEVICE = paper_device()
 HUB = Hub(0.010, 0.005, 0.0015, bolts=4, bolt_circle_radius=0.006, bolt_hole_radius=0.0011)
@@ -39,16 +37,6 @@ def test_a_web_is_made_with_the_hub_that_was_sized():
     no_bolts = replace(HUB, bolts=0)
     web = replace(on_a_web(DEVICE).flywheel.web, hub=no_bolts)
     assert wheel_geometry(replace(DEVICE.flywheel, web=web)).hub.bolts is None
-
-
-def test_both_files_are_written_and_the_same_every_time(tmp_path):
-    subject = Subject("solo12", DEVICE, RecordedSeat("base_link", None), None)
-    assert write(subject, tmp_path) == ()
-    paths = sorted(tmp_path.iterdir())
-    assert [path.name for path in paths] == ["wheel.pdf", "wheel.svg"]
-    first = [path.read_bytes() for path in paths]
-    write(subject, tmp_path)
-    assert [path.read_bytes() for path in paths] == first
 
 
 def test_the_hash_follows_the_parts_and_not_their_place():

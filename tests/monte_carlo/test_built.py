@@ -10,11 +10,11 @@ from scipy.spatial.transform import Rotation
 from wheels import driven_device, layout_device, paper_device
 
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.monte_carlo.uncertainty import built
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
 from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.imperfections import Drives
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
-from ocs_design.simulation.wheel_law import WheelLaw
+from ocs_design.simulation.wheel_law import USED, Allocation, Gains, MotorLimits, WheelLaw
 
 UP = (0.0, 0.0, 1.0)
 
@@ -24,7 +24,7 @@ def drawn(robot, device=None, **stated):
     given = {**NOTHING, **{name: Constant(value) for name, value in stated.items()}}
     campaign = short_campaign(robot, UncertaintySection(**given), device=device, drop_only=True)
     world = campaign.flights[0].world
-    return world, built(world, campaign.sample(0), 0, campaign.air, 5e-3)
+    return world, campaign.built(campaign.sample(0), 0)
 
 
 def accelerations(model):
@@ -135,7 +135,7 @@ def test_an_inertia_stays_physical_however_far_it_is_off(solo12):
         sample = campaign.sample(0)
         values = sample.values.copy()
         values[1:4] = errors
-        own = built(world, replace(sample, values=values), 0, campaign.air, 5e-3).model
+        own = campaign.built(replace(sample, values=values), 0).model
         low, middle, high = np.sort(own.body_inertia[world.addresses.trunk])
         assert low > 0.0
         assert high <= (low + middle) * (1.0 + 1e-12)
@@ -147,6 +147,30 @@ def test_a_world_without_errors_flies_to_the_last_bit_as_designed(solo12):
     for name in ("attitude", "rate", "wheel_speed", "wheel_torque", "com", "momentum"):
         np.testing.assert_array_equal(getattr(designed, name), getattr(flown, name))
     assert designed.wheel_torque.any()
+
+
+def test_friction_takes_its_part_of_the_torque_once(solo12):
+    """A wheel gets what the nominal motor gives, whose limits are without friction."""
+    device, friction = driven_device(), 0.01
+    rubbing = replace(device.motor, torque_constant=1.0, no_load_current=friction)
+    device = replace(device, motor=rubbing)
+    _, robot = drawn(solo12, device, coulomb_friction=friction)
+    response, limits = robot.law.wheel_response, MotorLimits.of(rubbing)
+    law = WheelLaw.of(robot.body, Gains(0.0, 0.0), limits, Allocation.PSEUDO_INVERSE)
+
+    def given(speed):
+        asked = np.copysign(9.0, speed)
+        drives = Drives([robot.imperfections], response=response, instants=1, hold=5, step=1e-3)
+        _, real = drives.driven(0, robot.law.within_motors(asked, speed, 5e-3), speed)
+        return real[0, 0], law.within_motors(asked, speed, 5e-3)[0]
+
+    real, nominal = given(np.array([[10.0, -20.0]]))
+    np.testing.assert_allclose(np.abs(nominal), device.motor.torque_limit)
+    np.testing.assert_allclose(real, nominal, rtol=1e-12)
+    # On the line as well, but for the speed that friction takes within the control step.
+    real, nominal = given(0.9 * rubbing.no_load_speed * np.array([[1.0, -1.0]]))
+    held = 1.0 - USED * limits.line_slope / (limits.line_slope + 5e-3 * response.item())
+    np.testing.assert_allclose(real, nominal - held * friction * np.sign(nominal), rtol=1e-9)
 
 
 @pytest.mark.parametrize("period", [1e-3, 5e-3, 2e-2])

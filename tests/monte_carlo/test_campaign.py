@@ -19,7 +19,8 @@ from ocs_design.monte_carlo.campaign import (
     write_case,
 )
 from ocs_design.monte_carlo.certificate import SequentialTest, certificate
-from ocs_design.monte_carlo.outcomes import FAULTS, METRICS, Outcomes
+from ocs_design.monte_carlo.outcomes import FAULTS, METRICS, Outcomes, blocks_of
+from ocs_design.monte_carlo.running import ThisMachine
 from ocs_design.monte_carlo.summary import REMEDIES, standing_advice, summarised
 from ocs_design.simulation.verdict import MOMENTUM_GATE, Fault
 
@@ -43,6 +44,13 @@ def test_numbers_do_not_depend_on_company_or_threads(campaign, outcomes):
     assert_same(fly_samples(campaign, [4], threads=1), outcomes.take(slice(4, 5)))
     pair = fly_samples(campaign, [5, 2], threads=1)
     assert_same(pair.take(slice(1, 2)), outcomes.take(slice(2, 3)))
+
+
+def test_blocks_that_fly_at_once_come_back_as_they_are(campaign, outcomes):
+    blocks = blocks_of(len(outcomes.index), 2)
+    flown = dict(ThisMachine(at_once=2).fly(campaign, blocks, lambda _done: None))
+    assert list(flown) == list(blocks)
+    assert_same(Outcomes.joined(list(flown.values())), outcomes)
 
 
 def test_numbers_do_not_depend_on_how_many_fit_into_memory(campaign, outcomes, monkeypatch):

@@ -88,3 +88,15 @@ def test_a_pairs_samples_stay_what_they_were(solo12):
     drawn = sample.by_name
     assert {name: drawn[name] for name in kept} == pytest.approx(kept, rel=1e-14)
     assert list(drawn)[::29] == ["mass_error", "takeoff_rate.pitch"]
+
+
+def test_a_drive_that_stops_is_drawn_last_and_changes_nothing_else(solo12):
+    spread = uncertainty(solo12)
+    stops = replace(spread, detection=0.02)
+    drawn = [Sample.draw(stops, 0, index) for index in range(64)]
+    for index, sample in enumerate(drawn):
+        np.testing.assert_array_equal(sample.values[:-2], Sample.draw(spread, 0, index).values)
+    which, when = np.array([sample.values[-2:] for sample in drawn]).T
+    assert set(which) == {1.0, 2.0}
+    assert stats.kstest(when, "uniform").pvalue > 0.01
+    assert spread.written() != stops.written()

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive_outline import flat_figures, green
 
+from ocs_design.actuation.fasteners import screw
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import (
     DENSITY,
@@ -16,20 +17,27 @@ from ocs_design.parts.carrier_plate import (
     STOCK,
     CarrierPlate,
     DogBone,
+    Mast,
     bending_stress,
+    directions,
+    mast_part,
+    plate_bodies,
     plate_part,
+    screw_use,
     sleeve_part,
     twisting_stress,
 )
 from ocs_design.robot.mass import combine, physical_defect
 
 
-def plate_of(radius, across, thickness, sleeve=0.0, neck=0.018):
+def plate_of(radius, across, thickness, sleeve=0.0, neck=0.018, arms=2):
     slot = radius - 6e-3
     off = slot / np.sqrt(2.0)
-    feet = [(off, across + off), (-off, across - off)]
-    feet += [(x, -y) for x, y in feet]
-    trunk = [(i * (neck - 8e-3), j * 0.012) for i in (1, -1) for j in (1, -1)]
+    out = 0.012 if arms == 2 else 0.03
+    ways = directions(arms).tolist()
+    feet = [(across * x + s * off, across * y + s * off) for x, y in ways for s in (1, -1)]
+    aside = neck - 8e-3
+    trunk = [(out * x + s * aside * y, out * y - s * aside * x) for x, y in ways for s in (1, -1)]
     return CarrierPlate(
         position=(0.01, 0.0, 0.1),
         radius=radius,
@@ -40,7 +48,8 @@ def plate_of(radius, across, thickness, sleeve=0.0, neck=0.018):
         window=slot - 6e-3,
         feet=tuple(feet),
         trunk=tuple(trunk),
-        sleeves=(sleeve,) * 4,
+        sleeves=(sleeve,) * 2 * arms,
+        arms=arms,
     )
 
 
@@ -50,17 +59,18 @@ plates = st.builds(
     st.floats(0.06, 0.2),
     st.sampled_from(STOCK),
     st.sampled_from([0.0, 0.005, 0.02]),
+    arms=st.sampled_from([2, 3, 4]),
 )
 
 
 @settings(max_examples=25, deadline=None)
 @given(plates)
 def test_its_mesh_weighs_what_it_does(plate):
-    """One piece with ten holes: two windows, four threads and four holes for screws."""
+    """One piece with five holes an arm: a window, two threads and two holes for screws."""
     part = plate_part(plate)
     body = part_manifold(part, 48)
     assert len(body.decompose()) == 1
-    assert body.genus() == 10
+    assert body.genus() == 5 * plate.arms
     assert body.volume() * part.density == pytest.approx(part.mass(), rel=1e-9)
 
 
@@ -72,9 +82,20 @@ def test_plate_sleeves_and_screws_are_all_that_it_weighs(plate):
     assert plate.mass == pytest.approx(plate_part(plate).mass() + sleeves + screws)
     whole = plate.mass_properties()
     assert physical_defect(whole) is None
-    # It is its own mirror image in the sagittal plane.
-    assert whole.com[1] == pytest.approx(0.0, abs=1e-12)
-    assert whole.inertia[0, 1] == pytest.approx(0.0, abs=1e-12)
+    # It is the same turned by an arm.
+    np.testing.assert_allclose(whole.com[:2], [0.01, 0.0], atol=1e-12)
+    if plate.arms > 2:
+        assert whole.inertia[0, 0] == pytest.approx(whole.inertia[1, 1])
+
+
+def test_an_arm_bears_alike_however_many_there_are():
+    """Each is a cantilever of its own from its own two screws."""
+    pair, star = (plate_of(0.03, 0.1, 4e-3, arms=arms) for arms in (2, 3))
+    pair = replace(pair, trunk=tuple((x, np.sign(y) * 0.03) for x, y in pair.trunk))
+    assert star.support == pytest.approx(pair.support)
+    assert star.stress(0.4, 0.05) == pytest.approx(pair.stress(0.4, 0.05))
+    assert star.frequency(0.4) == pytest.approx(pair.frequency(0.4))
+    np.testing.assert_allclose(star.sizes, [0.1 * 3**0.5 + 0.06, 0.15 + 0.06, 4e-3])
 
 
 def test_plates_of_two_pairs_are_two_plates():
@@ -112,12 +133,15 @@ def test_a_plain_plate_in_closed_form():
 
 
 bones = st.builds(
-    lambda radius, neck, beyond, x: DogBone(radius, (2.0 + beyond) * radius, neck * radius, x),
+    lambda radius, neck, beyond, x, arms: DogBone(
+        radius, (2.0 + beyond + 0.5 * (arms - 2)) * radius, neck * radius, x, arms
+    ),
     st.floats(0.01, 0.06),
     st.floats(0.2, 0.95),
     st.floats(0.0, 4.0),
     st.sampled_from([0.0, -0.1]),
-)
+    st.integers(2, 6),
+).filter(lambda bone: bone.fits)
 
 
 @given(bones)
@@ -132,10 +156,22 @@ def test_moments_of_a_bone_are_those_of_its_outline(bone):
 
 @given(bones)
 def test_its_width_adds_up_to_its_area(bone):
+    """That of each arm, whose hub is a triangle."""
     along = (np.arange(20000) + 0.5) / 20000 * bone.half_length
-    area = 4.0 * bone.half_width(along).mean() * bone.half_length
-    assert area == pytest.approx(bone.area, rel=1e-4)
+    widths = bone.half_width(along) * np.minimum(1.0, along / max(bone.hub, 1e-9))
+    area = 2.0 * bone.arms * widths.mean() * bone.half_length
+    assert area == pytest.approx(bone.area, rel=2e-4)
     assert bone.half_width(np.array([-1.01, 1.01]) * bone.half_length).tolist() == [0.0, 0.0]
+
+
+@settings(max_examples=25)
+@given(bones)
+def test_what_it_holds_is_its_area(bone):
+    step = bone.half_length / 200.0
+    steps = (np.arange(-200, 200) + 0.5) * step
+    middle = np.array([bone.x, 0.0])
+    points = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) + middle
+    assert bone.holds(points).sum() * step**2 == pytest.approx(bone.area, rel=0.02)
 
 
 @given(bones)
@@ -144,7 +180,7 @@ def test_its_roundings_have_no_notch(bone):
     (x, y), f = bone.meets, bone.fillet
     centre = np.array([bone.neck + f, bone.straight])
     assert 0.0 < f <= FILLET
-    assert bone.straight >= -1e-12
+    assert bone.straight >= bone.hub - 1e-12
     assert np.hypot(*(centre - [x, y])) == pytest.approx(f)
     assert np.hypot(x, y - bone.across) == pytest.approx(bone.radius)
     assert np.hypot(*(centre - [0.0, bone.across])) == pytest.approx(bone.radius + f)
@@ -207,3 +243,70 @@ def test_a_plate_of_one_width_swings_as_a_cantilever():
     assert replace(plain, thickness=0.008).frequency(0.7) == pytest.approx(
         8.0**0.5 * plain.frequency(0.7)
     )
+
+
+def masted(pairs=2, sleeve=0.004, spacer=0.02, side=0.05, wall=0.003):
+    """Two modules on each plate, the plates above each other behind a trunk."""
+    plate = plate_of(0.03, 0.11, 0.006, neck=0.025)
+    return replace(
+        plate,
+        feet=plate.feet * pairs,
+        trunk=((0.012, 0.02), (-0.012, 0.02), (0.012, 0.06), (-0.012, 0.06)),
+        sleeves=(sleeve,) * 4,
+        thread="M6",
+        rows=(0.0,) * pairs,
+        levels=tuple(0.28 * row for row in range(pairs)),
+        mast=Mast(side, wall, 0.17, side, 0.3, 0.2, spacer),
+    )
+
+
+@pytest.mark.parametrize("pairs", [1, 2])
+@pytest.mark.parametrize("spacer", [0.0, 0.02])
+def test_a_mast_weighs_what_its_mesh_does(pairs, spacer):
+    plate = masted(pairs, spacer=spacer)
+    part = mast_part(plate, plate.mast)
+    solid = part_manifold(part, 96)
+    assert part.mass() == pytest.approx(part.density * solid.volume(), rel=1e-3)
+    bodies = [(body.mass_properties(), place) for body, place in plate_bodies(plate)]
+    assert sorted(body.name for body, _ in plate_bodies(plate)) == [
+        "mast",
+        "plate",
+        *["sleeve"] * 8,
+    ]
+    whole = combine([body.moved(place.rotation, place.position) for body, place in bodies])
+    screws = 4 * plate.screw.mass(plate.screw_lengths[0])
+    assert plate.mass == pytest.approx(whole.mass + screws)
+    assert physical_defect(plate.own_mass_properties()) is None
+    # Sleeves begin where the block does, and end where the trunk is.
+    (first, *_) = plate.screw_places
+    assert first.position[0] == plate.mast.face + spacer
+    np.testing.assert_allclose(first.rotation[:, 2], [-1.0, 0.0, 0.0])
+
+
+def test_a_square_tube_by_hand():
+    """40 x 3 mm: I = (40^4 - 34^4) / 12 = 101,972 mm^4; 100 N m bend it with 19.6 MPa."""
+    tube = Mast(0.04, 0.003, 0.1, 0.0, 0.1, 0.0)
+    assert tube.second_moment == pytest.approx(101972e-12)
+    assert tube.stress(100.0, 0.0) == pytest.approx(100.0 * 0.02 / 101972e-12)
+    # Bredt: 100 / (2 x 3 mm x 37^2 mm^2), sqrt(3) times for von Mises.
+    assert tube.stress(0.0, 100.0) == pytest.approx(np.sqrt(3.0) * 100.0 / (6e-3 * 0.037**2))
+
+
+def test_a_screw_of_class_8_8_by_hand():
+    """M6: 20.1 mm^2 bear 0.9 x 800 / 1.25 in tension, 11.6 kN, and 0.6 x 800 / 1.25 in shear."""
+    held = screw("M6")
+    assert screw_use(held, 11590.0, 0.0) == pytest.approx(1.0, rel=2e-3)
+    assert screw_use(held, 0.0, 7730.0) == pytest.approx(1.0, rel=2e-3)
+    assert screw_use(held, 5795.0, 3865.0) == pytest.approx(0.5 / 1.4 + 0.5, rel=2e-3)
+
+
+@given(st.floats(0.5, 4.0), st.floats(1.1, 2.0))
+def test_a_mast_bears_in_proportion_to_its_modules(mass, more):
+    plate = masted()
+    for figure in (plate.mast_stress, plate.screws_use):
+        assert figure(more * mass, 0.1) == pytest.approx(more * figure(mass, 0.1))
+    stronger = replace(plate, thread="M8")
+    assert stronger.screws_use(mass, 0.1) < plate.screws_use(mass, 0.1)
+    wider = replace(plate, mast=replace(plate.mast, wall=0.005))
+    assert wider.mast_stress(mass, 0.1) < plate.mast_stress(mass, 0.1)
+    assert wider.frequency(mass) > plate.frequency(mass)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_bvp
 
+from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.rim import (
-    cylinder_mass,
     cylinder_spin_inertia,
     cylinder_transverse_inertia,
     hoop_stress,

@@ -10,15 +10,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
-from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.fasteners import CLASSES, screw
+from ocs_design.catalogue.motors import motors
 from ocs_design.parts.joints import (
     FRICTION,
+    SERVICE,
     Ring,
     TurningRings,
     correction,
     cylinder_torque,
     friction_torque,
     holed_peaks,
+    hub_joint,
     ligament_efficiencies,
     preload,
     shear_torque,
@@ -28,6 +31,7 @@ from ocs_design.parts.joints import (
     tightening_torque,
     tolerance,
 )
+from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.rim import hoop_stress
 
 TUNGSTEN = Ring(0.031, 0.0338, 0.0042, 18500.0, 345e9, 0.28)
@@ -193,13 +197,22 @@ def test_a_hole_in_an_evenly_stretched_plate_doubles_its_stress():
 
 
 @pytest.mark.parametrize(
-    ("thread", "area", "proof"), [("M3", 5.03, 2920), ("M4", 8.78, 5100), ("M6", 20.1, 11600)]
+    ("thread", "area", "strength", "proof"),
+    [
+        ("M3", 5.03, "8.8", 2920),
+        ("M4", 8.78, "8.8", 5100),
+        ("M6", 20.1, "8.8", 11600),
+        ("M4", 8.78, "10.9", 7290),
+        ("M5", 14.2, "10.9", 11800),
+        ("M3", 5.03, "12.9", 4880),
+    ],
 )
-def test_screws_are_tightened_to_three_quarters_of_their_proof_load(thread, area, proof):
+def test_screws_are_tightened_to_three_quarters_of_their_proof_load(thread, area, strength, proof):
     """Stress areas and proof loads of ISO 898-1, tables 4 and 5, in mm^2 and N."""
     held = screw(thread)
     assert 1e6 * stress_area(held) == pytest.approx(area, rel=2e-3)
-    assert preload(held) == pytest.approx(0.75 * proof, rel=7e-3)
+    assert preload(held, strength) == pytest.approx(0.75 * proof, rel=7e-3)
+    assert tightening_torque(held, strength) == held.torque(preload(held, strength))
     # VDI 2230 with 0.12 in thread and under the head; a tenth to a seventh below K = 0.2.
     flank, under = held.diameter - 0.6495 * held.pitch, (held.head_diameter + held.clearance_hole)
     lever = 0.16 * held.pitch + 0.58 * flank * 0.12 + under / 4.0 * 0.12
@@ -211,6 +224,24 @@ def test_four_screws_of_m3_on_12_mm_carry_3_3_newton_metres():
     """0.1 x 4 x 2188 N / 1.6 x 6 mm; in shear 0.577 x 640 MPa x 4 x 5.03 mm^2 x 6 mm."""
     assert friction_torque(screw("M3"), 4, 0.006) == pytest.approx(3.28, abs=0.01)
     assert shear_torque(screw("M3"), 4, 0.006) == pytest.approx(44.6, abs=0.1)
+
+
+def test_stronger_screws_take_more_thread_and_load_it_as_much():
+    for each in CLASSES.values():
+        assert each.proof / each.depth == pytest.approx(CLASSES["8.8"].proof, rel=0.03)
+
+
+def test_the_catalogue_asks_for_strong_screws_where_usual_ones_do_not_carry_the_wheel():
+    found = {}
+    for each in motors().values():
+        circle = None if each.mounting is None else each.mounting.rotor
+        if circle is None or circle.screws == "8.8":
+            continue
+        asked = SERVICE * each.peak_torque
+        usual = replace(each.mounting, rotor=replace(circle, screws="8.8"))
+        assert hub_joint(usual, 0.0) < asked <= hub_joint(each.mounting, 0.0)
+        found[each.name] = mount_of(each, None).screwed[0].fastening.designation
+    assert found["U15 II KV80"] == "ISO 4762 M5 x 10 - 10.9"
 
 
 def test_a_shaft_carries_by_shear_on_its_surface():

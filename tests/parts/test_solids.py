@@ -7,12 +7,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ocs_design.export.meshes import solid_mesh
-from ocs_design.parts.moments import mass_properties
-from ocs_design.parts.rim import (
-    cylinder_mass,
-    cylinder_spin_inertia,
-    cylinder_transverse_inertia,
-)
+from ocs_design.parts.moments import cylinder_mass, mass_properties
+from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder, revolved
 from ocs_design.robot.mass import MassProperties, combine, physical_defect

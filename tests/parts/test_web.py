@@ -62,6 +62,16 @@ def made(inner, outer, height, hub, web, cuts=NO_CUTS):
     return total(wheel_parts(Wheel(rim, made_hub)))
 
 
+def check_like_its_solids(sizes, hub, web, cuts=NO_CUTS):
+    """Mass and inertia; also the centre, which holes in one face alone would shift."""
+    body = wheel_body(*sizes, STEEL.density, hub, cuts=cuts, web_density=web)
+    solids = made(*sizes, hub, web, cuts)
+    assert body.mass == pytest.approx(solids.mass, rel=1e-12)
+    expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
+    np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
+    np.testing.assert_allclose(solids.com, 0.0, atol=1e-12)
+
+
 @WEBS
 @pytest.mark.parametrize("hub", [BARE, BOLTED], ids=["pilot bore", "bolted"])
 @given(
@@ -70,12 +80,7 @@ def made(inner, outer, height, hub, web, cuts=NO_CUTS):
     height=st.floats(2.0e-3, 0.05),
 )
 def test_a_wheel_weighs_and_turns_like_its_solids(web, hub, bore, wall, height):
-    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, web_density=web)
-    solids = made(bore, bore + wall, height, hub, web)
-    assert body.mass == pytest.approx(solids.mass, rel=1e-12)
-    expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
-    np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
-    np.testing.assert_allclose(solids.com, 0.0, atol=1e-12)
+    check_like_its_solids((bore, bore + wall, height), hub, web)
 
 
 @WEBS
@@ -93,11 +98,7 @@ def test_what_is_cut_off_a_wheel_is_what_is_cut_off_its_solids(
     hub = replace(BOLTED, chamfer=chamfer)
     assert wall >= cuts.wall_min
     assert height >= cuts.height_min
-    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, cuts=cuts, web_density=web)
-    solids = made(bore, bore + wall, height, hub, web, cuts)
-    assert body.mass == pytest.approx(solids.mass, rel=1e-12)
-    expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
-    np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
+    check_like_its_solids((bore, bore + wall, height), hub, web, cuts)
 
 
 COUNTS = [count for count in LIGHTENED if count]
@@ -117,12 +118,7 @@ def test_a_lightened_wheel_weighs_and_turns_like_its_solids(
     """And it can be made, wherever its web has room for the holes."""
     hub = replace(BOLTED, radius=radius, lightening=count)
     bore = wider * hub.bore_min
-    body = wheel_body(bore, bore + wall, height, STEEL.density, hub, web_density=web)
-    solids = made(bore, bore + wall, height, hub, web)
-    assert body.mass == pytest.approx(solids.mass, rel=1e-12)
-    expected = np.diag([body.transverse_inertia] * 2 + [body.axial_inertia])
-    np.testing.assert_allclose(solids.inertia, expected, rtol=1e-9, atol=1e-12 * body.axial_inertia)
-    np.testing.assert_allclose(solids.com, 0.0, atol=1e-12)
+    check_like_its_solids((bore, bore + wall, height), hub, web)
 
 
 @pytest.mark.parametrize("count", COUNTS)

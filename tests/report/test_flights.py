@@ -11,6 +11,7 @@ from ocs_design.report.flights import (
     device_table,
     flight_remarks,
     flight_table,
+    flights_title,
     short_verdict,
 )
 
@@ -87,3 +88,17 @@ def test_the_angle_beside_a_verdict_is_the_one_that_it_rests_on(kind, words):
     record = run("it")
     flown = {**record.metrics, **landing, **turned, "heading_drift": np.pi / 2.0}
     assert short_verdict(replace(record, metrics=flown), kind=kind).text == words
+
+
+def test_a_robot_on_a_pivot_touches_nothing_down():
+    lasting = {"lift_off_time": 0.0, "touchdown_time": 1.0}
+    landed = run(level=True, stands=True)
+    balanced = run("balance", level=None, stands=True)
+    flown, held = (
+        replace(each, metrics={**each.metrics, **lasting}) for each in (landed, balanced)
+    )
+    heads = [flight_table(runs).columns[2].name for runs in ([flown], [held], [flown, held])]
+    assert heads == ["touchdown\npitch", "when due\npitch", "when due or touchdown\npitch"]
+    titles = [flights_title(runs) for runs in ([flown], [held], [flown, held])]
+    assert ["balance" in title for title in titles] == [False, True, True]
+    assert ["touchdown" in title for title in titles] == [True, False, True]

@@ -11,7 +11,6 @@ import pytest
 from fronts import by_hand, infeasible, make_front
 from rich.console import Console
 
-from ocs_design.common.errors import OutputError
 from ocs_design.device.answers import to_json
 from ocs_design.report.charts.chart import Points
 from ocs_design.report.charts.files import png_file
@@ -124,37 +123,9 @@ def test_the_folder_is_complete(front, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["front"]
 
 
-def test_a_folder_that_exists_is_replaced_only_when_told(front, tmp_path):
-    folder = tmp_path / "front"
-    write_front(front, folder)
-    (folder / "note.txt").write_text("mine")
-    with pytest.raises(OutputError, match="exists already"):
-        write_front(front, folder)
-    assert (folder / "note.txt").exists()
-    write_front(front, folder, force=True)
-    assert not (folder / "note.txt").exists()
-
-
-def test_a_foreign_folder_is_never_replaced(front, tmp_path):
-    (tmp_path / "letter.txt").write_text("dear")
-    with pytest.raises(OutputError, match="no output of ocs-design"):
-        write_front(front, tmp_path, force=True)
-    assert (tmp_path / "letter.txt").exists()
-
-
 def test_without_resvg_all_else_is_written(front, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "resvg_py", None)
     (remark,) = write_front(front, tmp_path / "front")
     assert "pip install 'ocs-design[plot]'" in remark
     assert not (tmp_path / "front" / "front.png").exists()
     assert (tmp_path / "front" / "front.svg").exists()
-
-
-def test_nothing_is_left_of_a_front_that_could_not_be_written(front, tmp_path, monkeypatch):
-    def interrupted(*_):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("ocs_design.report.charts.front.front_chart", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        write_front(front, tmp_path / "front")
-    assert list(tmp_path.iterdir()) == []

@@ -10,6 +10,7 @@ from stories import design
 
 from ocs_design.device.records import (
     CoDesignRecord,
+    ManeuverRecord,
     PriceRecord,
     RankedRecord,
     RejectionRecord,
@@ -17,6 +18,7 @@ from ocs_design.device.records import (
     TaskDemand,
 )
 from ocs_design.report.limits import saving_notes, saving_table
+from ocs_design.report.selection import task_note
 from ocs_design.report.text.size import print_selection
 
 LONGEST = ("Antigravity MN6007 II KV320", "GT3 5 mm x 15 mm 18:48", "tungsten-alloy-class-4")
@@ -135,3 +137,13 @@ def test_a_price_says_what_changes_and_what_it_saves():
 
 def test_it_is_told_how_near_the_next_drive_is():
     assert "AT2814 KV1050, is 4.5 g heavier" in saving_notes(with_prices())
+
+
+def test_the_times_of_a_pivot_are_said_to_be_of_a_turn_that_asks_as_much():
+    told = []
+    for parameters in ({}, {"pivot": (0.0, 0.0, -0.2)}):
+        asked = ManeuverRecord(
+            kind="any", name="it", gravity=9.81, incidence=None, parameters=parameters
+        )
+        told.append(task_note(SELECTION, [asked]))
+    assert ["On a pivot both times" in each for each in told] == [False, True]

@@ -40,15 +40,38 @@ def verdict(*runs, yes=True, points=(), **motor):
     )
 
 
-def test_all_is_well():
-    line = verdict(run(), run("flip"), run(ocs=False, passed=False, level=False, stands=False))
-    assert line.text == "buildable  ·  level 2 of 2  ·  stands 2 of 2"
-    assert (line.tone, line.matter) == (Tone.PASS, "")
+OFF = {"passed": False, "level": False, "stands": False}
+POINT = OpenPoint(what="no source gives the threads", cure="choose another")
+VERDICTS = {
+    "all is well": (
+        (run(), run("flip"), run(ocs=False, **OFF)),
+        ("level 2 of 2  ·  stands 2 of 2", Tone.PASS, ""),
+    ),
+    "a flight that fails is named with its reason": (
+        (run(), run("flip", **OFF, reason="turns 200")),
+        ("level 1 of 2  ·  stands 1 of 2", Tone.FAIL, "flip: turns 200"),
+    ),
+    "a turn that falls short is no pass though it lands level": (
+        (run(), run("flip", passed=False, reason="turns 0 of -360 deg")),
+        ("level 2 of 2  ·  stands 2 of 2  ·  1 of 2 pass", Tone.FAIL, "flip: turns 0 of -360 deg"),
+    ),
+    "what was not judged is no pass": (
+        (run(), run("flip", passed=None, level=None, stands=None, reason="not judged: x")),
+        ("level 1 of 2  ·  stands 1 of 1  ·  1 of 2 not judged", Tone.FAIL, "flip: not judged: x"),
+    ),
+    "nothing was flown": ((), ("no flight was simulated", Tone.OPEN, "")),
+}
+
+
+@pytest.mark.parametrize(("runs", "expected"), VERDICTS.values(), ids=VERDICTS)
+def test_the_line_and_what_matters_most(runs, expected):
+    line = verdict(*runs)
+    assert (line.text.removeprefix("buildable  ·  "), line.tone, line.matter) == expected
+    assert line.text.startswith("buildable")
 
 
 def test_what_cannot_be_built_says_why_and_what_would_do():
-    point = OpenPoint(what="no source gives the threads", cure="choose another")
-    line = verdict(run(passed=False, reason="falls"), yes=False, points=(point,))
+    line = verdict(run(passed=False, reason="falls"), yes=False, points=(POINT,))
     assert line.text.startswith("NOT buildable")
     assert (line.tone, line.matter) == (Tone.FAIL, "no source gives the threads; choose another")
 
@@ -61,31 +84,8 @@ def test_a_biped_that_lands_level_and_falls_is_told():
     assert line.matter.startswith("drop, flip: the robot lands level and then falls")
 
 
-def test_a_flight_that_fails_is_named_with_its_reason():
-    line = verdict(run(), run("flip", passed=False, level=False, stands=False, reason="turns 200"))
-    assert line.text == "buildable  ·  level 1 of 2  ·  stands 1 of 2"
-    assert (line.tone, line.matter) == (Tone.FAIL, "flip: turns 200")
-
-
-def test_a_turn_that_falls_short_is_no_pass_though_it_lands_level():
-    line = verdict(run(), run("flip", passed=False, reason="turns 0 of -360 deg"))
-    assert line.text == "buildable  ·  level 2 of 2  ·  stands 2 of 2  ·  1 of 2 pass"
-    assert line.tone is Tone.FAIL
-
-
-def test_what_was_not_judged_is_no_pass():
-    line = verdict(run(), run("flip", passed=None, level=None, stands=None, reason="not judged: x"))
-    assert line.text == "buildable  ·  level 1 of 2  ·  stands 1 of 1  ·  1 of 2 not judged"
-    assert (line.tone, line.matter) == (Tone.FAIL, "flip: not judged: x")
-
-
 def test_a_robot_without_legs_does_not_stand():
     assert flights_headline([run(stands=None)]).text == "level 1 of 1"
-
-
-def test_without_flights():
-    line = verdict()
-    assert (line.text, line.tone) == ("buildable  ·  no flight was simulated", Tone.OPEN)
 
 
 @pytest.mark.parametrize(

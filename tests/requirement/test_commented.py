@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from specifications import FULL
 
-from ocs_design.requirement.froude import example_shove, example_turns
+from ocs_design.requirement.froude import example_pivots, example_shove, example_turns
 from ocs_design.requirement.maneuver import MANEUVER_KINDS
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import default_specification
@@ -45,7 +45,7 @@ def shove():
 
 def examples():
     by_hand = robot_by_hand(2.5, (0.03, 0.05, 0.07))
-    return (shove(), *example_turns(by_hand))
+    return (shove(), *example_turns(by_hand), *example_pivots(by_hand))
 
 
 def read(text):
@@ -97,16 +97,20 @@ def test_all_maneuvers_stated_are_the_default_ones(empty, default):
     uncommented = MANEUVER.sub(lambda match: match[0].replace("# ", "", 1), empty)
     uncommented = re.sub(r"^# (?=\w+ = .* # )", "", uncommented, flags=re.MULTILINE)
     uncommented = re.sub(r"^# (?=kind = )", "", uncommented, flags=re.MULTILINE)
-    *found, example, turn, catch = read(uncommented).maneuvers
+    *found, example, turn, catch, balance, stand_up = read(uncommented).maneuvers
     assert leaves(tuple(found)) == pytest.approx(leaves(default.maneuvers))
     assert example.torque == pytest.approx(shove().torque, rel=1e-3)
     assert example.settling == pytest.approx(shove().settling, rel=1e-3)
     assert turn.yaw == pytest.approx(np.pi / 2.0)
     assert catch.rate == pytest.approx(examples()[2].rate, rel=1e-3)
+    assert balance.pitch == pytest.approx(np.radians(5.0))
+    assert stand_up.braked
 
 
 def test_every_kind_of_maneuver_is_shown(empty):
-    assert set(re.findall(r'^# kind = "(\w+)"', empty, flags=re.MULTILINE)) == set(MANEUVER_KINDS)
+    assert set(re.findall(r'^# kind = "([\w-]+)"', empty, flags=re.MULTILINE)) == set(
+        MANEUVER_KINDS
+    )
 
 
 def test_an_example_is_not_shown_where_one_is_stated(default):

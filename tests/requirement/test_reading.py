@@ -20,6 +20,7 @@ PUSH = (
     "torque=[0, 1, 0]\nonset=0.1\nduration=0.05\n"
 )
 FLIP = "[[maneuver]]\nkind='flip'\nname='f'\njump_height=1\nangle='1rev'\nduration=0.9\n"
+TURN = "[[maneuver]]\nkind='turn'\nname='t'\nyaw='90deg'\nduration=0.9\n"
 
 
 def test_an_empty_file_states_nothing():
@@ -133,12 +134,18 @@ def test_all_faults_are_told_at_once_each_with_its_key():
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("[flywheel]\nr_min='30mm'\nr_max='20mm'", "flywheel.r_min: 0.03 m must be below r_max"),
-        ("[flywheel]\nr_min='30mm'\nr_max='30mm'", "flywheel.r_min: 0.03 m must be below r_max"),
-        ("[flywheel]\nh_min='3mm'\nh_max='2mm'", "flywheel.h_min"),
+        ("[flywheel]\nr_min='30mm'\nr_max='20mm'", "leaves no room over r_min, 30 mm"),
+        ("[flywheel]\nr_min='30mm'\nr_max='30mm'", "leaves no room over r_min, 30 mm"),
+        ("[flywheel]\nh_min='3mm'\nh_max='2mm'", "flywheel: h_max, 2 mm, is below h_min, 3 mm"),
         ("[robot]\nmass = 3", "mass and inertia come together"),
         ("[robot]\nfile='a'\nmass=3\ninertia=[1,1,1]", "not both"),
         (f"[requirement]\nmaneuvers='none'\n{DROP}", "contradicts"),
+        ("[requirement]\ngravity='orbit'", "requirement.maneuvers: nothing jumps or falls"),
+        ("[requirement]\ngravity='orbit'\nfall='1m'", "requirement.fall: nothing jumps or falls"),
+        ("[requirement]\ngravity='orbit'\nturn='yaw 90deg'", "needs its time"),
+        (f"[requirement]\ngravity='orbit'\n{DROP}", "nothing falls in orbit"),
+        (TURN, "jump_height: is missing"),
+        (f"[requirement]\ngravity=0\n{TURN}jump_height=1", "there is no jump in orbit"),
         (DROP + DROP, "two are named 'fall'"),
         (
             DROP.replace("fall", "fall 1") + DROP.replace("fall", "Fall_1"),

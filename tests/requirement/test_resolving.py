@@ -10,7 +10,11 @@ from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
 from ocs_design.requirement.reading import parse_specification, read_specification
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import MotorSection, Specification
+from ocs_design.requirement.specification import (
+    MotorSection,
+    Specification,
+    specification_from_options,
+)
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SIZE = 0.45
@@ -18,6 +22,15 @@ SIZE = 0.45
 
 def stated(text: str) -> Specification:
     return parse_specification(text, "x")
+
+
+@pytest.mark.parametrize("asked", [{}, {"fall": "1m"}, {"flip": "back"}])
+def test_options_that_contradict_each_other_are_refused_as_in_a_file(solo12, asked):
+    keys = {f"requirement.{key}": value for key, value in asked.items()}
+    with pytest.raises(SpecificationError, match="does not go together") as caught:
+        resolve(specification_from_options({"requirement.gravity": "orbit", **keys}), solo12, SIZE)
+    key = next(iter(asked), "maneuvers")
+    assert caught.value.problems[0].startswith(f"requirement.{key}: nothing jumps or falls")
 
 
 WITHOUT_MOTOR = Specification(motor=MotorSection(name="none"))

@@ -31,6 +31,8 @@ from ocs_design.requirement.words import (
     About,
     Kick,
     KickText,
+    Person,
+    PersonText,
     Tilt,
     TiltText,
 )
@@ -101,12 +103,23 @@ def test_a_tilt_that_is_none_is_refused(text):
         TiltText().read(text, "tilt")
 
 
+def test_a_person_is_mass_height_and_payload():
+    read = PersonText().read
+    assert read("75kg 1.75m", "") == read("75 kg, 175 cm", "") == Person(75.0, 1.75)
+    carrying = read("75kg 1.75m with 10kg", "")
+    assert carrying == read(str(carrying), "") == Person(75.0, 1.75, 10.0)
+    for wrong in ("75kg", "75 1.75", "75kg 1.75m 10kg", "75kg 1.75kg", "75kg 17.5m", 75):
+        with pytest.raises(OcsError, match=r"robot\.human"):
+            read(wrong, "robot.human")
+
+
 def test_words_stand_for_gravity_and_whole_turns():
     assert [GRAVITY.read(word, "") for word in ("Mars", "moon", "3.5 m/s2")] == [3.71, 1.62, 3.5]
     assert [FLIP.read(word, "") for word in ("back", "forward")] == [-2.0 * pi, 2.0 * pi]
     with pytest.raises(OcsError) as told:
         FLIP.read("360", "--flip")
     assert told.value.hint == "Did you mean 360deg?"
+    assert GRAVITY.read("orbit", "") == GRAVITY.read("0", "") == 0.0
     with pytest.raises(OcsError, match="none of earth, moon, mars") as told:
         GRAVITY.read("mras", "--gravity")
     assert told.value.hint == "Did you mean 'mars'?"
@@ -330,6 +343,12 @@ def test_a_turn_of_a_stated_time_gets_the_jump_that_it_needs(solo12):
     assert catch.rate == pytest.approx((0.0, pi / 4.0, 0.0))
     assert catch.duration == pytest.approx(0.9 * catch.flight_time)
     assert catch.end == "level"
+
+
+def test_a_turn_in_orbit_has_no_jump_and_lasts_as_long_as_it_takes(solo12):
+    (turn,) = worded_maneuvers(asked(turn=["yaw 90deg in 60s"], gravity="orbit"), solo12).maneuvers
+    assert (turn.gravity, turn.jump_height, turn.flight_time) == (0.0, 0.0, 60.0)
+    assert turn.summary == "turns to yaw 90 deg in 60 s, in orbit"
 
 
 def test_a_trunk_frame_below_the_feet_has_no_height_to_scale_by(solo12):

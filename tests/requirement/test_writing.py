@@ -18,6 +18,7 @@ from ocs_design.requirement.specification import (
     Specification,
     ValidationSection,
 )
+from ocs_design.requirement.words import Person
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 
 
@@ -37,7 +38,7 @@ def test_axes_by_hand_are_read_back():
 
 
 def test_the_full_specification_states_every_key_but_the_ones_that_exclude_others():
-    excluded = {"mass", "inertia", "maneuvers", "axes"}
+    excluded = {"mass", "inertia", "human", "maneuvers", "axes"}
     for name, section in SECTIONS.items():
         stated = getattr(FULL, name)
         missing = {item.name for item in fields(section) if getattr(stated, item.name) is None}
@@ -53,6 +54,11 @@ def test_a_robot_by_hand():
         requirement=RequirementSection(maneuvers="none", rate_change=2.0),
     )
     assert same(parse_specification(specification_to_toml(by_hand), "written"), by_hand)
+
+
+def test_a_person():
+    stated = Specification(robot=RobotSection(human=Person(75.0, 1.75, 10.0)))
+    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
 
 
 def test_numbers_of_numpy():

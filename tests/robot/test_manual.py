@@ -7,8 +7,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ocs_design.common.errors import RobotError, UsageError
-from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.manual import (
+    BACK,
+    HEIGHT_OF_MASS,
+    MID_TRUNK,
+    PITCH_GYRATION,
+    ROLL_GYRATION,
+    YAW_GYRATION,
+    person,
+    robot_by_hand,
+)
 from ocs_design.robot.rotations import rotation_from_rpy
+from ocs_design.sizing.placement import place_on_top
 
 SOLO12 = (0.0300029, 0.0514912, 0.0680453)
 
@@ -99,3 +109,41 @@ def test_what_would_be_denser_than_tungsten_is_a_slip_of_units():
     with pytest.raises(RobotError, match="denser than a ball of tungsten") as caught:
         robot_by_hand(2.5, [1e-6 * moment for moment in SOLO12])
     assert "kg m^2" in caught.value.hint
+
+
+MEASURED = [
+    (72.2, 173.5, 3.62, 32.2, (132.0, 119.0, 13.1)),
+    (67.4, 147.3, 3.50, 29.8, (95.6, 81.9, 10.3)),
+    (73.3, 203.0, 3.81, 31.8, (144.0, 129.0, 14.2)),
+]
+"""Three adults standing: height [in], weight [lb], distances of the centre of mass from the
+back and from the crown [in], inertia [lb in s^2] (guwsmedical.info/body-dynamics, table A.2.1)."""
+
+INCH, POUND, LB_IN_S2 = 0.0254, 0.45359237, 0.112984829
+
+
+@pytest.mark.parametrize(("height", "weight", "from_back", "from_crown", "moments"), MEASURED)
+def test_a_person_has_the_inertia_that_was_measured(height, weight, from_back, from_crown, moments):
+    one = person(weight * POUND, height * INCH)
+    assert np.diag(one.inertia) / LB_IN_S2 == pytest.approx(moments, rel=0.095)
+    assert one.standing_height == pytest.approx((height - from_crown) * INCH, rel=0.013)
+    assert BACK * height == pytest.approx(from_back, rel=0.025)
+
+
+def test_figures_of_a_person_are_means_of_those_measured():
+    squares = [np.array(i) * LB_IN_S2 / (w * POUND * (h * INCH) ** 2) for h, w, _, _, i in MEASURED]
+    assert np.mean(squares, axis=0)[1:] == pytest.approx((PITCH_GYRATION, YAW_GYRATION), rel=5e-3)
+    assert np.mean(squares, axis=0)[0] == pytest.approx(ROLL_GYRATION, rel=0.05)
+
+
+def test_a_payload_is_a_second_body_on_the_back():
+    alone, loaded = person(75.0, 1.75), person(75.0, 1.75, 10.0)
+    point = np.array([-BACK, 0.0, MID_TRUNK - HEIGHT_OF_MASS]) * 1.75
+    arms = ((alone, 75.0, alone.com), (None, 10.0, point))
+    expected = alone.inertia.copy()
+    for _, mass, at in arms:
+        arm = at - loaded.com
+        expected += mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    np.testing.assert_allclose(loaded.com, 10.0 / 85.0 * point)
+    np.testing.assert_allclose(loaded.inertia, expected)
+    assert place_on_top(loaded)(0.1, 0.02)[:, 0].max() < -BACK * 1.75

@@ -14,7 +14,8 @@ from urdf_text import inertial, joint, link, robot
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.recognition import SURE, Recognition, recognise
+from ocs_design.robot.recognition import SURE, question_about, recognise
+from ocs_design.robot.robot import Recognition
 from ocs_design.robot.tree import Tree
 from ocs_design.robot.urdf import read_urdf
 
@@ -129,7 +130,7 @@ def dog():
 def test_a_spine_is_asked_about():
     recognition = found(dog())
     assert not recognition.sure
-    question = recognition.question()
+    question = question_about(recognition)
     assert "a spine" in question.message
     best = recognition.likely[0]
     assert (best.trunk, sorted(each.name for each in best.legs)) == ("chest", sorted(ALL_FEET))
@@ -190,7 +191,7 @@ def test_a_nameless_limb_on_a_fixed_base_may_be_an_arm():
     elements = [TRUNK, *leg("it", (0.0, 0.0, 0.0), *ZEROS["hanging"], words=("b", "c", "d"))]
     recognition = found(elements)
     assert not recognition.sure
-    assert "may as well be an arm" in recognition.question().message
+    assert "may as well be an arm" in question_about(recognition).message
 
 
 def test_an_arm_has_no_trunk():
@@ -201,7 +202,7 @@ def test_an_arm_has_no_trunk():
     recognition = found(elements)
     assert not recognition.sure
     assert recognition.reading.legs == ()
-    assert "as an arm is" in recognition.question().message
+    assert "as an arm is" in question_about(recognition).message
     assert recognise(read(elements), trunk="base", legs=[]).sure
 
 
@@ -250,7 +251,7 @@ def five_bars():
 def test_legs_that_share_a_hip_are_asked_about_and_one_of_each_pair_is_offered():
     recognition = found(five_bars())
     assert not recognition.sure
-    assert "share a hip" in recognition.question().message
+    assert "share a hip" in question_about(recognition).message
     assert len(recognition.likely[0].legs) == 4
     assert len({each.name[:2] for each in recognition.likely[0].legs}) == 4
 
@@ -343,7 +344,7 @@ def test_an_insects_front_legs_that_reach_less_deep_are_not_left_out_without_ask
     recognition = found(elements)
     assert not recognition.sure
     assert {len(each.legs) for each in recognition.likely} >= {4, 6}
-    assert "fl_foot, fr_foot" in recognition.question().message
+    assert "fl_foot, fr_foot" in question_about(recognition).message
 
 
 def test_fins_that_hang_like_legs_are_no_legs():
@@ -380,4 +381,24 @@ def test_a_heaviest_link_that_is_not_the_root_is_asked_about():
         link("thumb", inertial(0.1)),
     ]
     joints = [hinge("a", "wrist", "tip", "0.1 0 0"), hinge("b", "wrist", "thumb", "0 0.1 0")]
-    assert not found([*elements, *joints]).sure
+    recognition = found([*elements, *joints])
+    assert [each.options for each in recognition.likely] == [
+        "--trunk tip --legs none",
+        "--trunk wrist --legs none",
+    ]
+
+
+def test_a_hip_that_follows_the_other_legs_hip_is_a_joint_of_its_leg():
+    elements = [TRUNK]
+    for side, y in (("left", 0.1), ("right", -0.1)):
+        hip = hinge(f"{side}_yaw", "trunk", f"{side}_hip", f"0 {y} 0", "0 0.7 0.7")
+        if side == "right":
+            hip = hip.replace("</joint>", '<mimic joint="left_yaw"/></joint>')
+        parts = ((0.0, 0.0, -0.2), (0.0, 0.0, -0.2))
+        elements += [link(f"{side}_hip", inertial(0.1)), hip]
+        elements += leg(side, (0.0, 0.0, 0.0), *parts, parent=f"{side}_hip")
+    recognition = found(elements)
+    assert recognition.sure
+    assert feet(recognition) == ["left_foot", "right_foot"]
+    signs = {sign.what: sign.holds for sign in recognition.reading.signs}
+    assert signs["the limbs are mirror images"]

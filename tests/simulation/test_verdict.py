@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ocs_design.requirement.maneuver import Drop, Flip, Shove
+from ocs_design.requirement.maneuver import Drop, Flip, Shove, TurnTo
 from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.verdict import comes_down_well, judge, stands
 
@@ -32,6 +32,8 @@ DROP = Drop(name="drop", height=1.0, pitch=0.5)
 SHOVE = Shove(name="shove", torque=(0.0, 1.0, 0.0), duration=0.05, settling=0.5)
 FLIP = Flip(name="flip", jump_height=1.0, angle=-2.0 * np.pi, duration=2.0)
 FALLEN = replace(GOOD, upright_at_end=False, final_pitch=np.pi)
+ASIDE = replace(GOOD, touchdown_roll=np.radians(89.0), touchdown_pitch=np.radians(-90.0))
+IN_ORBIT = TurnTo(name="turn", gravity=0.0, roll=np.pi / 2.0, duration=60.0)
 TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
 
 
@@ -58,6 +60,14 @@ TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
         (replace(GOOD, momentum_error=2e-6), DROP, True, None, "off by 2.0e-06"),
         (replace(GOOD, touchdown_time=None), DROP, True, None, "nothing of the robot touched"),
         (None, DROP, True, None, "became unstable"),
+        (replace(ASIDE, touchdown_time=None), IN_ORBIT, None, True, "ends at pitch -90.0, roll"),
+        (
+            ASIDE,
+            replace(IN_ORBIT, roll=1.4),
+            None,
+            False,
+            "roll 89.0 deg, not at",
+        ),
     ],
 )
 def test_pass_rule(metrics, maneuver, can_stand, passed, reason):

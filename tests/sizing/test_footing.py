@@ -1,19 +1,36 @@
 """What feet stand on: contact in closed form on a box, plates on trunks that are too narrow."""
 
 from dataclasses import replace
+from itertools import combinations, product
 from math import acos, pi, sqrt
 
+import msgspec
 import numpy as np
 import pytest
+from designed import designed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from robots import ROBOTS
 from wheels import driven_device
 
+from ocs_design.device.checks import check_device
 from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.solids import foot_of, module_solids, plate_heads, plate_solids
-from ocs_design.parts.carrier_plate import SAFETY, STOCK, YIELD_STRENGTH
+from ocs_design.export.assembly.placed import placed_parts
+from ocs_design.export.device_parts import foot_holes, wheel_pieces
+from ocs_design.export.meshes import part_manifold
+from ocs_design.export.module_bodies import wheel_placement
+from ocs_design.parts.carrier_plate import (
+    MAST_YIELD,
+    SAFETY,
+    STOCK,
+    YIELD_STRENGTH,
+    plate_bodies,
+)
+from ocs_design.parts.part import Part
+from ocs_design.parts.shapes import Rectangle
+from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
@@ -26,7 +43,7 @@ from ocs_design.sizing.footing import (
     stand_on_trunk,
 )
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
-from ocs_design.sizing.placement import place_free
+from ocs_design.sizing.placement import device_size, place_free, place_on_top
 
 DEVICE = driven_device()
 FOOT = foot_of(DEVICE)
@@ -166,6 +183,34 @@ def test_two_pairs_stand_on_the_trunk_or_on_a_plate_each(boxed, width):
     np.testing.assert_allclose(frames[:2], [each.frame for each in DEVICE.modules], atol=1e-12)
 
 
+@pytest.mark.parametrize("count", [3, 4, 5, 6])
+def test_a_ring_of_modules_stands_on_one_plate(boxed, count):
+    """On a trunk that is narrower than it: threads for each foot, and two screws hold each arm."""
+    robot = boxed(0.13)
+    around = np.radians(90.0 + 360.0 / count * np.arange(count))
+    axes = np.stack([np.cos(around), np.sin(around), 0.0 * around], axis=1).round(15) + 0.0
+    layout = Layout(LayoutName.BY_HAND, tuple(map(tuple, axes.tolist())))
+    centers = place_on_top(robot, layout).centers(device_size(DEVICE))
+    modules = tuple(map(Module, layout.names, axes, centers))
+    device = stand_on_trunk(replace(DEVICE, modules=modules, layout=layout), robot, stated=False)
+    plate = device.plate
+    check_device(device)
+    assert plate.arms == count
+    assert len(plate.trunk) in {count, 2 * count}
+    contacts = contacts_of(robot, device)
+    assert all(contact.held for contact in contacts)
+    assert len(contacts) == count + len(plate.trunk)
+    holes = [hole for each in foot_holes(device).values() for hole in each]
+    screws = np.array(plate.feet) + plate.position[:2]
+    nearest = np.linalg.norm(screws[:, None] - np.array(holes), axis=2).min(axis=1)
+    np.testing.assert_allclose(nearest, 0.0, atol=1e-6)
+    feet = feet_of(device)
+    assert plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    assert mounting_open_points(mounting) == ()
+    assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
+
+
 def test_heavier_modules_have_a_thicker_plate(boxed):
     robot, heavy = boxed(0.1), replace(DEVICE.carrier, mass=30.0 * DEVICE.carrier.mass)
     light = stand_on_trunk(standing(0.1), robot, stated=False).plate
@@ -188,7 +233,7 @@ def test_a_bump_is_bridged_by_sleeves(boxed):
 
 
 def test_a_trunk_too_narrow_for_four_screws_carries_nothing(boxed):
-    robot = boxed(0.02)
+    robot = boxed(0.012)
     device = stand_on_trunk(standing(0.1), robot, stated=False)
     assert device.plate is None
     mounting = mounting_of(robot, device, (), robot.mass_properties)
@@ -223,23 +268,140 @@ def test_the_selection_carries_the_plate_of_the_largest_modules(boxed):
     )
 
 
+@pytest.mark.parametrize("layout", [LayoutName.PAIR, LayoutName.TRIAD])
 @pytest.mark.parametrize("name", REAL)
-def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name):
+def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
     """A wheel is within its housing whatever its angle: cylinders are all that they sweep."""
-    robot = read_robot(ROBOTS / f"{name}.urdf")
-    device = stand_on_trunk(standing(0.1), robot, stated=False)
+    robot, layout = read_robot(ROBOTS / f"{name}.urdf"), Layout(layout)
+    axes = layout.axes(DEVICE.incidence).T
+    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
+    device = stand_on_trunk(replace(DEVICE, modules=modules, layout=layout), robot, stated=False)
     mounting = mounting_of(robot, device, (), robot.mass_properties)
     assert mounting_open_points(mounting) == ()
     assert mounting.known
     assert all(contact.held for contact in mounting.feet)
     assert mounting.nearest.distance > 0.0
     between = collision_model(robot).between
-    left, right = (module_solids(device, module) for module in device.modules)
-    assert min(between(one, other) for one in left.all for other in right.all) > 0.0
-    heads = plate_heads(device)
-    for module in (left, right):
+    solids = [module_solids(device, module) for module in device.modules]
+    for one, other in combinations(solids, 2):
+        assert min(between(*each) for each in product(one.all, other.all)) > 0.0
+    heads = plate_heads(device.plate)
+    for module in solids:
         assert all(between(head, solid) > 0.0 for head in heads for solid in module.all)
         # A foot stands on its plate.
         for solid in module.foot:
-            nearest = min(between(disc, solid) for disc in plate_solids(device))
+            nearest = min(between(disc, solid) for disc in plate_solids(device.plate))
             assert nearest == pytest.approx(0.0, abs=1e-6)
+
+
+def swept(part):
+    """What a part fills over a full turn about its axis, holes beside the axis as well."""
+    return replace(part, holes=tuple(each for each in part.holes if isinstance(each, Revolution)))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in LayoutName if name is not LayoutName.BY_HAND])
+def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name):
+    """What turns is its whole body of revolution; all others are as they are made."""
+    robot, layout = boxed(0.12), Layout(name)
+    angle = 0.5 if layout.angle is None else layout.angle
+    _, sized = designed("Antigravity MN5006 KV450")
+    whole = sized.device
+    centers = place_on_top(robot, layout).centers(device_size(whole))
+    modules = tuple(map(Module, layout.names, layout.axes(angle).T, centers))
+    device = stand_on_trunk(replace(whole, modules=modules, layout=layout), robot, stated=False)
+    upright = layout.stands(angle).all()
+    assert (device.plate is not None) == (upright and len(layout) > 1)
+    assert (
+        mounting_open_points(mounting_of(robot, device, (), robot.mass_properties)) == ()
+    ) == upright
+    turning = wheel_pieces(device.flywheel)
+    solids = {
+        (module.name, name): solid.transform(np.column_stack([place.rotation, place.position]))
+        for name, (part, own) in placed_parts(device).items()
+        for solid in (part_manifold(swept(part) if name in turning else part, 96),)
+        for module in device.modules
+        for place in (wheel_placement(module) @ own,)
+    }
+    bodies = () if device.plate is None else plate_bodies(device.plate)
+    for number, (part, own) in enumerate(bodies):
+        at = own.position + device.plate.position
+        solids["plate", number] = part_manifold(part, 96).transform(
+            np.column_stack([own.rotation, at])
+        )
+    for number, head in enumerate(plate_heads(device.plate)):
+        drum = hollow_cylinder(0.0, head.radius, -head.height / 2.0, head.height / 2.0)
+        solid = part_manifold(Part("head", 1.0, (drum,)), 96)
+        solids["head", number] = solid.translate(head.center)
+    if upright:
+        box = Rectangle(-0.3, 0.3, -0.06, 0.06)
+        trunk = part_manifold(Part("trunk", 1.0, (Prism(box, -TOP, TOP),)), 96)
+        solids["trunk", ""] = trunk
+    meet = {
+        (one, other): volume
+        for one, other in combinations(solids, 2)
+        if (volume := (solids[one] ^ solids[other]).volume()) > 1e-12
+    }
+    assert meet == {}
+
+
+COLUMN = """<robot name="column">
+  <link name="base">
+    <inertial><mass value="20"/><inertia ixx="0.3" iyy="0.3" izz="0.1" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><geometry><box size="0.12 {width} 0.3"/></geometry></collision>
+  </link>
+  <link name="head">
+    <inertial><mass value="2"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><geometry><box size="0.2 0.3 0.2"/></geometry></collision>
+  </link>
+  <joint name="neck" type="revolute">
+    <parent link="base"/><child link="head"/><origin xyz="0 0 0.3"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>"""
+
+
+@pytest.fixture
+def column(tmp_path):
+    """A trunk with a head on top, where nothing else has room."""
+
+    def read(width=0.14):
+        path = tmp_path / "column.urdf"
+        path.write_text(COLUMN.format(width=width))
+        return read_robot(path, trunk="base")
+
+    return read
+
+
+@pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.DOUBLE_PAIR])
+def test_where_nothing_stands_on_top_a_mast_carries_it(column, name):
+    robot, layout = column(), Layout(name)
+    modules = tuple(
+        Module(each, axis, np.zeros(3))
+        for each, axis in zip(layout.names, layout.axes(0.5).T, strict=True)
+    )
+    device = replace(DEVICE, modules=modules, layout=layout)
+    device = stand_on_trunk(device, robot, stated=False)
+    plate, mass = device.plate, device.flywheel.mass + device.carrier.mass
+    assert plate.mast is not None
+    assert len(plate.heights) == layout.pairs
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    assert mounting_open_points(mounting) == ()
+    assert all(contact.held for contact in mounting.feet)
+    assert all(each.share > 0.9 for each in mounting.feet if each.name.startswith("mast"))
+    assert mounting.nearest.distance > 0.0
+    assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
+    check_device(device)
+    height = FOOT.wheel_height
+    assert plate.mast_stress(mass, height) <= MAST_YIELD
+    assert plate.stress(mass, height) <= MAST_YIELD
+    assert plate.screws_use(mass, height) <= 1.0
+    # Screws are on the flat back, 6 cm behind the middle, and modules behind that.
+    for place in plate.screw_places:
+        x, y, z = place.position + np.array(plate.position)
+        assert (x, abs(z) < 0.15, abs(y) < 0.07) == (pytest.approx(-0.06), True, True)
+    assert max(module.position[0] for module in device.modules) < -0.06
+    # What is too narrow for two screws side by side holds nothing.
+    assert stand_on_trunk(replace(device, plate=None), column(0.01), stated=False).plate is None

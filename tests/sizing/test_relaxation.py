@@ -45,7 +45,7 @@ def test_theory_case():
     assert error.relaxations["h_max"] == pytest.approx(needed, rel=1e-6)
     assert "r_max 30 mm and h_max 10 mm" in error.message
     assert "1.0001e-04 kg m^2" in error.message or "0.00010001 kg m^2" in error.message
-    assert error.hint.startswith("Any one of these alone would do: r_max 49 mm; h_max 71.1 mm. ")
+    assert error.hint.startswith("Any one of these alone would do: r_max 49 mm; h_max 71.1 mm.")
 
 
 def test_mass_limit():

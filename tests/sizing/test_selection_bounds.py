@@ -68,7 +68,8 @@ def whole_of(wheel, motor, depth, foot, size):
 def test_inertia_as_joined_body_by_body(layout):
     whole, modules = whole_of(*random_modules(np.random.default_rng(0), 20))
     angles, place = np.linspace(0.0, np.pi / 2.0, 7), AROUND[layout]
-    found = composite_inertia(ROBOT, place, modules, layout).at(np.tile(angles, (20, 1)))
+    composed, asked = composite_inertia(ROBOT, place, modules, layout), np.tile(angles, (20, 1))
+    found, upright = composed.at(asked), composed.upright(asked)
     for row in range(20):
         body = Carrier.of(whole.take(row))
         centers = place.centers(Size(*(float(values[row]) for values in modules.size)))
@@ -78,6 +79,7 @@ def test_inertia_as_joined_body_by_body(layout):
         )
         products = [whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2] for whole in expected]
         np.testing.assert_allclose(found.product[row], products, rtol=1e-12)
+        np.testing.assert_allclose(upright[row], [whole[2, 2] for whole in expected], rtol=1e-12)
 
 
 @pytest.mark.parametrize("layout", AROUND)
@@ -137,9 +139,12 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
     )
     line = DriveLine(*(np.asarray(values)[:, None, None] for values in astuple(drives.line)))
     for maneuver in problem.requirement.maneuvers:
-        tasks = bound_task(maneuver, required, least, cells, layout)
+        # Wheels that turn beforehand, with or against what is asked.
+        begins = 30.0 * (seed - 1)
+        tasks = replace(bound_task(maneuver, required, least, cells, layout), begins=begins)
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
         task = wheel_task([maneuver], required, whole, layout.axes(angle)[..., :2, :])
+        task = replace(task, begins=begins)
         asked = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
         finite = np.isfinite(asked)
         assert finite.any()

@@ -15,8 +15,11 @@ from ocs_design.requirement.specification import (
     Specification,
     specification_from_options,
 )
-from ocs_design.sizing.selection.problem import specified_layout
+from ocs_design.sizing.design import CannotSurvive, design_device
+from ocs_design.sizing.selection.problem import selection_problem, specified_layout
+from ocs_design.sizing.trajectory.plans import drive_line_of, plan
 from ocs_design.workflows.layouts import compare_layouts, reach, reach_without_one
+from ocs_design.workflows.pareto import read_task
 from ocs_design.workflows.size import design_ocs
 
 S, C = np.sin(0.5), np.cos(0.5)
@@ -108,6 +111,19 @@ def test_four_wheels_where_no_motor_is_strong_enough_for_two(tmp_path):
 
 
 @pytest.mark.slow
+def test_the_lightest_is_the_same_without_the_plates_of_the_others():
+    asked = specification_from_options({"robot.file": str(SOLO12)})
+    task = read_task(asked, package_paths={}, strict=False)
+    whole, alone = (
+        design_device(asked, task.robot, task.resolved, advise=False, ranked=ranked)
+        for ranked in (True, False)
+    )
+    assert alone.device.mass == whole.device.mass
+    assert alone.device.motor == whole.device.motor
+    assert len(alone.choice.selection.ranking) < len(whole.choice.selection.ranking)
+
+
+@pytest.mark.slow
 def test_all_layouts_of_one_robot():
     """A flip alone: a single wheel is the lightest, and it does not roll the robot."""
     asked = specification_from_options(
@@ -120,3 +136,107 @@ def test_all_layouts_of_one_robot():
     assert by_name["single"].momentum[0] == 0.0
     assert min(by_name["pyramid"].momentum_without_one) > 0.0
     assert any("upright" in text or "horizontal" in text for text in by_name["pyramid"].open)
+
+
+SURVIVES = {
+    "robot.file": str(SOLO12),
+    "requirement.survives": "one",
+    "requirement.fall": "1m",
+    "requirement.tilt": "20deg",
+    "validation.ballistic": True,
+}
+
+
+@pytest.mark.parametrize("layout", ["single", "pair", "orthogonal"])
+def test_layouts_that_cannot_do_without_any_one_wheel_are_refused(layout):
+    asked = specification_from_options({**SURVIVES, "ocs.layout": layout})
+    task = read_task(asked, package_paths={}, strict=False)
+    with pytest.raises(CannotSurvive, match=f"'{layout}' does not survive .* without wheel"):
+        design_device(asked, task.robot, task.resolved, advise=False)
+
+
+@pytest.mark.parametrize(
+    "option", [{"motor.name": "none"}, {"ocs.co_design": True}], ids=["motor", "co-design"]
+)
+def test_what_does_not_go_with_a_stopped_drive(option):
+    asked = {"requirement.survives": "any one motor"}
+    assert not [*contradictions(specification_from_options(asked))]
+    (said,) = contradictions(specification_from_options({**asked, **option}))
+    assert "survives" in said
+    assert not [*contradictions(specification_from_options({"requirement.survives": "none"}))]
+
+
+@pytest.mark.parametrize("layout", ["single", "double-pair", "triad"])
+def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
+    """Four wheels that were promised the half of it each found no plan of the drop."""
+    drop = {"requirement.fall": "1m", "requirement.tilt": "30deg", "supply.power_max": "600 W"}
+    asked = specification_from_options({"robot.file": str(SOLO12), "ocs.layout": layout, **drop})
+    task = read_task(asked, package_paths={}, strict=False)
+    designed = design_device(asked, task.robot, task.resolved, advise=False)
+    promised = designed.choice.chosen.line.power_max
+    assert drive_line_of(designed.device).power_max == pytest.approx(promised, rel=1e-9)
+    standing = task.resolved.requirement.standing_height
+    maneuvers = task.resolved.requirement.maneuvers
+    for found in plan(task.robot.mass_properties, designed.device, maneuvers, standing).values():
+        assert found.trajectory is not None, found.note
+
+
+@pytest.mark.parametrize(("layout", "direct"), [("pair", False), ("orthogonal", True)])
+def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
+    """The wheels are what the closed form asks for, and a plan for them leaves something."""
+    asked = specification_from_options(
+        {
+            "robot.file": str(SOLO12),
+            "ocs.layout": layout,
+            "requirement.turn": "yaw 90deg in 2s",
+            "requirement.gravity": "1.62",
+        }
+    )
+    task = read_task(asked, package_paths={}, strict=False)
+    (turn,) = selection_problem(asked, task.robot, task.resolved).requirement.maneuvers
+    assert turn.headed == direct
+    assert (turn.turn == 0.0).all() == direct
+    if direct:
+        designed = design_device(asked, task.robot, task.resolved, advise=False)
+        standing = task.resolved.requirement.standing_height
+        found = plan(task.robot.mass_properties, designed.device, (turn,), standing)
+        assert found[turn.name].share < 1.0
+        (demand,) = designed.choice.chosen.demands
+        assert demand.spin_inertia == pytest.approx(designed.device.flywheel.spin_inertia, rel=2e-2)
+
+
+@pytest.mark.slow
+def test_a_triad_for_solo12_can_be_built(tmp_path):
+    """On one plate, whose mass is a part of the device's; read again it is the same."""
+    asked = specification_from_options({"robot.file": str(SOLO12), "ocs.layout": "triad"})
+    design = design_ocs(asked, out=tmp_path / "a").design
+    assert design.buildable.yes is True
+    assert design.buildable.open == ()
+    ocs, plate = design.ocs, design.ocs.plate
+    assert plate.arms == len(ocs.modules)
+    modules = len(ocs.modules) * (ocs.flywheel.mass + ocs.carrier.mass)
+    assert ocs.mass_total == pytest.approx(modules + plate.mass)
+    assert read_design(tmp_path / "a").ocs.plate == plate
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("layout", ["triad", "double-pair", "pyramid"])
+def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
+    """Every drive at every instant; what costs mass is told, and the table has each flight."""
+    asked = specification_from_options({**SURVIVES, "ocs.layout": layout})
+    outcome = design_ocs(asked, out=tmp_path / "a")
+    survival = outcome.design.survival
+    assert not survival.lost
+    assert outcome.device.mass > survival.mass_without
+    assert read_design(outcome.folder).survival == survival
+    rows = (outcome.folder / "validation" / "stopped.csv").read_text().splitlines()
+    assert len(rows) == 1 + len(survival.flights) == 1 + 8 * len(outcome.device.modules)
+    assert read_design(outcome.folder).requirement.detection == 0.02
+
+
+@pytest.mark.slow
+def test_a_refusal_names_what_would_survive_with_its_mass(tmp_path):
+    with pytest.raises(CannotSurvive) as refused:
+        design_ocs(specification_from_options(SURVIVES), out=tmp_path / "a")
+    assert "`--layout triad`" in refused.value.hint
+    assert not (tmp_path / "a").exists()

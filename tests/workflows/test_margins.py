@@ -1,9 +1,12 @@
 """Which motions a margin is about: what was planned, and all of what was flown."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from designed import designed
 
+from ocs_design.requirement.maneuver import StandUp
 from ocs_design.simulation.metrics import Metrics, Series
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.trajectory.flight import Trajectory
@@ -87,6 +90,15 @@ def test_the_worst_is_over_plan_and_flight():
     assert recorded([run("drop", speed=1300.0)], plans)["wheel speed"].demand == 1300.0
 
 
+def test_wheels_before_a_brake_are_asked_of_the_drive_too():
+    found = recorded(plans={"drop": replace(planned(10.0), spun=1234.0)})
+    assert found["wheel speed"].demand == 1234.0
+    assert (
+        found["stored energy"].demand
+        > recorded(plans={"drop": planned(1233.0)})["stored energy"].demand
+    )
+
+
 def test_without_flight_or_plan_there_is_still_the_room():
     assert list(recorded())[-3:] == ["outer radius", "height", "rim mass"]
 
@@ -101,3 +113,23 @@ def test_wheels_without_a_motor_say_what_they_can():
     stress = found["hoop stress"]
     assert stress.demand == device.device.flywheel.hoop_stress
     assert stress.margin == pytest.approx(device.device.flywheel.stress_margin)
+
+
+def test_a_brake_is_asked_of_the_wheel_and_of_what_holds_its_rotor():
+    """J W / t of the wheel, 1.5 J_r W / t of the rotor; the wheel turns fastest before it."""
+    task, found = designed()
+    edge = {"pivot": (0.0, 0.0, -0.24), "edge": (0.0, 1.0, 0.0)}
+    up = StandUp(name="up", **edge, pitch=0.5, duration=1.0, actuation="brake")
+    up = up.on(found.sized.total)
+    asked = replace(task.resolved.requirement, maneuvers=(up,))
+    plans = {"up": replace(planned(100.0), spun=400.0)}
+    margins = record_margins(replace(task.resolved, requirement=asked), found, (), plans)
+    rows = {margin.name: margin for margin in margins}
+    wheel, drive = found.device.flywheel, found.device.motor
+    assert rows["wheel speed"].demand == 400.0
+    assert rows["brake torque"].demand == pytest.approx(wheel.spin_inertia * 400.0 / up.stop)
+    held = rows["shaft joint, braked"]
+    assert held.demand == pytest.approx(1.5 * drive.rotor_inertia * 400.0 / up.stop)
+    assert held.capacity == rows["shaft joint"].capacity
+    assert "from 3820 rpm in 3.8 ms" in held.note
+    assert held.scenario == "up"

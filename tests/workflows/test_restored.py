@@ -12,6 +12,7 @@ from robots import ROBOTS
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.device.records import ManeuverRecord, RobotRecord, design_to_json, read_design
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
 from ocs_design.workflows.recording import record_design
 from ocs_design.workflows.restoring import device_of, maneuver_of, robot_of, seat_of
@@ -38,6 +39,8 @@ def check_same(again, robot):
     assert again.posture == robot.posture
     assert (again.trunk, again.name, again.sha256) == (robot.trunk, robot.name, robot.sha256)
     assert again.mass == robot.mass
+    beyond = [[w for w in each.warnings if w.startswith(OUTSIDE)] for each in (again, robot)]
+    assert beyond[0] == beyond[1]
     np.testing.assert_array_equal(again.com, robot.com)
     np.testing.assert_array_equal(again.inertia, robot.inertia)
 

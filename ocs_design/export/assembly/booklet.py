@@ -4,10 +4,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ocs_design import __version__
-from ocs_design.export.assembly.content import Assembly, Chapter
+from ocs_design.export.assembly.content import Assembly, Chapter, assembly_of
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
 from ocs_design.export.drawing.sheet import (
     FRAME_BOX,
@@ -26,13 +25,11 @@ from ocs_design.export.drawing.sheet import (
 from ocs_design.export.drawing.title_block import frame
 from ocs_design.export.drawing.wheel_sheet import device_hash
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
-
-if TYPE_CHECKING:
-    from ocs_design.export.formats import Notes, Subject
+from ocs_design.export.formats import Notes, Subject
 
 LEFT, TOP, RIGHT, BOTTOM = FRAME_BOX
 _INSET = 4.0
-"""Between the frame and what is in it [mm]."""
+"""Distance between the frame and what is in it [mm]."""
 
 _TEXT, _LEADING, _AFTER = 1.9, 3.9, 1.3
 """Height of capitals, distance of lines and of paragraphs [mm]."""
@@ -44,17 +41,17 @@ _NUMBER = 6.0
 """Width of a step's number [mm]."""
 
 _GUTTER = 8.0
-"""Between columns [mm]."""
+"""Distance between columns [mm]."""
 
 EXPLODED_BOX: Box = (LEFT + 2.0, TOP + 11.0, RIGHT - 2.0, TOP + 129.0)
-"""Of the exploded view on its sheet [mm]."""
+"""Place of the exploded view on its sheet [mm]."""
 
 _SECTION_BOX: Box = (LEFT + 2.0, TOP + 14.0, LEFT + 124.0, BOTTOM - 14.0)
 
 
-def write(subject: "Subject", folder: Path) -> "Notes":
+def write(subject: Subject, folder: Path) -> Notes:
     """Write `assembly.pdf`."""
-    (folder / "assembly.pdf").write_bytes(assembly_pdf(subject.assembly))
+    (folder / "assembly.pdf").write_bytes(assembly_pdf(assembly_of(subject)))
     return ()
 
 

@@ -6,7 +6,7 @@ Pages and the report's section show the same text.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -37,6 +37,7 @@ from ocs_design.export.device_parts import foot_holes, printed_foot, wheel_geome
 from ocs_design.export.drawing.title_block import RUN_OUT
 from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.electrics import demand_of, electrics
+from ocs_design.export.formats import Subject
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import stored_energy
@@ -45,7 +46,7 @@ SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
 """Shares of the top speed at which a wheel is watched for a minute each."""
 
 OVERSPEED = 1.1
-"""Of the top speed, once, before the wheel goes on a robot."""
+"""Speed of the spin test over the top speed, once, before the wheel goes on a robot."""
 
 LEAST_DRILL = 0.8e-3
 """Diameter below which steel is ground and not drilled [m]."""
@@ -65,7 +66,8 @@ _LABELS = {
     "cage": "cage of the motor",
     "guard": "guard ring",
     "plate": "plate under the feet",
-    "sleeves": "sleeves under the plate",
+    "mast": "mast behind the trunk",
+    "sleeves": "sleeves around the trunk's screws",
 }
 
 _SOFT = 68.0
@@ -177,7 +179,7 @@ class Assembly:
         for piece in {piece.name: piece for piece in self.pieces}.values():
             number, count = self.numbers[piece.name], self._count(piece)
             if piece.fastening is not None:
-                what = piece.fastening.screw.designation(piece.fastening.length)
+                what = piece.fastening.designation
                 yield PieceRow(number, f"screw, {_short(piece.name)}", count, f"bought: {what}", "")
             else:
                 label = _LABELS.get(piece.name, piece.name)
@@ -195,7 +197,7 @@ class Assembly:
             )
             yield ScrewRow(
                 self.numbers[name],
-                held.screw.designation(held.length),
+                held.designation,
                 self._count(piece),
                 held.purpose,
                 depth,
@@ -302,7 +304,9 @@ class Assembly:
     def _late(self) -> tuple[str, ...]:
         """Screws that come after balancing: those of lid and trunk."""
         return tuple(
-            name for name in self.screws if name.startswith(("lid", "foot on", "plate on"))
+            name
+            for name in self.screws
+            if name.startswith(("lid", "foot on", "plate on", "mast on"))
         )
 
     def _motor(self) -> Iterator[str]:
@@ -332,7 +336,7 @@ class Assembly:
             "; threadlocker of medium strength" if held.depth < IN_PLASTIC else "; no threadlocker"
         )
         return (
-            f"{joint}: {held.count} x {held.screw.designation(held.length)}"
+            f"{joint}: {held.count} x {held.designation}"
             f"{self._number(name)}, {found.torque:.2g} N m, crosswise in two rounds{lock}."
         )
 
@@ -376,14 +380,32 @@ class Assembly:
             )
         else:
             under_feet = "plate"
-            yield (
+            cut = (
                 f"Cut the plate{self._number('plate')} (cad/plate.stl; `export --formats dxf` "
                 f"writes plate.dxf) and tap its holes {plate.foot_thread} for the feet, which are, "
-                f"{frame} design.json), at {places_of}. Drill and tap the trunk {plate.thread} "
-                f"where its other {len(plate.trunk)} holes come to lie (cad/drilling.pdf, printed "
-                "at 100 %)."
+                f"{frame} design.json), at {places_of}. Drill and tap the trunk"
             )
-            origin = plate.position[:2]
+            if plate.mast is None:
+                yield (
+                    f"{cut} {plate.thread} where its other {len(plate.trunk)} holes come to lie "
+                    "(cad/drilling.pdf, printed at 100 %)."
+                )
+            else:
+                yield (
+                    f"{cut}'s back {plate.thread} by cad/drilling.pdf, printed at 100 %. Whether "
+                    "its wall bears them is not looked at: put a plate behind it where it is thin."
+                )
+                mast, ends = plate.mast, [f"{1e3 * z:.1f}" for z in plate.heights]
+                yield (
+                    f"Weld the mast{self._number('mast')} (cad/mast.stl) of square tube "
+                    f"{1e3 * mast.side:.0f} x {1e3 * mast.wall:.0f} mm: an upright of "
+                    f"{1e3 * (mast.high - mast.low):.1f} mm, an arm of "
+                    f"{1e3 * (mast.back + plate.neck):.1f} mm whose top is "
+                    f"{' and '.join(ends)} mm above the lowest plate, and a plate on each arm. "
+                    f"Drill it {1e3 * plate.screw.clearance_hole:.1f} mm through both walls, with "
+                    f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
+                )
+            origin = plate.position[:2] if plate.mast is None else plate.position[1:]
             sleeves = [
                 f"{1e3 * length:.2f} mm at ({1e3 * (origin[0] + x):.1f}, "
                 f"{1e3 * (origin[1] + y):.1f})"
@@ -394,11 +416,15 @@ class Assembly:
                 yield f"Under its holes stand sleeves{self._number('sleeves')}: " + (
                     ", ".join(sleeves) + "."
                 )
-            yield from (self._screwed(each) for each in self._late if each.startswith("plate on"))
+            yield from (
+                self._screwed(each)
+                for each in self._late
+                if each.startswith(("plate on", "mast on"))
+            )
         yield (
             "Scribe a line forward through the middle of each foot, turn the foot until it meets "
             f"the scale at {scale}, and tighten {held.count} x "
-            f"{held.screw.designation(held.length)}{self._number(name)} with {found.torque:.2g} N "
+            f"{held.designation}{self._number(name)} with {found.torque:.2g} N "
             f"m each, into {'the threads' if plate else 'threads, inserts or nuts'} of the "
             f"{under_feet}."
         )
@@ -558,6 +584,12 @@ class Assembly:
         )
 
 
+@lru_cache(maxsize=1)
+def assembly_of(subject: Subject) -> Assembly:
+    """Assembly of the subject's device, for the booklet and for the report."""
+    return Assembly(subject.name, subject.device, subject.margins, subject.fitting)
+
+
 def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]:
     """How a piece is made, and the file to make it from."""
     motor = device.motor
@@ -573,9 +605,9 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
     if name == "guard":
         assert row is not None, "the bill has a row for the ring"
         return f"{row.material}, {row.stock}", "guard_ring.stl"
-    if name in ("plate", "sleeves"):
+    if name in ("plate", "mast", "sleeves"):
         cut = "" if row is None else f" from {row.material}, {row.stock}"
-        return f"cut{cut}", "plate.stl" if name == "plate" else ""
+        return f"cut{cut}", "" if name == "sleeves" else f"{name}.stl"
     made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
     return made, "wheel.pdf"
 

@@ -9,7 +9,10 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.export.meshes import Mesh
 
 PIXEL = 0.2e-3
-"""Size of the depth map's pixels [m]."""
+"""Size of the depth map's pixels [m], at least."""
+
+MOST_PIXELS = 16e6
+"""Of a depth map: what is larger, as the device of a humanoid pulled apart, has larger pixels."""
 
 _CHUNK = 1 << 12
 """Triangles that are filled at once: all of them would take a hundred megabytes."""
@@ -75,12 +78,18 @@ def _edges(mesh: Mesh) -> FloatArray:
 
 
 class _DepthMap:
-    """Largest depth towards the eye on a grid of pixels."""
+    """Largest depth towards the eye on a grid of pixels.
+
+    Attributes:
+        pixel: their size [m].
+    """
 
     def __init__(self, corners: FloatArray) -> None:
         flat = corners.reshape(-1, 3)
-        self._low = flat[:, :2].min(axis=0) - 2.0 * PIXEL
-        size = np.ceil((flat[:, :2].max(axis=0) - self._low) / PIXEL).astype(int) + 3
+        across = np.ptp(flat[:, :2], axis=0)
+        self.pixel = max(PIXEL, float(np.sqrt(across.prod() / MOST_PIXELS)))
+        self._low = flat[:, :2].min(axis=0) - 2.0 * self.pixel
+        size = np.ceil((flat[:, :2].max(axis=0) - self._low) / self.pixel).astype(int) + 3
         # Ten million pixels: single precision tells a thousandth of one.
         self._depth = np.full((size[1], size[0]), -np.inf, dtype=np.float32)
         for start in range(0, len(corners), _CHUNK):
@@ -98,7 +107,7 @@ class _DepthMap:
         Of closed meshes the others are behind them.
         """
         points = corners.copy()
-        points[:, :, :2] = (points[:, :, :2] - self._low) / PIXEL
+        points[:, :, :2] = (points[:, :, :2] - self._low) / self.pixel
         edge_1, edge_2 = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
         area = edge_1[:, 0] * edge_2[:, 1] - edge_1[:, 1] * edge_2[:, 0]
         front = area > 1e-9
@@ -132,8 +141,8 @@ class _DepthMap:
 
     def sees(self, points: FloatArray) -> FloatArray:
         """Whether nothing is in front of each point, shape (n,)."""
-        columns, rows = np.rint((points[:, :2] - self._low) / PIXEL).astype(int).T
-        return np.asarray(points[:, 2] + 0.5 * PIXEL >= self._farthest[rows, columns])
+        columns, rows = np.rint((points[:, :2] - self._low) / self.pixel).astype(int).T
+        return np.asarray(points[:, 2] + 0.5 * self.pixel >= self._farthest[rows, columns])
 
 
 def _ranges(first: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -148,7 +157,7 @@ def _visible_parts(edges: FloatArray, depth: _DepthMap) -> list[FloatArray]:
     if not len(edges):
         return []
     lengths = np.linalg.norm(edges[:, 1, :2] - edges[:, 0, :2], axis=1)
-    counts = np.maximum(np.ceil(lengths / PIXEL).astype(int), 1)
+    counts = np.maximum(np.ceil(lengths / depth.pixel).astype(int), 1)
     owner = np.repeat(np.arange(len(edges)), counts)
     share = (_ranges(np.zeros(len(edges), dtype=int), counts) + 0.5) / counts[owner]
     start, along = edges[owner, 0], edges[owner, 1] - edges[owner, 0]

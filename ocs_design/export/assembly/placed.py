@@ -22,7 +22,7 @@ from ocs_design.export.device_parts import (
 from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
 from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import cage_placement
-from ocs_design.parts.carrier_plate import plate_part, sleeve_part
+from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.foot import BASE_THICKNESS
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
@@ -35,7 +35,7 @@ SECTIONS = 64
 """Chords of a full circle."""
 
 _APART = 0.25
-"""Between pieces that are pulled apart upward or downward, over the housing's radius."""
+"""Gap between pieces that are pulled apart up or down, over the housing's radius."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,23 +191,21 @@ def _plate_pieces(device: Device) -> Iterator[Piece]:
     place = wheel_placement(device.modules[0]).inverse() @ on_trunk
     apart = _APART * printed_foot(device).housing.radius
     lowest = 1.5 * apart + max(plate.screw_lengths)
-    holes = [np.array([*at, 0.0]) for at in plate.trunk]
+    head = Placement(np.eye(3), np.array([0.0, 0.0, plate.clamped]))
     for held in plate.fastenings:
-        top = np.array([0.0, 0.0, plate.thickness])
-        own = zip(holes, plate.screw_lengths, strict=True)
-        heads = [at + top for at, length in own if length == held.length]
-        screws = _placed(_upright_screws(held, heads), place)
-        yield Piece(held.purpose, screws, held, drop=apart, shared=True)
-    sleeves = [
-        part_mesh(sleeve_part(plate, length), SECTIONS).moved(at)
-        for at, length in zip(holes, plate.sleeves, strict=True)
-        if length > 0.0
-    ]
+        one = solid_mesh(_screw(held.screw, held.length), 24)
+        own = zip(plate.screw_places, plate.screw_lengths, strict=True)
+        heads = [_placed(one, at @ head) for at, length in own if length == held.length]
+        yield Piece(held.purpose, _placed(merged(heads), place), held, drop=apart, shared=True)
+    bodies: dict[str, list[Mesh]] = {}
+    for part, at in plate_bodies(plate):
+        bodies.setdefault(part.name, []).append(_placed(part_mesh(part, SECTIONS), place @ at))
+    sleeves = bodies.pop("sleeve", [])
     if sleeves:
-        mesh, down = _placed(merged(sleeves), place), lowest + apart
-        yield Piece("sleeves", mesh, drop=down, shared=True, count=len(sleeves))
-    mesh = _placed(part_mesh(plate_part(plate), SECTIONS), place)
-    yield Piece("plate", mesh, drop=lowest, shared=True)
+        down = lowest + apart
+        yield Piece("sleeves", merged(sleeves), drop=down, shared=True, count=len(sleeves))
+    for name, meshes in bodies.items():
+        yield Piece(name, merged(meshes), drop=lowest, shared=True)
 
 
 def _upright_screws(held: Fastening, places: Iterable[FloatArray]) -> Mesh:

@@ -41,9 +41,10 @@ class Tightened:
 
 
 def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = True) -> Tightened:
-    """Torque of screws of class 8.8.
+    """Torque of screws.
 
-    Those of the wheel as their joint is computed (`parts.joints`). Others with the least of: 90 %
+    Those of the wheel as their joint is computed (`parts.joints`). Others, of class 8.8, with the
+    least of: 90 %
     of the screw's yield strength (VDI 2230); half of the force that shears off a thread in
     aluminium, or a third of it in a print, on half of the thread's cylinder; under a head on a
     print, half the print's yield strength as pressure. A print's shear strength is its tensile one
@@ -57,9 +58,10 @@ def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = Tru
     screw, engagement = fastening.screw, fastening.length - fastening.thickness
     sheared = pi * screw.diameter * engagement / 2.0
     if on_metal:
-        share = joint_preload(screw) / (sheared * ALUMINIUM_SHEAR)
+        strength = fastening.strength
+        share = joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
         rule = f"the joint, as computed; {share:.0%} of what strips a thread in 6061-T6"
-        return Tightened(fastening, tightening_torque(screw), rule, engagement)
+        return Tightened(fastening, tightening_torque(screw, strength), rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if head_on_print:
         pressed = PRESSURE_SHARE * STRENGTH * screw.head_area

@@ -29,7 +29,7 @@ _CAMERA, _UP = (0.80, -0.38, 0.55), (0.0, -1.0, 0.0)
 _DRAWN = Pen(0.25)
 
 _GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
-"""Between pieces that are pulled apart, over the largest radius: the widest that fits the sheet is
+"""Gaps between pieces pulled apart, over the largest radius: the widest that fits the sheet is
 taken. Share of it before screws."""
 
 BALLOON = 3.2
@@ -90,7 +90,9 @@ def exploded_view(
     items: list[Item] = []
     for chains in lines:
         items += [Polyline(tuple(map(place, chain)), _DRAWN) for chain in chains]
-    ends = _axis(apart, view)
+    heights = np.concatenate([piece.mesh.vertices[:, 2] for piece in apart])
+    ends = np.array([[0.0, 0.0, heights.min() - 0.01], [0.0, 0.0, heights.max() + 0.01]])
+    ends = np.asarray((ends @ view.T)[:, :2])
     items.append(Line(place(ends[0]), place(ends[1]), CENTRE))
     above, below = [], []
     for piece, mesh, chains in zip(apart, meshes, lines, strict=True):
@@ -165,13 +167,6 @@ def _fitting(size: FloatArray, room: FloatArray) -> Scale:
 
 def _on_paper(scale: Scale, lengths: FloatArray) -> FloatArray:
     return np.array([scale(float(length)) for length in lengths])
-
-
-def _axis(pieces: Sequence[Piece], view: FloatArray) -> FloatArray:
-    """Ends of the wheel's axis through all pieces, in the picture, shape (2, 2)."""
-    heights = np.concatenate([piece.mesh.vertices[:, 2] for piece in pieces])
-    ends = np.array([[0.0, 0.0, heights.min() - 0.01], [0.0, 0.0, heights.max() + 0.01]])
-    return np.asarray((ends @ view.T)[:, :2])
 
 
 def _balloons(

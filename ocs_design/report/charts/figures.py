@@ -8,8 +8,13 @@ from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.drive import torque_speed_chart
 from ocs_design.report.charts.flights import distribution_charts, time_charts
 from ocs_design.report.charts.front import reliability_chart
-from ocs_design.report.charts.incidence import criterion_chart, posture_chart
-from ocs_design.report.charts.momentum import bound_charts, ellipsoid_chart, momentum_chart
+from ocs_design.report.charts.momentum import (
+    bound_charts,
+    criterion_chart,
+    ellipsoid_chart,
+    momentum_chart,
+    posture_chart,
+)
 from ocs_design.report.story import Story
 
 FOLDER = "figures"

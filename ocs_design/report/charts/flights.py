@@ -7,7 +7,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import to_unit
-from ocs_design.monte_carlo.summary import MonteCarloRecord, Spread
+from ocs_design.device.answers import MonteCarloRecord, Spread
 from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Rule
 from ocs_design.report.charts.scales import Axis
 from ocs_design.report.quantities import in_unit
@@ -29,8 +29,10 @@ def time_charts(scenario: str, name: str, flights: Sequence[Flight]) -> tuple[Ch
         flights: of this maneuver, with the device first where there is one.
     """
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
+    on_pivot = any(flight.on_pivot for flight in flights)
+    name_of_rule = f"allowed {'when due' if on_pivot else 'at touchdown'}"
     allowed = [
-        Rule(side * tolerance, upright=False, ink=Ink.FAINT, name="allowed at touchdown")
+        Rule(side * tolerance, upright=False, ink=Ink.FAINT, name=name_of_rule)
         for side in (-1.0, 1.0)
     ]
     angles = _about_axes(flights, "{axis}_rad", "deg", thin=False)
@@ -137,7 +139,8 @@ def _events(flights: Sequence[Flight]) -> list[Rule]:
     down = [each.touchdown for each in flights if each.flies and each.touchdown is not None]
     first = "lift-off" if any(flight.flies for flight in flights) else "push"
     times = [(left, first)] if left > 0.0 else []
-    times += [(min(down), "touchdown")] if down else []
+    last = "upright by now" if any(flight.on_pivot for flight in flights) else "touchdown"
+    times += [(min(down), last)] if down else []
     return [Rule(time, upright=True, label=label, ink=Ink.FAINT) for time, label in times]
 
 

@@ -104,7 +104,12 @@ class _Drawing:
         self._left = max(_LEFT, _LETTER * min(longest, _MOST_ROW) + 14.0)
         self._right, self._bottom = WIDTH - _RIGHT, chart.height - _BOTTOM
         if chart.equal:
-            chart = self._equal(chart)
+            wide, tall = self._right - self._left, self._bottom - self._top
+            spans = (chart.x.high - chart.x.low) / wide, (chart.y.high - chart.y.low) / tall
+            scale = max(spans)
+            chart = replace(
+                chart, x=_stretched(chart.x, scale * wide), y=_stretched(chart.y, scale * tall)
+            )
         self._chart = chart
         self._taken = [
             _Box(x - _DOT, y - _DOT, x + _DOT, y + _DOT)
@@ -141,15 +146,6 @@ class _Drawing:
             f'<g clip-path="url(#{chart.name}-c)">{"".join(map(self._shape_of, chart.marks))}</g>'
             # Words lie over everything, and may reach over the frame.
             f"{''.join(map(self._label_of, chart.marks))}{self._titles()}</svg>"
-        )
-
-    def _equal(self, chart: Chart) -> Chart:
-        """The chart with the axis stretched that would be too long for its values."""
-        wide, tall = self._right - self._left, self._bottom - self._top
-        spans = (chart.x.high - chart.x.low) / wide, (chart.y.high - chart.y.low) / tall
-        scale = max(spans)
-        return replace(
-            chart, x=_stretched(chart.x, scale * wide), y=_stretched(chart.y, scale * tall)
         )
 
     def _at(self, x: FloatArray, y: FloatArray) -> FloatArray:

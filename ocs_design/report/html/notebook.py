@@ -6,16 +6,15 @@ from pathlib import Path
 
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import format_quantity
-from ocs_design.device.answers import Front
+from ocs_design.device.answers import Front, Validated
 from ocs_design.device.records import OcsDesign, ValidationRecord
 from ocs_design.export.png import png_bytes
-from ocs_design.monte_carlo.summary import Validated
 from ocs_design.report.bodies import read_bodies
 from ocs_design.report.charts.front import front_chart
 from ocs_design.report.charts.momentum import ellipsoid_chart
 from ocs_design.report.charts.svg import svg_file
 from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
-from ocs_design.report.flights import short_verdict
+from ocs_design.report.flights import flights_title, short_verdict
 from ocs_design.report.html.elements import Markup, element, items, joined, table, void
 from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
 from ocs_design.report.quantities import grams
@@ -94,14 +93,14 @@ def _flights(runs: tuple[ValidationRecord, ...], kinds: Mapping[str, str]) -> Ma
         if run.ocs
     )
     heads = columns("<flight", "<with the device", "<without it")
-    title = "Flights: degrees off level at touchdown, or turned"
+    title = f"Flights: {flights_title(runs)}"
     return table(title, Table(heads, rows)) if rows else Markup("")
 
 
 def _validated(found: Validated) -> tuple[Markup, ...]:
     flown = found.monte_carlo
     certified = None if flown is None else flown.certificate
-    parts = [_head(found.robot, flights_headline(found.validation, certified))]
+    parts = [_head(found.robot, flights_headline(found.validation, certified, found.survival))]
     if flown is not None:
         parts.append(table(campaign_title(flown), success_table(flown)))
     if certified is not None:

@@ -13,7 +13,6 @@ from ocs_design.export.templates import template_text
 from ocs_design.report.charts.figures import scenario_charts
 from ocs_design.report.device import has_motor, layout_text, share_of_robot
 from ocs_design.report.html import sections
-from ocs_design.report.html.assembly import assembly_section
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.view import view, view_data
 from ocs_design.report.limits import recorded_margins
@@ -110,7 +109,7 @@ def _body(story: Story) -> Iterator[Markup]:
         sections.drive_section(story),
         sections.maneuvers_section(story, dict(scenario_charts(story)), scenarios),
         sections.monte_carlo_section(story),
-        assembly_section(story),
+        sections.assembly_section(story),
         sections.record_section(story),
     )
     yield data("design", design_to_json(design).decode())

@@ -9,6 +9,8 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import known_gears
 from ocs_design.catalogue.materials import materials
 from ocs_design.device.records import OcsDesign
+from ocs_design.export.assembly.booklet import exploded_svg, section_svg
+from ocs_design.export.assembly.content import Assembly, Chapter
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
     Grade,
@@ -24,7 +26,15 @@ from ocs_design.report.charts.figures import drive_charts, incidence_charts, res
 from ocs_design.report.charts.flights import distribution_charts
 from ocs_design.report.charts.momentum import bound_charts
 from ocs_design.report.device import device_facts, drawn_facts, robot_facts
-from ocs_design.report.flights import device_table, landing_remarks, run_sentence
+from ocs_design.report.flights import (
+    SURVIVAL_TITLE,
+    device_table,
+    landing_remarks,
+    run_sentence,
+    survival_cost,
+    survival_sentence,
+    survival_table,
+)
 from ocs_design.report.html.elements import (
     Markup,
     details,
@@ -32,6 +42,7 @@ from ocs_design.report.html.elements import (
     facts,
     figures,
     items,
+    joined,
     section,
     table,
 )
@@ -49,6 +60,12 @@ PAPER = (
     "F. Roscia, A. Cumerlotti, A. Del Prete, C. Semini, M. Focchi, “Orientation Control System: "
     "Enhancing Aerial Maneuvers for Quadruped Robots”, Sensors 23(3):1234, 2023"
 )
+
+_SCREWS = (
+    *("No.", "quantity", "<screw", "<what it holds", "<thread that holds"),
+    *("<torque", "<set by"),
+)
+"""Columns of `ScrewRow.cells`."""
 
 _LIBRARIES = ("numpy", "scipy", "cvxpy", "clarabel", "casadi", "mujoco", "trimesh")
 
@@ -164,7 +181,7 @@ def angles_section(story: Story) -> Markup:
 
 def drive_section(story: Story) -> Markup:
     """Torque and speed of the wheels, and how the drive was chosen."""
-    chosen = story.design.selection
+    chosen, asked = story.design.selection, story.design.requirement.maneuvers
     parts = [figures(drive_charts(story))]
     if chosen is None:
         return section("drive", "Drive", *parts)
@@ -172,7 +189,7 @@ def drive_section(story: Story) -> Markup:
     parts += [
         element("p", f"Chosen from {selection.choice_title(chosen)}."),
         table("What is asked of the drive", selection.task_table(chosen)),
-        element("p", selection.task_note(chosen), class_="note"),
+        element("p", selection.task_note(chosen, asked), class_="note"),
         table("The lightest drives", selection.drive_table(drives)),
     ]
     co_design = selection.co_design_facts(chosen)
@@ -213,6 +230,17 @@ def maneuvers_section(
                 figures(charts[name], flight=number) if charts.get(name) else "",
             )
         )
+    survival = story.design.survival
+    if survival is not None:
+        told = filter(None, (survival_sentence(survival), survival_cost(story.design)))
+        parts.append(
+            element(
+                "article",
+                element("h3", "A drive stops on the way"),
+                table(SURVIVAL_TITLE, survival_table(survival)),
+                *(element("p", each, class_="note") for each in told),
+            )
+        )
     remarks = items(landing_remarks(story.design), look="warnings")
     return section("maneuvers", "Maneuvers, with the device and without", remarks, *parts)
 
@@ -239,6 +267,40 @@ def monte_carlo_section(story: Story) -> Markup:
         figures(distribution_charts(record)),
         details("What was drawn", facts(drawn_facts(record.reality))),
     )
+
+
+def assembly_section(story: Story) -> Markup:
+    """Pictures, pieces, screws and all instructions."""
+    design, ocs = story.design, story.design.ocs
+    # Its exploded view takes a second to draw: what is written on paper too is drawn once.
+    assembly = story.assembly or Assembly(
+        design.robot.name, ocs.device(design.supply), design.margins, ocs.fitting
+    )
+    rows = list(assembly.piece_rows())
+    pieces = tuple(
+        (str(row.number), str(row.quantity), row.name, row.made, row.file) for row in rows
+    )
+    screws = tuple(row.cells for row in assembly.screw_rows())
+    return section(
+        "assembly",
+        "Assembly: how to build, balance, test and wire it",
+        element("figure", Markup(exploded_svg(assembly)), class_="sheet"),
+        table(
+            "Pieces of the whole device, by their numbers",
+            Table(columns("No.", "quantity", "<piece", "<made", "<file in cad/"), pieces),
+        ),
+        element("figure", Markup(section_svg(assembly)), class_="sheet"),
+        table("Screws", Table(columns(*_SCREWS), screws)) if screws else "",
+        joined(_chapter(chapter) for chapter in assembly.chapters()),
+        element("p", "The same stands on paper in ", element("code", "cad/assembly.pdf"), "."),
+    )
+
+
+def _chapter(chapter: Chapter) -> Markup:
+    head = element("h3", chapter.title)
+    if not chapter.numbered:
+        return joined((head, items(chapter.texts)))
+    return joined((head, element("ol", *(element("li", text) for text in chapter.texts))))
 
 
 def record_section(story: Story) -> Markup:

@@ -35,19 +35,21 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
 
 def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
     """A row for each layout, then why there is none, or what keeps it from being built."""
-    heading(console, f"Layouts for {answer.robot}")
+    heading(console, f"Layouts for {answer.robot}: mass, and momentum that they can give")
     axes = (f"{axis} [N m s]" for axis in ("roll", "pitch", "yaw"))
-    lost = (f"{axis}, one lost" for axis in ("roll", "pitch", "yaw"))
+    lost = (f"{axis}, one lost [N m s]" for axis in ("roll", "pitch", "yaw"))
     rows = tuple(
         (
             each.layout,
             "-" if each.mass is None else f"{1e3 * each.mass:.0f}",
-            *(f"{value:.3g}" for value in (*each.momentum, *each.momentum_without_one)),
             each.motor or "-",
+            ", ".join(each.survives) or "-",
+            *(f"{value:.3g}" for value in (*each.momentum, *each.momentum_without_one)),
         )
         for each in answer.layouts
     )
-    show(console, Table(columns("<", "mass [g]", *axes, *lost, "<motor"), rows))
+    names = ("<", "mass [g]", "<motor", "<survives one lost in", *axes, *lost)
+    show(console, Table(columns(*names), rows))
     for each in answer.layouts:
         for text in (*each.open, *([each.without] if each.without else [])):
             note(console, f"{each.layout}: {text}")

@@ -172,12 +172,13 @@ class Steps:
             current = Step()
             yield current
         else:
+            wide = self._console.width >= _WIDE
             with Progress(
                 SpinnerColumn(),
                 TextColumn("{task.description}", markup=False),
-                BarColumn(bar_width=24),
+                BarColumn(bar_width=24 if wide else 8),
                 TimeElapsedColumn(),
-                _Left(),
+                *([_Left()] if wide else []),
                 console=self._console,
                 transient=True,
             ) as progress:
@@ -202,6 +203,9 @@ class Steps:
                 Text(f"          {more} more: `ocs-design inspect`"), soft_wrap=True
             )
 
+
+_WIDE = 80
+"""Columns from which on there is room for the time that is left."""
 
 MOST_DOUBTS = 3
 """Told before the search; `inspect` has all."""

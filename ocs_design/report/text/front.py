@@ -63,14 +63,14 @@ def _table(front: Front) -> Table:
     """Mass, rim, incidence and drive at each value; a value without a device says so."""
     names = [name for name in ("motor", "gear", "material") if name not in _same(front)]
     heads = columns(
-        f" [{front.unit}]", "mass [g]", "of robot [%]", "R [mm]", "r [mm]", "h [mm]", "alpha [deg]",
-        f"<{', '.join(names)}",
+        f" [{front.unit}]", "mass [g]", f"<{', '.join(names)}", "of robot [%]", "R [mm]", "r [mm]",
+        "h [mm]", "alpha [deg]",
     )  # fmt: skip
     rows: list[tuple[Cell, ...]] = []
     for point in front.points:
         value, device = f"{to_unit(point.value, front.unit):.4g}", point.device
         if device is None:
-            texts = (value, "none", *[""] * (len(heads) - 3), "see below")
+            texts = (value, "none", "see below", *[""] * (len(heads) - 3))
             rows.append(tuple(Toned(text, Tone.PLAIN) for text in texts))
             continue
         lengths = (device.outer_radius, device.inner_radius, device.height)
@@ -78,10 +78,10 @@ def _table(front: Front) -> Table:
             (
                 value,
                 f"{1e3 * device.mass:.1f}",
+                ", ".join(getattr(device, name) for name in names),
                 f"{100.0 * device.share:.1f}",
                 *map(tenths, lengths),
                 f"{np.degrees(device.incidence):.1f}",
-                ", ".join(getattr(device, name) for name in names),
             )
         )
     return Table(heads, tuple(rows))

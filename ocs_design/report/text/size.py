@@ -1,11 +1,12 @@
 """The whole report of `size` in the terminal: what was read, asked, found, proved and written."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
 
 from ocs_design.common.units import format_quantity
-from ocs_design.device.records import OcsDesign, SelectionRecord
+from ocs_design.device.records import ManeuverRecord, OcsDesign, SelectionRecord
 from ocs_design.report import limits, selection, warnings
 from ocs_design.report.device import criterion_table, device_facts, device_title, drawn_facts
 from ocs_design.report.flights import landing_remarks
@@ -43,7 +44,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
         heading(console, "What `validate --samples` draws")
         facts(console, drawn_facts(design.reality))
     if design.selection is not None:
-        print_selection(console, design.selection)
+        print_selection(console, design.selection, design.requirement.maneuvers)
     heading(console, device_title(design))
     facts(console, (*device_facts(design), ("motor's source", design.ocs.motor.source)))
     warn(console, design.ocs.warnings)
@@ -72,7 +73,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
     if design.ocs.flywheel.stress_margin is None:
         items(console, [warnings.unchecked_stress(design.ocs)], style="yellow")
     if design.validation:
-        print_runs(console, design.validation)
+        print_runs(console, design.validation, design.survival)
     items(console, landing_remarks(design), style="yellow")
 
 
@@ -119,11 +120,17 @@ def print_solution(console: Console, design: OcsDesign) -> None:
     )
 
 
-def print_selection(console: Console, chosen: SelectionRecord, *, verbose: bool = False) -> None:
+def print_selection(
+    console: Console,
+    chosen: SelectionRecord,
+    maneuvers: Sequence[ManeuverRecord] = (),
+    *,
+    verbose: bool = False,
+) -> None:
     """What the drive is asked for, the lightest ones, and how many were ruled out."""
     heading(console, f"Choice: {selection.choice_title(chosen)}")
     show(console, selection.task_table(chosen))
-    note(console, selection.task_note(chosen))
+    note(console, selection.task_note(chosen, maneuvers))
     drives = selection.best_drives if verbose else selection.shown_drives
     show(console, selection.drive_table(drives(chosen.ranking)), fewest=_FEWEST)
     ruled_out = selection.ruled_out(chosen)

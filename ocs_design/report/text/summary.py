@@ -9,7 +9,13 @@ from rich.text import Text
 from ocs_design.device.records import DESIGN_FILE, OcsDesign
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
-from ocs_design.report.flights import run_sentence, short_verdict
+from ocs_design.report.flights import (
+    flights_title,
+    run_sentence,
+    short_verdict,
+    survival_cost,
+    survival_sentence,
+)
 from ocs_design.report.limits import assumed, heat, lighter, owed_to, tightest
 from ocs_design.report.quantities import degrees_number, grams
 from ocs_design.report.table import Cell, Table, columns, listed
@@ -75,6 +81,9 @@ def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
         yield "" if index else "used", f"{share} {names}"
     if heat(design):
         yield "heat", heat(design)
+    if design.survival is not None:
+        told = (survival_sentence(design.survival), survival_cost(design))
+        yield "survives", "; ".join(filter(None, told))
 
 
 def _minded(design: OcsDesign, line: Headline) -> list[str]:
@@ -104,7 +113,7 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
             plots, top = tilt_plots([run.series for run in pair], width)
             rows[-1] += (*plots, degrees_number(top, 0))
     names = ("<flight", "<with the device", "<without it", "<tilt with", "<without", "full")
-    heading(console, "Flights in MuJoCo: degrees off level at touchdown, or turned")
+    heading(console, f"Flights in MuJoCo: {flights_title(design.validation)}")
     show(console, Table(columns(*names[: 6 if plotted else 3]), tuple(rows)))
     if plotted:
         times = listed([f"{run.series.time[-1]:.1f}" for run in runs[::2]])

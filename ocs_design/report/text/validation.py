@@ -7,10 +7,16 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.common.units import format_quantity
-from ocs_design.device.records import ValidationRecord
-from ocs_design.monte_carlo.summary import Validated
-from ocs_design.monte_carlo.uncertainty import key_of
-from ocs_design.report.flights import flight_table, run_sentence
+from ocs_design.device.answers import Validated
+from ocs_design.device.records import SurvivalRecord, ValidationRecord
+from ocs_design.monte_carlo.uncertainty import STOPS, key_of
+from ocs_design.report.flights import (
+    SURVIVAL_TITLE,
+    flight_table,
+    run_sentence,
+    survival_sentence,
+    survival_table,
+)
 from ocs_design.report.monte_carlo import (
     campaign_remarks,
     campaign_title,
@@ -32,11 +38,17 @@ from ocs_design.report.verdict import SEPARATOR, Headline, flights_headline
 from ocs_design.requirement.uncertainty import spreads
 
 
-def print_runs(console: Console, runs: Sequence[ValidationRecord]) -> None:
+def print_runs(
+    console: Console, runs: Sequence[ValidationRecord], survival: SurvivalRecord | None = None
+) -> None:
     """Flights with and without the device: verdicts, attitudes, wheels, and why."""
     heading(console, "Flights in MuJoCo, with the device and without")
     show(console, flight_table(runs))
     items(console, map(run_sentence, runs))
+    if survival is not None:
+        heading(console, SURVIVAL_TITLE)
+        show(console, survival_table(survival))
+        items(console, [survival_sentence(survival)])
 
 
 def print_headline(console: Console, line: Headline, *more: Text) -> None:
@@ -59,13 +71,13 @@ def print_validated(
     """
     if found.sample is not None:
         heading(console, f"Sample {found.sample.index} of seed {found.sample.seed}")
-        units = {key: spread.unit for key, spread in spreads().items()}
+        units = {key: spread.unit for key, spread in spreads().items()} | dict.fromkeys(STOPS, "")
         values = (
             (name.replace("_", " ").replace(".", " "), format_quantity(value, units[key_of(name)]))
             for name, value in found.sample.values.items()
         )
         facts(console, values)
-    print_runs(console, found.validation)
+    print_runs(console, found.validation, found.survival)
     record = found.monte_carlo
     if record is not None:
         heading(console, f"Monte Carlo: {campaign_title(record)}")
@@ -82,4 +94,4 @@ def print_validated(
         files_written(console, str(folder), files)
     console.print()
     certified = None if record is None else record.certificate
-    print_headline(console, flights_headline(found.validation, certified))
+    print_headline(console, flights_headline(found.validation, certified, found.survival))

@@ -119,6 +119,8 @@ def _flight(flight: Flight, poses: Poses, names: Sequence[str], blob: Blob) -> R
     return {
         "scenario": flight.scenario,
         "ocs": flight.ocs,
+        # What swings on a pivot swings below any floor.
+        "floor": not flight.on_pivot,
         "frames": len(poses.time),
         "time": blob.add(poses.time, "f4"),
         "position": blob.add(np.round(_FINE * poses.position[:, places]) / _FINE, "f4"),

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from math import sqrt
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver import Balance, Maneuver
 from ocs_design.requirement.sweep import change_text
 from ocs_design.robot.links import listed
 from ocs_design.sizing.changes import Progress, advice, smallest_changes, unseen
@@ -29,6 +30,9 @@ times its height: beyond, a humanoid is told to fall from 145 m. A radius, with 
 the inertia goes, is changed less: wheels beyond may couple roll and pitch by anything, and no bound
 of what they need survives that."""
 
+NO_ROOM = frozenset({Reason.ENVELOPE, Reason.STRESS, Reason.MASS})
+"""Reasons that are a wheel's, not a motor's."""
+
 _STATE_FIGURES = (
     "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state its "
     "figures in a file of your own with --motors."
@@ -49,6 +53,8 @@ class Refused(Infeasible):
         )
         problem, largest = found.problem, nearest.largest
         count, voltage = len(problem.motors), f"{problem.bus_voltage:g} V"
+        if (wheels := len(problem.layout)) != 2:
+            voltage += " with one wheel" if wheels == 1 else f" with {wheels} wheels"
         who = (
             f"Motor {nearest.motor} cannot do it at {voltage}"
             if count == 1
@@ -80,7 +86,7 @@ class Refused(Infeasible):
             # No change of a limit mends an incidence.
             if reason is not Reason.INCIDENCE:
                 changes = single_changes(field, progress)
-            hints = [*self._motor_hint(), *_hints(field, reason, changes)]
+            hints = [*_caught(field), *self._motor_hint(), *_hints(field, reason, changes)]
             if default:
                 hints = [_default_hint(field, changes.get(TIME)), *hints]
         if any(kept.demand > 1.0 for kept in self.problem.requirement.reserves.values()):
@@ -100,6 +106,30 @@ class Refused(Infeasible):
         needed = needed_motor(self.problem, model)
         if needed is not None:
             yield needed.text
+
+
+def _caught(field: Field) -> Iterator[str]:
+    """The largest part of what is to be balanced that the drives catch, the rest as asked."""
+    requirement = field.problem.requirement
+    asked = [each for each in requirement.maneuvers if isinstance(each, Balance)]
+
+    def does(part: float) -> bool:
+        """Whether there is a device for this part of it."""
+        maneuvers = tuple(
+            each.times(part) if isinstance(each, Balance) else each
+            for each in requirement.maneuvers
+        )
+        less = replace(requirement, maneuvers=maneuvers)
+        return field.changed(replace(field.problem, requirement=less)).possible
+
+    low, high = 1.0 / MOST_CHANGE, 1.0
+    if not asked or not does(low):
+        return
+    while high > (1.0 + PRECISION) * low:
+        middle = sqrt(low * high)
+        low, high = (middle, high) if does(middle) else (low, middle)
+    told = listed([f"{each.times(low).upset} for {each.name}" for each in asked])
+    yield f"With {told} there is a device."
 
 
 def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, float]:
@@ -208,4 +238,4 @@ def _change_text(field: Field, limit: Limit, value: float) -> str:
     before = field.problem.requirement.maneuvers
     after = slowed_maneuvers(field, value).requirement.maneuvers
     both = zip(before, after, strict=True)
-    return " with ".join(change_text(old, new) for old, new in both if old is not new)
+    return " together with ".join(change_text(old, new) for old, new in both if old is not new)

@@ -57,10 +57,10 @@ CELLS = 18
 _RIMS = 96
 _OFF_THE_EDGE = 1.0 + 1e-10
 _DIGITS, _SURELY = 4, 1.0 - 1e-4
-"""To which the lightest rims are found, and the factor on their mass that a bound takes for it."""
+"""Digits of the lightest rims, and the factor on their mass that a bound takes for it."""
 
 _Range: TypeAlias = tuple[FloatArray, FloatArray]
-"""From and to."""
+"""Two ends, from and to."""
 
 
 class Cell(NamedTuple):
@@ -244,6 +244,7 @@ def bound_task(
         spread=least.spread[:, None],
         # Of a range, either end has the least of an axis.
         reached=(ends.max(axis=-1) > OUT_OF_REACH).all(axis=1),
+        begins=slew.begins,
     )
 
 

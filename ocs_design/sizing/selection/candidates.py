@@ -45,9 +45,6 @@ from ocs_design.sizing.placement import Size, module_size
 from ocs_design.sizing.selection.composite_inertia import Modules
 from ocs_design.sizing.selection.problem import SelectionProblem
 
-WHEELS = 2
-"""That share the supply."""
-
 _OFF_THE_EDGE = 1.0 + 1e-10
 """Factor on the smallest rim of all, which must not get lost to rounding."""
 
@@ -359,6 +356,8 @@ def drives_of(
     kinds = np.zeros_like(motors) if webs is None else webs
     figures: list[tuple[float, ...]] = []
     densities = problem.web_densities
+    # Where one of them stops, the others share what it leaves.
+    busy = max(problem.layout.tilting - (problem.requirement.detection is not None), 1)
     for (index, gear_index), kind in zip(pairs.tolist(), kinds.tolist(), strict=True):
         motor, gear = problem.motors[index], problem.gears[gear_index]
         line = drive_line(motor, gear, problem.bus_voltage)
@@ -384,7 +383,7 @@ def drives_of(
                 float(line.no_load_speed),
                 float(line.torque_limit),
                 min(float(line.speed_max), top),
-                gear.efficiency * power_less_friction(problem.supply, WHEELS, motor, peak) / WHEELS,
+                gear.efficiency * power_less_friction(problem.supply, busy, motor, peak) / busy,
             )
         )
     columns = np.array(figures, dtype=np.float64).reshape(len(figures), -1).T.copy()

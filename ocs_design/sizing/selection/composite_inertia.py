@@ -66,7 +66,21 @@ class CompositeInertia:
     centers: FloatArray
 
     def at(self, angle: FloatArray) -> TiltInertia:
-        """Inertia with the modules at angles [rad], of the shape of `angle`, (n, k) or (1, k).
+        """Inertia about roll and pitch; see `second_moments`."""
+        second = self.second_moments(angle)
+        x, y, z = (second[axis, axis] for axis in range(3))
+        diagonal = np.stack([y + z, x + z], axis=-1)
+        return TiltInertia(diagonal, -second[0, 1] - second[0, 2] * second[1, 2] / (x + y))
+
+    def upright(self, angle: FloatArray) -> FloatArray:
+        """I_zz [kg m^2], of the shape of `angle`; see `second_moments`."""
+        second = self.second_moments(angle)
+        return second[0, 0] + second[1, 1]
+
+    def second_moments(self, angle: FloatArray) -> dict[tuple[int, int], FloatArray]:
+        """Sums of mass times two coordinates about the whole's centre of mass [kg m^2].
+
+        With the modules at angles [rad], of the shape of `angle`, (n, k) or (1, k).
 
         By parallel axes of second moments: S = S_robot + sum_i (m p_i p_i^T + R_i S_i R_i^T)
         - (sum_i m p_i) (sum_i m p_i)^T / (M + sum_i m) from the robot's centre of mass.
@@ -86,9 +100,7 @@ class CompositeInertia:
             own = own + yz * (y[i] * z[j] + z[i] * y[j]).sum(axis=0) + (i == j) * count * xx
             apart = mass * (place[i] * place[j]).sum(axis=0) - first[i] * first[j] / whole
             second[i, j] = of_robot[i, j] + own + apart
-        x, y_, z_ = (second[axis, axis] for axis in range(3))
-        diagonal = np.stack([y_ + z_, x + z_], axis=-1)
-        return TiltInertia(diagonal, -second[0, 1] - second[0, 2] * second[1, 2] / (x + y_))
+        return second
 
 
 def composite_inertia(

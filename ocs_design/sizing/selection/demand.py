@@ -8,7 +8,7 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.spin_root import capability, newton_step
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_load import WheelTask, held, spin_demand
+from ocs_design.actuation.wheel_load import WheelTask, held, spin_demand, without_each
 from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.bound import rate_momenta
 from ocs_design.requirement.maneuver import Maneuver, Requirement
@@ -48,20 +48,34 @@ def margins_of(
         Parts that are done at the design's angle, shape (n, k), and those that are done at an
         incidence of their own, shape (n, 1).
     """
-    axes, spin = whole.layout.axes(angle)[..., :2, :], spin_inertia[:, None]
-    inertia = whole.at(angle)
+    whole_axes, spin = whole.layout.axes(angle), spin_inertia[:, None]
+    axes, inertia = whole_axes[..., :2, :], whole.at(angle)
     free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
+    headed = [maneuver for maneuver in free if maneuver.headed]
+    begun = requirement.free and bool(requirement.reserves)
     by_design = _tried(
-        free,
+        [maneuver for maneuver in free if not maneuver.headed],
         requirement,
         drives,
         spin_inertia=spin,
         inertia=inertia,
         axes=axes,
-        begun=requirement.free and bool(requirement.reserves),
+        begun=begun,
     )
+    if headed:
+        by_design += _tried(
+            headed,
+            requirement,
+            drives,
+            spin_inertia=spin,
+            inertia=inertia,
+            axes=whole_axes,
+            begun=begun,
+            upright=whole.upright(angle),
+        )
     if requirement.rate_change is not None:
-        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes)
+        one_stops = requirement.detection is not None
+        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes, one_stops=one_stops)
         by_design.append(Margins(spin / needed, needed))
     turned: list[Margins] = []
     for maneuver in requirement.maneuvers:
@@ -97,12 +111,13 @@ def _tried(
     inertia: TiltInertia,
     axes: FloatArray,
     begun: bool,
+    upright: FloatArray | None = None,
 ) -> list[Margins]:
     """Margins of each maneuver, and of each that begins with a rate if any shall, shape (n, k)."""
     if not maneuvers:
         return []
     tasks = [
-        wheel_task(maneuvers, requirement, inertia, axes, begun=each)
+        wheel_task(maneuvers, requirement, inertia, axes, begun=each, upright=upright)
         for each in ((False, True) if begun else (False,))
     ]
     found: list[Margins] = []
@@ -123,6 +138,7 @@ def wheel_task(
     axes: FloatArray,
     *,
     begun: bool = False,
+    upright: FloatArray | None = None,
 ) -> WheelTask:
     """Maneuvers as what wheels must do, fields of shape (m, n, k, ...).
 
@@ -130,43 +146,71 @@ def wheel_task(
         maneuvers: m of them.
         requirement: that they are part of.
         inertia: of what they turn, shapes that broadcast against (n, k, 2) and (n, k).
-        axes: of the wheels about roll and pitch, shape (n, k, 2, w).
+        axes: of the wheels about roll and pitch, shape (n, k, 2, w); with yaw where all are headed.
         begun: see `Requirement.slew`.
+        upright: I_zz of what they turn where all are headed, shapes likewise [kg m^2].
     """
-    inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes).max(axis=-1)
-    each = [inertia.within_reach(reach, maneuver.stray) for maneuver in maneuvers]
+    inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes[..., :2, :]).max(axis=-1)
+    each = [maneuver.turned(inertia).within_reach(reach, maneuver.stray) for maneuver in maneuvers]
     slews = [
         requirement.slew(maneuver, own, begun=begun)
         for maneuver, own in zip(maneuvers, each, strict=True)
     ]
+    swept = np.stack([slew.swept for slew in slews])
+    momentum = np.stack([slew.momentum for slew in slews])
+    if upright is not None:
+        kept = [requirement.reserves.get(maneuver.name) for maneuver in maneuvers]
+        factors = [1.0 if one is None else one.begun if begun else one.demand for one in kept]
+        about = [
+            np.multiply(maneuver.heading(np.broadcast_to(upright, axes.shape[:-2])), factor)
+            for maneuver, factor in zip(maneuvers, factors, strict=True)
+        ]
+        turned, held_up = np.stack(about, axis=1)[..., None]
+        swept = np.concatenate([swept, turned], axis=-1)
+        momentum = np.concatenate([momentum, held_up], axis=-1)
     return WheelTask(
-        swept=np.stack([slew.swept for slew in slews]),
-        momentum=np.stack([slew.momentum for slew in slews]),
+        swept=swept,
+        momentum=momentum,
         duration=np.array([slew.duration for slew in slews])[:, None, None],
         inertia=TiltInertia(*(np.stack(parts) for parts in zip(*each, strict=True))),
         axes=axes,
+        one_stops=requirement.detection is not None,
+        upright=upright,
+        begins=np.array([slew.begins for slew in slews])[:, None, None],
     )
 
 
 def needed_by_rate(
-    rate_change: float, drives: Drives, inertia: TiltInertia, axes: FloatArray
+    rate_change: float,
+    drives: Drives,
+    inertia: TiltInertia,
+    axes: FloatArray,
+    *,
+    one_stops: bool = False,
 ) -> FloatArray:
     """Spin inertia for a change of rate about either axis, one at a time [kg m^2], shape (n, k).
 
     h = phi(J_i d) / W at the highest speed; no time is set (docs/theory.md, Lower bound on the
     wheels' inertia).
     """
-    most = held_by_rate(rate_change, inertia, axes).max(axis=-1)
+    most = held_by_rate(rate_change, inertia, axes, one_stops=one_stops).max(axis=-1)
     needed: FloatArray = most / drives.top_speed[:, None]
     return needed
 
 
-def held_by_rate(rate_change: float, inertia: TiltInertia, axes: FloatArray) -> FloatArray:
-    """Momentum of the busiest wheel for a change of the rate of roll, and of pitch, (..., 2)."""
+def held_by_rate(
+    rate_change: float, inertia: TiltInertia, axes: FloatArray, *, one_stops: bool = False
+) -> FloatArray:
+    """Momentum of the busiest wheel for a change of the rate of roll, and of pitch, (..., 2).
+
+    `one_stops`: with any one of the wheels left out.
+    """
     momenta = rate_momenta(inertia, rate_change)
     # Of either sense of the rates.
     both = momenta[..., None, :] * np.array([[1.0, 1.0], [1.0, -1.0]])
-    return np.asarray(held(axes[..., None, None, :, :], both).most.max(axis=-1))
+    left = without_each(axes) if one_stops else (axes,)
+    most = [held(each[..., None, None, :, :], both).most.max(axis=-1) for each in left]
+    return np.asarray(np.max(most, axis=0))
 
 
 def column(inertia: TiltInertia) -> TiltInertia:

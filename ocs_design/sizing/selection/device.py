@@ -7,8 +7,9 @@ import numpy as np
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_profile
+from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_load import smallest_spin_inertia
+from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, spin_demand
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records import TaskDemand
@@ -19,6 +20,7 @@ from ocs_design.requirement.bound import (
     AXES,
 )
 from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.maneuver import Maneuver, Requirement
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.bound.rim_problem import RimLimits
 from ocs_design.sizing.lightest_module import ModuleShape
@@ -164,11 +166,11 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
     for maneuver in requirement.maneuvers:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         inertia = inertia_at(problem, device, at)
-        axes = device.layout.axes(np.array([[at]]))[..., :2, :]
-        task = wheel_task([maneuver], requirement, inertia, axes)
+        task = _task_of(maneuver, requirement, device, inertia, at)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.armature)
-        profile = slew_profile(load.angle(spin), reduced, line, load.final_speed(spin))
+        own, begins = line.begun(load.begins), load.begins.item()
+        profile = slew_profile(load.angle(spin), reduced, own, load.final_speed(spin))
         # The torque of a phase falls with the speed while it pushes and rises with it while it
         # brakes.
         torque = np.abs(profile.torque(np.array([0.0, profile.brake_from.item()])))
@@ -178,16 +180,52 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
             spin_inertia=smallest_spin_inertia(task, line, device.armature).item(),
             time_needed=profile.end.item(),
             time_given=np.asarray(task.duration).item(),
-            peak_speed=profile.peak_speed.item(),
+            peak_speed=max(abs(begins), profile.peak_speed.item() + begins),
             peak_torque=float(torque.max()),
         )
     if requirement.rate_change is not None:
         at, top_speed = device.incidence, min(float(line.no_load_speed), float(line.speed_max))
         inertia, axes = inertia_at(problem, device, at), device.layout.axes(at)[:2]
-        momenta = held_by_rate(requirement.rate_change, inertia, axes)
+        one_stops = requirement.detection is not None
+        momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
         for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
             least, peak = momentum / top_speed, momentum / spin
             yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)
+
+
+def _task_of(
+    maneuver: Maneuver,
+    requirement: Requirement,
+    device: Candidate,
+    inertia: TiltInertia,
+    angle: float,
+) -> WheelTask:
+    """A maneuver as what the device's wheels must do at an angle of the layout [rad]."""
+    rows, upright = (3, device.total.inertia[2:, 2]) if maneuver.headed else (2, None)
+    axes = device.layout.axes(np.array([[angle]]))[..., :rows, :]
+    return wheel_task([maneuver], requirement, inertia, axes, upright=upright)
+
+
+def survived(problem: SelectionProblem, device: Candidate, detection: float) -> tuple[str, ...]:
+    """Names of the maneuvers that the device does with any one wheel left out, by closed form.
+
+    On the safe side: that wheel is taken to be missing from the start, and what it knows of that
+    only after the `detection` [s].
+    """
+    requirement, names = replace(problem.requirement, detection=detection, reserves={}), []
+    for maneuver in requirement.maneuvers:
+        at = device.incidence if maneuver.incidence is None else maneuver.incidence
+        task = _task_of(maneuver, requirement, device, inertia_at(problem, device, at), at)
+        demand = spin_demand(task, device.line.reserved(), device.armature)
+        with np.errstate(invalid="ignore"):
+            can = capability(demand, np.asarray(device.spin_inertia)).sweep
+        if (can >= demand.sweep * (1.0 - _ROUNDED)).all():
+            names.append(maneuver.name)
+    return tuple(names)
+
+
+_ROUNDED = 1e-6
+"""Share of what is asked that a device which was sized for it may seem to miss."""
 
 
 def binding_limits(

@@ -6,12 +6,12 @@ import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Motor
 from ocs_design.common.units import round_outwards
-from ocs_design.requirement.bound import spin_demands
+from ocs_design.requirement.bound import per_wheel, spin_demands
 from ocs_design.sizing.selection.feasibility import Field, largest_wheel
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 _PRECISION = 0.03
-"""Of the torque, relative."""
+"""Precision of the torque, relative."""
 
 _STRONGER = 1.2 ** np.arange(1, 10)
 """Peak torques that are tried, over that which turns the robot alone in time: up to fivefold."""
@@ -70,10 +70,9 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
     incidence = problem.incidence
     if not problem.layout.pairs or incidence is None or not (model.mass and model.peak_torque):
         return None
-    asked = replace(problem.requirement, wheel_speed_max=1.0)
-    demands = spin_demands(asked, problem.robot.inertia, incidence)
+    demands = spin_demands(problem.requirement, problem.robot.inertia, incidence)
     pairs = problem.layout.pairs
-    momentum = max(demand.spin_inertia for demand in demands) / pairs
+    momentum = max(per_wheel(demand.momentum, demand.incidence) for demand in demands) / pairs
     torque = max(demand.torque for demand in demands) / pairs
     largest = largest_wheel(problem, problem.envelope)
     if not (torque > 0.0 and np.isfinite(momentum) and largest > 0.0):

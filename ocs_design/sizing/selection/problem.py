@@ -28,7 +28,7 @@ from ocs_design.parts.rim import (
 )
 from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.maneuver import Requirement, TurnTo
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import (
     ALL_LAYOUTS,
@@ -204,16 +204,22 @@ def selection_problem(
         return None
     stated, layout = specification.ocs, specified_layout(specification)
     footing = footing_of(robot, resolved.envelope, stated.position, layout)
+    angle = layout.angle if stated.alpha is None else stated.alpha
+    direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
+    maneuvers = tuple(
+        replace(each, direct=direct) if isinstance(each, TurnTo) else each
+        for each in resolved.requirement.maneuvers
+    )
     return SelectionProblem(
         robot=footing.carried(robot.mass_properties),
-        requirement=resolved.requirement,
+        requirement=replace(resolved.requirement, maneuvers=maneuvers),
         envelope=resolved.envelope,
         place=footing.place,
         motors=_held(specification, choice),
         gears=choice.gears,
         materials=choice.materials,
         supply=choice.supply,
-        incidence=layout.angle if stated.alpha is None else stated.alpha,
+        incidence=angle,
         layout=layout,
         wheel_speed_max=choice.wheel_speed_max,
         web=specification.flywheel.web != NO_WEB,
@@ -223,6 +229,10 @@ def selection_problem(
         else None,
         lightenings=specified_lightenings(specification.flywheel),
     )
+
+
+_SPANS = 1e-3
+"""Least singular value of axes that reach roll, pitch and yaw."""
 
 
 def _held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...]:

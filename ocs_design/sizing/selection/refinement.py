@@ -16,7 +16,8 @@ from threadpoolctl import ThreadpoolController
 
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.rim import cylinder_mass, cylinder_spin_inertia
+from ocs_design.parts.moments import cylinder_mass
+from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.candidates import Candidates, web_inertia

@@ -8,16 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.actuation.drive import missing_figures
+from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.wheel_load import (
     SlewReason,
     slew_reason,
     smallest_spin_inertia,
+    spin_demand,
     wheel_slew_time,
 )
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
-from ocs_design.requirement.maneuver import TurnTo
+from ocs_design.requirement.maneuver import Balance, Pivoted, TurnTo
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
 )
@@ -97,7 +99,7 @@ class Part(NamedTuple):
         time: asked for [s]; inf: none is set.
         needed: smallest spin inertia that does it [kg m^2], shape (n, k); inf: none does.
         late: time with the largest wheel over that asked for, shape (n, k), or momentum asked for
-            over that of the largest wheel.
+            over that of the largest wheel, or a tilt to balance over what that wheel catches.
         reason: see `SlewReason`, shape (n, k).
     """
 
@@ -188,27 +190,32 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
     shape = len(drives), len(cells)
     for maneuver in requirement.maneuvers:
         at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
-        axes = np.broadcast_to(_about_tilt(problem, at), (*shape, 2, wheels))
-        task = wheel_task([maneuver], requirement, inertia, axes)
+        rows, upright = (3, problem.robot.inertia[2:, 2]) if maneuver.headed else (2, None)
+        own = problem.layout.axes(at)[..., :rows, :]
+        axes = np.broadcast_to(own, (*shape, rows, wheels))
+        task = wheel_task([maneuver], requirement, inertia, axes, upright=upright)
         time = float(np.asarray(task.duration).item())
         needed = smallest_spin_inertia(task, line, armature)[0]
         taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
         late = np.divide(taken, time, out=np.full(taken.shape, np.inf), where=time > 0.0)
-        if isinstance(maneuver, TurnTo):
-            # The closed form takes a loop for part of it in part of its time.
+        if isinstance(maneuver, Balance):
+            # All that is asked grows with the tilt, and the time is not the user's.
+            demand = spin_demand(task, line, armature)
+            wheel = np.minimum(largest[:, None], 0.5 / demand.coupling)
+            can = capability(demand, np.maximum(wheel, _NOTHING)).sweep
+            late = np.divide(demand.sweep, can, out=np.full(can.shape, np.inf), where=can > 0.0)[0]
+        if isinstance(maneuver, TurnTo | Pivoted):
+            # The closed forms take a loop for part of it in part of its time, and a swing for a
+            # turn there and back.
             time = maneuver.duration
         yield Part(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
     if requirement.rate_change is not None:
-        axes = _about_tilt(problem, angles)
-        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes)
+        axes = problem.layout.axes(angles)[..., :2, :]
+        one_stops = requirement.detection is not None
+        needed = needed_by_rate(requirement.rate_change, drives, inertia, axes, one_stops=one_stops)
         reason = np.where(np.isinf(needed), SlewReason.AXIS, SlewReason.SPEED)
         late = needed / largest[:, None]
         yield Part("the rate change", angles, np.inf, needed, late, reason)
-
-
-def _about_tilt(problem: SelectionProblem, angles: FloatArray) -> FloatArray:
-    """Axes of the wheels about roll and pitch at k angles [rad], shape (k, 2, wheels)."""
-    return problem.layout.axes(angles)[..., :2, :]
 
 
 def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[Reason, str]:
@@ -233,8 +240,13 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
         reason = Reason.ENVELOPE if part.needed > part.weighty else Reason.MASS
         fits = f"{part.largest:.3g} fits" if part.largest > 0.0 else "and no rim fits at all"
         return reason, f"{wheel}, {fits}"
-    best = f"{part.late * part.time:.3g} s at best" if np.isfinite(part.late) else "never in time"
-    detail = f"{best} for {part.name}, {part.time:.3g} s given"
+    asked = next((each for each in problem.requirement.maneuvers if each.name == part.name), None)
+    best, given = f"{part.late * part.time:.3g} s at best", f"{part.time:.3g} s"
+    if isinstance(asked, Balance):
+        best, given = f"{asked.times(1.0 / part.late).upset} at best", asked.upset
+    elif np.isinf(part.late):
+        best = "never in time"
+    detail = f"{best} for {part.name}, {given} given"
     return Reason.TORQUE if weak else Reason.SPEED, detail
 
 

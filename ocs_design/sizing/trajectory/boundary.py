@@ -10,10 +10,22 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.maneuver import Drop, End, Flip, Maneuver, TurnTo, Unforeseen
+from ocs_design.requirement.maneuver import (
+    Drop,
+    End,
+    Flip,
+    Maneuver,
+    Pivoted,
+    TurnTo,
+    Unforeseen,
+)
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
 """Trunk upright, its x axis along the world's."""
+
+HELD_ON = 1.5
+"""How long a robot that has stood up, or was caught, is held upright, over the time asked for."""
 
 _PITCH = np.array([0.0, 1.0, 0.0])
 
@@ -149,6 +161,30 @@ def _unforeseen(maneuver: Unforeseen, standing_height: float) -> Boundary:
     )
 
 
+def pivot_boundary(maneuver: Pivoted, gyrostat: Gyrostat) -> Boundary:
+    """Turn about a pivot to upright, from a tilt and, after a brake or a push, a rate.
+
+    Args:
+        maneuver: of robot and device (`Pivoted.on`).
+        gyrostat: of both, about the pivot.
+    """
+    angle = float(np.linalg.norm(maneuver.tilt))
+    axis = maneuver.tilt / angle if angle > 0.0 else _PITCH
+    if angle == 0.0 and maneuver.begun.any():
+        axis = maneuver.begun / float(np.linalg.norm(maneuver.begun))
+    return Boundary(
+        name=maneuver.name,
+        attitude=product(about(axis, angle), gyrostat.upright),
+        final_attitude=gyrostat.upright,
+        axis=axis,
+        angle=-angle,
+        duration=maneuver.duration,
+        end=maneuver.end,
+        rate=maneuver.begun,
+        wheel_speed=maneuver.wheel_speed,
+    )
+
+
 def vertical_of(attitude: FloatArray) -> FloatArray:
     """The world's upward direction in B, shape (3,) or (3, n) like the attitude's columns."""
     w, x, y, z = attitude
@@ -172,6 +208,12 @@ def product(a: FloatArray, b: FloatArray) -> FloatArray:
 def conjugate(attitude: FloatArray) -> FloatArray:
     """The turn back, shape (4,) or (4, n)."""
     return np.concatenate([attitude[:1], -attitude[1:]])
+
+
+def turned_into_world(attitude: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Vectors of B in the world, shape (3, n), for attitudes (4, n)."""
+    seen = np.concatenate([np.zeros_like(vectors[:1]), vectors])
+    return product(product(attitude, seen), conjugate(attitude))[1:]
 
 
 def about(axis: FloatArray, angle: FloatArray | float) -> FloatArray:

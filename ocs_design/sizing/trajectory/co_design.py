@@ -21,6 +21,7 @@ from ocs_design.device.records import TaskDemand
 from ocs_design.parts.module import Printed, standing
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES
+from ocs_design.requirement.maneuver import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import lightest_module_at
 from ocs_design.sizing.placement import motor_size
@@ -46,7 +47,7 @@ _FEWEST = 4
 """Values that a cubic spline goes through at the least."""
 
 _NEAREST = np.radians(1.0)
-"""Of a free incidence to 0 and to a right angle, where an axis gets out of reach [rad]."""
+"""Distance of a free incidence to 0 and to a right angle, where an axis is out of reach [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +105,8 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     )
     if problem.requirement.spin_inertia is not None:
         return stands
+    if any(isinstance(each, Pivoted) for each in problem.requirement.maneuvers):
+        return replace(stands, note="the selection stands: a robot on a pivot is not co-designed")
     device = FreeDevice.of(problem, selected)
     if device is None:
         return replace(stands, note="the selection stands: its room leaves the wheels no choice")

@@ -18,7 +18,7 @@ from numpy.polynomial import legendre
 from ocs_design.common.arrays import FloatArray
 
 DEGREE = 3
-"""Of the states: an error of the fifth order in the length of the interval."""
+"""Degree of the states: an error of the fifth order in the length of the interval."""
 
 TORQUE_DEGREE = 2
 

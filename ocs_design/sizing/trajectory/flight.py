@@ -12,7 +12,13 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.maneuver import End
-from ocs_design.sizing.trajectory.boundary import Boundary, conjugate, product, vertical_of
+from ocs_design.sizing.trajectory.boundary import (
+    Boundary,
+    conjugate,
+    product,
+    turned_into_world,
+    vertical_of,
+)
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import FixedAxisTurn, Motion
 
@@ -109,13 +115,15 @@ def fly(
     """
     wheels = gyrostat.axes.shape[1]
     mass_matrix = gyrostat.mass_matrix
-    inverse = np.asarray(np.linalg.inv(mass_matrix))
+    inverse, pull = gyrostat.inverse_mass_matrix, gyrostat.pull
 
     def slope(state: FloatArray, torque: FloatArray) -> FloatArray:
         """Rates of change of attitude, rate, wheel speeds and turned angle, shape (8 + n,)."""
         rate = state[4:7]
-        gyroscopic = _cross(mass_matrix[:3] @ state[4 : 7 + wheels], rate)
-        accelerations = inverse @ np.concatenate([gyroscopic, torque])
+        on_trunk = _cross(mass_matrix[:3] @ state[4 : 7 + wheels], rate)
+        if gyrostat.stands:
+            on_trunk += _cross(vertical_of(state[:4]), pull)
+        accelerations = inverse @ np.concatenate([on_trunk, torque])
         turning = 0.5 * product(state[:4], np.append(0.0, rate))
         return np.concatenate([turning, accelerations, [turn.axis @ rate]])
 
@@ -148,11 +156,13 @@ def fly(
         attitude=flown[:, :4],
     )
     claimed = motion.state_at(trajectory.time)
-    momentum = np.append(0.0, mass_matrix[:3] @ np.append(rate, speed))
-    back = product(conjugate(claimed[:4]), turn.attitude)
-    held = product(product(back, momentum), conjugate(back))[1:]
-    left = held - gyrostat.spin_inertia * gyrostat.axes @ claimed[4:]
-    claimed_rate = np.linalg.solve(gyrostat.inertia, left).T
+    momentum = mass_matrix[:3] @ np.append(rate, speed)
+    held = turned_into_world(turn.attitude[:, None], momentum[:, None])
+    if gyrostat.stands:
+        held = claimed[4 + wheels :]
+    seen = turned_into_world(conjugate(claimed[:4]), np.broadcast_to(held, claimed[1:4].shape))
+    left = seen - gyrostat.spin_inertia * gyrostat.axes @ claimed[4 : 4 + wheels]
+    claimed_rate = (gyrostat.mobility @ left).T
     largest = float(np.abs(claimed_rate).max())
     difference = float(np.abs(trajectory.rate - claimed_rate).max())
     return Flight(
@@ -164,7 +174,7 @@ def fly(
                 limit_violation(trajectory.wheel_speed[1:], last, line),
             ),
             end_tilt=_missed(asked, flown[-1, :4]),
-            end_rate=float(np.linalg.norm(trajectory.rate[-1][gyrostat.reach])),
+            end_rate=float(np.linalg.norm(gyrostat.turns_about @ trajectory.rate[-1])),
             defect=difference / largest if largest > 0.0 else 0.0,
         ),
     )

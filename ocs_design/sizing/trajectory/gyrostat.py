@@ -1,9 +1,9 @@
-"""A rigid trunk with n driven wheels in free flight.
+"""A rigid trunk with n driven wheels, in free flight or about a pivot.
 
 See docs/theory.md, The robot with its wheels: a gyrostat.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,23 +18,72 @@ OUT_OF_REACH = 1e-6
 class Gyrostat:
     """A rigid trunk with n driven wheels, all alike.
 
+    About a pivot, with the upward direction e in B and the centre of mass at l:
+
+        I_tot w_dot + h A W_dot = -w x H + m g e x l
+
     With the motor torques tau at the wheels and the drive's armature a:
 
         I_tot w_dot + h A W_dot = -w x H,    H = I_tot w + h A W
         h A^T w_dot + (h + a) W_dot = tau
 
     Attributes:
-        inertia: I_tot, of everything about its centre of mass in B, wheels braked [kg m^2],
-            shape (3, 3).
+        inertia: I_tot, of everything about its centre of mass, or the pivot, in B, wheels braked
+            [kg m^2], shape (3, 3).
         axes: A, unit spin axes as columns, shape (3, n).
         spin_inertia: h, momentum of one wheel per speed relative to the trunk [kg m^2].
         armature: a, what a motor accelerates beyond h [kg m^2].
+        pull: m g l from the pivot, in B [N m], shape (3,); zero in free flight.
+        edge: unit vector in B, about which alone the trunk turns, shape (3,); None: about any.
     """
 
     inertia: FloatArray
     axes: FloatArray
     spin_inertia: float
     armature: float = 0.0
+    pull: FloatArray = field(default_factory=lambda: np.zeros(3))
+    edge: FloatArray | None = None
+
+    @property
+    def stands(self) -> bool:
+        """Whether it turns about a pivot, with gravity."""
+        return bool(self.pull.any())
+
+    @property
+    def turns_about(self) -> FloatArray:
+        """Axes in B about which the trunk is free and the wheels act, as rows, shape (k, 3)."""
+        if self.edge is None:
+            return np.eye(3)[self.reach]
+        reached = np.abs(self.edge @ self.axes).max() > OUT_OF_REACH
+        return np.reshape(self.edge if reached else (), (-1, 3))
+
+    @property
+    def upright(self) -> FloatArray:
+        """Attitude with the centre of mass above the pivot, the nearest to level, shape (4,)."""
+        x, y, z = self.pull / np.linalg.norm(self.pull)
+        half = np.array([1.0 + z, y, -x, 0.0])
+        return np.asarray(half / np.linalg.norm(half))
+
+    @property
+    def mobility(self) -> FloatArray:
+        """Rate per momentum with the wheels held, in B [1/(kg m^2)], shape (3, 3)."""
+        if self.edge is None:
+            return np.asarray(np.linalg.inv(self.inertia))
+        return np.outer(self.edge, self.edge) / float(self.edge @ self.inertia @ self.edge)
+
+    @property
+    def inverse_mass_matrix(self) -> FloatArray:
+        """Accelerations of trunk and wheels per torque on them, shape (3 + n, 3 + n).
+
+        About an edge, `N (N^T M N)^-1 N^T` with N the motions that it allows.
+        """
+        if self.edge is None:
+            return np.asarray(np.linalg.inv(self.mass_matrix))
+        wheels = self.axes.shape[1]
+        allowed = np.zeros((3 + wheels, 1 + wheels))
+        allowed[:3, 0], allowed[3:, 1:] = self.edge, np.eye(wheels)
+        reduced = allowed.T @ self.mass_matrix @ allowed
+        return np.asarray(allowed @ np.linalg.solve(reduced, allowed.T))
 
     @property
     def mass_matrix(self) -> FloatArray:

@@ -12,6 +12,7 @@ from ocs_design.sizing.trajectory.boundary import (
     about,
     conjugate,
     product,
+    turned_into_world,
     vertical_of,
 )
 from ocs_design.sizing.trajectory.collocation import (
@@ -38,7 +39,8 @@ class Motion:
     Attributes:
         lengths: of the intervals [s], shape (k,).
         states: attitude and wheel speeds [rad/s] at the nodes of all intervals, which share their
-            ends, shape (4 + n, k d + 1) with d = `DEGREE`.
+            ends, shape (4 + n, k d + 1) with d = `DEGREE`; about a pivot, the momentum about it in
+            the world [N m s] in three rows more.
         torques: Bernstein coefficients of the motor torques of each interval [N m], shape (n, 3 k).
     """
 
@@ -52,7 +54,7 @@ class Motion:
         return np.append(0.0, np.cumsum(self.lengths)[:-1])
 
     def state_at(self, times: FloatArray) -> FloatArray:
-        """States at some times [s], shape (4 + n, len(times))."""
+        """States at some times [s], shape (4 + n, len(times)), or three rows more."""
         interval, s = self._locate(times)
         nodes = interval[:, None] * DEGREE + np.arange(DEGREE + 1)
         weights = bernstein_basis(s, DEGREE) @ collocation().bernstein
@@ -134,9 +136,12 @@ class FixedAxisTurn:
         fast = float(np.linalg.norm(rate))
         if fast == 0.0:
             return cls(attitude, asked.axis, 0.0, asked.angle, asked.duration)
-        # A push has turned the trunk about the axis of its rate, and is to be undone.
-        cosine = np.clip(vertical_of(attitude) @ asked.final_vertical, -1.0, 1.0)
-        return cls(attitude, rate / fast, fast, -float(np.arccos(cosine)), asked.duration)
+        # A push has turned the trunk about the axis of its rate, and is to be undone; what a brake
+        # has set in motion is on its way.
+        vertical, wanted = vertical_of(attitude), asked.final_vertical
+        left = float(np.arccos(np.clip(vertical @ wanted, -1.0, 1.0)))
+        nears = np.cross(vertical, rate) @ wanted > 0.0
+        return cls(attitude, rate / fast, fast, left if nears else -left, asked.duration)
 
     @property
     def peak_rate(self) -> float:
@@ -162,7 +167,17 @@ class FixedAxisTurn:
         speeds = taking @ np.outer(momentum, self.rate - rate)
         driven = gyrostat.spin_inertia + gyrostat.armature
         torques = -driven * taking @ np.outer(momentum, acceleration)
-        return Motion(lengths, np.vstack([product(self.attitude, turned), speeds]), torques)
+        attitudes = product(self.attitude, turned)
+        states = [attitudes, speeds]
+        if gyrostat.stands:
+            # The wheels of a motion without gravity, which a first guess is.
+            states.append(
+                turned_into_world(
+                    attitudes,
+                    np.outer(momentum, rate) + gyrostat.spin_inertia * gyrostat.axes @ speeds,
+                )
+            )
+        return Motion(lengths, np.vstack(states), torques)
 
     def _profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Angle [rad], rate and acceleration at s = 0..1."""

@@ -1,18 +1,36 @@
 """The turns that flights track: of least peak power, planned for the device at hand."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import inf, remainder
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import format_quantity
 from ocs_design.parts.moments import Carrier
-from ocs_design.requirement.maneuver import End, Maneuver, TurnTo, Unforeseen
+from ocs_design.requirement.maneuver import (
+    Balance,
+    End,
+    Maneuver,
+    Pivoted,
+    TurnTo,
+    Unforeseen,
+)
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.selection.device import braked
-from ocs_design.sizing.trajectory.boundary import Boundary, about, boundary, conjugate, product
+from ocs_design.sizing.trajectory.boundary import (
+    HELD_ON,
+    Boundary,
+    about,
+    boundary,
+    conjugate,
+    pivot_boundary,
+    product,
+    vertical_of,
+)
 from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
 from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
 from ocs_design.sizing.trajectory.motion import HeadingLoop
@@ -30,6 +48,9 @@ put right by tilting more, which takes more torque than holding the trunk level.
 
 TIME_STEP, LONGEST = 0.05, 8.0
 """How closely a time is looked for, and how long at most, over the one asked for."""
+
+BALANCE_STEP, _AT_ONCE = 5e-3, 1e-9
+"""Step that the gains which hold a robot are for, and how soon they follow on a plan [s]."""
 
 _SAME = 1e-6
 """Change of heading that is none [rad]."""
@@ -68,6 +89,8 @@ class Reference:
         needed: least time over the one asked for, of a turn that is not made in it; None: it is, or
             no time would do.
         share: of voltage, current and power that the trajectory keeps to.
+        part: of the tilt from which a robot on a pivot would stand up, where it does not from all.
+        spun: speed of the fastest wheel that a brake stops at the start [rad/s]; 0: none does.
     """
 
     trajectory: Trajectory | None
@@ -75,6 +98,8 @@ class Reference:
     planned: Planned | None
     needed: float | None = None
     share: float = 1.0
+    part: float | None = None
+    spun: float = 0.0
 
 
 def plan(
@@ -93,17 +118,14 @@ def plan(
         standing_height: of the trunk over the ground [m].
         kept: factor on what is asked that the device keeps for a maneuver, by its name; 1 if none.
     """
-    line, factors = drive_line_of(device), kept or {}
-    return {
-        maneuver.name: reference(
-            gyrostat_of(robot, device.as_flown(maneuver)),
-            line,
-            maneuver,
-            standing_height,
-            factors.get(maneuver.name, 1.0),
-        )
-        for maneuver in maneuvers
-    }
+    line, factors, found = drive_line_of(device), kept or {}, {}
+    for maneuver in maneuvers:
+        flown = device.as_flown(maneuver)
+        own = maneuver.on(with_device(robot, flown))
+        gyrostat = gyrostat_of(robot, flown, own)
+        kept_of = factors.get(maneuver.name, 1.0)
+        found[maneuver.name] = reference(gyrostat, line, own, standing_height, kept_of)
+    return found
 
 
 def reference(
@@ -121,35 +143,132 @@ def reference(
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
         line: of the drives, nothing held back.
-        maneuver: what nobody foresees gets no reference, because it comes unforeseen.
+        maneuver: of robot and device (`Maneuver.on`); what nobody foresees gets no reference, but
+            a robot on a pivot the gains that balance it.
         standing_height: of the trunk over the ground [m].
         kept: factor on what is asked that the device keeps.
     """
     if isinstance(maneuver, Unforeseen):
         return Reference(None, _UNFORESEEN, None)
-    asked = boundary(maneuver, standing_height)
+    if isinstance(maneuver, Balance):
+        return Reference(_balanced(gyrostat, line, maneuver), "", None)
+    asked = (
+        pivot_boundary(maneuver, gyrostat)
+        if isinstance(maneuver, Pivoted)
+        else boundary(maneuver, standing_height)
+    )
+    spun = 0.0
+    if isinstance(maneuver, Pivoted) and asked.rate.any():
+        spun = _braked_from(gyrostat, asked.rate)
+        most = min(float(line.no_load_speed), float(line.speed_max))
+        if spun > most:
+            told = " and ".join(format_quantity(each, "rpm") for each in (spun, most))
+            note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
+            return Reference(None, note, None, part=most / spun, spun=spun)
     first = GENTLE if asked.end != End.LEVEL else ()
     for share in dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)):
         planned = gentlest(asked, gyrostat, line.reserved(share))
         if not planned.failure:
             break
     else:
-        note = f"no optimal turn was found ({planned.failure})"
-        if isinstance(maneuver, TurnTo):
-            needed = quickest(asked, gyrostat, line)
-            told = f"nor in {LONGEST:g} times that"
-            if needed is not None:
-                told = f"they need {needed * asked.duration:.3g} s"
-            note = f"the wheels do not make this turn in {asked.duration:.3g} s: {told}"
-            return Reference(None, note, planned, needed)
-        return Reference(None, note, planned)
+        return _refused(maneuver, asked, gyrostat, line, planned)
     trajectory, note = planned.trajectory, ""
     if share == 1.0:
         note = f"the turn takes more than {PLANNED:.1%} of voltage, current or power"
-    if asked.end != End.LEVEL:
+    if isinstance(maneuver, Pivoted):
+        trajectory = _balanced(gyrostat, line, maneuver, trajectory)
+        if spun:
+            told = (
+                f"the wheels are stopped from {format_quantity(spun, 'rpm')}, by brakes that are "
+                "not designed and not in the mass"
+            )
+            note = "; ".join(filter(None, (told, note)))
+    elif asked.end != End.LEVEL:
         # What holds the trunk level corrects no heading.
         trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory))
-    return Reference(replace(trajectory, note=note), note, planned, share=share)
+    return Reference(replace(trajectory, note=note), note, planned, share=share, spun=spun)
+
+
+def _refused(
+    maneuver: Maneuver, asked: Boundary, gyrostat: Gyrostat, line: DriveLine, planned: Planned
+) -> Reference:
+    """Why there is no plan, with what would do; `planned` is the last that failed."""
+    if isinstance(maneuver, TurnTo):
+        needed = quickest(asked, gyrostat, line)
+        told = f"nor in {LONGEST:g} times that"
+        if needed is not None:
+            told = f"they need {needed * asked.duration:.3g} s"
+        note = f"the wheels do not make this turn in {asked.duration:.3g} s: {told}"
+        return Reference(None, note, planned, needed)
+    if isinstance(maneuver, Pivoted):
+        part, tilt = _part_climbed(asked, gyrostat, line), abs(float(asked.angle))
+        all_of_it, less = (format_quantity(each, "deg") for each in (tilt, part * tilt))
+        told = f"from {less} they would" if part > 0.0 else "nor from a sixteenth of that"
+        note = (
+            f"the wheels do not make it stand up from {all_of_it} in {asked.duration:.3g} s: {told}"
+        )
+        return Reference(None, note, planned, part=part)
+    return Reference(None, f"no optimal turn was found ({planned.failure})", planned)
+
+
+def _balanced(
+    gyrostat: Gyrostat, line: DriveLine, maneuver: Pivoted, planned: Trajectory | None = None
+) -> Trajectory:
+    """Upright on a pivot with the wheels to rest, after what is planned, `HELD_ON` as long."""
+    wheels, begins = gyrostat.axes.shape[1], 0.0 if planned is None else planned.time[-1]
+    until = (1.0 + HELD_ON) * maneuver.duration
+    # Up to it the plan holds.
+    time = begins + np.array([_AT_ONCE, BALANCE_STEP])
+    none, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
+    held = Trajectory(
+        time=time,
+        vertical=vertical_of(upright.T).T,
+        rate=none,
+        acceleration=none,
+        wheel_speed=np.zeros((len(time), wheels)),
+        wheel_torque=np.zeros((len(time), wheels)),
+        turned=np.zeros(len(time)),
+        note="",
+        attitude=upright,
+    )
+    if planned is not None:
+        rows = {
+            each.name: np.concatenate([getattr(planned, each.name), getattr(held, each.name)])
+            for each in fields(Trajectory)
+            if each.name not in {"note", "step_torque", "gains"}
+        }
+        held = Trajectory(**rows, note="")
+    gains = tracking_gains(gyrostat, line, held)
+    return replace(held, gains=gains, time=np.append(held.time[:-1], until))
+
+
+def _braked_from(gyrostat: Gyrostat, rate: FloatArray) -> float:
+    """Speed of the fastest wheel before a brake that leaves the trunk at this rate [rad/s].
+
+    What the brake takes off the wheels about the axes that they reach, `h A W = I w`.
+    """
+    axes, momentum = gyrostat.turns_about @ gyrostat.axes, gyrostat.inertia @ rate
+    taken = np.linalg.pinv(axes) @ (gyrostat.turns_about @ momentum) / gyrostat.spin_inertia
+    return float(np.abs(taken).max())
+
+
+def _part_climbed(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float:
+    """Largest part of the tilt from which it stands up in the time, by bisection to 1/16."""
+    low, high = 0.0, 1.0
+    for _ in range(4):
+        part = 0.5 * (low + high)
+        smaller = np.sin(0.5 * part * asked.angle) / np.sin(0.5 * asked.angle)
+        tried = replace(
+            asked,
+            attitude=product(about(asked.axis, -part * asked.angle), asked.final_attitude),
+            angle=part * asked.angle,
+            rate=smaller * asked.rate,
+        )
+        if gentlest(tried, gyrostat, line).failure:
+            high = part
+        else:
+            low = part
+    return low
 
 
 def gentlest(
@@ -215,8 +334,19 @@ def _guessed(asked: Boundary, gyrostat: Gyrostat, intervals: int) -> Iterator[Tu
         yield replace(turn, guess=loop.motion(gyrostat, intervals))
 
 
-def gyrostat_of(robot: MassProperties, device: "Device") -> Gyrostat:
-    """Robot and device as a rigid trunk with its wheels."""
+def gyrostat_of(
+    robot: MassProperties, device: "Device", maneuver: Maneuver | None = None
+) -> Gyrostat:
+    """Robot and device as a rigid trunk with its wheels, about a pivot if the maneuver has one."""
+    whole, figures = with_device(robot, device), (device.axes, device.flywheel.spin_inertia)
+    if isinstance(maneuver, Pivoted):
+        own = maneuver.on(whole)
+        return Gyrostat(own.inertia, *figures, device.motor.armature, own.pull, own.axis)
+    return Gyrostat(whole.inertia, *figures, device.motor.armature)
+
+
+def with_device(robot: MassProperties, device: "Device") -> MassProperties:
+    """Robot and device as one rigid body in B, wheels braked."""
     wheel = device.flywheel
     rim = Carrier(
         wheel.mass,
@@ -225,8 +355,7 @@ def gyrostat_of(robot: MassProperties, device: "Device") -> Gyrostat:
     )
     centers = np.stack([module.position for module in device.modules])
     bodies = rim, device.carrier
-    whole = braked(device.plated(robot), bodies, centers, device.incidence, device.layout)
-    return Gyrostat(whole.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
+    return braked(device.plated(robot), bodies, centers, device.incidence, device.layout)
 
 
 def drive_line_of(device: "Device") -> DriveLine:

@@ -7,7 +7,8 @@ speeds W tell everything else:
     ((h + a) 1 - h^2 A^T I^-1 A) W_dot = tau + h A^T I^-1 (w x R^T H_0)
 
 so that a quaternion and n speeds are the state, for any layout of n wheels (docs/theory.md, The
-maneuver as an optimal control problem).
+maneuver as an optimal control problem). About a pivot gravity changes the momentum about it,
+H_0_dot = m g l x e in the world, and it is part of the state.
 """
 
 from collections.abc import Callable, Sequence
@@ -45,11 +46,22 @@ IPOPT_OPTIONS: dict[str, Any] = {
     "error_on_fail": False,
 }
 
+PLAN_OPTIONS: dict[str, Any] = {
+    # A plan need not be the best to eight digits, but must hold its equations: peaks are flat, and
+    # some plans that exist were given up for the last two digits of their power.
+    "ipopt.tol": 1e-5,
+    "ipopt.constr_viol_tol": 1e-8,
+    # What cannot be done is found out sooner.
+    "ipopt.expect_infeasible_problem": "yes",
+    "ipopt.max_resto_iter": 25,
+}
+"""Beside `IPOPT_OPTIONS`, where no dimension is free."""
+
 ITERATIONS_MAX = 200
-"""A program that is solved takes 5 to 100."""
+"""A program that is solved takes 5 to 150."""
 
 GUESSED_MAX = 60
-"""Where a turn has a guess of its own it takes 8 to 35, and what has no solution takes them all."""
+"""Most iterations: with a guess of its own a turn takes 8 to 35, without a solution all of them."""
 
 WINDING = 0.5
 """How far the integral of the rate about the maneuver's axis may be from its angle [rad].
@@ -220,9 +232,13 @@ def _solve(
         # One flat graph is quicker; splines of the dimensions have none.
         "expand": dimensions is None,
     }
+    if dimensions is None:
+        options |= PLAN_OPTIONS
     if dimensions is None and isfinite(float(line.power_max)):
         # A peak is flat at many instants at once: half the time where the barrier falls steadily.
         options["ipopt.mu_strategy"] = "monotone"
+        options["ipopt.mu_linear_decrease_factor"] = 0.1
+        options["ipopt.mu_superlinear_decrease_power"] = 1.6
     program.solver("ipopt", IPOPT_OPTIONS | options)
     try:
         program.solve()
@@ -262,19 +278,22 @@ def _transcribe(
     demand = outline.peak_acceleration * float(np.linalg.eigvalsh(turn.gyrostat.inertia)[-1])
     limits = (float(line.torque_limit), float(line.stall_torque), demand)
     torque_unit, speed_unit = next(filter(isfinite, limits)), float(line.no_load_speed)
-    scale = np.append(np.ones(4), np.full(wheels, speed_unit))[:, None]
-    states = program.variable(4 + wheels, count * DEGREE + 1)
+    gyrostat = turn.gyrostat
+    weight = float(np.linalg.norm(gyrostat.pull)) * asked.duration
+    scale = np.concatenate([np.ones(4), np.full(wheels, speed_unit), np.full(3, weight)])[:, None]
+    scale = scale[: len(guess.states)]
+    states = program.variable(len(scale), count * DEGREE + 1)
     torques = program.variable(wheels, count * (TORQUE_DEGREE + 1))
     turned = program.variable(1, count)
     program.set_initial(states, guess.states / scale)
     program.set_initial(torques, guess.torques / torque_unit)
     program.set_initial(turned, outline.angle * np.cumsum(shares))
 
-    attitude, figures = _start(asked, wheels)(*plant)
+    attitude, figures = _start(asked, gyrostat)(*plant)
     speed = np.broadcast_to(np.asarray(asked.wheel_speed) / speed_unit, (wheels,))
     slope = 1.0 / float(line.stall_torque)
     copper = slope * float(line.no_load_speed)
-    mapped = _interval(wheels, outline.axis, copper).map(count)(
+    mapped = _interval(gyrostat, outline.axis, copper).map(count)(
         states=ca.DM(scale)
         * ca.horzcat(*(states[:, k * DEGREE : (k + 1) * DEGREE + 1] for k in range(count))),
         torques=torques * torque_unit,
@@ -283,11 +302,14 @@ def _transcribe(
     )
     for defect, unit in (("turning", 1.0), ("driving", torque_unit * asked.duration)):
         program.subject_to(ca.vec(mapped[defect]) / unit == 0.0)
-    program.subject_to(states[:, 0] == ca.vertcat(attitude, speed))
+    program.subject_to(states[: 4 + wheels, 0] == ca.vertcat(attitude, speed))
+    if gyrostat.stands:
+        program.subject_to(states[4 + wheels :, 0] == figures[-3:] / weight)
+        program.subject_to(ca.vec(mapped["swinging"]) / weight == 0.0)
     # A trunk that is asked for no turn has no rate to count in.
     rate_unit = outline.peak_rate or 1.0 / asked.duration
-    for about in np.flatnonzero(turn.gyrostat.reach).tolist():
-        program.subject_to(mapped["rates"][about, -1] / rate_unit == 0.0)
+    for about in gyrostat.turns_about:
+        program.subject_to(ca.DM(about).T @ mapped["rates"][:, -1] / rate_unit == 0.0)
     if asked.end != End.AT_REST:
         program.subject_to(_missed(asked, turn.gyrostat)(states[:4, -1]) == 0.0)
     # Summed up one by one: a single sum would be a dense row, for which Jacobians take long.
@@ -327,20 +349,21 @@ def _peak(program: ca.Opti, mapped: dict[str, ca.MX], line: DriveLine, wheels: i
     return peak
 
 
-def _interval(wheels: int, axis: FloatArray, copper: float) -> ca.Function:
+def _interval(gyrostat: Gyrostat, axis: FloatArray, copper: float) -> ca.Function:
     """One interval of the collocation, to be mapped over all of them; d = `DEGREE`.
 
-    Inputs: `states` at its nodes (4 + n, d + 1), Bernstein coefficients of the `torques` (n, 3),
-    its `length` [s], and the plant's `figures`, see `_start`. Outputs: defects of the equations of
-    motion at the Radau points times the length, of the attitude (4, d) and of the wheels' (n, d)
-    [N m s]; Bernstein coefficients of the wheels' `speeds` (n, d + 1) and of the torques in the
-    same degree; the trunk's `rates` at its end (3, 1); `effort`, the integral of all squared
-    torques; `swept`, the angle about `axis` [rad]; Bernstein coefficients of the `power`
-    of all motors (1, 2 d + 1), with `copper`, the heat over a squared torque [W/(N m)^2], times the
-    gear's efficiency [W].
+    Inputs: `states` at its nodes (4 + n, d + 1), or three rows more, Bernstein coefficients of the
+    `torques` (n, 3), its `length` [s], and the plant's `figures`, see `_start`. Outputs: defects of
+    the equations of motion at the Radau points times the length, of the attitude (4, d) and of the
+    wheels' (n, d) [N m s]; Bernstein coefficients of the wheels' `speeds` (n, d + 1) and of the
+    torques in the same degree; the trunk's `rates` at its end (3, 1); `effort`, the integral of all
+    squared torques; `swept`, the angle about `axis` [rad]; Bernstein coefficients of the `power` of
+    all motors (1, 2 d + 1), with `copper`, the heat over a squared torque [W/(N m)^2], times the
+    gear's efficiency [W]; `swinging`, the defect of the momentum about a pivot (3, d) [N m s].
     """
-    table = collocation()
-    states = ca.SX.sym("states", 4 + wheels, DEGREE + 1)
+    table, wheels = collocation(), gyrostat.axes.shape[1]
+    rows = 4 + wheels + (3 if gyrostat.stands else 0)
+    states = ca.SX.sym("states", rows, DEGREE + 1)
     torques = ca.SX.sym("torques", wheels, TORQUE_DEGREE + 1)
     length = ca.SX.sym("length")
     inverse, held = ca.SX.sym("inverse", 3, 3), ca.SX.sym("held", 3, wheels)
@@ -348,21 +371,26 @@ def _interval(wheels: int, axis: FloatArray, copper: float) -> ca.Function:
     mobility = held.T @ inverse
     mass = driven * ca.SX.eye(wheels) - mobility @ held
     slopes, values = states @ table.derivative.T, torques @ table.torque.T
-    turning, driving, rates = [], [], []
-    speeds, elevated = states[4:, :] @ table.bernstein.T, torques @ table.elevation.T
+    turning, driving, rates, swinging = [], [], [], []
+    speeds, elevated = states[4 : 4 + wheels, :] @ table.bernstein.T, torques @ table.elevation.T
     given = copper * elevated + speeds
     power = [
         sum(share * ca.dot(elevated[:, i], given[:, k - i]) for i, share in row)
         for k, row in enumerate(bernstein_product(DEGREE))
     ]
     for j in range(DEGREE):
-        attitude, speed = states[:4, j + 1], states[4:, j + 1]
-        seen = _turned(_back(attitude), momentum)
+        attitude, speed = states[:4, j + 1], states[4 : 4 + wheels, j + 1]
+        now = states[4 + wheels :, j + 1] if gyrostat.stands else momentum
+        seen = _turned(_back(attitude), now)
         rate = inverse @ (seen - held @ speed)
         change = 0.5 * _product(attitude, ca.vertcat(0.0, rate))
         torque = values[:, j] + mobility @ ca.cross(rate, seen)
+        if gyrostat.stands:
+            gravity = ca.cross(ca.SX([0.0, 0.0, 1.0]), _turned(attitude, ca.SX(gyrostat.pull)))
+            torque -= mobility @ _turned(_back(attitude), gravity)
+            swinging.append(slopes[4 + wheels :, j] - gravity * length)
         turning.append(slopes[:4, j] - change * length)
-        driving.append(mass @ slopes[4:, j] - torque * length)
+        driving.append(mass @ slopes[4 : 4 + wheels, j] - torque * length)
         rates.append(rate)
     return ca.Function(
         "interval",
@@ -376,24 +404,40 @@ def _interval(wheels: int, axis: FloatArray, copper: float) -> ca.Function:
             ca.trace(torques @ table.square @ torques.T) * length,
             ca.DM(axis).T @ ca.horzcat(*rates) @ table.weights * length,
             ca.horzcat(*power),
+            ca.horzcat(*swinging),
         ],
         ["states", "torques", "length", "figures"],
-        ["turning", "driving", "speeds", "elevated", "rates", "effort", "swept", "power"],
+        [
+            "turning",
+            "driving",
+            "speeds",
+            "elevated",
+            "rates",
+            "effort",
+            "swept",
+            "power",
+            "swinging",
+        ],
     )
 
 
-def _start(asked: Boundary, wheels: int) -> ca.Function:
+def _start(asked: Boundary, gyrostat: Gyrostat) -> ca.Function:
     """Function from a plant to its attitude at the start, and its figures in one column.
 
-    They are I^-1, h A, h + a and the momentum in the world.
+    They are I^-1, of what turns about an edge alone, h A, h + a and the momentum in the world.
     """
+    wheels = gyrostat.axes.shape[1]
     inertia, axes = ca.SX.sym("inertia", 3, 3), ca.SX.sym("axes", 3, wheels)
     spin_inertia, armature = ca.SX.sym("spin_inertia"), ca.SX.sym("armature")
     attitude, rate = after_push(asked)(inertia)
     held = spin_inertia * axes
     speed = np.broadcast_to(np.asarray(asked.wheel_speed), (wheels,))
     momentum = _turned(attitude, inertia @ rate + held @ ca.DM(speed))
-    figures = ca.veccat(ca.inv(inertia), held, spin_inertia + armature, momentum)
+    inverse = ca.inv(inertia)
+    if gyrostat.edge is not None:
+        edge = ca.DM(gyrostat.edge)
+        inverse = edge @ edge.T / (edge.T @ inertia @ edge)
+    figures = ca.veccat(inverse, held, spin_inertia + armature, momentum)
     return ca.Function("start", [inertia, axes, spin_inertia, armature], [attitude, figures])
 
 
@@ -424,12 +468,14 @@ def _missed(asked: Boundary, gyrostat: Gyrostat) -> ca.Function:
     That is the tilt about the axes that the wheels reach, or all of the turn that is left.
     """
     attitude, final = ca.SX.sym("attitude", 4), ca.SX(ca.DM(asked.final_attitude))
-    if asked.end == End.ATTITUDE:
+    if asked.end == End.ATTITUDE and gyrostat.edge is None:
         return ca.Function("missed", [attitude], [_product(_back(final), attitude)[1:]])
     up = asked.final_vertical
     # A turn about pitch moves the vertical along the first, one about roll along the second.
     along_pitch, lateral = np.cross([0.0, 1.0, 0.0], up), np.array([0.0, 1.0, 0.0])
     directions = np.array([lateral, along_pitch])[gyrostat.reach[:2]]
+    if gyrostat.edge is not None:
+        directions = np.cross(gyrostat.edge, up)[None]
     tilt = _turned(_back(attitude), ca.SX([0.0, 0.0, 1.0])) - ca.DM(up)
     return ca.Function("missed", [attitude], [ca.DM(directions) @ tilt])
 

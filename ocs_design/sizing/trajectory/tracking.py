@@ -6,7 +6,7 @@ in the linear sense, and the regulator finds which tilt undoes which error of th
 """
 
 import numpy as np
-from scipy.linalg import expm
+from scipy.linalg import expm, solve_discrete_are
 
 from ocs_design.actuation.drive import PLANNED, DriveLine
 from ocs_design.common.arrays import FloatArray
@@ -20,24 +20,32 @@ AT_THE_END = np.radians(0.3)
 """Error of attitude that is worth that torque for the whole time, at the end [rad]."""
 
 
+AT_REST = 0.2
+"""Speed of wheels beside upright that is worth it, over that without load."""
+
+
 def tracking_gains(gyrostat: Gyrostat, line: DriveLine, trajectory: Trajectory) -> FloatArray:
     """Gains from attitude, rate and wheel speed errors to motor torque, shape (m, n, 6 + n).
 
     The motors get the planned torque minus gain times error: attitude as the rotation vector from
     the plan in B [rad], rate in B [rad/s], wheel speeds [rad/s]. Discrete Riccati equation from the
     last sample backwards (Anderson and Moore, Optimal Control, 1990, section 2.4). Weights by
-    Bryson's rule: `ON_THE_WAY` and `AT_THE_END` against
-    the torque that a plan leaves to the feedback. Rates count at the end by the angle that they
-    would turn in the time constant of the two.
+    Bryson's rule: `ON_THE_WAY` and `AT_THE_END` against the torque that a plan leaves to the
+    feedback. Rates count at the end by the angle that they would turn in the time constant of the
+    two. About a pivot, where a plan leaves off the robot is to be held for ever: there the value is
+    that of the steady regulator, all torque counts, and wheels at `AT_REST` count like
+    `ON_THE_WAY`, so that they come to rest.
 
     Args:
         gyrostat: robot and device. line: of the drives, nothing held back.
         trajectory: m samples, with attitude not needed.
     """
     wheels, count = gyrostat.axes.shape[1], len(trajectory.time)
-    size, inverse = 6 + wheels, np.linalg.inv(gyrostat.mass_matrix)
+    size, inverse = 6 + wheels, gyrostat.inverse_mass_matrix
     system = np.zeros((count, size + wheels, size + wheels))
-    system[:, :size] = linearised(gyrostat, trajectory.rate, trajectory.wheel_speed)
+    system[:, :size] = linearised(
+        gyrostat, trajectory.rate, trajectory.wheel_speed, trajectory.vertical
+    )
     steps = np.diff(trajectory.time)
     middle = 0.5 * (system[1:] + system[:-1])
     discrete = expm(middle * steps[:, None, None])
@@ -45,15 +53,30 @@ def tracking_gains(gyrostat: Gyrostat, line: DriveLine, trajectory: Trajectory) 
     spare = line.torque_limit if np.isfinite(line.torque_limit) else line.stall_torque
     if not np.isfinite(spare):
         spare = float(np.abs(trajectory.wheel_torque).max())
-    spare *= 1.0 - PLANNED
+    if not gyrostat.stands:
+        spare *= 1.0 - PLANNED
     effort = np.eye(wheels) / spare**2
-    # Quickness of a double integrator under these weights, `omega^4 = q / r g^2`.
-    authority = np.abs(inverse[:3, 3:]).max()
-    quickness = np.sqrt(spare * authority / ON_THE_WAY)
-    running = np.diag([ON_THE_WAY**-2.0] * 3 + [0.0] * (3 + wheels))
-    last = AT_THE_END**-2.0 * trajectory.time[-1]
-    value = np.diag([last] * 3 + [last / quickness**2] * 3 + [0.0] * wheels)
     gains = np.zeros((count, wheels, size))
+    if gyrostat.stands:
+        # A heading is left to itself.
+        about = gyrostat.turns_about
+        about = about[np.abs(about[:, 2]) < 1.0]
+        running = np.zeros((size, size))
+        running[:3, :3] = about.T @ about * ON_THE_WAY**-2.0
+        running[6:, 6:] = np.eye(wheels) * (AT_REST * line.no_load_speed) ** -2.0
+        free = np.zeros((size, 2 * len(about) + wheels))
+        free[:6, : 2 * len(about)] = np.kron(np.eye(2), about.T)
+        free[6:, 2 * len(about) :] = np.eye(wheels)
+        last = free.T @ discrete[-1, :size, :size] @ free, free.T @ discrete[-1, :size, size:]
+        weights = free.T @ running @ free * steps[-1], effort * steps[-1]
+        value = free @ solve_discrete_are(*last, *weights) @ free.T
+    else:
+        # Quickness of a double integrator under these weights, `omega^4 = q / r g^2`.
+        authority = np.abs(inverse[:3, 3:]).max()
+        quickness = np.sqrt(spare * authority / ON_THE_WAY)
+        running = np.diag([ON_THE_WAY**-2.0] * 3 + [0.0] * (3 + wheels))
+        at_end = AT_THE_END**-2.0 * trajectory.time[-1]
+        value = np.diag([at_end] * 3 + [at_end / quickness**2] * 3 + [0.0] * wheels)
     for k in range(count - 2, -1, -1):
         free, driven = discrete[k, :size, :size], discrete[k, :size, size:]
         weighed = driven.T @ value
@@ -65,7 +88,12 @@ def tracking_gains(gyrostat: Gyrostat, line: DriveLine, trajectory: Trajectory) 
     return gains
 
 
-def linearised(gyrostat: Gyrostat, rate: FloatArray, wheel_speed: FloatArray) -> FloatArray:
+def linearised(
+    gyrostat: Gyrostat,
+    rate: FloatArray,
+    wheel_speed: FloatArray,
+    vertical: FloatArray | None = None,
+) -> FloatArray:
     """Matrices A and B of small errors, side by side, shape (m, 6 + n, 6 + 2 n).
 
     With M and H of the `Gyrostat`, and the attitude error e as the rotation vector in B:
@@ -76,9 +104,11 @@ def linearised(gyrostat: Gyrostat, rate: FloatArray, wheel_speed: FloatArray) ->
     Args:
         gyrostat: with n wheels.
         rate: in B [rad/s], shape (m, 3). wheel_speed: [rad/s], shape (m, n).
+        vertical: the world's upward direction u in B, shape (m, 3), where gravity acts about a
+            pivot: its torque u x m g l changes by `-m g l x (u x e)`.
     """
     mass, wheels = gyrostat.mass_matrix, wheel_speed.shape[1]
-    inverse, turning = np.linalg.inv(mass), _cross_matrix(rate)
+    inverse, turning = gyrostat.inverse_mass_matrix, _cross_matrix(rate)
     momentum = rate @ mass[:3, :3].T + wheel_speed @ mass[:3, 3:].T
     gyroscopic = turning @ mass[:3]
     gyroscopic[:, :, :3] -= _cross_matrix(momentum)
@@ -87,6 +117,9 @@ def linearised(gyrostat: Gyrostat, rate: FloatArray, wheel_speed: FloatArray) ->
     system[:, :3, 3:6] = np.eye(3)
     system[:, 3:, 3 : 6 + wheels] = -inverse[:, :3] @ gyroscopic
     system[:, 3:, 6 + wheels :] = inverse[:, 3:]
+    if vertical is not None and gyrostat.stands:
+        tilting = _cross_matrix(gyrostat.pull[None]) @ _cross_matrix(vertical)
+        system[:, 3:, :3] = -inverse[:, :3] @ tilting
     return system
 
 

@@ -3,13 +3,8 @@ from dataclasses import replace
 import numpy as np
 from stories import story
 
-from ocs_design.monte_carlo.summary import (
-    QUANTILES,
-    MonteCarloRecord,
-    ScenarioSummary,
-    Spread,
-    share,
-)
+from ocs_design.device.answers import QUANTILES, MonteCarloRecord, ScenarioSummary, Spread
+from ocs_design.monte_carlo.summary import share
 from ocs_design.report.charts.chart import Area, Rule
 from ocs_design.report.charts.flights import distribution_charts
 from ocs_design.report.html.sections import monte_carlo_section

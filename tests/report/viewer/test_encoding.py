@@ -100,6 +100,13 @@ def test_the_readout_is_the_tilt_of_the_flight(scene, flights):
     assert tilt[0] == pytest.approx([30.0, 0.0], abs=1e-4)
 
 
+def test_what_stands_on_a_pivot_has_no_floor(flights):
+    for on_pivot in (False, True):
+        shown_flights = [replace(each, on_pivot=on_pivot) for each in flights]
+        scene = encoded_scene([shown("base_link")], shown_flights, [], Blob())
+        assert {each["floor"] for each in scene["flights"]} == {not on_pivot}
+
+
 def test_flights_of_which_no_poses_are_known_are_not_replayed(flights):
     bare = [replace(flight, poses=None) for flight in flights]
     assert encoded_scene([shown("base_link")], bare, [], Blob())["flights"] == []

@@ -1,5 +1,6 @@
 """The motor that a refusal asks for: with it there is a device, with a weaker one there is none."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ from selections import random_problem
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.requirement.bound import spin_demands
+from ocs_design.requirement.maneuver import Balance
 from ocs_design.sizing.selection.advice import Refused
 from ocs_design.sizing.selection.needed_motor import NeededMotor, needed_motor
 from ocs_design.sizing.selection.select import select
@@ -88,3 +90,25 @@ def test_words():
         "A motor of about 22 N m peak torque and 2,900 rpm without load at 48 V, of at most 2.2 kg,"
         " would do."
     )
+
+
+def test_a_balance_that_no_motor_catches_says_what_they_catch():
+    """The told tilt is caught, and one more than the precision beyond it is not."""
+    problem, _ = too_weak(0)
+    edge = {"pivot": (0.0, 0.0, -0.2), "edge": (0.0, 1.0, 0.0)}
+    held = Balance(name="held", **edge, pitch=0.1, duration=1.0).on(problem.robot)
+
+    def tilted(share):
+        asked = replace(problem.requirement, maneuvers=(held.times(share),), rate_change=None)
+        return replace(problem, requirement=asked)
+
+    with pytest.raises(Refused) as caught:
+        select(tilted(1.0), advise=False)
+    assert re.search(r"pitch [0-9.]+ deg at best for held, pitch 5.73 deg given", str(caught.value))
+    hint = caught.value.advised().hint
+    told = re.search(r"With pitch ([0-9.]+) deg for held there is a device", hint).group(1)
+    share = np.radians(float(told)) / held.pitch
+    assert 0.1 < share < 1.0
+    select(tilted(0.99 * share), advise=False)
+    with pytest.raises(Refused):
+        select(tilted(1.05 * share), advise=False)

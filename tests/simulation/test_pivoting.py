@@ -1,0 +1,101 @@
+"""Robots on a pivot flown in MuJoCo: caught, stood up, and what gravity does to momentum."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from wheels import driven_device, layout_device
+
+from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.requirement.maneuver import Balance, StandUp
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.world import WorldBuilder
+from ocs_design.sizing.trajectory.plans import gyrostat_of, plan, with_device
+
+ROBOT = robot_by_hand(2.5, (0.02, 0.025, 0.02))
+ROLL, PITCH = {"edge": (1.0, 0.0, 0.0)}, {"edge": (0.0, 1.0, 0.0)}
+BELOW = {"pivot": (0.0, 0.005, -0.2)}
+HEAVY = replace(driven_device().flywheel, spin_inertia=3e-3, transverse_inertia=1.6e-3)
+TILTED = Balance(name="tilted", **BELOW, **ROLL, roll=np.radians(2.0), duration=1.2)
+ON_POINT = Balance(
+    name="point", **BELOW, roll=np.radians(1.0), pitch=np.radians(-2.0), duration=1.2
+)
+HIT = Balance(
+    name="hit", **BELOW, **PITCH, impulse=(0.1, 0.0, 0.0), point=(0.0, 0.0, 0.05), duration=1.2
+)
+UP = StandUp(name="up", **BELOW, **ROLL, roll=np.radians(3.0), duration=0.6)
+BRAKED = StandUp(
+    name="braked", **BELOW, **ROLL, roll=np.radians(-45.0), duration=0.7, actuation="brake"
+)
+
+
+def _flown(device, *maneuvers):
+    found = plan(ROBOT.mass_properties, device, maneuvers, 0.2)
+    references = {name: each.trajectory for name, each in found.items() if each.trajectory}
+    runs = run_scenarios(ROBOT, device, maneuvers, references=references)
+    return found, runs
+
+
+@pytest.mark.parametrize("layout", ["pair", "triad", "pyramid"])
+def test_wheels_catch_a_robot_on_a_pivot_which_falls_without(layout):
+    device = driven_device() if layout == "pair" else layout_device(Layout(LayoutName(layout)))
+    _, runs = _flown(device, TILTED, ON_POINT, HIT, UP)
+    for run in runs:
+        assert run.passed is run.ocs, run.reason
+        # Nothing touches down: it stands or falls.
+        assert (run.level, run.stands) == (None, run.ocs)
+        # The momentum about the pivot is what gravity gave.
+        assert run.metrics.momentum_error < 3e-7
+        # Caught, the wheels come to rest too: by leaning a little.
+        if run.ocs:
+            limit = run.metrics.peak_wheel_speed
+            assert run.metrics.final_wheel_speed < 0.2 * limit
+
+
+def test_a_brake_stands_a_robot_up_whose_motors_cannot():
+    """From 45 deg gravity has 3.5 N m, both motors together 1.3 about roll."""
+    heavy = replace(driven_device(), flywheel=HEAVY)
+    found, (run, without) = _flown(heavy, BRAKED)
+    assert "the wheels are stopped from" in found["braked"].note
+    assert found["braked"].spun > run.metrics.peak_wheel_speed
+    assert run.passed, run.reason
+    assert not without.passed
+    by_motor = replace(BRAKED, name="motor", actuation="motor")
+    assert found["braked"].planned.trajectory.rate[0, 0] > 0.0
+    refused = plan(ROBOT.mass_properties, heavy, [by_motor], 0.2)["motor"]
+    assert refused.trajectory is None
+    assert "do not make it stand up from 45 deg in 0.7 s: from" in refused.note
+
+
+def test_a_brake_cannot_stop_wheels_that_no_motor_spins_that_fast():
+    found, _ = _flown(driven_device(), BRAKED)
+    assert found["braked"].trajectory is None
+    assert "rpm and 6211 rpm" in found["braked"].note
+
+
+@pytest.mark.parametrize("maneuver", [TILTED, ON_POINT])
+def test_energy_about_the_pivot_is_kept_where_nothing_drives(maneuver):
+    """A heavy pendulum with its wheels held, from the start over the lowest point."""
+    device = driven_device()
+    world = WorldBuilder(ROBOT, device).flight(maneuver, Wheels.BRAKED)
+    recording = simulate([replace(world, duration=2.0)])
+    own = maneuver.on(with_device(ROBOT.mass_properties, device))
+    rate = recording.rate[:, 0]
+    kinetic = 0.5 * np.einsum("ki,ij,kj->k", rate, own.inertia, rate)
+    w, x, y, z = recording.attitude[:, 0].T
+    up = np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z])
+    energy = kinetic + own.pull @ up
+    swung = np.linalg.norm(own.pull)
+    assert np.ptp(own.pull @ up) > 1.5 * swung
+    np.testing.assert_allclose(energy, energy[0], rtol=0, atol=1e-5 * swung)
+
+
+def test_the_model_weighs_what_was_planned_with():
+    device = driven_device()
+    world = WorldBuilder(ROBOT, device).flight(ON_POINT, Wheels.ACTIVE)
+    planned = gyrostat_of(ROBOT.mass_properties, device, ON_POINT)
+    np.testing.assert_allclose(world.body.inertia, planned.inertia, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(world.body.pull, planned.pull, rtol=1e-9, atol=1e-12)
