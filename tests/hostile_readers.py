@@ -13,9 +13,8 @@ from urdf_text import LIMIT, inertial, joint, link, robot
 from ocs_design.catalogue.gears import load_gears
 from ocs_design.catalogue.motors import load_motors
 from ocs_design.common.errors import OcsError
-from ocs_design.common.files import safe_name
-from ocs_design.device.answers import to_json
-from ocs_design.device.records import design_to_json, read_design
+from ocs_design.common.files import safe_name, to_json
+from ocs_design.device.records import read_design
 from ocs_design.export.folder import recorded_hashes
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve
@@ -166,7 +165,7 @@ def read_and_restore(path: Path) -> object:
         device.mass,
         seat_of(design.robot),
         robot,
-        design_to_json(design),
+        to_json(design),
     )
 
 

@@ -2,6 +2,7 @@
 
 import ast
 import tomllib
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -68,6 +69,7 @@ def test_the_longest_chain_is_found():
     assert longest_chain(imports) == ("a", "b", "c", "d")
 
 
+@cache
 def imports_of(package):
     """Modules that each module of the package imports, wherever it does."""
     trees = {name_of(path, package): ast.parse(path.read_text()) for path in package.rglob("*.py")}

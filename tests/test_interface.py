@@ -25,7 +25,7 @@ from ocs_design import (
     read_specification,
     specify,
 )
-from ocs_design.device.records import design_to_json
+from ocs_design.common.files import to_json
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.reading import parse_specification, specification_of
@@ -40,7 +40,7 @@ EXAMPLES, NOTEBOOK = ROOT / "examples", ROOT / "examples" / "solo12.ipynb"
 
 @pytest.fixture
 def folder(tmp_path):
-    (tmp_path / "design.json").write_bytes(design_to_json(design()))
+    (tmp_path / "design.json").write_bytes(to_json(design()))
     return tmp_path
 
 

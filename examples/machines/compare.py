@@ -127,7 +127,7 @@ MACHINES = (
         torque=0.134,
     ),
     Built(
-        title="REx Hopper, catch from 14 deg",
+        title="REx Hopper, catch from 13 deg",
         specification="rex_hopper",
         spin_inertia=6.60959e-3,
         wheel_mass=0.78203,

@@ -294,6 +294,11 @@ class Drive:
         return cls(**{name: getattr(motor, name) for name in names} | at_the_wheel)
 
     @property
+    def top_speed(self) -> float:
+        """Speed of the wheel at which voltage or mechanics end [rad/s]; inf: not limited."""
+        return min(self.no_load_speed, self.speed_max or inf)
+
+    @property
     def line_left(self) -> float:
         """Share of the voltage line that the motor's friction leaves, 1 - N eta k_t I_0 / tau_s.
 

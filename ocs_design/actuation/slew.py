@@ -1,4 +1,4 @@
-"""The quickest slew of a wheel: its time, and the course of speed, torque and angle over it.
+"""The quickest slew of a wheel: its time, and the course of speed and torque over it.
 
 A wheel starts at rest relative to the trunk. Its motor accelerates the reduced inertia I_red on
 min(tau_L, tau_s (1 - W / w_0)), holds it at the highest speed if it gets there, brakes with
@@ -20,7 +20,6 @@ from numpy.typing import ArrayLike
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.unit_drive import (
     UnitDrive,
-    brake_sweep,
     braked_speed,
     farthest_slew,
     positive,
@@ -68,24 +67,21 @@ def in_units(line: DriveLine, reduced_inertia: ArrayLike) -> tuple[UnitDrive, Fl
 class SlewProfile:
     """A slew from rest over time; arrays of one shape, NaN where the slew cannot be done.
 
-    Up to `limited_until` the current limits the acceleration, from there to `coast_from` the power
-    and then the voltage do. From `brake_from` to `brake_limited_until` the power and then the
-    current limit the braking, from there to `end` the reverse voltage does. Phases that do not
-    occur have no length.
+    Up to `coast_from` the current, the power and then the voltage limit the acceleration. From
+    `brake_from` to `end` the power, the current and then the reverse voltage limit the braking.
+    Phases that do not occur have no length.
 
     Attributes:
         line: of the drive at the wheel.
         reduced_inertia: I_red [kg m^2].
-        limited_until, coast_from, brake_from, brake_limited_until, end: times [s].
+        coast_from, brake_from, end: times [s].
         peak_speed, final_speed: of the wheel [rad/s].
     """
 
     line: DriveLine
     reduced_inertia: FloatArray
-    limited_until: FloatArray
     coast_from: FloatArray
     brake_from: FloatArray
-    brake_limited_until: FloatArray
     end: FloatArray
     peak_speed: FloatArray
     final_speed: FloatArray
@@ -105,19 +101,6 @@ class SlewProfile:
             pushing, drive.accelerating(speed), np.where(held, 0.0, -drive.braking(speed))
         )
         return np.where((at >= 0.0) & (at < self.end), share, 0.0) * drive.torque
-
-    def angle(self, time: ArrayLike) -> FloatArray:
-        """Angle that the wheel has turned on the trunk by `time` [rad]."""
-        drive, unit = in_units(self.line, self.reduced_inertia)
-        at = np.asarray(time)
-        peak, final = self.peak_speed / drive.no_load_speed, self.final_speed / drive.no_load_speed
-        rise = rise_for(drive, np.clip(at, 0.0, self.coast_from) / unit)
-        coast = np.clip(at - self.coast_from, 0.0, self.brake_from - self.coast_from) / unit
-        slower = np.where(at > self.brake_from, self._speed(drive, unit, at), peak)
-        after = np.maximum(at - self.end, 0.0) / unit
-        down = brake_sweep(drive, peak, slower).angle
-        whole = rise_sweep(drive, rise).angle + coast * peak + down + after * final
-        return np.asarray(whole * drive.no_load_speed * unit)
 
     def _speed(self, drive: UnitDrive, unit: FloatArray, at: FloatArray) -> FloatArray:
         """x at a time [w_0]."""
@@ -140,16 +123,12 @@ def slew_profile(
     final = np.where(possible, final, 0.0)
     slew = farthest_slew(drive, np.where(possible, time, 0.0) / unit, final)
     up = rise_sweep(drive, slew.rise).time
-    middle = np.minimum(np.maximum(drive.clamp, final), slew.peak)
-    limited = brake_sweep(drive, slew.peak, middle).time
     known = np.where(possible, unit, np.nan)
     return SlewProfile(
         line=line,
         reduced_inertia=np.broadcast_to(reduced_inertia, time.shape),
-        limited_until=slew.rise.ramp * known,
         coast_from=up * known,
         brake_from=(up + slew.coast) * known,
-        brake_limited_until=(up + slew.coast + limited) * known,
         end=np.where(possible, time, np.nan),
         peak_speed=np.where(possible, slew.peak * drive.no_load_speed, np.nan),
         final_speed=np.where(possible, final * drive.no_load_speed, np.nan),

@@ -331,28 +331,30 @@ def wheel_slew_time(
 
 
 def smallest_spin_inertia(
-    task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
+    task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0
 ) -> FloatArray:
     """The smallest h per wheel that does the turn in time [kg m^2], shape (...); inf: none does.
 
     The time falls as h grows, up to h = 1 / (2 kappa), where the wheels carry half the inertia that
     they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) lets
     the time rise again for a while. A larger h, which another turn needs, must then be tried anew,
-    as `least`.
+    as `least` of `spin_demand`.
 
     Args:
         task: the inertia is taken as given, whatever h.
         line: of the drive at the wheel, shape (...).
         armature: I_m - h [kg m^2], shape (...).
-        least: smallest h to consider [kg m^2], shape (...).
     """
-    return smallest_roots([spin_demand(task, line, armature, least)])[0]
+    return smallest_roots([spin_demand(task, line, armature)])[0]
 
 
 def spin_demand(
     task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
 ) -> SpinDemand:
-    """What `smallest_spin_inertia` solves for; arguments as there."""
+    """What `smallest_spin_inertia` solves for; arguments as there.
+
+    `least` is the smallest h to consider [kg m^2], shape (...).
+    """
     load = task.load()
     duration = np.asarray(task.duration, dtype=np.float64)
     return SpinDemand(

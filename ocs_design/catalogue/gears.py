@@ -18,6 +18,7 @@ import msgspec
 
 from ocs_design.actuation.motor import Gear, GearRoom
 from ocs_design.catalogue.rows import entry, extended, fraction, load_entries, packaged
+from ocs_design.common.files import to_json
 
 FLANGE = 1e-3
 """Thickness of one of a pulley's two flanges [m]."""
@@ -358,5 +359,4 @@ def gears_to_json(found: Iterable[GearSheet]) -> bytes:
         {**msgspec.to_builtins(sheet), "missing": sheet.missing, "stages": sheet.stages()}
         for sheet in found
     ]
-    document = {"schema_version": 1, "gears": rows}
-    return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"
+    return to_json({"schema_version": 1, "gears": rows})

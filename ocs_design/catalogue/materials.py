@@ -8,10 +8,9 @@ from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
 
-import msgspec
-
 from ocs_design.catalogue.rows import entry
 from ocs_design.common.errors import OcsError
+from ocs_design.common.files import to_json
 
 DEFAULT_MATERIAL = "stainless-304"
 """Dense, cheap, does not rust, sold as tube."""
@@ -121,5 +120,4 @@ def strong_materials(*, steel: bool = False) -> tuple[Material, ...]:
 
 def materials_to_json() -> bytes:
     """The catalogue as indented UTF-8 JSON, SI."""
-    document = {"schema_version": 1, "materials": list(materials().values())}
-    return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"
+    return to_json({"schema_version": 1, "materials": list(materials().values())})

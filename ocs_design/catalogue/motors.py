@@ -30,6 +30,7 @@ from ocs_design.actuation.motor import (
     six_step_torque_constant,
 )
 from ocs_design.catalogue.rows import entry, extended, load_entries, packaged
+from ocs_design.common.files import to_json
 
 
 @dataclass(frozen=True)
@@ -409,5 +410,4 @@ def motors_to_json(found: Iterable[Motor]) -> bytes:
         }
         for motor in found
     ]
-    document = {"schema_version": 1, "motors": rows}
-    return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"
+    return to_json({"schema_version": 1, "motors": rows})

@@ -206,7 +206,7 @@ def _design(
                 "a comparison of layouts writes no folder",
                 hint="leave out -o, or take one layout, as in --layout triad",
             )
-        from ocs_design.device.answers import to_json
+        from ocs_design.common.files import to_json
         from ocs_design.report.text.answers import print_layouts
         from ocs_design.workflows.layouts import compare_layouts
 
@@ -219,7 +219,7 @@ def _design(
             print_layouts(console, answer)
         return
     with steps.step("load the solver and the simulator"), _quick_imports():
-        from ocs_design.device.records import design_to_json
+        from ocs_design.common.files import to_json
         from ocs_design.report.text.size import print_design, print_outcome, print_solution
         from ocs_design.report.text.summary import print_summary
         from ocs_design.workflows.size import design_ocs, load_solvers
@@ -235,7 +235,7 @@ def _design(
         command=typed_command(),
     )
     if output.as_json:
-        sys.stdout.buffer.write(design_to_json(outcome.design))
+        sys.stdout.buffer.write(to_json(outcome.design))
     elif verbose:
         print_design(console, outcome.design)
         print_solution(console, outcome.design)
@@ -262,7 +262,7 @@ def inspect(
     no_color: opt.NoColor = False,
 ) -> None:
     """Show what is read from a robot: mass, inertia, posture, incidence angles, warnings."""
-    from ocs_design.device.answers import to_json
+    from ocs_design.common.files import to_json
     from ocs_design.report.text.console import make_console
     from ocs_design.report.text.robot import print_inspection
     from ocs_design.workflows.inspect import inspect_robot
@@ -304,7 +304,7 @@ def bound(
     no_color: opt.NoColor = False,
 ) -> None:
     """The paper's lower bound on the wheels' inertia by hand, and its curve."""
-    from ocs_design.device.answers import to_json
+    from ocs_design.common.files import to_json
     from ocs_design.report.text.answers import print_bound
     from ocs_design.report.text.console import make_console
     from ocs_design.workflows.bound import bound_by_hand

@@ -82,7 +82,7 @@ def init(
     On a terminal it asks for the robot, what it shall do, the room and the battery; an empty answer
     takes the default. Options are written as stated. With a robot, defaults are scaled to it.
     """
-    from ocs_design.device.answers import to_json
+    from ocs_design.common.files import to_json
     from ocs_design.export.folder import check_file_target
     from ocs_design.report.text.answers import print_initialized
     from ocs_design.report.text.console import make_console
@@ -231,7 +231,7 @@ def export(
     the robot's own file as it was, and its meshes. In the design's own folder, with --force, only
     what is made anew is replaced.
     """
-    from ocs_design.device.answers import to_json
+    from ocs_design.common.files import to_json
     from ocs_design.export.formats import formats_named
     from ocs_design.report.text.answers import print_export
     from ocs_design.report.text.console import Steps, make_console
@@ -322,7 +322,7 @@ def pareto(
     Every value is a design of its own, without its proof by simulation: `ocs-design size --spec
     DIR/points/NN.toml` makes, exports and flies it. Exit code 4: no value has a device.
     """
-    from ocs_design.device.answers import to_json
+    from ocs_design.common.files import to_json
     from ocs_design.export.folder import check_target
     from ocs_design.report.charts.front import write_front
     from ocs_design.report.text.console import Steps, make_console
@@ -438,8 +438,8 @@ def validate(
     console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
     steps = Steps(aside, quiet=output.quiet or output.as_json)
     with steps.step("load the simulator"):
+        from ocs_design.common.files import to_json
         from ocs_design.common.units import Dimension, parse_quantity
-        from ocs_design.device.answers import to_json
         from ocs_design.report.text.layout import warn
         from ocs_design.report.text.validation import print_validated
         from ocs_design.workflows.validate import Request, validated, watch

@@ -1,4 +1,4 @@
-"""Files of users, read up to a bounded size, and the processors that a process may use."""
+"""Files of users, read up to a bounded size; JSON; the processors that a process may use."""
 
 import errno
 import os
@@ -118,6 +118,14 @@ def read_plain_file(path: Path, largest: int) -> bytes:
     if len(content) > largest:
         raise OSError(errno.EFBIG, f"it is larger than {largest >> 20} MiB", str(path))
     return content
+
+
+def to_json(value: object) -> bytes:
+    """Value as indented UTF-8 JSON; numbers that are not finite are null."""
+    # `doctor` looks for msgspec, and must run without it.
+    import msgspec  # noqa: PLC0415
+
+    return msgspec.json.format(msgspec.json.encode(value), indent=2) + b"\n"
 
 
 def processors() -> int:

@@ -3,14 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import msgspec
-
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.records import (
     ReliabilityRecord,
     RobotRecord,
     SurvivalRecord,
     ValidationRecord,
+    falls_short,
 )
 
 
@@ -418,10 +417,8 @@ class Validated:
     @property
     def exit_code(self) -> int:
         """0, or 1 if a scenario does not pass with the device, or what was asked is not met."""
-        failed = any(run.ocs and run.passed is not True for run in self.validation)
-        failed |= self.survival is not None and bool(self.survival.lost)
-        certified = None if self.monte_carlo is None else self.monte_carlo.certificate
-        return 1 if failed or (certified is not None and certified.verdict == "falls short") else 0
+        certificate = None if self.monte_carlo is None else self.monte_carlo.certificate
+        return int(falls_short(self.validation, self.survival, certificate))
 
     def __repr__(self) -> str:
         flown = [run.passed for run in self.validation if run.ocs]
@@ -439,8 +436,3 @@ class Validated:
         from ocs_design import as_html  # noqa: PLC0415 - the report stands above
 
         return as_html(self)
-
-
-def to_json(answer: object) -> bytes:
-    """Answer as indented UTF-8 JSON; numbers that are not finite are null."""
-    return msgspec.json.format(msgspec.json.encode(answer), indent=2) + b"\n"

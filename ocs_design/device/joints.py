@@ -37,14 +37,9 @@ from ocs_design.parts.rim import LIGAMENT
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
 
-RUN_OUT = 0.01e-3
-"""Distance of a turned wheel's middle from that of its bore, half of the run-out on its drawing
-[m]."""
-
-
-def top_speed(device: Device) -> float:
-    """Highest speed that the drive can bring a wheel to, nothing held back [rad/s]."""
-    return min(device.motor.no_load_speed, device.motor.speed_max or inf)
+RUN_OUT = 0.05e-3
+"""Permissible run-out of the rim to the bore, on the wheel's drawing [m]; half of it is the
+distance of their middles."""
 
 
 def burst_of(device: Device) -> Containment:
@@ -57,7 +52,7 @@ def burst_of(device: Device) -> Containment:
         height=wheel.height,
         rim_mass=wheel.rim_mass,
         web_mass=web,
-        wheel_speed=top_speed(device),
+        wheel_speed=device.motor.top_speed,
     )
     return containment(piece, wheel.outer_radius, wheel.height)
 
@@ -98,7 +93,7 @@ def _elastic(material: Material | None) -> tuple[float, float] | None:
 
 def _rim_joints(device: Device) -> Iterator[Joint]:
     wheel = device.flywheel
-    rings, speed = wheel_rings(wheel), OVERSPEED * top_speed(device)
+    rings, speed = wheel_rings(wheel), OVERSPEED * device.motor.top_speed
     if wheel.web is None:
         return
     if rings is None:
@@ -148,7 +143,7 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     return shrink_fit(
         rings,
         (inside.thermal_expansion, around.thermal_expansion),
-        OVERSPEED * top_speed(device),
+        OVERSPEED * device.motor.top_speed,
         SERVICE * (device.motor.torque_limit or 0.0),
     )
 
@@ -255,20 +250,6 @@ class Balance:
     centred_by: str
     correction: Correction
 
-    @property
-    def found(self) -> float | None:
-        """Largest unbalance before it is balanced [kg m]."""
-        return None if self.off_centre is None else self.off_centre * self._mass
-
-    @property
-    def enough(self) -> bool:
-        """True if the holes can take the largest unbalance away."""
-        return self.found is not None and self.found <= self.correction.most
-
-    @property
-    def _mass(self) -> float:
-        return self.unbalance / self.eccentricity
-
 
 DAMPING = 0.01
 """Share of critical damping of feet and plates, assumed: bolted steelwork has 0.008 (EN 1991-1-4,
@@ -323,14 +304,19 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
             share * unbalance / (2.0 * DAMPING * mass),
         )
         for name, frequency, share in modes
-        if 2.0 * pi * frequency < top_speed(device)
+        if 2.0 * pi * frequency < device.motor.top_speed
     )
+
+
+def permissible_eccentricity(speed: float) -> float:
+    """Distance of the centre of mass from the axis, e_per = G / w [m], at a speed [rad/s]."""
+    return 1e-3 * GRADE / speed
 
 
 def balance_of(device: Device) -> Balance:
     """Balance of one wheel at the highest speed of its drive."""
-    wheel, speed = device.flywheel, top_speed(device)
-    eccentricity = 1e-3 * GRADE / speed
+    wheel, speed = device.flywheel, device.motor.top_speed
+    eccentricity = permissible_eccentricity(speed)
     rim = Ring(
         wheel.inner_radius,
         wheel.outer_radius,
@@ -356,9 +342,9 @@ def _centring(device: Device) -> tuple[float | None, str]:
     mounting = device.motor.mounting
     if mounting is not None and mounting.shaft_diameter is not None:
         across = mounting.shaft_diameter
-        return RUN_OUT + slip_fit_eccentricity(across), "its bore on the shaft, H7/h6"
+        return RUN_OUT / 2.0 + slip_fit_eccentricity(across), "its bore on the shaft, H7/h6"
     if mounting is not None and mounting.rotor is not None:
         held = screw(mounting.rotor.thread)
         play = (held.clearance_hole - held.diameter) / 2.0
-        return RUN_OUT + play, "its screws alone, in clearance holes"
+        return RUN_OUT / 2.0 + play, "its screws alone, in clearance holes"
     return None, "nothing that is known"

@@ -5,7 +5,7 @@ double precision. The dataclasses are the schema; a change of meaning needs a ne
 and a step in `_renewed` that reads what older versions wrote.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, Literal, TypeVar
@@ -591,6 +591,19 @@ class ReliabilityRecord:
     rounds: tuple[str, ...] = ()
 
 
+def falls_short(
+    runs: Iterable[ValidationRecord],
+    survival: SurvivalRecord | None,
+    certificate: ReliabilityRecord | None,
+) -> bool:
+    """Whether a flight with the device does not pass, or what was asked besides is not met."""
+    return (
+        any(run.ocs and run.passed is not True for run in runs)
+        or (survival is not None and bool(survival.lost))
+        or (certificate is not None and certificate.verdict == "falls short")
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class ControlRecord:
     """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s].
@@ -708,11 +721,6 @@ class OcsDesign:
         from ocs_design import as_html  # noqa: PLC0415 - the report stands above
 
         return as_html(self)
-
-
-def design_to_json(design: OcsDesign) -> bytes:
-    """The artefact as indented UTF-8 JSON; numbers that are not finite are null."""
-    return msgspec.json.format(msgspec.json.encode(design), indent=2) + b"\n"
 
 
 def design_file(path: AnyPath) -> Path:

@@ -1,7 +1,7 @@
 """What a module fills, as cylinders in B: for what it is near, and what could hit it."""
 
-from dataclasses import dataclass
-from math import hypot, sqrt
+from dataclasses import dataclass, replace
+from math import acos, cos, hypot, sin, sqrt
 
 import numpy as np
 
@@ -11,7 +11,8 @@ from ocs_design.parts.carrier_plate import CarrierPlate, directions
 from ocs_design.parts.foot import BASE_THICKNESS, Foot
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of
-from ocs_design.parts.printed import WALL
+from ocs_design.parts.pedestal import HEAD_TOP, Pedestal, seat_thickness
+from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.robot.tree import BACKWARDS, Drum
 
 PLATE_DISCS = 0.5
@@ -42,6 +43,24 @@ def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
     # Files of older versions do not know where the motor is behind a gear.
     unknown = motor.gear != DIRECT.name and motor.gear_room is None
     return tuple(solid for solid in found if not (unknown and solid.name == "motor"))
+
+
+def pedestal_of(device: Device, module: Module) -> Pedestal[float]:
+    """Pedestal under the foot of a module that leans, which stands clear of what is below it.
+
+    The foot is as far up the seat as keeps housing and drive above the heads of the near flange.
+    """
+    foot = foot_of(device)
+    lean = acos(min(1.0, float(module.frame[2, 2])))
+    behind = [(-foot.housing.half_height, foot.wheel_height - foot.housing.radius)]
+    behind += [
+        (solid.low, foot.wheel_height + solid.up - solid.radius) for solid in drive_solids(device)
+    ]
+    high = HEAD_TOP - BASE_THICKNESS + CLEARANCE
+    middle = max((high - up * cos(lean)) / sin(lean) - along for along, up in behind)
+    pedestal = Pedestal(foot, lean, max(foot.base_radius, middle))
+    mass = device.flywheel.mass + device.carrier.mass
+    return replace(pedestal, thickness=seat_thickness(pedestal, mass))
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ from ocs_design.robot.mujoco_model import trunk_body
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Placement
 
-_STEEL = (0.55, 0.57, 0.6, 1.0)
+STEEL = (0.55, 0.57, 0.6, 1.0)
 _JOINT, _SITE = mujoco.mjtObj.mjOBJ_JOINT, mujoco.mjtObj.mjOBJ_SITE
 
 
@@ -75,7 +75,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
             size=(device.flywheel.outer_radius, device.flywheel.height / 2.0, 0.0),
             contype=0,
             conaffinity=WHEEL_CONTACT_BIT,
-            rgba=_STEEL,
+            rgba=STEEL,
         )
         actuator = wheels.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         actuator.set_to_motor()

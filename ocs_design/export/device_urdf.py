@@ -10,7 +10,6 @@ from ocs_design.export.formats import Seat
 from ocs_design.export.module_bodies import (
     carrier_inertial,
     flywheel_inertial,
-    highest_speed,
     largest_torque,
     wheel_rpy,
 )
@@ -159,7 +158,7 @@ def cylinder_urdf(flywheel: Flywheel) -> str:
 def limit_urdf(device: Device) -> str:
     """Limits of the motor; URDF has none of speed without one of torque, and no armature."""
     motor, torque = device.motor, largest_torque(device.motor)
-    velocity = numbers(min(highest_speed(motor), UNLIMITED))
+    velocity = numbers(min(motor.top_speed, UNLIMITED))
     limit = (
         "<!-- the motor's torque is not limited -->"
         if torque is None

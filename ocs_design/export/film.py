@@ -4,10 +4,10 @@ Poses of MuJoCo models are drawn by `offscreen`, in a process of its own.
 """
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import mujoco
 import numpy as np
@@ -24,8 +24,7 @@ from ocs_design.robot.robot import Robot
 
 Frames: TypeAlias = NDArray[np.uint8]
 
-OFFSCREEN = "ocs_design.export.offscreen"
-"""Module that draws in a process of its own."""
+T = TypeVar("T")
 
 CHEQUERS = 4.0
 """Number of pairs of the floor's tiles in the extent of a robot."""
@@ -107,13 +106,28 @@ def render_takes(takes: Sequence[Take]) -> list[Frames]:
     Raises:
         MissingToolError: OpenGL does not work here; the message says why.
     """
+    return drawn(takes, "frames", np.load, "video")
+
+
+def drawn(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: str) -> list[T]:
+    """Results of the program that draws, one for each take.
+
+    Args:
+        takes: to draw.
+        kind: `frames` or `views`.
+        read: takes a result from its file.
+        what: is drawn, for the message.
+
+    Raises:
+        MissingToolError: OpenGL does not work here; the message says why.
+    """
     with tempfile.TemporaryDirectory() as folder:
         paths = [
-            (*written_take(take, Path(folder) / f"{i}"), Path(folder) / f"{i}.frames.npy")
+            (*written_take(take, Path(folder) / f"{i}"), Path(folder) / f"{i}.{kind}")
             for i, take in enumerate(takes)
         ]
-        draw(OFFSCREEN, ["frames", *(str(path) for three in paths for path in three)], "video")
-        return [np.load(frames) for _, _, frames in paths]
+        draw([kind, *(str(path) for three in paths for path in three)], what)
+        return [read(result) for _, _, result in paths]
 
 
 def written_take(take: Take, stem: Path) -> tuple[Path, Path]:

@@ -23,21 +23,17 @@ Notes: TypeAlias = tuple[str, ...]
 """Remarks on the files for the user, one sentence each."""
 
 
-class Seat(Protocol):
-    """Place of the device on a robot, or on as much of one as was kept of it.
+@dataclass(frozen=True, eq=False)
+class Seat:
+    """Place of the device on a robot.
 
     Attributes:
         trunk: link that carries the device; its frame is the base frame B.
         mount: how B is fixed to the robot's own link; None if `trunk` is one.
     """
 
-    @property
-    def trunk(self) -> str:
-        """Link that carries the device."""
-
-    @property
-    def mount(self) -> "Mount | None":
-        """Fixture of B on the robot's own link."""
+    trunk: str
+    mount: "Mount | None"
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +59,7 @@ class Subject:
     @classmethod
     def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
         """Device on a robot that was read."""
-        return cls(name, device, robot, robot)
+        return cls(name, device, Seat(robot.trunk, robot.mount), robot)
 
     def recorded(self, design: "OcsDesign") -> "Subject":
         """The subject with what its design records besides the device."""

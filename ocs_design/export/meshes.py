@@ -18,6 +18,7 @@ from ocs_design.parts.flattening import (
 )
 from ocs_design.parts.part import Part
 from ocs_design.parts.solids import Prism, Revolution, Solid
+from ocs_design.robot.tree import Placement
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
@@ -48,6 +49,10 @@ class Mesh:
     def corners(self) -> FloatArray:
         """Corners of the triangles [m], shape (m, 3, 3)."""
         return np.asarray(self.vertices[self.triangles])
+
+    def placed(self, place: Placement) -> "Mesh":
+        """The mesh in the frame that its own has this place in."""
+        return Mesh(self.vertices @ place.rotation.T + place.position, self.triangles)
 
     def moved(self, offset: FloatArray) -> "Mesh":
         """The mesh elsewhere."""

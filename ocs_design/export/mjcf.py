@@ -16,7 +16,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity, significant
 from ocs_design.device.naming import IMU, joint_names
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, highest_speed, largest_torque
+from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, largest_torque
 from ocs_design.export.offscreen import shown_box
 from ocs_design.export.physics import STEADY_LEGS, leg_joints
 from ocs_design.export.png import png_bytes
@@ -119,7 +119,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
     """
     robot, device, model = subject.carrier, subject.device, model_of(subject)
     motor, wheel, torque = device.motor, device.flywheel, largest_torque(device.motor)
-    speed, legs = highest_speed(motor), leg_joints(robot)
+    speed, legs = motor.top_speed, leg_joints(robot)
     figures = {
         "mass of the robot with its device": format_quantity(robot.mass + device.mass, "kg"),
         "mass of the device": format_quantity(device.mass, "g"),

@@ -68,13 +68,6 @@ def largest_torque(motor: Drive) -> float | None:
     return min(limits, default=None)
 
 
-def highest_speed(motor: Drive) -> float:
-    """Speed of the wheel at which voltage or mechanics end [rad/s]; inf: not limited."""
-    if motor.speed_max is None:
-        return motor.no_load_speed
-    return min(motor.no_load_speed, motor.speed_max)
-
-
 def flywheel_inertial(device: Device) -> MassProperties:
     """Wheel in its own frame, with the inertia of its rotor: a disc's, half as much across.
 

@@ -228,7 +228,9 @@ def main(arguments: list[str]) -> None:
         if what == "views":
             Path(target).write_bytes(png_bytes(sheet_of_views(model, qpos[0])))
         else:
-            np.save(Path(target), frames(model, qpos))
+            # By its name, the file would be called .npy.
+            with Path(target).open("wb") as stream:
+                np.save(stream, frames(model, qpos))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,9 @@ from collections.abc import Sequence
 
 from ocs_design.common.errors import MissingToolError
 
+PROGRAM = "ocs_design.export.offscreen"
+"""Module that draws in a process of its own."""
+
 TIME_LIMIT = 120.0
 """Time limit of one process that draws [s]; a graphics driver may hang."""
 
@@ -29,14 +32,14 @@ def backends() -> tuple[str, ...]:
     return ("egl", "osmesa")
 
 
-def failure_of(module: str, arguments: Sequence[str], backend: str) -> str | None:
-    """Run a module that draws in another process; gives the reason of a failure, or None."""
+def failure_of(arguments: Sequence[str], backend: str) -> str | None:
+    """Run the program that draws in another process; gives the reason of a failure, or None."""
     environment = dict(os.environ)
     if backend:
         environment["MUJOCO_GL"] = environment["PYOPENGL_PLATFORM"] = backend
     try:
         done = subprocess.run(
-            [sys.executable, "-m", module, *arguments],
+            [sys.executable, "-m", PROGRAM, *arguments],
             env=environment,
             capture_output=True,
             check=False,
@@ -51,11 +54,10 @@ def failure_of(module: str, arguments: Sequence[str], backend: str) -> str | Non
     return f"{backend or 'OpenGL'}: {said[-1] if said else f'exit code {done.returncode}'}"
 
 
-def draw(program: str, arguments: Sequence[str], what: str) -> None:
-    """Run a program that draws, with the first backend of OpenGL that works.
+def draw(arguments: Sequence[str], what: str) -> None:
+    """Run the program that draws, with the first backend of OpenGL that works.
 
     Args:
-        program: module to run in a process of its own.
         arguments: of the program.
         what: it draws, for the message.
 
@@ -64,7 +66,7 @@ def draw(program: str, arguments: Sequence[str], what: str) -> None:
     """
     failures = []
     for backend in backends():
-        failure = failure_of(program, arguments, backend)
+        failure = failure_of(arguments, backend)
         if failure is None:
             return
         failures.append(failure)

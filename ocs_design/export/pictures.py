@@ -1,6 +1,5 @@
 """Pictures of a design as PNG: the wheel, a module, and the robot with its device."""
 
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,20 +10,26 @@ import numpy as np
 from ocs_design.common.errors import MissingToolError
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, motor_mount
+from ocs_design.export.attach import STEEL
 from ocs_design.export.device_parts import printed_foot, printed_parts
-from ocs_design.export.film import OFFSCREEN, Take, add_white_sky, written_take
+from ocs_design.export.film import Take, add_white_sky, drawn
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh, part_mesh, solid_mesh
-from ocs_design.export.opengl import draw
 from ocs_design.export.robot_model import RobotModel, model_of
 from ocs_design.export.stl import wheel_meshes
-from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, SHELL, Color, cage_placement
+from ocs_design.export.visuals import (
+    ALUMINIUM,
+    GEAR,
+    MOTOR,
+    PRINT,
+    SHELL,
+    Color,
+    cage_placement,
+)
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.solids import hollow_cylinder
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Placement
-
-STEEL: Color = (0.55, 0.57, 0.6, 1.0)
 
 _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
 """Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""
@@ -79,14 +84,8 @@ def render_views(takes: Mapping[str, Take]) -> dict[str, bytes]:
     Raises:
         MissingToolError: OpenGL does not work here; the message says why.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        stems = [Path(folder) / f"{i}" for i in range(len(takes))]
-        paths = [
-            (*written_take(take, stem), stem.with_suffix(".png"))
-            for take, stem in zip(takes.values(), stems, strict=True)
-        ]
-        draw(OFFSCREEN, ["views", *(str(path) for three in paths for path in three)], "pictures")
-        return {name: three[2].read_bytes() for name, three in zip(takes, paths, strict=True)}
+    pages = drawn(takes.values(), "views", Path.read_bytes, "pictures")
+    return dict(zip(takes, pages, strict=True))
 
 
 def parts_take(shown: Sequence[Shown]) -> Take:
@@ -114,13 +113,9 @@ def _carrier(device: Device) -> Iterator[Shown]:
         if solid.name in colors:
             mesh = solid_mesh(hollow_cylinder(0.0, solid.radius, solid.low, solid.high))
             above = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
-            yield Shown(_placed(mesh, above), colors[solid.name])
-    yield Shown(_placed(part_mesh(base), foot.placement), PRINT)
+            yield Shown(mesh.placed(above), colors[solid.name])
+    yield Shown(part_mesh(base).placed(foot.placement), PRINT)
     cage = motor_mount(device).cage
     if cage is not None:
-        yield Shown(_placed(part_mesh(cage_part(cage)), cage_placement(foot, cage)), PRINT)
+        yield Shown(part_mesh(cage_part(cage)).placed(cage_placement(foot, cage)), PRINT)
     yield from (Shown(part_mesh(part), SHELL) for part in (drum, lid))
-
-
-def _placed(mesh: Mesh, place: Placement) -> Mesh:
-    return Mesh(mesh.vertices @ place.rotation.T + place.position, mesh.triangles)

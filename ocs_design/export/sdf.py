@@ -12,7 +12,6 @@ from ocs_design.export.formats import Seat
 from ocs_design.export.module_bodies import (
     carrier_inertial,
     flywheel_inertial,
-    highest_speed,
     largest_torque,
     wheel_rpy,
 )
@@ -109,7 +108,7 @@ def _visuals(shown: Iterable[Visual]) -> str:
 
 def _limit(device: Device) -> str:
     """Limits of the motor; SDF has no armature."""
-    torque, speed = largest_torque(device.motor), highest_speed(device.motor)
+    torque, speed = largest_torque(device.motor), device.motor.top_speed
     effort = "" if torque is None else f"<effort>{numbers(torque)}</effort>"
     velocity = f"<velocity>{numbers(speed)}</velocity>" if np.isfinite(speed) else ""
     limit = f"<limit>{effort}{velocity}</limit>" if effort or velocity else ""

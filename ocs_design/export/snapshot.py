@@ -1,8 +1,10 @@
-"""Picture of a robot in MuJoCo drawn without OpenGL, the same on every machine.
+"""Picture of a robot without OpenGL, the same on every machine: for folders, print and mail.
 
-Each triangle is covered with points closer than a pixel, and each pixel shows its nearest point: a
-depth buffer (Catmull, A Subdivision Algorithm for Computer Display of Curved Surfaces, 1974).
+Triangles are cut into rows of pixels, and at each pixel the nearest one wins (a z-buffer, as in
+Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 15.4).
 """
+
+from itertools import product
 
 import mujoco
 import numpy as np
@@ -11,104 +13,150 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.glb import geom_mesh, shown_color
 
-WIDTH, HEIGHT = 480, 360
-"""Size [pixels]."""
+WIDTH, HEIGHT = 800, 500
+"""Size of the picture [pixels]."""
 
-AZIMUTH, ELEVATION = np.radians(37.0), np.radians(22.0)
-"""Direction towards the viewer: from straight ahead to the left, and up."""
-
-_SMOOTH = 2
-"""Pixels in a row that become one, so that edges come out smooth."""
+_OVERSAMPLING = 2
+_AZIMUTH, _ELEVATION = np.radians(-37.0), np.radians(22.0)
+"""Direction of the camera, seen from the robot: in front of it, on its right, above [rad]."""
 
 _ROOM = 1.06
-"""Size of the picture over that of the robot."""
+_AMBIENT, _BACKGROUND = 0.42, 255
+_GLASS = 0.9
+"""Opacity below which triangles are left out: housings, so that their wheels are seen."""
 
-_SMALL = 8
-"""Longest side of a triangle that is not cut in two before it is covered [pixels]."""
+_BITS = 24
+"""Bits of the number of a triangle."""
 
-_AMBIENT = 0.35
-"""Share of the light that comes from everywhere; the rest comes from the viewer."""
+_CHUNK = 1 << 9
+"""Triangles that are drawn at once: their pixels stay in the processor's cache."""
+
+_DEPTHS = float(2**38)
+"""Steps of nearness that are told apart."""
 
 
 def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.uint8]:
-    """Robot seen from its front, its left and above, before white, shape (360, 480, 3).
+    """Picture of a robot in MuJoCo; see `picture`.
 
     Args:
         model: of `robot_model`.
         data: with kinematics computed.
     """
-    cos, sin = np.cos(AZIMUTH), np.sin(AZIMUTH)
-    towards = np.array([cos * np.cos(ELEVATION), sin * np.cos(ELEVATION), np.sin(ELEVATION)])
-    right = np.array([-sin, cos, 0.0])
-    view = np.stack([right, -np.cross(towards, right), towards])
-
-    # Triangles in the viewer's frame: to the right, down and towards the viewer.
-    corners, colors = [], []
+    corners, colors = [np.empty((0, 3, 3))], [np.empty((0, 4))]
     for geom in range(model.ngeom):
         color, mesh = shown_color(model, geom), geom_mesh(model, geom)
         if color is not None and mesh is not None and model.geom_bodyid[geom] > 0:
-            turn = view @ data.geom_xmat[geom].reshape(3, 3)
-            corners.append(mesh.corners @ turn.T + view @ data.geom_xpos[geom])
+            turn = data.geom_xmat[geom].reshape(3, 3)
+            corners.append(mesh.corners @ turn.T + data.geom_xpos[geom])
             colors.append(np.tile(color, (len(mesh.triangles), 1)))
-    if not corners:
-        return np.full((HEIGHT, WIDTH, 3), 255, dtype=np.uint8)
-    triangles, rgba = np.concatenate(corners), np.concatenate(colors)
-    low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
-    size = np.array([WIDTH, HEIGHT]) * _SMOOTH
-    scale = float((size / (_ROOM * np.maximum((high - low)[:2], 1e-9))).min())
-    triangles = (triangles - (low + high) / 2.0) * scale
-    triangles[..., :2] += size / 2.0
-    edges = np.diff(triangles, axis=1)
-    normals = np.cross(edges[:, 0], edges[:, 1])
-    # As MuJoCo does, no triangle is shown from behind.
-    front = normals[:, 2] < 0.0
-    triangles, normals, rgba = triangles[front], normals[front], rgba[front]
-    facing = -normals[:, 2] / np.linalg.norm(normals, axis=1)
-    lit = rgba[:, :3] * (_AMBIENT + (1.0 - _AMBIENT) * facing)[:, None]
-
-    image = np.ones((*size[::-1], 3))
-    opaque = rgba[:, 3] >= 1.0
-    depth = np.full(image.shape[:2], -np.inf)
-    for chosen in (opaque, ~opaque):
-        found, nearest = _nearest(triangles[chosen], depth.shape)
-        seen = nearest > depth
-        shown = found[seen]
-        cover = rgba[chosen, 3:][shown]
-        image[seen] = (1.0 - cover) * image[seen] + cover * lit[chosen][shown]
-        depth = np.maximum(depth, nearest)
-    smooth = image.reshape(HEIGHT, _SMOOTH, WIDTH, _SMOOTH, 3).mean(axis=(1, 3))
-    return np.asarray(np.round(255.0 * smooth), dtype=np.uint8)
+    return picture(np.concatenate(corners), np.concatenate(colors))
 
 
-def _nearest(triangles: FloatArray, shape: tuple[int, ...]) -> tuple[NDArray[np.int64], FloatArray]:
-    """Index and depth of the triangle that each pixel shows; -inf where it shows none.
+def picture(corners: FloatArray, colors: FloatArray) -> NDArray[np.uint8]:
+    """Red, green and blue, shape (HEIGHT, WIDTH, 3), on white; parallel rays.
 
     Args:
-        triangles: corners to the right, down and towards the viewer [pixels], shape (n, 3, 3).
-        shape: height and width [pixels].
+        corners: of triangles, x forward and z up [m], shape (n, 3, 3).
+        colors: red, green, blue and opacity of each, 0..1, shape (n, 4).
     """
-    found, depth = np.zeros(shape, dtype=np.int64), np.full(shape, -np.inf)
-    owners = np.arange(len(triangles))
-    while len(triangles):
-        sides = np.linalg.norm((triangles - np.roll(triangles, -1, axis=1))[..., :2], axis=2)
-        small = sides.max(axis=1) <= _SMALL
-        for count in range(1, _SMALL + 1):
-            fits = small & (np.ceil(sides.max(axis=1)).clip(1) == count)
-            # A grid of barycentric coordinates whose points are at most a pixel apart.
-            i, j = np.tril_indices(count + 1)
-            weights = np.column_stack([count - i, i - j, j]) / count
-            points = (weights @ triangles[fits]).reshape(-1, 3)
-            column, row = points[:, :2].astype(np.int64).T
-            ahead = np.flatnonzero(points[:, 2] > depth[row, column])
-            # Of points on one pixel the last one assigned stays: the nearest.
-            ahead = ahead[np.argsort(points[ahead, 2], kind="stable")]
-            place = row[ahead], column[ahead]
-            depth[place], found[place] = points[ahead, 2], owners[fits][ahead // len(weights)]
-        # The others are cut in two through the middle of their longest side.
-        large = np.flatnonzero(~small)
-        first = sides[large].argmax(axis=1)
-        a, b, c = (triangles[large, (first + k) % 3] for k in range(3))
-        middle = (a + b) / 2.0
-        triangles = np.concatenate([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
-        owners = np.tile(owners[large], 2)
-    return found, depth
+    opaque = colors[:, 3] >= _GLASS
+    corners, colors = corners[opaque], colors[opaque, :3]
+    right, up, towards = _camera()
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    seen = length > 0.0
+    # Light from over the viewer's left shoulder.
+    light = towards + 0.55 * up - 0.45 * right
+    shade = np.abs(normal[seen] @ light) / np.linalg.norm(light) / length[seen]
+    # Pixels from the upper left, shape (n, 3, 2), and how near each corner is, shape (n, 3).
+    plane = np.stack([corners[seen] @ right, -(corners[seen] @ up)], axis=-1)
+    width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
+    if len(plane):
+        low, high = plane.min(axis=(0, 1)), plane.max(axis=(0, 1))
+        size = _ROOM * np.max((high - low) / (width, height))
+        plane = (plane - (low + high) / 2.0) / size + np.array([width, height]) / 2.0
+    shown = _nearest(plane, corners[seen] @ towards)
+    lit = colors[seen] * (_AMBIENT + (1.0 - _AMBIENT) * shade)[:, None]
+    drawn = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)
+    # Each pixel is the mean of those that it was drawn with.
+    k = _OVERSAMPLING
+    total = sum(drawn[shown[row::k, column::k]] for row, column in product(range(k), repeat=2))
+    return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)
+
+
+def _camera() -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Unit vectors in B: to the right and up on the screen, and towards the viewer."""
+    towards = np.array(
+        [
+            np.cos(_ELEVATION) * np.cos(_AZIMUTH),
+            np.cos(_ELEVATION) * np.sin(_AZIMUTH),
+            np.sin(_ELEVATION),
+        ]
+    )
+    right = np.cross([0.0, 0.0, 1.0], towards)
+    right /= np.linalg.norm(right)
+    return right, np.cross(towards, right), towards
+
+
+def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
+    """Number of the triangle that each pixel shows; -1: none. Shape (height, width)."""
+    width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
+    shown = np.full(width * height, -1, dtype=np.int64)
+    step = _DEPTHS / max(float(np.ptp(depth)) if depth.size else 0.0, 1e-12)
+    for begin in range(0, len(plane), _CHUNK):
+        some, deep = plane[begin : begin + _CHUNK], depth[begin : begin + _CHUNK]
+        triangle, y = _rows(some)
+        left, right = _spans(some[triangle], y)
+        count = np.maximum(right - left, 0)
+        within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+        start, along = _nearness(some, deep, triangle, y)
+        # The upper part of a number is how near, the lower which triangle: the largest one wins.
+        first = step * (start + along * left - depth.min())
+        near = np.repeat(first, count) + np.repeat(step * along, count) * within
+        number = np.clip(near, 0.0, _DEPTHS, out=near).astype(np.int64) << _BITS
+        number |= np.repeat(begin + triangle, count)
+        np.maximum.at(shown, np.repeat(y * width + left, count) + within, number)
+    np.bitwise_and(shown, (1 << _BITS) - 1, out=shown, where=shown >= 0)
+    return shown.reshape(height, width)
+
+
+def _rows(plane: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Each row of pixels whose centres a triangle may cover: the triangle and the row."""
+    low = np.ceil(plane[:, :, 1].min(axis=1) - 0.5).astype(np.int64)
+    high = np.floor(plane[:, :, 1].max(axis=1) - 0.5).astype(np.int64)
+    count = np.maximum(high - low + 1, 0)
+    triangle = np.repeat(np.arange(len(plane)), count)
+    within = np.arange(len(triangle)) - np.repeat(np.cumsum(count) - count, count)
+    return triangle, low[triangle] + within
+
+
+def _spans(corners: FloatArray, y: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
+    """First pixel inside, and the first behind, of each row of a triangle."""
+    begin, end = corners, np.roll(corners, -1, axis=1)
+    height = end[:, :, 1] - begin[:, :, 1]
+    part = np.divide(
+        (y + 0.5)[:, None] - begin[:, :, 1],
+        height,
+        out=np.full(height.shape, np.nan),
+        where=height != 0.0,
+    )
+    crossing = begin[:, :, 0] + part * (end[:, :, 0] - begin[:, :, 0])
+    outside = ~((part >= 0.0) & (part <= 1.0))
+    first = np.where(outside, np.inf, crossing).min(axis=1)
+    last = np.where(outside, -np.inf, crossing).max(axis=1)
+    first, last = np.where(first > last, 0.0, first), np.where(first > last, 0.0, last)
+    return np.ceil(first - 0.5).astype(np.int64), np.ceil(last - 0.5).astype(np.int64)
+
+
+def _nearness(
+    plane: FloatArray, depth: FloatArray, triangle: NDArray[np.int64], y: NDArray[np.int64]
+) -> tuple[FloatArray, FloatArray]:
+    """Nearness of each row at the centre of its pixel 0, and its change per pixel."""
+    b, c = plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0]
+    db, dc = depth[:, 1] - depth[:, 0], depth[:, 2] - depth[:, 0]
+    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
+    scale = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0.0)
+    along = scale * (db * c[:, 1] - dc * b[:, 1])
+    across = scale * (dc * b[:, 0] - db * c[:, 0])
+    start = depth[:, 0] + along * (0.5 - plane[:, 0, 0]) - across * plane[:, 0, 1]
+    return start[triangle] + across[triangle] * (y + 0.5), along[triangle]

@@ -13,10 +13,13 @@ from ocs_design.device.naming import (
     PLATE,
     PREFIX,
     carrier_name,
+    carrier_names,
     flywheel_name,
+    flywheel_names,
     imu_sensors,
     joint_name,
     joint_names,
+    plate_names,
     torque_sensor,
     velocity_sensor,
 )
@@ -206,6 +209,12 @@ def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
     values = {
         **_names(seat),
+        "bodies": ", ".join(
+            (*flywheel_names(device), *carrier_names(device), *plate_names(device))
+        ),
+        "joints": ", ".join(joint_names(device)),
+        "speed": velocity_sensor(device.modules[0]),
+        "torque": torque_sensor(device.modules[0]),
         "base_quaternion": numbers(quaternion(rotation)),
         "modules": "".join(_module_mjcf(device, module) for module in device.modules)
         + _plate_mjcf(device),

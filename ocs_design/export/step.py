@@ -269,11 +269,8 @@ def _shape(solid: Solid) -> TopoDS_Shape:
             face = _face([_edge(*edge, solid.low) for edge in solid.outline.edges()])
             length = round(MILLIMETRES * (solid.high - solid.low), DECIMALS)
             shape = BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, length)).Shape()
-            return _moved(shape, solid.placement)
-
-
-def _moved(shape: TopoDS_Shape, place: Placement) -> TopoDS_Shape:
-    return BRepBuilderAPI_Transform(shape, _transformation(place), True).Shape()
+            place = _transformation(solid.placement)
+            return BRepBuilderAPI_Transform(shape, place, True).Shape()
 
 
 def _transformation(place: Placement) -> gp_Trsf:

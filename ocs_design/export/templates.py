@@ -1,14 +1,14 @@
 """Templates of exported text files, to be filled with numbers and names."""
 
 import re
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from string import Template
 from xml.sax.saxutils import escape
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+from ocs_design.common.files import packaged_folder
 
 
 class _AtTemplate(Template):
@@ -32,11 +32,9 @@ def template_text(template: str) -> str:
     return template_file(template).read_text(encoding="utf-8")
 
 
-def template_file(name: str) -> Traversable:
+def template_file(name: str) -> Path:
     """File `templates/<name>`: in the package when installed, else beside it in the sources."""
-    installed = files("ocs_design") / "templates"
-    folder = installed if installed.is_dir() else Path(__file__).parents[2] / "templates"
-    return folder / name
+    return packaged_folder("templates") / name
 
 
 def quoted(text: str) -> str:

@@ -96,13 +96,7 @@ def device_meshes(device: Device) -> Mapping[Path, bytes]:
 
 def plate_mesh(plate: CarrierPlate) -> Mesh:
     """The plate with its sleeves and its mast, in its own frame."""
-    return merged(
-        [
-            Mesh(mesh.vertices @ place.rotation.T + place.position, mesh.triangles)
-            for part, place in plate_bodies(plate)
-            for mesh in (part_mesh(part, _SECTIONS),)
-        ]
-    )
+    return merged([part_mesh(part, _SECTIONS).placed(place) for part, place in plate_bodies(plate)])
 
 
 def plate_visuals(device: Device) -> tuple[Visual, ...]:

@@ -18,14 +18,13 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath
 from ocs_design.export.film import Take, film_model, render_takes
-from ocs_design.export.physics import STEP
+from ocs_design.report.text.console import Steps
 from ocs_design.requirement.maneuver import End, Maneuver, Shove, TurnTo
 from ocs_design.requirement.specification import Specification
 from ocs_design.simulation.metrics import Metrics, measure
 from ocs_design.simulation.piloted import PilotedFlight
-from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.verdict import landing_attitude
-from ocs_design.workflows.flying import flight_options, read_task
+from ocs_design.workflows.flying import read_task
 from ocs_design.workflows.validate import Request, campaign_of
 
 Observation: TypeAlias = NDArray[np.float32]
@@ -85,30 +84,21 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         task = read_task(
             design, Specification(), robot_file=None if robot_file is None else Path(robot_file)
         )
-        options = flight_options(task.control)
         # What its legs bear is in the record, unless it was not flown.
-        flown = task.design.validation or run_scenarios(
-            task.robot,
-            task.device,
-            task.maneuvers,
-            options=options,
-            references=task.references,
-            jumps=task.jumps,
-        )
+        flown = task.design.validation or task.fly(Steps.silent())
         self._campaign = campaign_of(Request(design=task.path), task, flown)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if maneuver is not None and maneuver not in names:
             raise UsageError(f"the design has no maneuver {maneuver!r}", hint=f"it has {names}")
         self._names = names if maneuver is None else [maneuver]
-        motor = task.device.motor
-        self._top_speed = min(motor.no_load_speed, motor.speed_max or np.inf)
+        self._top_speed = task.device.motor.top_speed
         if task.design.selection is None or not np.isfinite(self._top_speed):
             raise OcsError(
                 f"{task.path}: no motor was chosen, so an action would have no scale",
                 hint="size it with a motor",
             )
         self._task, self._randomise, self.render_mode = task, randomise, render_mode
-        self._period = options.hold * STEP
+        self._period = task.control.period
         self.metadata = {**self.metadata, "render_fps": round(1.0 / self._period)}
         count = len(task.device.modules)
         self.action_space = spaces.Box(-1.0, 1.0, (count,), np.float32)

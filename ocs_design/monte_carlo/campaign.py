@@ -1,4 +1,4 @@
-"""What is flown over and over: campaigns, blocks of them, and single samples flown again."""
+"""What is flown over and over: campaigns, their results in a folder, single samples flown again."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -10,12 +10,15 @@ import msgspec
 import numpy as np
 
 from ocs_design.common.errors import OcsError
-from ocs_design.common.files import TextKind, safe_name
+from ocs_design.common.files import TextKind, safe_name, to_json
+from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
+from ocs_design.export.folder import output_error
 from ocs_design.export.physics import STEP
+from ocs_design.export.staging import clear_leftovers, staging_beside
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
-from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of
+from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of, write_tables
 from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, built, quantities
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
@@ -261,7 +264,7 @@ def metrics_of(outcomes: Outcomes, row: int, scenario: int) -> Metrics | None:
 def write_case(case: Case, folder: Path) -> Path:
     """Write a case as JSON, named after scenario and sample."""
     path = folder / f"{safe_name(case.scenario)}-{case.sample}.json"
-    path.write_bytes(msgspec.json.format(msgspec.json.encode(case), indent=2) + b"\n")
+    path.write_bytes(to_json(case))
     return path
 
 
@@ -275,6 +278,48 @@ def read_case(path: Path) -> Case:
         return msgspec.json.decode(_KIND.read(path), type=Case)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: not a case: {error}", hint=_KIND.path_hint) from error
+
+
+WORST_FOLDER = "worst"
+
+
+def write_results(
+    campaign: Campaign, outcomes: Outcomes, record: MonteCarloRecord, folder: Path, *, design: str
+) -> tuple[Path, ...]:
+    """Write what a campaign came to, in place of earlier results.
+
+    Args:
+        campaign: that was flown. outcomes: of its samples. record: what they say together.
+        folder: to write to.
+        design: hash of the design, for the cases.
+
+    Returns:
+        The files, the record last.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
+    try:
+        clear_leftovers(folder / RESULT_FILE)
+        with staging_beside(folder / RESULT_FILE) as staging:
+            write_tables(outcomes, [each.maneuver.name for each in campaign.flights], staging)
+            worst = staging / WORST_FOLDER
+            worst.mkdir()
+            rows = {sample: row for row, sample in enumerate(outcomes.index.tolist())}
+            for number, scenario in enumerate(record.scenarios):
+                for sample in scenario.worst:
+                    write_case(case_of(campaign, outcomes, rows[sample], number, design), worst)
+            (staging / RESULT_FILE).write_bytes(to_json(record))
+            # The record comes last: it is gone while the others are not of one run.
+            (folder / RESULT_FILE).unlink(missing_ok=True)
+            (folder / WORST_FOLDER).mkdir(exist_ok=True)
+            for old in (folder / WORST_FOLDER).glob("*.json"):
+                old.unlink()
+            files = [path.relative_to(staging) for path in staging.rglob("*") if path.is_file()]
+            files.sort(key=lambda file: (file.name == RESULT_FILE, file))
+            return tuple((staging / file).replace(folder / file) for file in files)
+    except OSError as error:
+        raise output_error(error, folder) from error
 
 
 def replayed(

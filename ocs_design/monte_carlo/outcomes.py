@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import OutputError
+from ocs_design.common.files import to_json
 from ocs_design.device.answers import RESULT_FILE
 from ocs_design.export.folder import output_error, whole_file
 from ocs_design.simulation.metrics import Metrics
@@ -206,9 +207,8 @@ class Storage:
             if folder.exists():
                 self._check(identity, force=force)
             (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
-            record = msgspec.json.format(msgspec.json.encode(identity), indent=2)
             with whole_file(folder / CAMPAIGN_FILE) as file:
-                file.write_bytes(record + b"\n")
+                file.write_bytes(to_json(identity))
         except OSError as error:
             raise output_error(error, folder) from error
 

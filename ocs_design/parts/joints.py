@@ -15,8 +15,10 @@ is softer where they are, and its stress is that over the share that is left in 
 their middles (the ligament efficiency of a tube plate, (p - d) / p, ASME VIII-1, UG-53).
 """
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
 from itertools import pairwise
 from math import floor, inf, pi, sin
 
@@ -334,21 +336,28 @@ def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
 GRADE = 6.3
 """Balance quality grade of flywheels [mm/s]: ISO 21940-11, table 1."""
 
-_STEPS_MM = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
-_IT6 = (6, 8, 9, 11, 13, 16, 19, 22, 25, 29, 32, 36, 40)
-_IT7 = (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63)
-"""Upper ends of the steps of sizes [mm], and their tolerances [um]: ISO 286-1, table 1."""
+_STEPS_MM = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000)
+"""Upper ends of the steps of nominal sizes [mm]: ISO 286-1, table 1."""
 
 
-def tolerance(diameter: float, grade: int) -> float:
-    """Tolerance of grade 6 or 7 of a size [m]; above 500 mm as there."""
-    found = np.searchsorted(_STEPS_MM, round(1e3 * diameter, 9))
-    return 1e-6 * {6: _IT6, 7: _IT7}[grade][min(int(found), len(_STEPS_MM) - 1)]
+class Grade(Enum):
+    """Widths of the tolerance interval over the steps of nominal sizes [um]: ISO 286-1, table 1."""
+
+    IT6 = (6, 8, 9, 11, 13, 16, 19, 22, 25, 29, 32, 36, 40, 44, 50, 56)
+    IT7 = (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63, 70, 80, 90)
+    IT9 = (25, 30, 36, 43, 52, 62, 74, 87, 100, 115, 130, 140, 155, 175, 200, 230)
+    IT11 = (60, 75, 90, 110, 130, 160, 190, 220, 250, 290, 320, 360, 400, 440, 500, 560)
+
+
+def tolerance_width(size: float, grade: Grade) -> float:
+    """Width of the tolerance interval of a nominal size [m]; sizes above 1 m as 1 m."""
+    step = bisect_left(_STEPS_MM, round(1e3 * size, 9))
+    return 1e-6 * grade.value[min(step, len(_STEPS_MM) - 1)]
 
 
 def slip_fit_eccentricity(diameter: float) -> float:
     """Distance that an H7/h6 fit may be off centre: half of its largest play [m]."""
-    return (tolerance(diameter, 7) + tolerance(diameter, 6)) / 2.0
+    return (tolerance_width(diameter, Grade.IT7) + tolerance_width(diameter, Grade.IT6)) / 2.0
 
 
 @dataclass(frozen=True)
@@ -454,7 +463,7 @@ def shrink_fit(
     per_interference = turning(1e-6, 0.0).pressure(joint) / 1e-6
     loosest = min(turning(shift, at).pressure(joint) for shift in grown for at in (0.0, speed))
     least = (SERVICE * needed - loosest) / per_interference
-    most = least + tolerance(2.0 * radius, 6)
+    most = least + tolerance_width(2.0 * radius, Grade.IT6)
     states = [turning(most + shift, at) for shift in grown for at in (0.0, speed)]
     stiffness = web.elastic_modulus * web.thickness**3 / (12.0 * (1.0 - web.poisson_ratio**2))
     return ShrinkFit(

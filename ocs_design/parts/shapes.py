@@ -81,6 +81,45 @@ class Rectangle(Generic[Real]):
 
 
 @dataclass(frozen=True, eq=False)
+class Polygon(Generic[Real]):
+    """A polygon that does not cross itself.
+
+    Attributes:
+        corners: x and y of each, counter-clockwise [m].
+    """
+
+    corners: tuple[tuple[Real | float, Real | float], ...]
+
+    @property
+    def area(self) -> Real:
+        """Area by Green's theorem [m^2]."""
+        area: Real = self.moments.mass
+        return area
+
+    @property
+    def moments(self) -> MassMoments[Real]:
+        """Moments about the origin, of unit density: triangles from it to each edge, added up."""
+        found: list[Any] = [0.0] * 6
+        for (a, b), (c, d) in zip(self.corners, self.corners[1:] + self.corners[:1], strict=True):
+            twice: Any = a * d - c * b
+            each = (
+                twice / 2.0,
+                twice * (a + c) / 6.0,
+                twice * (b + d) / 6.0,
+                twice * (a**2 + a * c + c**2) / 12.0,
+                twice * (b**2 + b * d + d**2) / 12.0,
+                twice * (a * d + 2.0 * a * b + 2.0 * c * d + c * b) / 24.0,
+            )
+            found = [one + other for one, other in zip(found, each, strict=True)]
+        area, x, y, xx, yy, xy = found
+        return flat(area, xx, yy, x=x, y=y, xy=xy)
+
+    def outline(self) -> Outline:
+        """As many lines as corners."""
+        return Outline(np.array(self.corners), np.zeros(len(self.corners)))
+
+
+@dataclass(frozen=True, eq=False)
 class ArcSlot(Generic[Real]):
     """What a cutter of diameter `width` leaves on its way around the origin.
 

@@ -1,7 +1,7 @@
 """Bodies of the robot and its device, as a GLB of ours shows them."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.export.snapshot import picture
 from ocs_design.export.visuals import Color
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.tree import Placement
@@ -53,6 +54,18 @@ class ShownBody:
 def read_bodies(glb: bytes) -> tuple[ShownBody, ...]:
     """Every body that has something to show, in the order of the tree."""
     return tuple(body for body in _Reading(glb).bodies() if body.surfaces)
+
+
+def still(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
+    """Picture of the bodies for print, for mail, and while the page loads; see `picture`."""
+    corners, colors = [np.empty((0, 3, 3))], [np.empty((0, 4))]
+    for body in bodies:
+        place = body.placement
+        for surface in body.surfaces:
+            points = surface.vertices @ place.rotation.T + place.position
+            corners.append(points[surface.faces])
+            colors.append(np.tile(surface.color, (len(surface.faces), 1)))
+    return picture(np.concatenate(corners), np.concatenate(colors))
 
 
 class _Reading:

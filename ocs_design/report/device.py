@@ -78,11 +78,16 @@ def joint_table(robot: RobotRecord) -> Table:
 
 def drawn_facts(reality: Mapping[str, str]) -> Rows:
     """Distributions that samples are drawn from, in units that people think in."""
-    drawn = uncertainty_of_texts(reality, "reality")
-    return tuple(
+    known = {name: text for name, text in reality.items() if name in spreads()}
+    drawn = uncertainty_of_texts(known, "reality")
+    # Which drive stops is drawn too, by no key of the specification.
+    others = tuple(
+        (name.replace("_", " "), text) for name, text in reality.items() if name not in known
+    )
+    return others + tuple(
         (name.replace("_", " "), Entry(getattr(drawn, name)).words(spread))
         for name, spread in spreads().items()
-        if name in reality
+        if name in known
     )
 
 

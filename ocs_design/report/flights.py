@@ -210,8 +210,7 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
             f"the robot stays on its feet and ends leaning: {', '.join(leaning)} (more than "
             f"{degrees(float(UPRIGHT_TILT), 0)} would be a fall)"
         )
-    motor = design.ocs.motor
-    top = min(motor.no_load_speed, motor.speed_max or np.inf)
+    top = design.ocs.motor.top_speed
     speeds = {run.scenario: run.metrics.get("final_wheel_speed") or 0.0 for run in carrying}
     spent = [name for name, speed in speeds.items() if speed >= SPENT * top]
     if spent:

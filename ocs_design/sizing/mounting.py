@@ -18,9 +18,11 @@ from ocs_design.device.solids import (
     ModuleSolids,
     mast_solids,
     module_solids,
+    pedestal_of,
     plate_heads,
     plate_solids,
 )
+from ocs_design.parts.pedestal import FLANGE, Pedestal, pedestal_mass, pedestal_use
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.clearance import (
@@ -51,6 +53,8 @@ class Mounting:
         com_shift: of the centre of mass by the device, in B [m], shape (3,).
         inertia_change: of I_xx, I_yy and I_zz about the centre of mass, over the robot's own.
         feet: what each foot stands on, the plate among them; empty where wheels have no feet.
+        pedestals: what would hold each foot that leans; neither mass nor places count them.
+        module_mass: of what stands on each [kg].
     """
 
     nearest: Clearance | None
@@ -59,6 +63,8 @@ class Mounting:
     com_shift: FloatArray
     inertia_change: FloatArray
     feet: tuple[FootContact, ...] = ()
+    pedestals: tuple[Pedestal[float], ...] = ()
+    module_mass: float = 0.0
 
     @property
     def known(self) -> bool:
@@ -71,19 +77,32 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
 
     Feet on a trunk whose shapes are not known are no open point: `Mounting.known` tells of them.
     """
-    return (*_hanging(mounting.feet), *_hitting(mounting))
+    return (*_leaning(mounting), *_hanging(mounting.feet), *_hitting(mounting))
+
+
+def _leaning(mounting: Mounting) -> Iterator[OpenPoint]:
+    """Feet that lean, and the pedestals that would hold them."""
+    leaning = [contact.name for contact in mounting.feet if contact.leans]
+    if not leaning:
+        return
+    largest = max(mounting.pedestals, key=pedestal_mass)
+    mass = format_quantity(sum(map(pedestal_mass, mounting.pedestals)), "g", digits=3)
+    length, width, height = (
+        format_quantity(size, "mm", digits=2)
+        for size in (largest.length + 2.0 * FLANGE, largest.width, largest.height)
+    )
+    use = max(pedestal_use(each, mounting.module_mass) for each in mounting.pedestals)
+    yield OpenPoint(
+        what=f"{' and '.join(leaning)}: the wheel's axis is not horizontal, and a foot stands "
+        f"only upright. Pedestals of PETG under them would weigh {mass} together, the largest "
+        f"{length} long, {width} wide and {height} high, and use {use:.0%} of their strength at "
+        "20 g; neither mass nor places nor files count them",
+        cure="take a layout whose axes are horizontal: --layout pair, triad or single",
+    )
 
 
 def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
     """Feet that are not held, and what would hold them; alike ones are told once."""
-    leaning = [contact.name for contact in feet if contact.leans]
-    if leaning:
-        yield OpenPoint(
-            what=f"{' and '.join(leaning)}: the wheel's axis is not horizontal, and a foot stands "
-            "only upright",
-            cure="make what holds it leaning, or take a layout whose axes are horizontal: "
-            "--layout pair, triad or single",
-        )
     loose = [contact for contact in feet if contact.held is False and not contact.leans]
     in_pairs = any(contact.name.startswith(SIDES[0]) for contact in feet)
     more_feet = (
@@ -149,13 +168,20 @@ def mounting_of(
     solids = [solid for modules in flown for module in modules for solid in module.all]
     solids += plate_solids(device.plate)
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
+    feet = contacts_of(robot, device)
     return Mounting(
         nearest=_nearest_part(collision, device, flown, surface),
         landing=_clearance(_nearest_in_landings(collision, solid) for solid in solids),
         reachable=reaches(collision, solids),
         com_shift=whole.com - robot.com,
         inertia_change=np.diag(whole.inertia) / np.diag(robot.inertia) - 1.0,
-        feet=contacts_of(robot, device),
+        feet=feet,
+        pedestals=tuple(
+            pedestal_of(device, module)
+            for module, contact in zip(device.modules, feet, strict=False)
+            if contact.leans
+        ),
+        module_mass=device.flywheel.mass + device.carrier.mass,
     )
 
 

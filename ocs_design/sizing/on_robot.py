@@ -7,6 +7,7 @@ both are found in turn until they stay.
 from dataclasses import replace
 
 from ocs_design.common.errors import Infeasible
+from ocs_design.common.units import format_quantity
 from ocs_design.device.joints import burst_of
 from ocs_design.device.layout import Criterion
 from ocs_design.device.solids import foot_of
@@ -93,8 +94,7 @@ def on_its_footing(
 
     The problem is for the plate and the place of the largest modules that there may be. The
     selection is for those of its lightest device, then only the best drive's for its own, until
-    they stay. What cannot be done on its own footing, under a heavier plate, stays as it was: its
-    flights and margins judge it.
+    they stay.
 
     Args:
         problem: to solve. criterion, advise: see `select_by`. robot: that carries it.
@@ -102,7 +102,7 @@ def on_its_footing(
         kept: what is drawn and the reserve for it, which the lightest device without one settles.
 
     Raises:
-        Infeasible: see `select_by`.
+        Infeasible: see `select_by`; also where nothing can carry the mast or plate that it needs.
     """
 
     def settled(best: Candidate) -> tuple[SelectionProblem, Candidate]:
@@ -117,11 +117,15 @@ def on_its_footing(
             again = device_at(own, best, best.incidence)
             if again is not None and criterion is not None and own.incidence is None:
                 _, again = at_own_incidence(own, again, criterion)
-            # Under a mast, which no estimate before had, another drive may be needed.
+            # Under a mast, which no estimate before had, another drive may be needed, or none do.
             again = again or lightest_by(own, criterion)
-            if again is None:
-                break
-            at, best = own, again
+            try:
+                best = again or select_by(own, criterion, advise=advise).best
+            except Infeasible as error:
+                held = format_quantity(own.robot.mass - robot.mass, "kg", digits=4)
+                error.message = f"With the {held} that hold it on the trunk: {error.message}"
+                raise
+            at = own
         return at, best
 
     first, widest = lightest_by(problem, criterion), problem
@@ -147,13 +151,10 @@ def on_its_footing(
     selection = with_plates(selection, problem, criterion, robot, ranked=ranked)
     for _ in range(_FOOTINGS_MAX):
         best = selection.best
-        own, _ = settled(best)
+        own, device = settled(best)
         if own is problem:
             break
-        try:
-            again = select_by(of_parts(own, best), criterion, advise=False)
-        except Infeasible:
-            break
+        again = select_by(of_parts(own, device), criterion, advise=False)
         again, problem = with_plates(again, own, criterion, robot), own
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
         selection = replace(selection, ranking=(again.best, *others))

@@ -199,9 +199,6 @@ def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
     return {name: told.get(name, ended) for name in modules if told.get(name, ended)}
 
 
-_TRIAL = "ocs_design.export.offscreen"
-
-
 def machine_findings() -> tuple[Finding, ...]:
     """Findings about the machine, in the order in which they matter."""
     folder = working_folder(Path.cwd())
@@ -258,7 +255,7 @@ def opengl() -> Iterator[Finding]:
     """Each way to draw without a screen, tried; one of them is enough."""
     ways = backends()
     with ThreadPoolExecutor() as pool:
-        failures = list(pool.map(partial(failure_of, _TRIAL, ("trial",)), ways))
+        failures = list(pool.map(partial(failure_of, ("trial",)), ways))
     one_works = None in failures
     for way, failure in zip(ways, failures, strict=True):
         yield Finding(

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.common.errors import OcsError
-from ocs_design.common.files import AnyPath, safe_name
+from ocs_design.common.files import AnyPath, safe_name, to_json
 from ocs_design.device.answers import Exported, PostureLine
 from ocs_design.device.naming import joint_names
 from ocs_design.device.records import (
@@ -13,7 +13,6 @@ from ocs_design.device.records import (
     SCHEMA_VERSION,
     OcsDesign,
     design_file,
-    design_to_json,
     read_design,
 )
 from ocs_design.export.folder import (
@@ -141,7 +140,7 @@ def export_order(
             old = {name for name in order.design.files if name.partition("/")[0] in folders}
             keep_others(source, staging, without=old)
         design = replace(order.design, files=recorded_hashes(staging))
-        (staging / DESIGN_FILE).write_bytes(design_to_json(design))
+        (staging / DESIGN_FILE).write_bytes(to_json(design))
     known = order.design.robot.warnings
     return Exported(
         schema_version=SCHEMA_VERSION,

@@ -1,8 +1,8 @@
 """Everything that flights need besides the device: wheel law, references, plans of the legs."""
 
 import hashlib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,9 +12,19 @@ import msgspec
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.files import AnyPath
 from ocs_design.device.device import Device
-from ocs_design.device.records import ControlRecord, OcsDesign, design_file, read_design
+from ocs_design.device.records import (
+    ControlRecord,
+    OcsDesign,
+    SurvivalRecord,
+    ValidationRecord,
+    design_file,
+    read_design,
+)
 from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import JumpPlans
+from ocs_design.monte_carlo.campaign import Campaign, make_campaign
+from ocs_design.monte_carlo.uncertainty import Uncertainty
+from ocs_design.report.text.console import Steps
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import (
@@ -25,7 +35,7 @@ from ocs_design.requirement.specification import (
 )
 from ocs_design.requirement.uncertainty import UncertaintySection, uncertainty_of_texts
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.scenario import Options
+from ocs_design.simulation.scenario import Options, Run, fly_stopped, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation, Gains
 from ocs_design.simulation.world import wheel_gains
 from ocs_design.sizing.trajectory.flight import Trajectory
@@ -104,33 +114,95 @@ def jump_plans(
     return plan_jumps(robot, device, maneuvers)
 
 
-@dataclass(frozen=True, eq=False)
-class Task:
-    """What is flown.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Flights:
+    """What is flown, as designed and as it might be built.
 
     Attributes:
-        path: of the `design.json`. design: what is in it.
-        robot: as it was sized for, or another in its place. device: on it.
-        maneuvers: see `Maneuver`; at least one.
+        robot: that flies. device: on it.
+        maneuvers: see `Maneuver`.
         control: the wheel law.
-        uncertainty: how what is built and met differs from the design, as far as that is stated.
         references: what the device tracks, by the maneuver's name.
         jumps: how the legs make a maneuver, by its name.
-        warnings: about the robot, which were not there when the device was sized.
         detection: time until a stopped drive is known, where one stops in flights too [s].
     """
 
-    path: Path
-    design: OcsDesign
     robot: Robot
     device: Device
     maneuvers: tuple[Maneuver, ...]
     control: ControlRecord
-    uncertainty: UncertaintySection
     references: Mapping[str, Trajectory]
     jumps: Mapping[str, JumpPlans]
-    warnings: tuple[str, ...]
     detection: float | None = None
+
+    def fly(self, steps: Steps, *, pose_rate: float | None = None) -> tuple[Run, ...]:
+        """Every maneuver as designed, with the device and without; see `run_scenarios`."""
+        with steps.step("fly the maneuvers with and without the device") as step:
+            return run_scenarios(
+                self.robot,
+                self.device,
+                self.maneuvers,
+                options=replace(flight_options(self.control), pose_rate=pose_rate),
+                references=self.references,
+                jumps=self.jumps,
+                progress=step.update,
+            )
+
+    def fly_stopped(self, steps: Steps) -> SurvivalRecord | None:
+        """Every maneuver with each drive stopping on the way; None where none has to."""
+        if self.detection is None:
+            return None
+        with steps.step("fly them with each drive stopping on the way") as step:
+            found = fly_stopped(
+                self.robot,
+                self.device,
+                self.maneuvers,
+                self.detection,
+                options=flight_options(self.control),
+                references=self.references,
+                jumps=self.jumps,
+                progress=step.update,
+            )
+            step.note = f"{len(found.lost)} of {len(found.flights)} end beyond the allowance"
+        return found
+
+    def campaign(
+        self, runs: Iterable[Run | ValidationRecord], stated: UncertaintySection, seed: int
+    ) -> Campaign:
+        """Everything that samples follow from.
+
+        Args:
+            runs: as designed, which show what the legs bear.
+            stated: how what is built and met differs from the design.
+            seed: of all samples.
+        """
+        return make_campaign(
+            self.robot,
+            self.device,
+            self.maneuvers,
+            options=flight_options(self.control),
+            references=self.references,
+            jumps=self.jumps,
+            can_stand=[run.can_stand for run in runs if run.ocs],
+            uncertainty=Uncertainty.of(stated, self.robot, self.device, self.detection),
+            seed=seed,
+        )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Task(Flights):
+    """Flights of a design that was read, of at least one maneuver.
+
+    Attributes:
+        path: of the `design.json`. design: what is in it.
+        uncertainty: how what is built and met differs from the design, as far as that is stated.
+        warnings: about the robot, which were not there when the device was sized.
+    """
+
+    path: Path
+    design: OcsDesign
+    uncertainty: UncertaintySection
+    warnings: tuple[str, ...]
 
 
 def read_task(

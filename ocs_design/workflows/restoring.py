@@ -13,11 +13,8 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
-from ocs_design.device.records import (
-    ManeuverRecord,
-    OcsRecord,
-    RobotRecord,
-)
+from ocs_design.device.records import ManeuverRecord, OcsRecord, RobotRecord
+from ocs_design.export.formats import Seat
 from ocs_design.requirement.maneuver import MANEUVER_KINDS, Maneuver
 from ocs_design.requirement.values import Choice, Quantities
 from ocs_design.robot.leg_geometry import BASE_FRAME
@@ -32,14 +29,6 @@ from ocs_design.robot.tree import Placement
 _APART = {"name", "gravity", "incidence"}
 
 
-@dataclass(frozen=True, eq=False)
-class RecordedSeat:
-    """Seat of the device as the design records it (`export.seat.Seat`)."""
-
-    trunk: str
-    mount: Mount | None
-
-
 def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
     """The device that was designed, to the last digit; `supply` is what feeds it.
 
@@ -51,13 +40,13 @@ def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
     return device
 
 
-def seat_of(record: RobotRecord) -> RecordedSeat:
+def seat_of(record: RobotRecord) -> Seat:
     """Seat of the device on its robot."""
     mount = record.mount
     if mount is None:
-        return RecordedSeat(record.trunk, None)
+        return Seat(record.trunk, None)
     placement = Placement(np.array(mount.rotation), np.array(mount.position))
-    return RecordedSeat(record.trunk, Mount(mount.link, placement))
+    return Seat(record.trunk, Mount(mount.link, placement))
 
 
 def maneuver_of(record: ManeuverRecord) -> Maneuver:

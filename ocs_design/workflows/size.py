@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ocs_design.common.errors import Infeasible, UsageError
-from ocs_design.common.files import AnyPath, safe_name
+from ocs_design.common.files import AnyPath, safe_name, to_json
 from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.device import Device
@@ -21,13 +21,13 @@ from ocs_design.device.records import (
     OcsDesign,
     Owed,
     SurvivalRecord,
-    design_to_json,
+    falls_short,
 )
 from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.jumping.jump import JumpPlans
-from ocs_design.monte_carlo.campaign import Campaign, make_campaign
+from ocs_design.monte_carlo.campaign import Campaign, write_results
 from ocs_design.monte_carlo.certificate import (
     ROUND,
     ROUNDS,
@@ -36,10 +36,8 @@ from ocs_design.monte_carlo.certificate import (
     lesson,
 )
 from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
-from ocs_design.monte_carlo.results import write_results
 from ocs_design.monte_carlo.running import ThisMachine, run_campaign
 from ocs_design.monte_carlo.summary import summarised
-from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.charts.figures import FOLDER, all_charts
 from ocs_design.report.charts.files import write_svgs
 from ocs_design.report.html.notebook import as_html
@@ -78,7 +76,7 @@ from ocs_design.robot.links import listed
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import POSE_RATE, Progress
-from ocs_design.simulation.scenario import Run, fly_stopped, run_scenarios
+from ocs_design.simulation.scenario import Run
 from ocs_design.simulation.trotting import require_trot
 from ocs_design.sizing.alternatives import alternatives, owed_to
 from ocs_design.sizing.bound.rim_program import load_solver
@@ -88,7 +86,7 @@ from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
 from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.advice import NO_ROOM, Refused, unasked
 from ocs_design.sizing.sized import Designed
-from ocs_design.workflows.flying import control_of, flight_options, flown_hash, trajectories
+from ocs_design.workflows.flying import Flights, control_of, flown_hash, trajectories
 from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.recording import record_design, write_runs
 
@@ -119,11 +117,9 @@ class Outcome:
     @property
     def exit_code(self) -> int:
         """0, or 1 if it cannot be built, or does not pass as designed or as it might be built."""
-        certified = self.design.reliability
-        failed = any(run.ocs and run.passed is not True for run in self.runs)
-        failed |= certified is not None and certified.verdict == "falls short"
-        failed |= self.design.survival is not None and bool(self.design.survival.lost)
-        return 1 if failed or self.design.buildable.yes is False else 0
+        found = self.design
+        failed = falls_short(found.validation, found.survival, found.reliability)
+        return int(failed or found.buildable.yes is False)
 
     def __fspath__(self) -> str:
         """Its folder: an outcome stands wherever the path of a design is asked for."""
@@ -236,7 +232,7 @@ def design_ocs(
             told = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
             export_formats(told, [each for each in USUAL_FORMATS if each.needs_margins], staging)
             design = _write_report(design, told, runs, staging, command)
-        (staging / DESIGN_FILE).write_bytes(design_to_json(design))
+        (staging / DESIGN_FILE).write_bytes(to_json(design))
     return Outcome(design, folder, robot, device, runs)
 
 
@@ -298,11 +294,13 @@ def _sized_or_advised(
         resolved = sized.resolved
         resolved = replace(resolved, assumptions=(*told, *resolved.assumptions))
         return asked, replace(sized, resolved=resolved, remarks=(*few, *sized.remarks))
-    # What lacks room is told of what was asked for, what is too weak of what came closest.
-    at_angle = [each for each in tried if each.problem.incidence is not None]
+    # What lacks room is told of what was asked for, what is too weak of what came closest. What got
+    # as far as to what holds it on the trunk came closer than what no motor drives without.
     closest = tried[0]
     if closest.nearest.reason not in NO_ROOM:
-        closest = min(at_angle, key=lambda each: each.nearest.shortfall, default=closest)
+        held = [each for each in tried if each.problem.robot.mass > robot.mass]
+        at_angle = [each for each in tried if each.problem.incidence is not None]
+        closest = min(held or at_angle, key=lambda each: each.nearest.shortfall, default=closest)
     with steps.step("look for the smallest changes that would do") as step:
         advised = closest.advised(step.update, default=specification.asks_nothing)
     advised.assumptions, advised.warnings = closest.assumptions, closest.warnings
@@ -517,46 +515,35 @@ class _Proof:
     """How a device is to fly, how it does as designed, and its certificate."""
 
     plans: Mapping[str, "Reference"]
-    jumps: Mapping[str, JumpPlans]
-    runs: tuple[Run, ...]
+    flights: Flights
+    runs: tuple[Run, ...] = ()
     survival: SurvivalRecord | None = None
     certificate: _Certificate | None = None
 
 
 def _prove(sized: _Sized, stated: ValidationSection, steps: Steps) -> _Proof:
     """Plan the maneuvers and fly them, if that is wanted."""
+    requirement, jumps = sized.resolved.requirement, dict[str, JumpPlans]()
     with steps.step("plan the maneuvers"):
-        plans = _plan(sized, sized.resolved.requirement.maneuvers)
+        plans = _plan(sized, requirement.maneuvers)
+    if stated.enabled is not False:
+        with steps.step("plan the jumps") as step:
+            jumps = {} if sized.jumping is None else dict(sized.jumping.plans())
+            others = [name for name, jump in jumps.items() if jump.carrying.legs is None]
+            step.note = f"at lift-off starts: {', '.join(others)}" if others else ""
+    flights = Flights(
+        robot=sized.robot,
+        device=sized.designed.device,
+        maneuvers=requirement.maneuvers,
+        control=control_of(stated, sized.robot),
+        references=trajectories(plans),
+        jumps=jumps,
+        detection=requirement.detection,
+    )
     if stated.enabled is False:
-        return _Proof(plans, {}, ())
-    with steps.step("plan the jumps") as step:
-        jumps = {} if sized.jumping is None else sized.jumping.plans()
-        step.note = _who_flies(jumps)
-    with steps.step("fly the maneuvers with and without the device") as step:
-        runs = run_scenarios(
-            sized.robot,
-            sized.designed.device,
-            sized.resolved.requirement.maneuvers,
-            options=replace(flight_options(control_of(stated, sized.robot)), pose_rate=POSE_RATE),
-            references=trajectories(plans),
-            jumps=jumps,
-            progress=step.update,
-        )
-    survival, detection = None, sized.resolved.requirement.detection
-    if detection is not None:
-        with steps.step("fly them with each drive stopping on the way") as step:
-            survival = fly_stopped(
-                sized.robot,
-                sized.designed.device,
-                sized.resolved.requirement.maneuvers,
-                detection,
-                options=flight_options(control_of(stated, sized.robot)),
-                references=trajectories(plans),
-                jumps=jumps,
-                progress=step.update,
-            )
-            step.note = f"{len(survival.lost)} of {len(survival.flights)} end beyond the allowance"
-    return _Proof(plans, jumps, runs, survival)
+        return _Proof(plans, flights)
+    runs = flights.fly(steps, pose_rate=POSE_RATE)
+    return _Proof(plans, flights, runs, flights.fly_stopped(steps))
 
 
 def _certify(
@@ -571,20 +558,7 @@ def _certify(
     test = SequentialTest(sized.resolved.reliability or RELIABILITY)
     told: list[str] = []
     for number in range(1, ROUNDS + 1):
-        device, maneuvers = sized.designed.device, sized.resolved.requirement.maneuvers
-        campaign = make_campaign(
-            robot,
-            device,
-            maneuvers,
-            options=flight_options(control_of(stated, robot)),
-            references=trajectories(proof.plans),
-            jumps=proof.jumps,
-            can_stand=[run.can_stand for run in proof.runs if run.ocs],
-            uncertainty=Uncertainty.of(
-                specification.reality, robot, device, sized.resolved.requirement.detection
-            ),
-            seed=stated.seed or 0,
-        )
+        campaign = proof.flights.campaign(proof.runs, specification.reality, stated.seed or 0)
         with steps.step(f"fly the certificate, round {number}") as step:
             flown = run_campaign(
                 campaign,
@@ -678,12 +652,6 @@ def _plan(sized: _Sized, maneuvers: Sequence[Maneuver]) -> Mapping[str, "Referen
         requirement.standing_height,
         None if kept is None else kept.demands,
     )
-
-
-def _who_flies(jumps: Mapping[str, JumpPlans]) -> str:
-    """Names of the jumps that the legs do not make."""
-    names = [name for name, plans in jumps.items() if plans.carrying.legs is None]
-    return f"at lift-off starts: {', '.join(names)}" if names else ""
 
 
 def _write_report(

@@ -8,25 +8,17 @@ from pathlib import Path
 
 from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
-from ocs_design.common.files import AnyPath
+from ocs_design.common.files import AnyPath, to_json
 from ocs_design.device.answers import SampleRecord, Validated
-from ocs_design.device.records import (
-    DESIGN_FILE,
-    SCHEMA_VERSION,
-    OcsDesign,
-    ValidationRecord,
-    design_to_json,
-)
+from ocs_design.device.records import DESIGN_FILE, SCHEMA_VERSION, OcsDesign, ValidationRecord
 from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes
-from ocs_design.monte_carlo.campaign import Campaign, Case, make_campaign, read_case, replayed
+from ocs_design.monte_carlo.campaign import Campaign, Case, read_case, replayed, write_results
 from ocs_design.monte_carlo.certificate import ROUND, SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
-from ocs_design.monte_carlo.results import write_results
 from ocs_design.monte_carlo.running import AT_ONCE, Cluster, ThisMachine, narrow, run_campaign
 from ocs_design.monte_carlo.summary import summarised
-from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import Steps, Tell
 from ocs_design.requirement.specification import (
@@ -36,8 +28,8 @@ from ocs_design.requirement.specification import (
     merge_section,
 )
 from ocs_design.simulation.engine import POSE_RATE
-from ocs_design.simulation.scenario import Run, fly_stopped, refusal, run_scenarios
-from ocs_design.workflows.flying import Task, flight_options, flown_hash, read_task
+from ocs_design.simulation.scenario import Run, refusal
+from ocs_design.workflows.flying import Task, flown_hash, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 
 SAMPLES_VERSION = 2
@@ -212,16 +204,7 @@ def validated(request: Request, steps: Steps) -> Validation:
         )
         step.note = task.robot.name
     steps.doubt(task.warnings)
-    with steps.step("fly the maneuvers with and without the device") as step:
-        runs = run_scenarios(
-            task.robot,
-            task.device,
-            task.maneuvers,
-            options=replace(flight_options(task.control), pose_rate=request.pose_rate),
-            references=task.references,
-            jumps=task.jumps,
-            progress=step.update,
-        )
+    runs = task.fly(steps, pose_rate=request.pose_rate)
     if request.many:
         return _many(request, task, runs, steps)
     if request.sample is not None or request.replay is not None:
@@ -237,20 +220,7 @@ def validated(request: Request, steps: Steps) -> Validation:
             sample=SampleRecord(seed=sample.seed, index=sample.index, values=sample.by_name),
         )
         return _kept(request, task, flown, found)
-    found = _validated(task, runs)
-    if task.detection is not None:
-        with steps.step("fly them with each drive stopping on the way") as step:
-            survival = fly_stopped(
-                task.robot,
-                task.device,
-                task.maneuvers,
-                task.detection,
-                options=flight_options(task.control),
-                references=task.references,
-                jumps=task.jumps,
-                progress=step.update,
-            )
-        found = replace(found, survival=survival)
+    found = replace(_validated(task, runs), survival=task.fly_stopped(steps))
     return _kept(request, task, runs, found)
 
 
@@ -329,17 +299,7 @@ def campaign_of(request: Request, task: Task, runs: Sequence[Run | ValidationRec
     if unclear := refusal(task.robot):
         raise OcsError(unclear, hint="name a link of the trunk whose z axis points up by --trunk")
     seed = request.stated.validation.seed
-    return make_campaign(
-        task.robot,
-        task.device,
-        task.maneuvers,
-        options=flight_options(task.control),
-        references=task.references,
-        jumps=task.jumps,
-        can_stand=[run.can_stand for run in runs if run.ocs],
-        uncertainty=Uncertainty.of(task.uncertainty, task.robot, task.device, task.detection),
-        seed=task.design.seed if seed is None else seed,
-    )
+    return task.campaign(runs, task.uncertainty, task.design.seed if seed is None else seed)
 
 
 def case_for(task: Task, path: Path) -> Case:
@@ -391,5 +351,5 @@ def write_flights(
             before = task.design.survival
             alone = None if before is None else before.mass_without
             design = replace(design, survival=replace(found.survival, mass_without=alone))
-        (staging / DESIGN_FILE).write_bytes(design_to_json(design))
+        (staging / DESIGN_FILE).write_bytes(to_json(design))
     return design

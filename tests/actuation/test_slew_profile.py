@@ -60,36 +60,26 @@ def test_the_motor_equation_gives_the_same_course(phi, lam, speed_max, final):
     times = np.sort(np.append(np.linspace(0.0, profile.end, 41), profile.brake_from))
     speed, angle = integrated(line, profile, times)
     np.testing.assert_allclose(profile.speed(times[:-1]), speed[:-1], rtol=1e-8, atol=1e-8)
-    np.testing.assert_allclose(profile.angle(times), angle, rtol=1e-8, atol=1e-8)
     assert speed[-1] == pytest.approx(final, abs=1e-8 * NO_LOAD)
     assert angle[-1] - final * profile.end == pytest.approx(phi, rel=1e-8)
     assert profile.peak_speed == pytest.approx(speed.max(), rel=1e-8)
 
 
 @pytest.mark.parametrize(("phi", "lam", "speed_max", "final"), CASES[::5])
-def test_switching_times_are_where_the_limits_meet(phi, lam, speed_max, final):
+def test_torque_is_the_limit_of_each_phase(phi, lam, speed_max, final):
     line = DriveLine(STALL, NO_LOAD, lam * STALL, speed_max)
     profile = slew_profile(phi, INERTIA, line, final)
-    switches = [
-        0.0,
-        profile.limited_until,
-        profile.coast_from,
-        profile.brake_from,
-        profile.brake_limited_until,
-        profile.end,
-    ]
-    assert (np.diff(switches) >= -1e-15).all()
-    middle = (np.array(switches[:-1]) + switches[1:]) / 2.0
+    switches = np.array([0.0, profile.coast_from, profile.brake_from, profile.end])
     lengths = np.diff(switches)
-    speed, torque = profile.speed(middle), profile.torque(middle)
+    assert (lengths >= -1e-15).all()
     limit = line.torque_limit
-    ahead, back = STALL * (1 - speed / NO_LOAD), -STALL * (1 + speed / NO_LOAD)
-    expected = [limit, ahead[1], 0.0, -limit, back[4]]
     for k in np.flatnonzero(lengths > 1e-9):
-        assert torque[k] == pytest.approx(expected[k], rel=1e-9, abs=1e-12)
-    assert (torque <= np.minimum(limit, ahead) + 1e-9).all()
-    assert (torque >= np.maximum(-limit, back) - 1e-9).all()
-    if lengths[2] > 0.0:
+        inside = switches[k] + lengths[k] * np.linspace(0.01, 0.99, 15)
+        speed, torque = profile.speed(inside), profile.torque(inside)
+        ahead, back = STALL * (1 - speed / NO_LOAD), -STALL * (1 + speed / NO_LOAD)
+        expected = [np.minimum(limit, ahead), 0.0 * ahead, np.maximum(-limit, back)][k]
+        np.testing.assert_allclose(torque, expected, rtol=1e-9, atol=1e-12)
+    if lengths[1] > 0.0:
         assert profile.peak_speed == pytest.approx(speed_max, rel=1e-14)
 
 
@@ -111,9 +101,6 @@ def test_before_and_after():
     end = float(profile.end)
     assert profile.speed([-1.0, end, end + 1.0]).tolist() == [0.0, 100.0, 100.0]
     assert profile.torque([-1.0, end, end + 1.0]).tolist() == [0.0, 0.0, 0.0]
-    angle = profile.angle([-1.0, end, end + 2.0])
-    assert angle[0] == 0.0
-    assert angle[2] - angle[1] == pytest.approx(200.0, rel=1e-13)
 
 
 def test_many_at_once_and_what_cannot_be_done():
@@ -121,8 +108,8 @@ def test_many_at_once_and_what_cannot_be_done():
     profile = slew_profile([20.0, 60.0, 60.0], INERTIA, line, [0.0, 0.0, 600.0])
     assert np.isnan(profile.end).tolist() == [False, False, True]
     times = np.linspace(0.0, 0.3, 7)[:, np.newaxis]
-    course = np.stack([profile.speed(times), profile.torque(times), profile.angle(times)])
-    assert course.shape == (3, 7, 3)
-    assert np.isnan(course[[0, 2], :, 2]).all()
+    course = np.stack([profile.speed(times), profile.torque(times)])
+    assert course.shape == (2, 7, 3)
+    assert np.isnan(course[0, :, 2]).all()
     alone = slew_profile(60.0, INERTIA, DriveLine(STALL, NO_LOAD, 1.0, 500.0))
-    np.testing.assert_allclose(profile.angle(times)[:, 1], alone.angle(times)[:, 0], rtol=1e-13)
+    np.testing.assert_allclose(profile.speed(times)[:, 1], alone.speed(times)[:, 0], rtol=1e-13)

@@ -124,7 +124,8 @@ def test_a_slew_about_pitch(pair, angle, rate):
     assert state[:2] == pytest.approx([0.0, -angle], abs=1e-8 * angle)
     assert state[4:6] == pytest.approx([0.0, 0.0], abs=1e-8)
     assert state[6:] == pytest.approx([float(profile.final_speed)] * 2, rel=1e-8, abs=1e-6)
-    turned = float(profile.angle(profile.end))
+    # What it sweeps beyond its final speed, and that speed all the time.
+    turned = float(load.angle(pair.spin_inertia) + profile.final_speed * profile.end)
     assert state[2:4] == pytest.approx([turned, turned], rel=1e-8)
 
 

@@ -10,6 +10,7 @@ from scipy.optimize import linprog
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_profile
+from ocs_design.actuation.spin_root import smallest_roots
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import (
     SlewReason,
@@ -18,6 +19,7 @@ from ocs_design.actuation.wheel_load import (
     held_by_each,
     slew_reason,
     smallest_spin_inertia,
+    spin_demand,
     wheel_slew_time,
     without_each,
 )
@@ -231,7 +233,7 @@ def test_a_gear_that_speeds_up_lets_time_rise_and_still_the_smallest_is_found():
     usual = np.minimum(smallest_spin_inertia(task, line), largest / 4.0)
     armature = -usual * rng.uniform(0.05, 0.5, count)
     least = -armature * rng.uniform(1.4, 3.0, count)
-    h = smallest_spin_inertia(task, line, armature, least)
+    (h,) = smallest_roots([spin_demand(task, line, armature, least)])
     step = (largest / least) ** (1.0 / (points - 1))
     grid = least * step ** np.arange(points)[:, np.newaxis]
     time = wheel_slew_time(task, grid, line, armature)
@@ -298,7 +300,7 @@ def test_roll_is_pitch_at_the_complement():
 def test_nothing_asked_and_no_time():
     nothing = WheelTask([0.0, 0.0], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair(0.6))
     assert smallest_spin_inertia(nothing, EC45) == 0.0
-    assert smallest_spin_inertia(nothing, EC45, least=3e-5) == 3e-5
+    assert smallest_roots([spin_demand(nothing, EC45, least=3e-5)])[0] == 3e-5
     assert wheel_slew_time(nothing, [0.0, 1e-4, INF], EC45).tolist() == [0.0, 0.0, 0.0]
     turn = WheelTask([0.0, 0.01], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair([0.6, 0.6, np.pi / 2]))
     assert np.isinf(wheel_slew_time(turn, [0.0, INF, 1e-4], EC45)).all()

@@ -22,8 +22,8 @@ MN5006 = replace(
 )
 
 
-def device(drive=MN5006, material="steel-4140-normalized"):
-    wheel = replace(PAPER_WHEEL, material=material, density=7833.0, spin_inertia=1e-4)
+def device(drive=MN5006):
+    wheel = replace(PAPER_WHEEL, density=7833.0, spin_inertia=1e-4)
     return replace(driven_device(drive=drive), flywheel=wheel)
 
 
@@ -43,15 +43,6 @@ def test_it_has_the_wheel_s_inertia_and_fits_the_bell():
     assert ring.beyond == pytest.approx(ring.mass - PAPER_WHEEL.mass)
 
 
-def test_its_bond_is_sheared_by_the_peak_torque():
-    """1.5 x 0.55 N m on 2 pi 27.9^2 x 11.25 mm: 15 kPa, and 0.7 um of growth apart."""
-    ring = ring_on_bell(device())
-    assert ring.shear == pytest.approx(0.825 / (2.0 * pi * 0.0279**2 * 0.01125))
-    assert ring.joint.margin > 100.0
-    assert 1e6 * ring.opening == pytest.approx(0.8, abs=0.2)
-    assert ring.stress < 621e6
-
-
 @pytest.mark.parametrize(
     "drive",
     [
@@ -64,9 +55,3 @@ def test_its_bond_is_sheared_by_the_peak_torque():
 )
 def test_without_a_bell_that_is_known_there_is_none(drive):
     assert ring_on_bell(device(drive)) is None
-
-
-def test_without_elastic_figures_it_is_only_weighed():
-    ring = ring_on_bell(device(material="stainless-paper"))
-    assert ring.opening is ring.stress is None
-    assert ring.mass > 0.0

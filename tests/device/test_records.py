@@ -11,15 +11,9 @@ from wheels import EC45, EC45_BODY, geared
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
+from ocs_design.common.files import to_json
 from ocs_design.device.device import NO_CARRIER
-from ocs_design.device.records import (
-    LARGEST,
-    Alternative,
-    Buildable,
-    OpenPoint,
-    design_to_json,
-    read_design,
-)
+from ocs_design.device.records import LARGEST, Alternative, Buildable, OpenPoint, read_design
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 """By `size examples/solo12.urdf --no-validate` of version 0.1.0, which knew no motors."""
@@ -43,7 +37,7 @@ def test_a_file_of_the_first_version_still_reads():
 def test_everything_that_it_held_is_still_there():
     """What is written again has the old fields with their values, and new ones beside them."""
     for path in (OLD, FLOWN):
-        old, new = json.loads(path.read_bytes()), json.loads(design_to_json(read_design(path)))
+        old, new = json.loads(path.read_bytes()), json.loads(to_json(read_design(path)))
         assert (old.pop("schema_version"), new["schema_version"]) == (1, 2)
         for margin in old["margins"]:
             margin["scenario"] = margin.pop("maneuver", "")
@@ -79,7 +73,7 @@ def test_a_document_of_this_version_comes_back_as_it_was(tmp_path):
         alternatives=(Alternative(change="any motor", mass_total=0.4, motor="X", note="n"),),
         buildable=Buildable(yes=False, open=(OpenPoint(what="w", cure="c"),)),
     )
-    (tmp_path / "design.json").write_bytes(design_to_json(design))
+    (tmp_path / "design.json").write_bytes(to_json(design))
     assert read_design(tmp_path / "design.json") == design
 
 
@@ -105,7 +99,7 @@ def test_a_real_motor_and_its_carrier_come_back(tmp_path):
     design = read_design(OLD)
     drive = replace(geared(3.0), torque_constant=0.0369, resistance=0.608, continuous_torque=0.38)
     motorised = replace(design, ocs=replace(design.ocs, motor=drive, carrier=EC45_BODY))
-    (tmp_path / "design.json").write_bytes(design_to_json(motorised))
+    (tmp_path / "design.json").write_bytes(to_json(motorised))
     again = read_design(tmp_path / "design.json").ocs
     assert (again.motor, again.carrier) == (drive, EC45_BODY)
     assert again.motor.speed_max == EC45.speed_max

@@ -46,6 +46,20 @@ def exported(product):
     return pinocchio_model((product.folder / "robot" / "solo12_ocs.urdf").read_text())
 
 
+@pytest.fixture(scope="module")
+def no_alternatives():
+    """`size` compares with no other device: a third of its time, where nothing is asked of it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("ocs_design.workflows.size.alternatives", lambda *_: ())
+        yield
+
+
+@pytest.fixture
+def no_files(monkeypatch):
+    """`size` writes its design and its report alone, where no part or robot is opened."""
+    monkeypatch.setattr("ocs_design.workflows.size.USUAL_FORMATS", ())
+
+
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """An empty working folder, where xacro is not installed."""

@@ -35,7 +35,7 @@ SIZED = {
 
 
 @pytest.fixture(scope="module", params=[pytest.param(k, marks=pytest.mark.slow) for k in SIZED])
-def sized(request, tmp_path_factory):
+def sized(request, tmp_path_factory, no_alternatives):
     """What `size` said, its design and its parts as meshes [m]."""
     out = tmp_path_factory.mktemp("bill") / "out"
     said = run("size", *SIZED[request.param], "--gear", "direct", "--no-validate", "-v", "-o", out)

@@ -40,6 +40,7 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
     assert again["validation"][0]["metrics"] == metrics
 
 
+@pytest.mark.usefixtures("no_alternatives")
 @pytest.mark.parametrize(
     ("factor", "rounds"), [(1.0, 1), pytest.param(1.05, 3, marks=pytest.mark.slow)]
 )

@@ -1,7 +1,7 @@
 """The demo needs no file, and opens its report where there is a screen."""
 
 import pytest
-from commands import environment, run, run_process
+from commands import BOUND, BY_HAND, environment, run, run_process
 
 from ocs_design.device.records import read_design
 
@@ -23,14 +23,12 @@ def test_the_demo_sizes_solo12_from_any_folder(tmp_path):
     assert "--force" in again.said
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("asked", [True, False])
-def test_the_report_is_opened_if_that_is_asked_for(asked, tmp_path, monkeypatch):
+def test_the_report_is_opened_if_that_is_asked_for(asked, no_files, tmp_path, monkeypatch):
     opened = []
     monkeypatch.setattr("webbrowser.open", lambda page: opened.append(page) or True)
     monkeypatch.setenv("DISPLAY", ":7")
-    by_hand = ("--mass", "2.5", "--inertia", "0.032,0.055,0.07", "--no-validate")
     flags = ("--open",) if asked else ()
-    done = run("size", *by_hand, "-q", "-o", tmp_path / "o", *flags)
+    done = run("size", *BY_HAND, *BOUND, "--no-validate", "-q", "-o", tmp_path / "o", *flags)
     assert (done.code, done.said.strip()) == (0, "")
     assert opened == ([(tmp_path / "o" / "report.html").as_uri()] if asked else [])

@@ -117,7 +117,7 @@ def check_same(found, expected):
 
 
 @pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.exhaustive)])
-def test_every_format_gives_the_same_design(folder, mjcf, motor):
+def test_every_format_gives_the_same_design(folder, no_files, mjcf, motor):
     text = Path(SOLO12).read_bytes()
     (folder / "a.urdf.gz").write_bytes(gzip.compress(text))
     (folder / "robot").write_text(mjcf)
@@ -154,7 +154,7 @@ def test_the_exported_robot_can_be_read_again(folder, motor):
         assert "rename" in again.document["error"]["hint"]
 
 
-def test_by_hand_the_same_inertia_gives_the_same_design(folder):
+def test_by_hand_the_same_inertia_gives_the_same_design(folder, no_files):
     """Without legs there is no standing height to scale maneuvers and room by: both are stated.
 
     By hand the base frame lies in the centre of mass, so that the same place has other coordinates.
@@ -205,7 +205,7 @@ def check_inertia(document, solo12, joints, link="base_link"):
     assert alone == pytest.approx(equal_rate(inertia), abs=1e-9)
 
 
-def test_postures_are_what_is_asked_for(folder, solo12):
+def test_postures_are_what_is_asked_for(folder, no_files, solo12):
     zero = design(SOLO12, "--posture", "zero", "-o", "zero")
     check_inertia(zero, solo12, {})
     assert zero["robot"]["posture_name"] == "zero"
@@ -226,7 +226,7 @@ def test_another_trunk_has_its_own_frame(folder, solo12):
     assert urdf.count('<parent link="HL_UPPER_LEG"/>') == 3
 
 
-def test_a_keyframe_by_name(folder, solo12, mjcf):
+def test_a_keyframe_by_name(folder, no_files, solo12, mjcf):
     (folder / "solo12.xml").write_text(mjcf)
     found = design("solo12.xml", "--posture", "crouch", "-o", "crouch")
     names = list(solo12.model.names)[2:]
@@ -234,7 +234,7 @@ def test_a_keyframe_by_name(folder, solo12, mjcf):
     assert found["robot"]["posture_name"] == "crouch"
 
 
-def test_an_srdf_state_by_name(folder, solo12):
+def test_an_srdf_state_by_name(folder, no_files, solo12):
     (folder / "solo12.urdf").write_bytes(Path(SOLO12).read_bytes())
     (folder / "solo12.srdf").write_text(
         '<robot name="solo12"><group_state name="kneel" group="legs">'

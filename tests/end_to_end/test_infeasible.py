@@ -51,7 +51,7 @@ def refused(*typed):
         for index, (name, limits) in enumerate(TOO_TIGHT.items())
     ],
 )
-def test_what_the_hint_proposes_works_as_it_is_printed(folder, limits, robot_given):
+def test_what_the_hint_proposes_works_as_it_is_printed(folder, no_files, limits, robot_given):
     error = refused(*robot_given, *limits, *WHEELS_ALONE)
     assert error["binding"]
     assert error["largest_spin_inertia"] < error["required_spin_inertia"]
@@ -150,6 +150,7 @@ MORE = {
     ],
 )
 @pytest.mark.exhaustive
+@pytest.mark.usefixtures("no_alternatives", "no_files")
 def test_what_the_hint_proposes_for_a_motor_works_as_it_is_printed(folder, limits):
     told = run("size", *BY_HAND, *ONE_DRIVE, *limits)
     assert told.code == 4

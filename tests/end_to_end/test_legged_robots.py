@@ -99,19 +99,21 @@ def test_a_humanoid_carries_them_on_its_back(tmp_path):
 
 
 def check_refusal(error):
-    """What is missing, with figures, and which motor would do."""
-    assert (error["kind"], error["binding"]) == ("infeasible", ["torque"])
-    told = re.search(
-        r"None of \d+ motors .*: ([\d.]+) s at best for .*, ([\d.]+) s given", error["message"]
-    )
-    assert told, error["message"]
-    assert float(told[1]) > float(told[2])
+    """What is missing, with figures, and what would do."""
+    assert error["kind"] == "infeasible"
+    assert re.search(r"None of \d+ motors can do it", error["message"])
+    told = re.search(r": ([\d.]+) s at best for .*, ([\d.]+) s given", error["message"])
+    if told:
+        assert float(told[1]) > float(told[2])
+    else:
+        # The robot with a mast is turned in time, but not with the device as well.
+        assert re.match(r"With the [\d.]+ kg that hold it on the trunk: ", error["message"])
     needed = re.search(
         r"A motor of about ([\d.]+) N m peak torque and ([\d,]+) rpm without load at (\d+) V, "
         r"of at most ([\d.]+) kg, would do\.",
         error["hint"],
     )
-    assert needed, error["hint"]
+    assert needed or error["relaxations"]["time"] > 1.0
 
 
 def check_proof(name, out, code, document):

@@ -24,7 +24,7 @@ duration = "0.05 s"
 
 
 @pytest.fixture(scope="module")
-def sized(tmp_path_factory):
+def sized(tmp_path_factory, no_alternatives):
     """What `size` said, and the files of a design that was pushed in the air."""
     folder = tmp_path_factory.mktemp("pushed")
     (folder / "push.toml").write_text(UNPLANNED)
@@ -180,6 +180,7 @@ DRAWN = (
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("no_alternatives")
 @pytest.mark.parametrize("options", DRAWN, ids=["by hand", "little power", "little voltage"])
 def test_no_flight_of_other_designs_asks_for_more_than_is_stated(options, tmp_path):
     said = run("size", *options, "--gear", "direct", "-q", "-o", tmp_path / "out")

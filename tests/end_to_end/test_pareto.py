@@ -53,7 +53,7 @@ def test_a_point_s_specification_makes_that_very_device(written):
         assert vars(again) == point["device"]
 
 
-def test_size_makes_the_device_of_a_point(written, tmp_path):
+def test_size_makes_the_device_of_a_point(written, no_alternatives, no_files, tmp_path):
     result, folder = written
     point = result.document["points"][1]
     sized = run(
@@ -71,11 +71,6 @@ def test_size_makes_the_device_of_a_point(written, tmp_path):
     assert sum(first[part] for part in parts) == pytest.approx(first["mass"], rel=1e-12)
     # Solo12's trunk is too narrow for both feet.
     assert first["plate_mass"] > 0.02
-    assert all(
-        each["note"] == "saves nothing" or each["mass_total"] < first["mass"]
-        for each in design["alternatives"]
-        if "bonded" not in each["change"]
-    )
 
 
 def test_a_criterion_for_the_incidence_holds_in_every_point():

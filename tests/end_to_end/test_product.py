@@ -13,7 +13,8 @@ from commands import SOLO12, everything_in
 from exported import check_moments, check_wheels_in_pinocchio
 from products import FILES, composite, with_modules
 
-from ocs_design.device.records import design_to_json, read_design
+from ocs_design.common.files import to_json
+from ocs_design.device.records import read_design
 
 # INTERFACE: the fields that scripts and other programs rely on.
 SCHEMA = {
@@ -69,7 +70,13 @@ def test_hashes_are_those_of_the_files(product, document):
 
 def test_the_design_reads_back_as_it_was_written(product):
     path = product.folder / "design.json"
-    assert design_to_json(read_design(path)) == path.read_bytes()
+    assert to_json(read_design(path)) == path.read_bytes()
+
+
+def test_what_is_offered_as_lighter_is_lighter(document):
+    for each in document["alternatives"]:
+        if each["note"] != "saves nothing" and "bonded" not in each["change"]:
+            assert each["mass_total"] < document["ocs"]["mass_total"], each
 
 
 def test_axes_follow_from_the_incidence(document, device):

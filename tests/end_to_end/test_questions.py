@@ -50,6 +50,7 @@ def test_there_are_sixteen_and_none_needs_a_file_of_its_own():
     assert not any("--spec" in command for command in commands)
 
 
+@pytest.mark.usefixtures("no_alternatives", "no_files")
 @pytest.mark.parametrize("question", list(questions()))
 def test_a_question_has_its_answer(question, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

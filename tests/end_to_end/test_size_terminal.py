@@ -97,7 +97,7 @@ def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_jumps_start_on_the_ground(tmp_path):
+def test_jumps_start_on_the_ground(tmp_path, no_alternatives, no_files):
     result = run("size", SOLO12, "-o", tmp_path / "out", "--json")
     assert result.code == 0
     for record in result.document["validation"]:

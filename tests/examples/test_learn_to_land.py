@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from stories import design
 
-from ocs_design.device.records import design_to_json
+from ocs_design.common.files import to_json
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "learn_to_land.py"
 
@@ -17,7 +17,7 @@ def example(tmp_path):
     spec = importlib.util.spec_from_file_location("learn_to_land", EXAMPLE)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    (tmp_path / "design.json").write_bytes(design_to_json(design()))
+    (tmp_path / "design.json").write_bytes(to_json(design()))
     module.begin(str(tmp_path))
     return module
 

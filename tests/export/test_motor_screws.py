@@ -9,8 +9,9 @@ from wheels import EC45, PAPER_WHEEL, driven_device
 
 from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Mounting
 from ocs_design.catalogue.motors import motor
+from ocs_design.common.files import to_json
 from ocs_design.device.device import Web
-from ocs_design.device.records import design_to_json, read_design
+from ocs_design.device.records import read_design
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_rows, export_bill_of_materials
 from ocs_design.export.device_parts import printed_parts, wheel_geometry
@@ -107,7 +108,7 @@ def test_the_wheel_is_drilled_for_the_motor():
 def test_mounting_comes_back_from_the_design_file(tmp_path):
     design, device = read_design(OLD), device_on(MN5212.mounting)
     ocs = replace(design.ocs, motor=device.motor, flywheel=device.flywheel)
-    (tmp_path / "design.json").write_bytes(design_to_json(replace(design, ocs=ocs)))
+    (tmp_path / "design.json").write_bytes(to_json(replace(design, ocs=ocs)))
     again = read_design(tmp_path / "design.json").ocs
     assert again.motor.mounting == MN5212.mounting
     assert again.flywheel == device.flywheel

@@ -15,26 +15,32 @@ from ocs_design.export.folder import staged_folder
 from ocs_design.export.staging import clear_leftovers, remove_unfinished
 
 REPLACE = """
-    import os, signal, sys
+    import ctypes, fcntl, os, signal, sys
     from pathlib import Path
     from ocs_design.export import folder
-    seen = 0
-    def kill_at(event, arguments):
-        global seen
-        if event.startswith(("open", "os.", "shutil.", "ctypes.", "fcntl.")):
-            seen += 1
-            if seen == int(sys.argv[1]):
-                os.kill(os.getpid(), signal.SIGKILL)
+    def replace(moment):
+        seen = 0
+        def kill_at(event, arguments):
+            nonlocal seen
+            if event.startswith(("open", "os.", "shutil.", "ctypes.", "fcntl.")):
+                seen += 1
+                if seen == moment:
+                    os.kill(os.getpid(), signal.SIGKILL)
+        sys.addaudithook(kill_at)
+        with folder.staged_folder(Path("out"), force=True) as staging:
+            for name in ("cad", "design.json"):
+                (staging / name).write_text("new")
     if "aside" in sys.argv:
         folder.exchange = lambda one, other: False
-    import ctypes, fcntl
-    sys.addaudithook(kill_at)
-    with folder.staged_folder(Path("out"), force=True) as staging:
-        for name in ("cad", "design.json"):
-            (staging / name).write_text("new")
-    print("done")
+    for line in sys.stdin:
+        if not (child := os.fork()):
+            replace(int(line))
+            os._exit(0)
+        print(os.waitpid(child, 0)[1], flush=True)
 """
-"""Replaces a folder, and ends by force at the n-th thing that it asks of the system."""
+"""For each number n that it reads a process replaces a folder, and ends by force at the n-th thing
+that it asks of the system; 0 is printed of the one that comes to the end.
+"""
 
 
 def make_output(folder, text="old"):
@@ -52,23 +58,21 @@ OLD, NEW = ({"cad": text, DESIGN_FILE: text} for text in ("old", "new"))
 
 def killed_at_each(folder, *how):
     """What stands there after a kill at each moment, and after clearing up."""
-    program = textwrap.dedent(REPLACE)
-    for moment in range(1, 100):
-        if not (folder / "out").exists():
-            make_output(folder / "out")
-        done = subprocess.run(
-            [sys.executable, "-c", program, str(moment), *how],
-            cwd=folder,
-            stdout=subprocess.PIPE,
-            check=False,
-        )
-        at_once = texts(folder / "out") if (folder / "out").exists() else None
-        clear_leftovers(folder / "out")
-        yield at_once, texts(folder / "out"), everything_in(folder)
-        if done.stdout == b"done\n":
-            return
-        for path in (folder / "out").iterdir():
-            path.write_text("old")
+    command = [sys.executable, "-c", textwrap.dedent(REPLACE), *how]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, cwd=folder, **pipes) as process:
+        for moment in range(1, 100):
+            if not (folder / "out").exists():
+                make_output(folder / "out")
+            print(moment, file=process.stdin, flush=True)
+            status = int(process.stdout.readline())
+            at_once = texts(folder / "out") if (folder / "out").exists() else None
+            clear_leftovers(folder / "out")
+            yield at_once, texts(folder / "out"), everything_in(folder)
+            if status == 0:
+                return
+            for path in (folder / "out").iterdir():
+                path.write_text("old")
 
 
 WHOLE = ["out", "out/cad", f"out/{DESIGN_FILE}"]

@@ -13,7 +13,7 @@ from stories import design
 import ocs_design.gym
 from ocs_design import OcsError
 from ocs_design.common.errors import MissingToolError, UsageError
-from ocs_design.device.records import design_to_json
+from ocs_design.common.files import to_json
 from ocs_design.gym import ENVIRONMENT
 from ocs_design.gym.environment import OcsFlight
 from ocs_design.monte_carlo.campaign import fly_samples, metrics_of
@@ -22,7 +22,7 @@ from ocs_design.monte_carlo.campaign import fly_samples, metrics_of
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("designed")
-    (folder / "design.json").write_bytes(design_to_json(design()))
+    (folder / "design.json").write_bytes(to_json(design()))
     return folder
 
 
@@ -68,7 +68,7 @@ def test_under_the_law_an_episode_is_the_flight_of_that_sample(flight, maneuver)
 
 @pytest.mark.slow
 def test_three_wheels_fly_as_in_the_campaign(tmp_path):
-    (tmp_path / "design.json").write_bytes(design_to_json(design(layout="triad")))
+    (tmp_path / "design.json").write_bytes(to_json(design(layout="triad")))
     env = OcsFlight(tmp_path, maneuver="drop")
     assert env.action_space.shape == (3,)
     assert env.observation_space.shape == (14,)
@@ -120,7 +120,7 @@ def test_what_cannot_be_flown_is_told(flight, folder, tmp_path):
         OcsFlight(folder, maneuver="somersault")
     with pytest.raises(UsageError, match="somersault"):
         flight.reset(options={"maneuver": "somersault"})
-    (tmp_path / "design.json").write_bytes(design_to_json(design("none")))
+    (tmp_path / "design.json").write_bytes(to_json(design("none")))
     assert design("none").ocs.motor.name != MOTOR
     with pytest.raises(OcsError, match="no motor"):
         OcsFlight(tmp_path)

@@ -15,6 +15,7 @@ from ocs_design.catalogue.motors import motors
 from ocs_design.parts.joints import (
     FRICTION,
     SERVICE,
+    Grade,
     Ring,
     TurningRings,
     correction,
@@ -29,7 +30,7 @@ from ocs_design.parts.joints import (
     slip_fit_eccentricity,
     stress_area,
     tightening_torque,
-    tolerance,
+    tolerance_width,
 )
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.rim import hoop_stress
@@ -251,7 +252,9 @@ def test_a_shaft_carries_by_shear_on_its_surface():
 
 
 def test_a_slip_fit_of_62_mm_may_be_24_um_off_centre():
-    assert (tolerance(0.062, 7), tolerance(0.062, 6)) == pytest.approx((30e-6, 19e-6))
+    assert (tolerance_width(0.062, Grade.IT7), tolerance_width(0.062, Grade.IT6)) == pytest.approx(
+        (30e-6, 19e-6)
+    )
     assert slip_fit_eccentricity(0.062) == pytest.approx(24e-6, abs=1e-6)
 
 

@@ -11,7 +11,7 @@ import pytest
 from fronts import by_hand, infeasible, make_front
 from rich.console import Console
 
-from ocs_design.device.answers import to_json
+from ocs_design.common.files import to_json
 from ocs_design.report.charts.chart import Points
 from ocs_design.report.charts.files import png_file
 from ocs_design.report.charts.front import COLUMNS, front_chart, front_csv, write_front

@@ -20,8 +20,8 @@ from ocs_design.sizing.design import design_device
 
 ABOUT = 0.015
 """To which the figures are good: the reserve of the device as it stands is kept."""
-MOTORS = "Antigravity MN5006 KV450, MN4014 KV400"
-"""Two, so that it is quick."""
+MOTORS = "MN4014 KV400"
+"""One, so that it is quick."""
 
 
 @cache

@@ -1,5 +1,6 @@
 """What feet stand on: contact in closed form on a box, plates on trunks that are too narrow."""
 
+import re
 from dataclasses import replace
 from itertools import combinations, product
 from math import acos, pi, sqrt
@@ -13,6 +14,8 @@ from hypothesis import strategies as st
 from robots import ROBOTS
 from wheels import driven_device
 
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.errors import Infeasible
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
@@ -32,9 +35,19 @@ from ocs_design.parts.part import Part
 from ocs_design.parts.shapes import Rectangle
 from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder
 from ocs_design.requirement.froude import default_envelope
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.specification import (
+    OcsSection,
+    RequirementSection,
+    RobotSection,
+    Specification,
+)
+from ocs_design.requirement.words import Tilt
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing import (
     FLATNESS,
     contacts_of,
@@ -403,5 +416,37 @@ def test_where_nothing_stands_on_top_a_mast_carries_it(column, name):
         x, y, z = place.position + np.array(plate.position)
         assert (x, abs(z) < 0.15, abs(y) < 0.07) == (pytest.approx(-0.06), True, True)
     assert max(module.position[0] for module in device.modules) < -0.06
-    # What is too narrow for two screws side by side holds nothing.
-    assert stand_on_trunk(replace(device, plate=None), column(0.01), stated=False).plate is None
+
+
+def falling(height, robot):
+    """The device that levels out a column that falls so far at 30 degrees [m]."""
+    asked = RequirementSection(fall=(height,), tilt=(Tilt(0.0, pi / 6.0),))
+    specification = Specification(
+        robot=RobotSection(file=robot.source, trunk="base"),
+        requirement=asked,
+        ocs=OcsSection(layout="pair", alpha_criterion="lightest"),
+    )
+    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    return resolved, design_device(specification, robot, resolved, advise=False)
+
+
+def test_what_cannot_carry_its_mast_is_refused(column):
+    """And what is sized turns its mast as well in the time that it has."""
+    robot = column()
+    with pytest.raises(Infeasible) as caught:
+        falling(0.62, robot)
+    held = re.match(r"With the (.*) kg that hold it on the trunk: None of", caught.value.message)
+    assert float(held[1]) == pytest.approx(caught.value.problem.robot.mass - robot.mass, rel=1e-3)
+    resolved, found = falling(0.66, robot)
+    whole, (fall,) = found.sized.total, resolved.requirement.maneuvers
+    height = resolved.requirement.standing_height
+    assert whole.mass == pytest.approx(robot.mass + found.device.mass)
+    assert found.device.plate.mast is not None
+    # Half of the way is sped up, half slowed down, by no more than the motors' peak torque.
+    time = fall.slew(TiltInertia.uncoupled(np.diag(whole.inertia)[:2]), height).duration
+    torque = 2.0 * np.cos(found.device.incidence) * found.choice.chosen.motor.peak_torque
+    assert time >= 2.0 * sqrt(whole.inertia[1, 1] * pi / 6.0 / torque)
+
+
+def test_a_back_too_narrow_for_two_screws_side_by_side_holds_no_mast(column):
+    assert stand_on_trunk(DEVICE, column(0.01), stated=False).plate is None

@@ -8,7 +8,7 @@ import pytest
 from fronts import by_hand, infeasible, made_up, make_front
 
 from ocs_design.common.errors import Infeasible, QuantityError, SpecificationError, UsageError
-from ocs_design.device.answers import to_json
+from ocs_design.common.files import to_json
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.specification import RequirementSection, Specification
 from ocs_design.requirement.sweep import SWEEPS

@@ -10,7 +10,8 @@ from exported import LEGGED, LEGGED_PATHS
 from robots import ROBOTS
 
 from ocs_design.common.errors import OcsError, RobotError
-from ocs_design.device.records import ManeuverRecord, RobotRecord, design_to_json, read_design
+from ocs_design.common.files import to_json
+from ocs_design.device.records import ManeuverRecord, RobotRecord, read_design
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
@@ -99,7 +100,7 @@ def test_a_device_comes_back_to_the_last_digit(tmp_path, motor):
     design = record_design(
         task.robot, task.resolved, made, (), plans={}, mounting=None, seed=0, files={}
     )
-    (tmp_path / "design.json").write_bytes(design_to_json(design))
+    (tmp_path / "design.json").write_bytes(to_json(design))
     read, device = read_design(tmp_path / "design.json"), made.device
     again = device_of(read.ocs, read.supply)
     for name in ("incidence", "flywheel", "motor", "carrier", "supply"):

@@ -34,6 +34,9 @@ def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(rounds, tmp
     full = maneuver.loop_length
     monkeypatch.setattr(maneuver, "loop_length", lambda heading: 0.6 * full(heading))
     monkeypatch.setattr(size, "TURN_ROUNDS", rounds)
+    # What else could be built is not asked, nor any part.
+    monkeypatch.setattr(size, "alternatives", lambda *_: ())
+    monkeypatch.setattr(size, "USUAL_FORMATS", ())
     told = []
     outcome = size.design_ocs(
         QUARTER, out=tmp_path / "x", progress=lambda name, _part: told.append(name)

@@ -23,7 +23,6 @@ from ocs_design.device.joints import (
     joints_of,
     resonances_of,
     rim_fit,
-    top_speed,
 )
 from ocs_design.device.layout import PAIR
 from ocs_design.device.naming import joint_name
@@ -165,7 +164,7 @@ class Assembly:
     @cached_property
     def top_speed(self) -> float | None:
         """Highest that motor, voltage and gear let the wheel reach [rad/s]; None: not limited."""
-        speed = top_speed(self.device)
+        speed = self.device.motor.top_speed
         return speed if math.isfinite(speed) else None
 
     @cached_property

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ocs_design.device import joints
 from ocs_design.export.drawing.dimensioning import LEADING
 from ocs_design.export.drawing.sheet import (
     CENTRE,
@@ -29,12 +30,11 @@ from ocs_design.export.drawing.wheel import (
     Seat,
     WheelDrawing,
     lost_by_breaking,
-    permissible_eccentricity,
-    permissible_unbalance,
     plain,
     rim_inertia_error,
     seat,
 )
+from ocs_design.parts.joints import GRADE
 from ocs_design.parts.wheel import Wheel
 
 _, _, RIGHT, BOTTOM = FRAME_BOX
@@ -55,7 +55,7 @@ NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
 NUMBER_WIDTH = 5.0
 """Width of a note's number before its text [mm]."""
 
-RUN_OUT = 0.05
+RUN_OUT = 1e3 * joints.RUN_OUT
 """Permissible run-out of the rim to the bore [mm]."""
 
 
@@ -175,13 +175,13 @@ def notes(drawing: WheelDrawing) -> list[Item]:
 
 def _sentences(drawing: WheelDrawing) -> Iterator[str]:
     wheel = drawing.wheel
-    balance = f"Balance grade G~{drawing.grade:g} (ISO~21940-11)"
+    balance = f"Balance grade G~{GRADE:g} (ISO~21940-11)"
     if drawing.speed is None:
         yield f"{balance} at the highest speed in service."
     else:
         mass, rpm = sum(drawing.masses), drawing.speed * 30.0 / math.pi
-        unbalance = 1e6 * permissible_unbalance(mass, drawing.grade, drawing.speed)
-        eccentricity = 1e6 * permissible_eccentricity(drawing.grade, drawing.speed)
+        eccentricity = 1e6 * joints.permissible_eccentricity(drawing.speed)
+        unbalance = mass * eccentricity
         yield (
             f"{balance} at {rpm:.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
             f"(e~=~{eccentricity:.3g}~µm), in one plane."

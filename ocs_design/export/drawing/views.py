@@ -31,7 +31,6 @@ from ocs_design.export.drawing.sheet import (
     outline,
 )
 from ocs_design.export.drawing.wheel import (
-    Grade,
     diameter,
     diameters,
     holes,
@@ -39,6 +38,7 @@ from ocs_design.export.drawing.wheel import (
     toleranced,
     widest,
 )
+from ocs_design.parts.joints import Grade
 from ocs_design.parts.wheel import HoleRing, Wheel
 
 AXIS_Y = 82.0

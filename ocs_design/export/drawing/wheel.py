@@ -3,33 +3,19 @@
 Tolerances of sizes are those of ISO 286-1, table 1; balance is that of rigid rotors, ISO 21940-11.
 """
 
-from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 from math import isinf
 
+from ocs_design.parts.joints import Grade, tolerance_width
 from ocs_design.parts.part import total
 from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
 from ocs_design.robot.mass import MassProperties
 
-FLYWHEEL_GRADE = 6.3
-"""Balance quality grade G 6.3 [mm/s], which the standard's table gives for flywheels."""
-
 BROKEN_EDGE = 0.2e-3
 """Width of edges without indication, at 45 degrees [m]."""
-
-_STEPS_MM = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000)
-"""Upper ends of the steps of nominal sizes [mm]."""
-
-
-class Grade(Enum):
-    """Widths of the tolerance interval over the steps of nominal sizes [um]."""
-
-    IT7 = (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63, 70, 80, 90)
-    IT9 = (25, 30, 36, 43, 52, 62, 74, 87, 100, 115, 130, 140, 155, 175, 200, 230)
-    IT11 = (60, 75, 90, 110, 130, 160, 190, 220, 250, 290, 320, 360, 400, 440, 500, 560)
 
 
 class Seat(Enum):
@@ -50,7 +36,6 @@ class WheelDrawing:
         identity: of the design, such as the beginning of its hash.
         tool: program and version.
         speed: highest in service [rad/s]; None: not limited.
-        grade: of balance [mm/s].
         interference: of a rim that is shrunk on, least and largest over the diameter [m]; None:
             there is none, or it is not known.
     """
@@ -60,7 +45,6 @@ class WheelDrawing:
     identity: str
     tool: str
     speed: float | None
-    grade: float = FLYWHEEL_GRADE
     interference: tuple[float, float] | None = None
 
     @cached_property
@@ -86,30 +70,9 @@ def widest(wheel: Wheel) -> float:
     return max(wheel.rim.height, 0.0 if wheel.hub is None else wheel.hub.height)
 
 
-def tolerance_width(size: float, grade: Grade) -> float:
-    """Width of the tolerance interval of a nominal size [m]; sizes above 1 m as 1 m."""
-    step = bisect_left(_STEPS_MM, round(1e3 * size, 9))
-    return 1e-6 * grade.value[min(step, len(_STEPS_MM) - 1)]
-
-
 def plus_minus(size: float, grade: Grade) -> float:
     """Half the tolerance width, rounded down to 0.01 mm and at least that [m]."""
     return 1e-5 * max(1.0, (1e5 * tolerance_width(size, grade) / 2.0 + 1e-9) // 1.0)
-
-
-def permissible_eccentricity(grade: float, speed: float) -> float:
-    """Permissible distance of the centre of mass from the axis, e_per = G / w [m].
-
-    Args:
-        grade: G, the speed of the centre of mass [mm/s], which names the grade.
-        speed: highest in service [rad/s].
-    """
-    return 1e-3 * grade / speed
-
-
-def permissible_unbalance(mass: float, grade: float, speed: float) -> float:
-    """Permissible unbalance U_per = e_per m [kg m] of a rotor of that mass [kg]."""
-    return mass * permissible_eccentricity(grade, speed)
 
 
 def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:

@@ -17,7 +17,6 @@ from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.export.drawing.writers import pdf_bytes, svg_bytes
 from ocs_design.export.drilling import write_drilling
-from ocs_design.export.module_bodies import highest_speed
 
 if TYPE_CHECKING:
     from ocs_design.export.formats import Notes, Subject
@@ -41,7 +40,7 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         device: that the wheel belongs to.
         robot: its name.
     """
-    speed, fit = highest_speed(device.motor), rim_fit(device)
+    speed, fit = device.motor.top_speed, rim_fit(device)
     return WheelDrawing(
         wheel=wheel_geometry(device.flywheel),
         robot=robot,

@@ -1,7 +1,6 @@
 """Charts as files: SVG, and PNG for slides and documents that take no SVG."""
 
 from collections.abc import Sequence
-from importlib.resources import as_file
 from pathlib import Path
 
 from ocs_design.common.errors import MissingToolError
@@ -51,14 +50,13 @@ def png_file(chart: Chart) -> bytes:
             "figures are not written as PNG, because resvg-py is not installed",
             hint=extra_command("plot"),
         ) from error
-    with as_file(template_file(_FONTS[0])) as regular, as_file(template_file(_FONTS[1])) as bold:
-        return bytes(
-            svg_to_bytes(
-                svg_string=svg_file(chart).decode(),
-                zoom=_ZOOM,
-                font_files=[str(regular), str(bold)],
-                font_family=_FAMILY,
-                sans_serif_family=_FAMILY,
-                skip_system_fonts=True,
-            )
+    return bytes(
+        svg_to_bytes(
+            svg_string=svg_file(chart).decode(),
+            zoom=_ZOOM,
+            font_files=[str(template_file(font)) for font in _FONTS],
+            font_family=_FAMILY,
+            sans_serif_family=_FAMILY,
+            skip_system_fonts=True,
         )
+    )

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.answers import Front, FrontPoint, to_json
+from ocs_design.common.files import to_json
+from ocs_design.device.answers import Front, FrontPoint
 from ocs_design.device.records import ReserveRecord
 from ocs_design.export.folder import FRONT_FILE, staged_folder
 from ocs_design.report.charts.chart import SERIES, Chart, Ink, Line, Mark, Points, Rule

@@ -9,7 +9,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.answers import Front, Validated
 from ocs_design.device.records import OcsDesign, ValidationRecord
 from ocs_design.export.png import png_bytes
-from ocs_design.report.bodies import read_bodies
+from ocs_design.report.bodies import read_bodies, still
 from ocs_design.report.charts.front import front_chart
 from ocs_design.report.charts.momentum import ellipsoid_chart
 from ocs_design.report.charts.svg import svg_file
@@ -20,7 +20,6 @@ from ocs_design.report.monte_carlo import campaign_title, certificate_line, succ
 from ocs_design.report.quantities import grams
 from ocs_design.report.table import Table, columns
 from ocs_design.report.verdict import Headline, flights_headline, headline
-from ocs_design.report.viewer.still import still
 
 _WIDTH = "420"
 """Width of a picture [px]."""

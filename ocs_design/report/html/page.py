@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.common.files import to_json
 from ocs_design.device.layout import PAIR
-from ocs_design.device.records import OcsDesign, design_to_json
+from ocs_design.device.records import OcsDesign
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.export.templates import template_text
 from ocs_design.report.charts.figures import scenario_charts
@@ -112,7 +113,7 @@ def _body(story: Story) -> Iterator[Markup]:
         sections.assembly_section(story),
         sections.record_section(story),
     )
-    yield data("design", design_to_json(design).decode())
+    yield data("design", to_json(design).decode())
     yield view_data(story, bodies, scenarios)
 
 

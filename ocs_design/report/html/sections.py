@@ -13,13 +13,13 @@ from ocs_design.export.assembly.booklet import exploded_svg, section_svg
 from ocs_design.export.assembly.content import Assembly, Chapter
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
-    Grade,
     bore_diameter,
     plain,
     rim_diameter,
     rim_inertia_error,
     toleranced,
 )
+from ocs_design.parts.joints import Grade
 from ocs_design.report import limits, selection, warnings
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.figures import drive_charts, incidence_charts, reserve_charts

@@ -5,11 +5,11 @@ import json
 from collections.abc import Iterator, Sequence
 
 from ocs_design.export.png import png_bytes
-from ocs_design.report.bodies import ShownBody
+from ocs_design.export.snapshot import HEIGHT, WIDTH
+from ocs_design.report.bodies import ShownBody, still
 from ocs_design.report.html.elements import Markup, data, element, joined, void
 from ocs_design.report.story import Story
 from ocs_design.report.viewer.encoding import Blob, encoded_scene
-from ocs_design.report.viewer.still import HEIGHT, WIDTH, still
 
 _LOOKS = (
     ("Oblique", "home"),

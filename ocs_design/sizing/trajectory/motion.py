@@ -21,7 +21,7 @@ from ocs_design.sizing.trajectory.collocation import (
     bernstein_basis,
     collocation,
 )
-from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
 
 _INSIDE = 1e-6
 """How far inside an interval its ends are read: torques may jump from one to the next."""
@@ -30,6 +30,9 @@ _EVEN = 0.4
 """Share of refined intervals that is spread evenly over the time."""
 
 _SAMPLES = 16
+
+UNEVEN = 0.2
+"""Difference between wheels of an uneven first guess, over their largest speed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +75,31 @@ class Motion:
         coefficients = self.torques.reshape(wheels, count, TORQUE_DEGREE + 1)
         values: FloatArray = np.einsum("ikj,sj->ksi", coefficients, bernstein_basis(s))
         return values.reshape(count * len(s), wheels)
+
+    def uneven(self, gyrostat: Gyrostat) -> "Motion":
+        """Nearly the same motion by wheels that do not all do alike.
+
+        Where layout and turn are alike to both sides, wheels that do alike are a saddle of the peak
+        power, which a search takes long to leave: less is needed where they brake in turn. What
+        does not move the trunk is left to the wheels at the end, else taken back.
+        """
+        wheels = len(self.torques)
+        each = -np.arange(wheels) / wheels
+        idle = each - np.linalg.pinv(gyrostat.axes, rcond=OUT_OF_REACH) @ gyrostat.axes @ each
+        stays = bool(np.abs(idle).max() > OUT_OF_REACH)
+        most = UNEVEN * np.abs(self.states[4 : 4 + wheels]).max()
+        speeds = most * (idle / np.abs(idle).max() if stays else each)
+        time = self.lengths.sum()
+        starts, lengths = self.starts[:, None] / time, self.lengths[:, None] / time
+        s = np.append(0.0, (starts + lengths * collocation().nodes[1:]).ravel())
+        at = (starts + lengths * np.array([0.0, 0.5, 1.0])).ravel()
+        share, slope = (s**2, 2.0 * at) if stays else (s**2 * (1.0 - s), 2.0 * at - 3.0 * at**2)
+        # The parabola through its values at both ends and in the middle.
+        slope[1::3] = 2.0 * slope[1::3] - (slope[0::3] + slope[2::3]) / 2.0
+        states, driven = self.states.copy(), gyrostat.spin_inertia + gyrostat.armature
+        states[4 : 4 + wheels] += np.outer(speeds, share)
+        torques = self.torques + np.outer(driven * speeds / time, slope)
+        return Motion(self.lengths, states, torques)
 
     def onto(self, lengths: FloatArray) -> "Motion":
         """Nearly the same motion on other intervals."""

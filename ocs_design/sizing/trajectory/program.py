@@ -11,10 +11,11 @@ maneuver as an optimal control problem). About a pivot gravity changes the momen
 H_0_dot = m g l x e in the world, and it is part of the state.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property, lru_cache
 from math import isfinite
+from threading import Lock
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -82,6 +83,9 @@ POWER_EFFORT = 0.2
 The power alone would have the torque at its limit wherever the wheels are slow."""
 
 _PUSH_STEPS = 8
+
+_ONE_AT_A_TIME = Lock()
+"""A program that is kept holds the numbers of the turn that it solves."""
 
 
 class Plant(NamedTuple):
@@ -187,6 +191,8 @@ def solve(
         dimensions: None: those of the gyrostats.
     """
     guesses = [turn.guess or turn.outline.motion(turn.gyrostat, passes[0]) for turn in turns]
+    if dimensions is None and isfinite(float(line.power_max)) and turns[0].guess is None:
+        guesses = [guesses[0].uneven(turns[0].gyrostat)]
     solution = _solve(turns, guesses, line, dimensions)
     for intervals in passes[1:] if solution.solved else ():
         if dimensions is not None:
@@ -207,39 +213,83 @@ def _solve(
     dimensions: Dimensions | None,
 ) -> Solution:
     """Solve on the intervals of the guesses."""
+    if dimensions is None:
+        with _ONE_AT_A_TIME:
+            return _planned(turns[0], guesses[0], line)
     program = ca.Opti()
-    free, objective, weight = ca.MX(0, 1), ca.MX(0.0), 1.0
-    if dimensions is not None:
-        free = program.variable(len(dimensions.start))
-        program.set_initial(free, dimensions.start)
-        program.subject_to(program.bounded(dimensions.lower, free, dimensions.upper))
-        if dimensions.excess is not None:
-            program.subject_to(dimensions.excess(free) <= 0.0)
-        objective, weight = dimensions.objective(free), EFFORT_WEIGHT
-    found = []
+    free = program.variable(len(dimensions.start))
+    program.set_initial(free, dimensions.start)
+    program.subject_to(program.bounded(dimensions.lower, free, dimensions.upper))
+    if dimensions.excess is not None:
+        program.subject_to(dimensions.excess(free) <= 0.0)
+    objective, found = dimensions.objective(free), []
     for turn, guess in zip(turns, guesses, strict=True):
         plant = Plant.of(turn.gyrostat) if turn.plant is None else turn.plant(free)
-        *variables, effort, peak = _transcribe(program, turn, plant, line, guess)
-        # Without a supply that limits it nothing is known of the power, and effort alone counts.
-        objective += weight * effort
-        if dimensions is None and peak is not None:
-            objective += peak / POWER_EFFORT
+        shape, numbers = Shape.of(turn, line, guess), _numbers(turn, plant, line, guess)
+        variables = _transcribe(program, shape, numbers)
+        variables.begin(program, turn, guess, numbers)
+        objective += EFFORT_WEIGHT * variables.effort
         found.append(variables)
     program.minimize(objective)
-    options: dict[str, Any] = {
-        "ipopt.max_iter": GUESSED_MAX if turns[0].guess else ITERATIONS_MAX,
-        "detect_simple_bounds": True,
-        # One flat graph is quicker; splines of the dimensions have none.
-        "expand": dimensions is None,
-    }
-    if dimensions is None:
-        options |= PLAN_OPTIONS
-    if dimensions is None and isfinite(float(line.power_max)):
+    # One flat graph is quicker; splines of the dimensions have none.
+    program.solver("ipopt", IPOPT_OPTIONS | _options(guessed=turns[0].guess is not None))
+    return _solved(program, found, guesses, free)
+
+
+def _planned(turn: Turn, guess: Motion, line: DriveLine) -> Solution:
+    """One turn of a device that stands, by the program of its shape."""
+    numbers = _numbers(turn, Plant.of(turn.gyrostat), line, guess)
+    values = {name: ca.sparsify(ca.evalf(each)) for name, each in numbers.items()}
+    patterns = ((name, tuple(each.sparsity().compress())) for name, each in values.items())
+    program, parameters, variables = _plan_program(Shape.of(turn, line, guess), tuple(patterns))
+    for name, parameter in parameters.items():
+        program.set_value(parameter, values[name].nonzeros())
+    variables.begin(program, turn, guess, values)
+    return _solved(program, [variables], [guess], ca.MX(0, 1))
+
+
+@lru_cache(maxsize=16)
+def _plan_program(
+    shape: "Shape", patterns: tuple[tuple[str, tuple[int, ...]], ...]
+) -> tuple[ca.Opti, dict[str, ca.MX], "_Variables"]:
+    """Program of all turns of a shape, with the numbers that are not zero as its parameters.
+
+    To derive a program takes as long as 40 iterations.
+
+    Args:
+        shape: of the turns. patterns: each number's name, and where it is not zero.
+    """
+    program, parameters, numbers = ca.Opti(), {}, {}
+    for name, pattern in patterns:
+        where = ca.Sparsity.compressed(pattern)
+        numbers[name] = ca.MX(*where.shape)
+        if where.nnz():
+            parameters[name] = program.parameter(where.nnz())
+            numbers[name] = ca.MX(where, parameters[name])
+    variables = _transcribe(program, shape, numbers)
+    # Without a supply that limits it nothing is known of the power, and effort alone counts.
+    peak = 0.0 if variables.peak is None else variables.peak / POWER_EFFORT
+    program.minimize(variables.effort + peak)
+    options = _options(guessed=shape.guessed) | {"expand": True} | PLAN_OPTIONS
+    if shape.power_limited:
         # A peak is flat at many instants at once: half the time where the barrier falls steadily.
         options["ipopt.mu_strategy"] = "monotone"
         options["ipopt.mu_linear_decrease_factor"] = 0.1
         options["ipopt.mu_superlinear_decrease_power"] = 1.6
     program.solver("ipopt", IPOPT_OPTIONS | options)
+    return program, parameters, variables
+
+
+def _options(*, guessed: bool) -> dict[str, Any]:
+    """Options of every program."""
+    most = GUESSED_MAX if guessed else ITERATIONS_MAX
+    return {"ipopt.max_iter": most, "detect_simple_bounds": True}
+
+
+def _solved(
+    program: ca.Opti, found: Sequence["_Variables"], guesses: Sequence[Motion], free: ca.MX
+) -> Solution:
+    """What IPOPT makes of a program."""
     try:
         program.solve()
     except RuntimeError:
@@ -250,8 +300,12 @@ def _solve(
     excess = np.array([value(program.lbg) - value(program.g), value(program.g - program.ubg)])
     return Solution(
         motions=tuple(
-            Motion(guess.lengths, *(np.array(value(each), ndmin=2) for each in variables))
-            for guess, variables in zip(guesses, found, strict=True)
+            Motion(
+                guess.lengths,
+                np.array(value(each.scaled_states), ndmin=2),
+                np.array(value(each.scaled_torques), ndmin=2),
+            )
+            for guess, each in zip(guesses, found, strict=True)
         ),
         dimensions=np.array(value(free), ndmin=1),
         solved=bool(stats["success"]),
@@ -262,94 +316,186 @@ def _solve(
     )
 
 
-def _transcribe(
-    program: ca.Opti, turn: Turn, plant: Plant, line: DriveLine, guess: Motion
-) -> tuple[ca.MX, ca.MX, ca.MX, ca.MX | None]:
-    """One turn by direct collocation on the intervals of a guess.
+class Shape(NamedTuple):
+    """What of a turn decides which equations its program has.
 
-    Returns:
-        States and torques as in `Motion`, the mean over the time of all squared torques over the
-        square of the largest, and the peak power over the largest; None: it is not limited.
+    Attributes:
+        wheels, intervals: how many. end: see `Boundary`.
+        stands, on_edge: about a pivot, about an edge.
+        axes_at_rest, axes_of_tilt: how many are stopped at the end, and righted.
+        guessed: whether the search begins elsewhere than at a turn about a fixed axis.
+        torque_limited, speed_limited, back_emf, power_limited: which limits there are.
     """
-    asked, outline, wheels = turn.asked, turn.outline, len(guess.torques)
-    count, shares = len(guess.lengths), guess.lengths / guess.lengths.sum()
+
+    wheels: int
+    intervals: int
+    end: str
+    stands: bool
+    on_edge: bool
+    axes_at_rest: int
+    axes_of_tilt: int
+    guessed: bool
+    torque_limited: bool
+    speed_limited: bool
+    back_emf: bool
+    power_limited: bool
+
+    @classmethod
+    def of(cls, turn: Turn, line: DriveLine, guess: Motion) -> "Shape":
+        """The shape of a turn on the intervals of a guess."""
+        gyrostat = turn.gyrostat
+        back_emf = isfinite(float(line.stall_torque))
+        return cls(
+            wheels=len(guess.torques),
+            intervals=len(guess.lengths),
+            end=turn.asked.end,
+            stands=gyrostat.stands,
+            on_edge=gyrostat.edge is not None,
+            axes_at_rest=len(gyrostat.turns_about),
+            axes_of_tilt=len(_righted(turn.asked, gyrostat)),
+            guessed=turn.guess is not None,
+            torque_limited=isfinite(float(line.torque_limit)),
+            speed_limited=not back_emf or float(line.speed_max) < float(line.no_load_speed),
+            back_emf=back_emf,
+            power_limited=isfinite(float(line.power_max)),
+        )
+
+
+def _numbers(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict[str, ca.MX]:
+    """All numbers of a turn's equations by their names, columns."""
+    asked, outline, gyrostat = turn.asked, turn.outline, turn.gyrostat
+    wheels = len(guess.torques)
     # Numbers around one: speeds over that without load, torques over the current limit, else over
     # the stall torque, else over what the turn asks for.
-    demand = outline.peak_acceleration * float(np.linalg.eigvalsh(turn.gyrostat.inertia)[-1])
+    demand = outline.peak_acceleration * float(np.linalg.eigvalsh(gyrostat.inertia)[-1])
     limits = (float(line.torque_limit), float(line.stall_torque), demand)
     torque_unit, speed_unit = next(filter(isfinite, limits)), float(line.no_load_speed)
-    gyrostat = turn.gyrostat
     weight = float(np.linalg.norm(gyrostat.pull)) * asked.duration
-    scale = np.concatenate([np.ones(4), np.full(wheels, speed_unit), np.full(3, weight)])[:, None]
-    scale = scale[: len(guess.states)]
-    states = program.variable(len(scale), count * DEGREE + 1)
+    scale = np.concatenate([np.ones(4), np.full(wheels, speed_unit), np.full(3, weight)])
+    attitude, figures = _start(asked, gyrostat)(*plant)
+    slope = 1.0 / float(line.stall_torque)
+    own = ca.vertcat(outline.axis, slope * speed_unit, gyrostat.pull)
+    numbers: dict[str, Any] = {
+        "scale": scale[: len(guess.states)],
+        "torque_unit": torque_unit,
+        "speed_unit": speed_unit,
+        "lengths": guess.lengths,
+        "duration": asked.duration,
+        "attitude": attitude,
+        "speed": np.broadcast_to(np.asarray(asked.wheel_speed) / speed_unit, (wheels,)),
+        "figures": ca.vertcat(figures, own),
+        "momentum": figures[-3:] / weight if gyrostat.stands else 0.0,
+        "at_rest": gyrostat.turns_about.T,
+        # A trunk that is asked for no turn has no rate to count in.
+        "rate_unit": outline.peak_rate or 1.0 / asked.duration,
+        "final": asked.final_attitude,
+        "up": asked.final_vertical,
+        "righted": _righted(asked, gyrostat),
+        "angle": outline.angle,
+        "slope": slope * torque_unit if isfinite(float(line.stall_torque)) else 0.0,
+        "torque_most": line.torque_limit / torque_unit if isfinite(line.torque_limit) else 0.0,
+        "speed_most": min(float(line.speed_max) / speed_unit, 1.0),
+        "power_most": wheels * line.power_max if isfinite(line.power_max) else 0.0,
+    }
+    return {
+        name: ca.MX(ca.DM(each)) if not isinstance(each, ca.MX) else each
+        for name, each in numbers.items()
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class _Variables:
+    """Variables of one turn in its program, and what is to be minimised.
+
+    Attributes:
+        states, torques: over their units. turned: at the end of each interval [rad], (1, k).
+        scaled_states, scaled_torques: as in `Motion`.
+        effort: mean over the time of all squared torques over the square of the largest.
+        peak: power over the largest; None: it is not limited.
+    """
+
+    states: ca.MX
+    torques: ca.MX
+    turned: ca.MX
+    scaled_states: ca.MX
+    scaled_torques: ca.MX
+    effort: ca.MX
+    peak: ca.MX | None
+
+    def begin(
+        self, program: ca.Opti, turn: Turn, guess: Motion, numbers: Mapping[str, ca.MX | ca.DM]
+    ) -> None:
+        """Let the search begin at a guess."""
+        scale, torque_unit = (
+            np.asarray(ca.evalf(numbers[name])) for name in ("scale", "torque_unit")
+        )
+        shares = guess.lengths / guess.lengths.sum()
+        program.set_initial(self.states, guess.states / scale)
+        program.set_initial(self.torques, guess.torques / torque_unit)
+        program.set_initial(self.turned, turn.outline.angle * np.cumsum(shares))
+        if self.peak is not None:
+            program.set_initial(self.peak, 1.0)
+
+
+def _transcribe(program: ca.Opti, shape: Shape, numbers: Mapping[str, ca.MX]) -> _Variables:
+    """One turn by direct collocation on its intervals."""
+    wheels, count = shape.wheels, shape.intervals
+    scale, torque_unit, speed_unit = (
+        numbers[name] for name in ("scale", "torque_unit", "speed_unit")
+    )
+    duration, attitude, rate_unit = (
+        numbers[name] for name in ("duration", "attitude", "rate_unit")
+    )
+    states = program.variable(scale.shape[0], count * DEGREE + 1)
     torques = program.variable(wheels, count * (TORQUE_DEGREE + 1))
     turned = program.variable(1, count)
-    program.set_initial(states, guess.states / scale)
-    program.set_initial(torques, guess.torques / torque_unit)
-    program.set_initial(turned, outline.angle * np.cumsum(shares))
 
-    attitude, figures = _start(asked, gyrostat)(*plant)
-    speed = np.broadcast_to(np.asarray(asked.wheel_speed) / speed_unit, (wheels,))
-    slope = 1.0 / float(line.stall_torque)
-    copper = slope * float(line.no_load_speed)
-    mapped = _interval(gyrostat, outline.axis, copper).map(count)(
-        states=ca.DM(scale)
-        * ca.horzcat(*(states[:, k * DEGREE : (k + 1) * DEGREE + 1] for k in range(count))),
+    scaled = ca.repmat(scale, 1, count * DEGREE + 1) * states
+    mapped = _interval(wheels, stands=shape.stands).map(count)(
+        states=ca.horzcat(*(scaled[:, k * DEGREE : (k + 1) * DEGREE + 1] for k in range(count))),
         torques=torques * torque_unit,
-        length=ca.DM(guess.lengths).T,
-        figures=ca.repmat(figures, 1, count),
+        length=numbers["lengths"].T,
+        figures=ca.repmat(numbers["figures"], 1, count),
     )
-    for defect, unit in (("turning", 1.0), ("driving", torque_unit * asked.duration)):
+    for defect, unit in (("turning", 1.0), ("driving", torque_unit * duration)):
         program.subject_to(ca.vec(mapped[defect]) / unit == 0.0)
-    program.subject_to(states[: 4 + wheels, 0] == ca.vertcat(attitude, speed))
-    if gyrostat.stands:
-        program.subject_to(states[4 + wheels :, 0] == figures[-3:] / weight)
-        program.subject_to(ca.vec(mapped["swinging"]) / weight == 0.0)
-    # A trunk that is asked for no turn has no rate to count in.
-    rate_unit = outline.peak_rate or 1.0 / asked.duration
-    for about in gyrostat.turns_about:
-        program.subject_to(ca.DM(about).T @ mapped["rates"][:, -1] / rate_unit == 0.0)
-    if asked.end != End.AT_REST:
-        program.subject_to(_missed(asked, turn.gyrostat)(states[:4, -1]) == 0.0)
+    program.subject_to(states[: 4 + wheels, 0] == ca.vertcat(attitude, numbers["speed"]))
+    if shape.stands:
+        program.subject_to(states[4 + wheels :, 0] == numbers["momentum"])
+        program.subject_to(ca.vec(mapped["swinging"]) / scale[-1] == 0.0)
+    for k in range(shape.axes_at_rest):
+        program.subject_to(numbers["at_rest"][:, k].T @ mapped["rates"][:, -1] / rate_unit == 0.0)
+    if shape.end != End.AT_REST:
+        ending = numbers["final"], numbers["up"], numbers["righted"]
+        program.subject_to(_missed(shape)(states[:4, -1], *ending) == 0.0)
     # Summed up one by one: a single sum would be a dense row, for which Jacobians take long.
     program.subject_to(turned == ca.horzcat(ca.MX(0.0), turned[:-1]) + mapped["swept"])
-    if turn.guess is None and asked.end != End.AT_REST:
-        program.subject_to(program.bounded(-WINDING, turned[-1] - outline.angle, WINDING))
+    if not shape.guessed and shape.end != End.AT_REST:
+        program.subject_to(program.bounded(-WINDING, turned[-1] - numbers["angle"], WINDING))
 
     # On Bernstein coefficients, so that limits hold between the nodes too.
     speeds, elevated = ca.vec(mapped["speeds"]) / speed_unit, ca.vec(mapped["elevated"])
-    highest = float(line.speed_max) / speed_unit
-    if isfinite(float(line.torque_limit)):
-        largest = float(line.torque_limit) / torque_unit
+    if shape.torque_limited:
+        largest = numbers["torque_most"]
         program.subject_to(program.bounded(-largest, ca.vec(torques), largest))
-    if slope > 0.0:
+    if shape.back_emf:
+        slope = numbers["slope"] / torque_unit
         program.subject_to(program.bounded(-1.0, speeds + slope * elevated, 1.0))
-    if slope == 0.0 or highest < 1.0:
-        program.subject_to(program.bounded(-min(highest, 1.0), speeds, min(highest, 1.0)))
-    effort = ca.sum(mapped["effort"]) / (torque_unit**2 * asked.duration)
-    return (
-        ca.DM(scale) * states,
-        torques * torque_unit,
-        effort,
-        _peak(program, mapped, line, wheels),
-    )
+    if shape.speed_limited:
+        highest = numbers["speed_most"]
+        program.subject_to(program.bounded(-highest, speeds, highest))
+    peak = None
+    if shape.power_limited:
+        peak, power = program.variable(), ca.vec(mapped["power"]) / numbers["power_most"]
+        program.subject_to(program.bounded(0.0, peak, 1.0))
+        program.subject_to(power - peak <= 0.0)
+        program.subject_to(power + peak >= 0.0)
+    effort = ca.sum(mapped["effort"]) / (torque_unit**2 * duration)
+    return _Variables(states, torques, turned, scaled, torques * torque_unit, effort, peak)
 
 
-def _peak(program: ca.Opti, mapped: dict[str, ca.MX], line: DriveLine, wheels: int) -> ca.MX | None:
-    """Largest power of all wheels either way over the most that there is; None: not limited."""
-    largest = wheels * float(line.power_max)
-    if not isfinite(largest):
-        return None
-    peak, power = program.variable(), ca.vec(mapped["power"]) / largest
-    program.set_initial(peak, 1.0)
-    program.subject_to(program.bounded(0.0, peak, 1.0))
-    program.subject_to(power - peak <= 0.0)
-    program.subject_to(power + peak >= 0.0)
-    return peak
-
-
-def _interval(gyrostat: Gyrostat, axis: FloatArray, copper: float) -> ca.Function:
+@cache
+def _interval(wheels: int, *, stands: bool) -> ca.Function:
     """One interval of the collocation, to be mapped over all of them; d = `DEGREE`.
 
     Inputs: `states` at its nodes (4 + n, d + 1), or three rows more, Bernstein coefficients of the
@@ -361,13 +507,13 @@ def _interval(gyrostat: Gyrostat, axis: FloatArray, copper: float) -> ca.Functio
     all motors (1, 2 d + 1), with `copper`, the heat over a squared torque [W/(N m)^2], times the
     gear's efficiency [W]; `swinging`, the defect of the momentum about a pivot (3, d) [N m s].
     """
-    table, wheels = collocation(), gyrostat.axes.shape[1]
-    rows = 4 + wheels + (3 if gyrostat.stands else 0)
+    table, rows = collocation(), 4 + wheels + 3 * stands
     states = ca.SX.sym("states", rows, DEGREE + 1)
     torques = ca.SX.sym("torques", wheels, TORQUE_DEGREE + 1)
     length = ca.SX.sym("length")
     inverse, held = ca.SX.sym("inverse", 3, 3), ca.SX.sym("held", 3, wheels)
     driven, momentum = ca.SX.sym("driven"), ca.SX.sym("momentum", 3)
+    axis, copper, pull = ca.SX.sym("axis", 3), ca.SX.sym("copper"), ca.SX.sym("pull", 3)
     mobility = held.T @ inverse
     mass = driven * ca.SX.eye(wheels) - mobility @ held
     slopes, values = states @ table.derivative.T, torques @ table.torque.T
@@ -380,13 +526,13 @@ def _interval(gyrostat: Gyrostat, axis: FloatArray, copper: float) -> ca.Functio
     ]
     for j in range(DEGREE):
         attitude, speed = states[:4, j + 1], states[4 : 4 + wheels, j + 1]
-        now = states[4 + wheels :, j + 1] if gyrostat.stands else momentum
+        now = states[4 + wheels :, j + 1] if stands else momentum
         seen = _turned(_back(attitude), now)
         rate = inverse @ (seen - held @ speed)
         change = 0.5 * _product(attitude, ca.vertcat(0.0, rate))
         torque = values[:, j] + mobility @ ca.cross(rate, seen)
-        if gyrostat.stands:
-            gravity = ca.cross(ca.SX([0.0, 0.0, 1.0]), _turned(attitude, ca.SX(gyrostat.pull)))
+        if stands:
+            gravity = ca.cross(ca.SX([0.0, 0.0, 1.0]), _turned(attitude, pull))
             torque -= mobility @ _turned(_back(attitude), gravity)
             swinging.append(slopes[4 + wheels :, j] - gravity * length)
         turning.append(slopes[:4, j] - change * length)
@@ -394,7 +540,12 @@ def _interval(gyrostat: Gyrostat, axis: FloatArray, copper: float) -> ca.Functio
         rates.append(rate)
     return ca.Function(
         "interval",
-        [states, torques, length, ca.veccat(inverse, held, driven, momentum)],
+        [
+            states,
+            torques,
+            length,
+            ca.veccat(inverse, held, driven, momentum, axis, copper, pull),
+        ],
         [
             ca.horzcat(*turning),
             ca.horzcat(*driving),
@@ -402,7 +553,7 @@ def _interval(gyrostat: Gyrostat, axis: FloatArray, copper: float) -> ca.Functio
             elevated,
             rates[-1],
             ca.trace(torques @ table.square @ torques.T) * length,
-            ca.DM(axis).T @ ca.horzcat(*rates) @ table.weights * length,
+            axis.T @ ca.horzcat(*rates) @ table.weights * length,
             ca.horzcat(*power),
             ca.horzcat(*swinging),
         ],
@@ -462,22 +613,29 @@ def after_push(asked: Boundary) -> ca.Function:
     return ca.Function("after_push", [inertia], [state[:4], state[4:]])
 
 
-def _missed(asked: Boundary, gyrostat: Gyrostat) -> ca.Function:
-    """Violation of the end's conditions by an attitude, which must be zero.
+def _missed(shape: Shape) -> ca.Function:
+    """Violation of the end's conditions, which must be zero.
 
     That is the tilt about the axes that the wheels reach, or all of the turn that is left.
+    Inputs: attitude (4, 1) and the `final` one, `up` in B then (3, 1), and what is `_righted`.
     """
-    attitude, final = ca.SX.sym("attitude", 4), ca.SX(ca.DM(asked.final_attitude))
-    if asked.end == End.ATTITUDE and gyrostat.edge is None:
-        return ca.Function("missed", [attitude], [_product(_back(final), attitude)[1:]])
+    attitude, final = ca.SX.sym("attitude", 4), ca.SX.sym("final", 4)
+    up, righted = ca.SX.sym("up", 3), ca.SX.sym("righted", shape.axes_of_tilt, 3)
+    if shape.end == End.ATTITUDE and not shape.on_edge:
+        missed = _product(_back(final), attitude)[1:]
+    else:
+        missed = righted @ (_turned(_back(attitude), ca.SX([0.0, 0.0, 1.0])) - up)
+    return ca.Function("missed", [attitude, final, up, righted], [missed])
+
+
+def _righted(asked: Boundary, gyrostat: Gyrostat) -> FloatArray:
+    """Directions in B along which the vertical must be where it is asked for, shape (k, 3)."""
     up = asked.final_vertical
+    if gyrostat.edge is not None:
+        return np.cross(gyrostat.edge, up)[None]
     # A turn about pitch moves the vertical along the first, one about roll along the second.
     along_pitch, lateral = np.cross([0.0, 1.0, 0.0], up), np.array([0.0, 1.0, 0.0])
-    directions = np.array([lateral, along_pitch])[gyrostat.reach[:2]]
-    if gyrostat.edge is not None:
-        directions = np.cross(gyrostat.edge, up)[None]
-    tilt = _turned(_back(attitude), ca.SX([0.0, 0.0, 1.0])) - ca.DM(up)
-    return ca.Function("missed", [attitude], [ca.DM(directions) @ tilt])
+    return np.array([lateral, along_pitch])[gyrostat.reach[:2]]
 
 
 def _turned(attitude: ca.SX, vector: ca.SX) -> ca.SX:

@@ -10,7 +10,7 @@ from html.parser import HTMLParser
 import pytest
 from stories import design, story
 
-from ocs_design.device.records import design_to_json
+from ocs_design.common.files import to_json
 from ocs_design.report.html.page import report_page
 
 HOSTILE = "</script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&"
@@ -46,7 +46,7 @@ def page():
 
 
 def test_it_holds_the_design_byte_for_byte(page):
-    assert json.loads(page.inside["design"]) == json.loads(design_to_json(story().design))
+    assert json.loads(page.inside["design"]) == json.loads(to_json(story().design))
 
 
 def test_no_name_gets_out_of_its_place():

@@ -21,13 +21,14 @@ from scipy.integrate import solve_ivp
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.errors import SpecificationError
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.maneuver import Disturbance, Flip
 from ocs_design.sizing.trajectory.boundary import Boundary, vertical_of
 from ocs_design.sizing.trajectory.collocation import collocation
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import gentlest
-from ocs_design.sizing.trajectory.program import after_push
+from ocs_design.sizing.trajectory.program import Turn, after_push
 
 FORTY = np.radians(40.0)
 CASES = {
@@ -305,3 +306,29 @@ def test_power_is_a_limit_at_every_sample():
 def test_too_little_power_leaves_no_turn():
     gyrostat, maneuver = CASES["pitch"]
     assert _planned(gyrostat, maneuver, replace(EC_45_FLAT, power_max=10.0)).failure
+
+
+def test_a_kept_program_remembers_nothing_of_other_turns():
+    """A program of the same shape is solved for another turn in between."""
+    line = replace(EC_45_FLAT, power_max=300.0)
+    gyrostat, maneuver = CASES["pitch"]
+    first = _planned(gyrostat, maneuver, line).solution
+    other = _planned(gyrostat, drop(24.0), line).solution
+    again = _planned(gyrostat, maneuver, line).solution
+    assert first.solved and other.solved and other.cost < 0.9 * first.cost
+    assert again.cost == first.cost
+    np.testing.assert_array_equal(again.motions[0].states, first.motions[0].states)
+
+
+@pytest.mark.parametrize("name", ["pair", "triad", "orthogonal", "pyramid"])
+def test_an_uneven_guess_moves_the_trunk_no_further_in_the_end(name):
+    gyrostat = Gyrostat(FULL, np.asarray(Layout(LayoutName(name)).axes(0.6)), 1e-4, 2e-5)
+    even = Turn(asked(drop(30.0)), gyrostat).outline.motion(gyrostat, 12)
+    uneven = even.uneven(gyrostat)
+    change = uneven.states[4:] - even.states[4:]
+    assert np.abs(change).max() > 0.01 * np.abs(even.states[4:]).max()
+    np.testing.assert_allclose(gyrostat.axes @ change[:, [0, -1]], 0.0, rtol=0, atol=1e-9)
+    # Torques are what the driven inertia takes for the speeds.
+    gained = uneven.torques - even.torques
+    steps = gained.reshape(len(change), -1, 3).mean(axis=2) * even.lengths
+    np.testing.assert_allclose(steps.sum(axis=1), 1.2e-4 * change[:, -1], rtol=0, atol=1e-12)
