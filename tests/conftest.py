@@ -1,6 +1,5 @@
 """The same test run gives the same answer; `HYPOTHESIS_PROFILE=explore pytest` seeks new cases."""
 
-import gc
 import os
 
 from hypothesis import settings
@@ -15,9 +14,3 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "reproducible"))
 def pytest_collection_modifyitems(items):
     """The longest test goes first, so that one worker is not left with it when all others end."""
     items.sort(key=lambda item: item.name != LONGEST)
-
-
-def pytest_collection_finish():
-    """What was imported stays to the end: to look through it for garbage takes 5 % of the time."""
-    gc.collect()
-    gc.freeze()
