@@ -647,6 +647,10 @@ def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
                 f"--package-path {text}: is not NAME=DIR",
                 hint="as in --package-path my_robot=/opt/my_robot",
             )
+        if not Path(folder).is_dir():
+            raise UsageError(
+                f"--package-path {text}: there is no folder {folder}", hint="check the path"
+            )
         found[name] = Path(folder)
     return found
 

@@ -50,9 +50,16 @@ def check_target(target: Path, *, force: bool) -> None:
     if not parent.is_dir():
         fault = errno.ENOTDIR if any(map(Path.is_file, target.absolute().parents)) else errno.ENOENT
         raise OutputError(f"{parent}: no such folder", hint=CURES[fault])
-    if not os.access(parent, os.W_OK | os.X_OK):
-        raise OutputError(f"{parent}: cannot be written to", hint=CURES[errno.EACCES])
     clear_leftovers(target)
+    # Tried, as rights do not tell: root may write to all of /proc, and /proc takes nothing.
+    try:
+        with staging_beside(target):
+            pass
+    except OSError as error:
+        fault = errno.EACCES if error.errno in {None, errno.ENOENT} else error.errno
+        raise OutputError(
+            f"{parent}: cannot be written to: {os.strerror(fault)}", hint=CURES.get(fault, "")
+        ) from error
     if not os.path.lexists(target):
         return
     if target.is_symlink() or not target.is_dir():

@@ -304,6 +304,13 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
                 f"requirement.kick: '{kick}' is off the robot ({size:.2g} m): a point without a "
                 "unit is in metres"
             )
+    pivot = specification.requirement.pivot
+    # A robot may stand on a pole.
+    if pivot is not None and max(map(abs, pivot.point)) > 10.0 * size:
+        yield (
+            f"requirement.pivot: '{pivot}' is far off the robot ({size:.2g} m): a point without a "
+            "unit is in metres"
+        )
     masses = {
         "flywheel.wheel_mass_max": specification.flywheel.wheel_mass_max,
         "ocs.mass_max": specification.ocs.mass_max,

@@ -121,6 +121,10 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
         return tuple(motor(name, known) for name in named)
     only_own = file is not None and not specified.with_catalogue
     offered = tuple((load_motors(file) if only_own and file else known_motors(file)).values())
+    if not offered:
+        raise SpecificationError(
+            f"{file} has no motor", hint="`ocs-design catalogue motors` shows what a row has"
+        )
     if specified.any:
         return offered
     complete = tuple(found for found in offered if not build_gaps(found))

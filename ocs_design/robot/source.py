@@ -67,6 +67,10 @@ def _read_file(path: Path, name: str) -> bytes:
             return _read_bounded(stream, str(path))
     except FileNotFoundError as error:
         hint = "check the path"
+        if path.is_symlink():
+            raise RobotError(
+                f"{path} is a link to {path.readlink()}, which does not exist", hint=hint
+            ) from error
         if "://" in name:
             hint = "it is an address on the web: download the file, and its meshes, first"
             raise RobotError(f"{name} is no file", hint=hint) from error

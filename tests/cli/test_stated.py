@@ -1,6 +1,5 @@
 """From a command's parameters to what was stated."""
 
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -59,10 +58,11 @@ def package_paths(*texts):
     return package_paths_of_command(SimpleNamespace(params={"package_path": texts}))
 
 
-def test_package_paths_are_pairs():
+def test_package_paths_are_pairs(tmp_path):
     assert package_paths() == {}
-    found = package_paths("a=/opt/a", "b=/opt/with=sign")
-    assert found == {"a": Path("/opt/a"), "b": Path("/opt/with=sign")}
+    (tmp_path / "with=sign").mkdir()
+    found = package_paths(f"a={tmp_path}", f"b={tmp_path}/with=sign")
+    assert found == {"a": tmp_path, "b": tmp_path / "with=sign"}
 
 
 @pytest.mark.parametrize("text", ["alone", "=folder", "name="])

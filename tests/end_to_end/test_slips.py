@@ -35,6 +35,7 @@ FILES = {
     "done/design.json": "{}",
     "newer/design.json": '{"schema_version": 9}',
     "mine/notes.txt": "mine",
+    "none.toml": "",
 }
 
 
@@ -50,6 +51,7 @@ def bench(tmp_path, monkeypatch):
     for name, content in FILES.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(content)
+    (tmp_path / "gone.urdf").symlink_to("moved.urdf")
     return tmp_path
 
 
