@@ -16,7 +16,6 @@ from ocs_design.common.errors import (
     OcsError,
     OutputError,
     SpecificationError,
-    UsageError,
 )
 from ocs_design.common.units import UNITS
 
@@ -36,7 +35,6 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         # now rather than in an hour.
         for name in (*arguments, str(Path.cwd())):
             name.encode()
-        _require_once(command, arguments)
         result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
         sys.stdout.flush()
     except (typer.Abort, KeyboardInterrupt):
@@ -55,20 +53,6 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
             cause = cause.__context__
         return INTERRUPTED if cause else _report_any(error, as_json=as_json, color=color)
     return result if isinstance(result, int) else 0
-
-
-def _require_once(program: object, arguments: Sequence[str]) -> None:
-    """Of two values of one option the parser takes the last and says nothing.
-
-    Raises:
-        UsageError: an option that takes one value is typed twice.
-    """
-    command = getattr(program, "commands", {}).get(next(iter(arguments), ""))
-    typed = [each.partition("=")[0] for each in arguments]
-    for option in getattr(command, "params", ()):
-        single = not getattr(option, "multiple", True) and not getattr(option, "is_flag", True)
-        if single and sum(map(typed.count, option.opts)) > 1:
-            raise UsageError(f"{option.opts[0]} is given twice", hint="leave one of them out")
 
 
 def _report_any(
