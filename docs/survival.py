@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from blocks import table
@@ -18,17 +19,10 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.device.answers import LayoutAnswer
 from ocs_design.device.records import SurvivalRecord
 from ocs_design.requirement.reading import specification_of
-from ocs_design.requirement.specification import (
-    DETECTION,
-    Specification,
-    ValidationSection,
-)
-from ocs_design.simulation.scenario import fly_stopped
-from ocs_design.sizing.design import design_device
-from ocs_design.sizing.trajectory.plans import plan
-from ocs_design.workflows.flying import control_of, flight_options, trajectories
+from ocs_design.requirement.specification import Specification
 from ocs_design.workflows.layouts import compare_layouts
-from ocs_design.workflows.pareto import read_task
+from ocs_design.workflows.size import design_ocs
+from ocs_design.workflows.validate import validate_design
 
 SHOWN = ("pair", "double-pair", "triad", "orthogonal", "pyramid")
 
@@ -36,32 +30,17 @@ PAGE = Path(__file__).with_name("layouts.md")
 
 
 def flown(asked: Specification) -> tuple[float, SurvivalRecord]:
-    """Mass of the device for a specification [kg], and its flights with each drive stopped.
+    """Mass of the device that `size` makes [kg], and its flights with each drive stopped.
 
     Raises:
         Infeasible: there is none.
     """
-    task = read_task(asked, package_paths={}, strict=False)
-    designed = design_device(asked, task.robot, task.resolved, advise=False)
-    requirement = task.resolved.requirement
-    reserves = {} if designed.reserve is None else designed.reserve.maneuvers
-    plans = plan(
-        task.robot.mass_properties,
-        designed.device,
-        requirement.maneuvers,
-        requirement.standing_height,
-        {name: kept.demand for name, kept in reserves.items()},
-    )
-    control = control_of(ValidationSection(ballistic=True), task.robot)
-    survival = fly_stopped(
-        task.robot,
-        designed.device,
-        requirement.maneuvers,
-        DETECTION,
-        options=flight_options(control),
-        references=trajectories(plans),
-    )
-    return designed.device.mass, survival
+    stops = replace(asked, requirement=replace(asked.requirement, survives="any one motor"))
+    with TemporaryDirectory() as folder:
+        made = design_ocs(asked, out=f"{folder}/made")
+        found = validate_design(made, specification=stops).found.survival
+    assert found is not None, "its drives stop"
+    return made.design.ocs.mass_total, found
 
 
 def told(survival: SurvivalRecord) -> Iterator[str]:
@@ -85,6 +64,7 @@ def survival_table(robot: str) -> str:
                 base,
                 ocs=replace(base.ocs, layout=layout),
                 requirement=replace(base.requirement, survives=survives),
+                validation=replace(base.validation, ballistic=True),
             )
             try:
                 mass, survival = flown(asked)

@@ -34,7 +34,7 @@ class TorqueConstantConvention(StrEnum):
 
 
 class ResistanceConvention(StrEnum):
-    """Between which points the resistance is stated."""
+    """Points of the winding between which its resistance is stated."""
 
     LINE_LINE = "line-line"
     PHASE = "phase"

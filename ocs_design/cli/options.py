@@ -611,9 +611,10 @@ def specified_by_command(context: typer.Context) -> "Specification":
     """The file given with `--spec`, and over it every option of the command that is a key.
 
     Raises:
-        OcsError: the file or an option cannot be read.
+        OcsError: the file or an option cannot be read, or an option says nothing as it stands.
     """
     # Not for `--help`: reading specifications needs NumPy.
+    from ocs_design.common.errors import UsageError
     from ocs_design.requirement.reading import read_specification
     from ocs_design.requirement.specification import (
         Specification,
@@ -623,7 +624,14 @@ def specified_by_command(context: typer.Context) -> "Specification":
 
     file = context.params["spec"]
     base = Specification() if file is None else read_specification(Path(file))
-    return merge(base, specification_from_options(_options(context.params)))
+    typed = specification_from_options(_options(context.params))
+    merged = merge(base, typed)
+    if typed.requirement.detection is not None and merged.requirement.survives is None:
+        raise UsageError(
+            "--detection says nothing without --survives",
+            hint="add --survives one, or leave --detection out",
+        )
+    return merged
 
 
 def typed_command() -> str:

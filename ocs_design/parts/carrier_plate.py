@@ -167,7 +167,7 @@ class DogBone:
 
     @property
     def straight(self) -> float:
-        """Where the neck's straight sides end, from the middle [m]."""
+        """Distance from the middle at which the neck's straight sides end [m]."""
         reach, out = self.radius + self.fillet, self.neck + self.fillet
         return self.across - sqrt(max(0.0, reach**2 - out**2))
 

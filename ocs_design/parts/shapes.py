@@ -115,7 +115,7 @@ class Polygon(Generic[Real]):
         return flat(area, xx, yy, x=x, y=y, xy=xy)
 
     def outline(self) -> Outline:
-        """As many lines as corners."""
+        """The corners in order, joined by straight lines."""
         return Outline(np.array(self.corners), np.zeros(len(self.corners)))
 
 

@@ -226,7 +226,7 @@ class Disturbance(Unforeseen):
 
     @property
     def flight_time(self) -> float:
-        """Until a rigid robot lands as high as it took off [s].
+        """Time until a rigid robot lands as high as it took off [s].
 
         An upward change of velocity w in the middle of the push, at t', shifts the parabola:
         v t - g t^2 / 2 + w (t - t') = 0.
@@ -390,7 +390,7 @@ class Flip(Reorientation):
 
     @property
     def flight_time(self) -> float:
-        """Until a rigid robot lands where it took off [s]."""
+        """Time until a rigid robot lands where it took off [s]."""
         return float(2.0 * np.sqrt(2.0 * self.jump_height / self.gravity))
 
     @property
@@ -504,7 +504,7 @@ class TurnTo(Reorientation):
 
     @property
     def flight_time(self) -> float:
-        """Until a rigid robot lands where it took off; in orbit, until the turn ends [s]."""
+        """Time until a rigid robot lands where it took off; in orbit, until the turn ends [s]."""
         return sqrt(8.0 * self.jump_height / self.gravity) if self.gravity else self.duration
 
     def time(self, standing_height: float) -> float:
@@ -917,7 +917,7 @@ class StandUp(Pivoted):
         return super().least_torque(inertia, standing_height)
 
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
-        """With a brake, only to get to its speed, in as long as it takes."""
+        """Slew that the wheels make; before a brake stops them, the slow one up to their speed."""
         if not self.braked:
             return super().slew(inertia, standing_height)
         shape = np.shape(inertia.diagonal)

@@ -164,7 +164,7 @@ def on_the_ground(start: Launch, standing_height: float) -> Launch:
 
 
 def flight_time(maneuver: Maneuver, start: Launch, standing_height: float) -> float:
-    """Until the feet of the levelled robot meet the ground, or a turn or a catch ends [s]."""
+    """Time until the feet of the levelled robot meet the ground, or a turn or a catch ends [s]."""
     if isinstance(maneuver, TurnTo):
         return maneuver.flight_time
     if isinstance(maneuver, Pivoted):

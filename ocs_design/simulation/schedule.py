@@ -45,7 +45,7 @@ class FlightClock:
         self.lift_off: NDArray[np.int64] = np.where(planned > 0.0, NEVER, settled)
 
     def steps(self, k: int, running: int) -> NDArray[np.int64]:
-        """Since lift-off, at control instant `k`; negative for a world that is on the ground."""
+        """Control steps since lift-off at instant `k`; negative for a world on the ground."""
         left = self.lift_off[:running]
         return np.where(left == NEVER, NEVER, k - left)
 

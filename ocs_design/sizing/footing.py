@@ -258,7 +258,7 @@ def _ring_of(layout: Layout, reach: float) -> tuple[Point, ...]:
 
 
 def _slopes(axes: FloatArray) -> tuple[float, ...]:
-    """On which side the screws of each foot are, see `Feet`; axes in B, shape (3, n)."""
+    """Sides on which the screws of each foot are (`Feet`); axes in B, shape (3, n)."""
     if np.abs(axes[2]).max() > OUT_OF_REACH:
         return ()
     return tuple(copysign(1.0, x * y) for x, y in axes[:2].T.tolist())

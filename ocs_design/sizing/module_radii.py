@@ -53,7 +53,7 @@ class _Crossing(NamedTuple):
 
 
 def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
-    """Below it a wheel of this spin inertia [kg m^2] is too tall, too thick or too heavy [m]."""
+    """Radius below which a wheel of a spin inertia is too tall, too thick or too heavy [m]."""
     wall, bore = np.asarray(limits.wall_min), np.asarray(limits.inner_radius_min)
     by_wall = np.maximum(bore + wall, wall / (1.0 - BORE_SHARE))
     crossings = [_tall_and_narrow, _tall_and_closed]
@@ -66,7 +66,7 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
 
 
 def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
-    """Above it a wheel of this spin inertia [kg m^2] breaks, is too flat, or has no room [m]."""
+    """Radius above which a wheel of a spin inertia breaks, is too flat, or has no room [m]."""
     stretch, (outer, inner) = np.asarray(limits.stretch_max), limits.hoop_weights
     by_bore = (stretch - inner * np.asarray(limits.inner_radius_min) ** 2) / outer
     by_share = stretch / (outer + inner * BORE_SHARE**2)
