@@ -56,6 +56,23 @@ def redeclare(command: Command, parameters: list[inspect.Parameter]) -> None:
 
 
 Text: TypeAlias = str | None
+Texts: TypeAlias = list[str] | None
+
+
+def _text(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
+    """An option with one text, named as its parameter with dashes."""
+    return Annotated[Text, typer.Option(metavar=metavar, help=says, autocompletion=complete)]
+
+
+def _texts(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
+    """The same, repeatable."""
+    return Annotated[Texts, typer.Option(metavar=metavar, help=says, autocompletion=complete)]
+
+
+def _flag(name: str, says: str) -> object:
+    """An option without a value; Typer would offer `--no-...` too where it makes the name."""
+    return Annotated[bool, typer.Option(name, help=says)]
+
 
 RobotFile: TypeAlias = Annotated[
     str | None,
@@ -64,31 +81,6 @@ RobotFile: TypeAlias = Annotated[
         metavar="ROBOT",
         help="URDF, xacro or MJCF file, may be gzipped; - reads standard input. "
         "By hand instead: --mass and --inertia.",
-    ),
-]
-Mass: TypeAlias = Annotated[
-    Text, typer.Option("--mass", metavar="MASS", help="Robot by hand: its mass, e.g. 2.5 or 2500g.")
-]
-Inertia: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--inertia",
-        metavar="IXX,IYY,IZZ[,IXY,IXZ,IYZ]",
-        help="Robot by hand: inertia about its centre of mass [kg m2].",
-    ),
-]
-Human: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--human",
-        metavar="PERSON",
-        help="A person who wears the device, e.g. '75kg 1.75m with 10kg': mass, height, payload.",
-    ),
-]
-Weighed: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--weighed", metavar="MASS", help="What the robot weighs on scales, to check its file."
     ),
 ]
 Spec: TypeAlias = Annotated[
@@ -100,49 +92,10 @@ Spec: TypeAlias = Annotated[
         help="Specification file (TOML).",
     ),
 ]
-Trunk: TypeAlias = Annotated[
-    Text,
-    typer.Option("--trunk", metavar="LINK", help="Link that carries the device. Default: found."),
-]
-Legs: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--legs",
-        metavar="LINK,...",
-        help="A link of each foot; none: the robot has no legs. Default: found.",
-    ),
-]
-Posture: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--posture",
-        autocompletion=completion.one_of("stand", "zero"),
-        metavar="NAME",
-        help="zero, stand, or a keyframe or SRDF state. Default: stand where legs are found.",
-    ),
-]
-Joints: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option("--joint", metavar="NAME=VALUE", help="Value of one joint; repeatable."),
-]
 PackagePaths: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--package-path", metavar="NAME=DIR", help="Where package://NAME lies; repeatable."
-    ),
-]
-RateChange: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--rate-change", metavar="RATE", help="Change of the trunk's rate to be able to make."
-    ),
-]
-Reliability: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--reliability",
-        metavar="SHARE",
-        help="Share of robots that shall pass as built; 0.99 by default, 0.5: nominal.",
     ),
 ]
 Survives: TypeAlias = Annotated[
@@ -162,255 +115,6 @@ Detection: TypeAlias = Annotated[
         help="Until a drive that stops is known to have stopped; 20ms by default.",
     ),
 ]
-JumpHeight: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--jump-height",
-        metavar="LENGTH",
-        help="Stay level in a jump of this height, e.g. 0.4m; of kicks and flips too; repeatable.",
-    ),
-]
-KickOption: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--kick",
-        metavar="KICK",
-        help="Impulse on the trunk during a jump, e.g. '12 N s at 0.1,0,0.2' (base frame) or "
-        "'12 N s at LINK along left'; repeatable.",
-    ),
-]
-Fall: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--fall",
-        metavar="LENGTH",
-        help="Land level when the trunk is dropped from so high, e.g. 1m; repeatable.",
-    ),
-]
-TiltOption: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--tilt",
-        metavar="ANGLE",
-        help="Of the trunk when it is dropped: 20deg of pitch, or '20deg roll'; repeatable.",
-    ),
-]
-FlipOption: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--flip",
-        autocompletion=completion.one_of("back", "forward"),
-        metavar="ANGLE",
-        help="Turn in pitch during a jump: back, forward, or an angle; repeatable.",
-    ),
-]
-TurnOption: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--turn",
-        metavar="TURN",
-        help="Turn to an attitude during a jump, e.g. 'yaw 90deg in 2.9s'; repeatable.",
-    ),
-]
-CatchOption: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--catch",
-        metavar="RATES",
-        help="Stop a trunk that turns at lift-off, e.g. 'pitch 45deg/s in 0.5s'; repeatable.",
-    ),
-]
-PivotOption: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--pivot",
-        metavar="POINT",
-        help="What it balances or stands up on: X,Y,Z, or 'X,Y,Z along left' for an edge.",
-    ),
-]
-BalanceOption: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--balance",
-        metavar="UPSET",
-        help="Get over a tilt on the pivot, 'pitch 5deg', or a push, '0.5 N s at 0,0,0.1'; "
-        "repeatable.",
-    ),
-]
-StandUpOption: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--stand-up",
-        metavar="TILT",
-        help="Stand up on the pivot, e.g. 'roll 36deg in 0.3s', 'roll 45deg by brake'; repeatable.",
-    ),
-]
-Gravity: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--gravity",
-        autocompletion=completion.of_key("requirement.gravity"),
-        metavar="GRAVITY",
-        help="earth (default), moon, mars, orbit, or e.g. 3.7m/s2.",
-    ),
-]
-WheelSpeedMax: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--wheel-speed-max",
-        metavar="SPEED",
-        help="Highest wheel speed. Default: the motor's; 7200rpm without a motor.",
-    ),
-]
-TorqueMax: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--torque-max",
-        metavar="TORQUE",
-        help="Torque of a wheel. Default: the motor's; not limited without a motor.",
-    ),
-]
-LayoutKind: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--layout",
-        autocompletion=completion.of_key("ocs.layout"),
-        metavar="NAME",
-        help="How the wheels' axes lie: pair, double-pair or triple-pair (default: the first that "
-        "a motor is strong enough for), single, triad, orthogonal, pyramid; all compares them and "
-        "writes no folder.",
-    ),
-]
-Alpha: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--alpha", metavar="ANGLE", help="Incidence angle, e.g. 40deg; of a pyramid, elevation."
-    ),
-]
-AlphaCriterion: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--alpha-criterion",
-        autocompletion=completion.of_key("ocs.alpha_criterion"),
-        metavar="NAME",
-        help="equal-rate (default), lightest, weighted, simultaneous, pitch-only, roll-only.",
-    ),
-]
-Position: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--position", metavar="X,Y,Z", help="Centre of the left wheel in the trunk's frame."
-    ),
-]
-MassMax: TypeAlias = Annotated[
-    Text,
-    typer.Option("--mass-max", metavar="MASS", help="Largest mass of the device, all modules."),
-]
-RMax: TypeAlias = Annotated[
-    Text, typer.Option("--r-max", metavar="LENGTH", help="Largest outer radius, e.g. 30mm.")
-]
-RMin: TypeAlias = Annotated[
-    Text, typer.Option("--r-min", metavar="LENGTH", help="Smallest bore radius.")
-]
-HMax: TypeAlias = Annotated[
-    Text, typer.Option("--h-max", metavar="LENGTH", help="Largest height of the rim.")
-]
-HMin: TypeAlias = Annotated[
-    Text, typer.Option("--h-min", metavar="LENGTH", help="Smallest height of the rim.")
-]
-WallMin: TypeAlias = Annotated[
-    Text, typer.Option("--wall-min", metavar="LENGTH", help="Smallest wall of the rim.")
-]
-WheelMassMax: TypeAlias = Annotated[
-    Text, typer.Option("--wheel-mass-max", metavar="MASS", help="Largest mass of one rim.")
-]
-WebKind: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--web",
-        autocompletion=completion.of_key("flywheel.web"),
-        metavar="disc|aluminium|none",
-        help="What joins a rim to its motor: a thin disc with a hub in one piece (default), "
-        "one of aluminium that it is shrunk on, or massless spokes.",
-    ),
-]
-GuardKind: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--guard",
-        autocompletion=completion.of_key("ocs.guard"),
-        metavar="fingers|containing",
-        help="Printed housings (default), or a steel ring in each that holds a wheel that bursts.",
-    ),
-]
-MaterialName: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--material",
-        autocompletion=completion.any_of(completion.materials),
-        metavar="NAME",
-        help="See `ocs-design catalogue materials`; steel (default): any steel; auto: any.",
-    ),
-]
-MotorName: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--motor",
-        autocompletion=completion.any_of(completion.motors),
-        metavar="NAME",
-        help="See `ocs-design catalogue motors`; may be repeated; auto (default): the lightest "
-        "device; none: size the wheels by the bound alone.",
-    ),
-]
-MotorsAny: TypeAlias = Annotated[
-    bool,
-    typer.Option(
-        "--motors-any",
-        help="Choose among motors that cannot be built with too: no threads known, say.",
-    ),
-]
-BusVoltage: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--bus-voltage",
-        metavar="VOLTAGE",
-        help="Of the motors' supply. Default: 24V, above 20 kg 48V, above 60 kg 72V.",
-    ),
-]
-BusCurrent: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--bus-current",
-        metavar="CURRENT",
-        help="Most that all motors draw or feed back. Default: what the power leaves.",
-    ),
-]
-BusPower: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--bus-power",
-        metavar="POWER",
-        help="Most that all motors draw or feed back. Default: 400 W per kg of robot.",
-    ),
-]
-Controllers: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--controllers",
-        autocompletion=completion.of_key("supply.controllers"),
-        metavar="MASS",
-        help="Mass of one motor controller; auto (default): by its current; none: not counted.",
-    ),
-]
-GearName: TypeAlias = Annotated[
-    Text,
-    typer.Option(
-        "--gear",
-        autocompletion=completion.any_of(completion.gears),
-        metavar="NAME",
-        help="See `ocs-design catalogue gears`; direct (default): none; auto: the lightest device.",
-    ),
-]
 MotorsFile: TypeAlias = Annotated[
     Text,
     typer.Option(
@@ -419,10 +123,6 @@ MotorsFile: TypeAlias = Annotated[
         metavar="FILE",
         help="Choose among these motors instead, CSV or TOML.",
     ),
-]
-WithCatalogue: TypeAlias = Annotated[
-    bool,
-    typer.Option("--with-catalogue", help="Choose among the catalogue's motors too: --motors."),
 ]
 GearsFile: TypeAlias = Annotated[
     Text,
@@ -502,61 +202,153 @@ NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour;
 
 ROBOT_OPTIONS: Mapping[str, object] = {
     "robot": RobotFile,
-    "mass": Mass,
-    "inertia": Inertia,
-    "human": Human,
-    "weighed": Weighed,
+    "mass": _text("MASS", "Robot by hand: its mass, e.g. 2.5 or 2500g."),
+    "inertia": _text(
+        "IXX,IYY,IZZ[,IXY,IXZ,IYZ]", "Robot by hand: inertia about its centre of mass [kg m2]."
+    ),
+    "human": _text(
+        "PERSON",
+        "A person who wears the device, e.g. '75kg 1.75m with 10kg': mass, height, payload.",
+    ),
+    "weighed": _text("MASS", "What the robot weighs on scales, to check its file."),
     "spec": Spec,
-    "trunk": Trunk,
-    "legs": Legs,
-    "posture": Posture,
-    "joint": Joints,
+    "trunk": _text("LINK", "Link that carries the device. Default: found."),
+    "legs": _text("LINK,...", "A link of each foot; none: the robot has no legs. Default: found."),
+    "posture": _text(
+        "NAME",
+        "zero, stand, or a keyframe or SRDF state. Default: stand where legs are found.",
+        completion.one_of("stand", "zero"),
+    ),
+    "joint": _texts("NAME=VALUE", "Value of one joint; repeatable."),
     "package_path": PackagePaths,
 }
 """What names a robot, by the name of the parameter."""
 
 TASK_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
-    "rate_change": RateChange,
-    "reliability": Reliability,
+    "rate_change": _text("RATE", "Change of the trunk's rate to be able to make."),
+    "reliability": _text(
+        "SHARE", "Share of robots that shall pass as built; 0.99 by default, 0.5: nominal."
+    ),
     "survives": Survives,
     "detection": Detection,
-    "jump_height": JumpHeight,
-    "kick": KickOption,
-    "fall": Fall,
-    "tilt": TiltOption,
-    "flip": FlipOption,
-    "turn": TurnOption,
-    "catch": CatchOption,
-    "pivot": PivotOption,
-    "balance": BalanceOption,
-    "stand_up": StandUpOption,
-    "gravity": Gravity,
-    "wheel_speed_max": WheelSpeedMax,
-    "torque_max": TorqueMax,
-    "layout": LayoutKind,
-    "alpha": Alpha,
-    "alpha_criterion": AlphaCriterion,
-    "position": Position,
-    "mass_max": MassMax,
-    "r_max": RMax,
-    "r_min": RMin,
-    "h_max": HMax,
-    "h_min": HMin,
-    "wall_min": WallMin,
-    "wheel_mass_max": WheelMassMax,
-    "web": WebKind,
-    "guard": GuardKind,
-    "material": MaterialName,
-    "motor": MotorName,
-    "bus_voltage": BusVoltage,
-    "bus_current": BusCurrent,
-    "bus_power": BusPower,
-    "controllers": Controllers,
-    "gear": GearName,
-    "motors_any": MotorsAny,
+    "jump_height": _texts(
+        "LENGTH",
+        "Stay level in a jump of this height, e.g. 0.4m; of kicks and flips too; repeatable.",
+    ),
+    "kick": _texts(
+        "KICK",
+        "Impulse on the trunk during a jump, e.g. '12 N s at 0.1,0,0.2' (base frame) or "
+        "'12 N s at LINK along left'; repeatable.",
+    ),
+    "fall": _texts(
+        "LENGTH", "Land level when the trunk is dropped from so high, e.g. 1m; repeatable."
+    ),
+    "tilt": _texts(
+        "ANGLE", "Of the trunk when it is dropped: 20deg of pitch, or '20deg roll'; repeatable."
+    ),
+    "flip": _texts(
+        "ANGLE",
+        "Turn in pitch during a jump: back, forward, or an angle; repeatable.",
+        completion.one_of("back", "forward"),
+    ),
+    "turn": _texts(
+        "TURN", "Turn to an attitude during a jump, e.g. 'yaw 90deg in 2.9s'; repeatable."
+    ),
+    "catch": _texts(
+        "RATES", "Stop a trunk that turns at lift-off, e.g. 'pitch 45deg/s in 0.5s'; repeatable."
+    ),
+    "pivot": _text(
+        "POINT", "What it balances or stands up on: X,Y,Z, or 'X,Y,Z along left' for an edge."
+    ),
+    "balance": _texts(
+        "UPSET",
+        "Get over a tilt on the pivot, 'pitch 5deg', or a push, '0.5 N s at 0,0,0.1'; repeatable.",
+    ),
+    "stand_up": _texts(
+        "TILT",
+        "Stand up on the pivot, e.g. 'roll 36deg in 0.3s', 'roll 45deg by brake'; repeatable.",
+    ),
+    "gravity": _text(
+        "GRAVITY",
+        "earth (default), moon, mars, orbit, or e.g. 3.7m/s2.",
+        completion.of_key("requirement.gravity"),
+    ),
+    "wheel_speed_max": _text(
+        "SPEED", "Highest wheel speed. Default: the motor's; 7200rpm without a motor."
+    ),
+    "torque_max": _text(
+        "TORQUE", "Torque of a wheel. Default: the motor's; not limited without a motor."
+    ),
+    "layout": _text(
+        "NAME",
+        "How the wheels' axes lie: pair, double-pair or triple-pair (default: the first that "
+        "a motor is strong enough for), single, triad, orthogonal, pyramid; all compares them and "
+        "writes no folder.",
+        completion.of_key("ocs.layout"),
+    ),
+    "alpha": _text("ANGLE", "Incidence angle, e.g. 40deg; of a pyramid, elevation."),
+    "alpha_criterion": _text(
+        "NAME",
+        "equal-rate (default), lightest, weighted, simultaneous, pitch-only, roll-only.",
+        completion.of_key("ocs.alpha_criterion"),
+    ),
+    "position": _text("X,Y,Z", "Centre of the left wheel in the trunk's frame."),
+    "mass_max": _text("MASS", "Largest mass of the device, all modules."),
+    "r_max": _text("LENGTH", "Largest outer radius, e.g. 30mm."),
+    "r_min": _text("LENGTH", "Smallest bore radius."),
+    "h_max": _text("LENGTH", "Largest height of the rim."),
+    "h_min": _text("LENGTH", "Smallest height of the rim."),
+    "wall_min": _text("LENGTH", "Smallest wall of the rim."),
+    "wheel_mass_max": _text("MASS", "Largest mass of one rim."),
+    "web": _text(
+        "disc|aluminium|none",
+        "What joins a rim to its motor: a thin disc with a hub in one piece (default), "
+        "one of aluminium that it is shrunk on, or massless spokes.",
+        completion.of_key("flywheel.web"),
+    ),
+    "guard": _text(
+        "fingers|containing",
+        "Printed housings (default), or a steel ring in each that holds a wheel that bursts.",
+        completion.of_key("ocs.guard"),
+    ),
+    "material": _text(
+        "NAME",
+        "See `ocs-design catalogue materials`; steel (default): any steel; auto: any.",
+        completion.any_of(completion.materials),
+    ),
+    "motor": _texts(
+        "NAME",
+        "See `ocs-design catalogue motors`; may be repeated; auto (default): the lightest "
+        "device; none: size the wheels by the bound alone.",
+        completion.any_of(completion.motors),
+    ),
+    "bus_voltage": _text(
+        "VOLTAGE", "Of the motors' supply. Default: 24V, above 20 kg 48V, above 60 kg 72V."
+    ),
+    "bus_current": _text(
+        "CURRENT", "Most that all motors draw or feed back. Default: what the power leaves."
+    ),
+    "bus_power": _text(
+        "POWER", "Most that all motors draw or feed back. Default: 400 W per kg of robot."
+    ),
+    "controllers": _text(
+        "MASS",
+        "Mass of one motor controller; auto (default): by its current; none: not counted.",
+        completion.of_key("supply.controllers"),
+    ),
+    "gear": _text(
+        "NAME",
+        "See `ocs-design catalogue gears`; direct (default): none; auto: the lightest device.",
+        completion.any_of(completion.gears),
+    ),
+    "motors_any": _flag(
+        "--motors-any", "Choose among motors that cannot be built with too: no threads known, say."
+    ),
     "motors": MotorsFile,
-    "with_catalogue": WithCatalogue,
+    "with_catalogue": _flag(
+        "--with-catalogue", "Choose among the catalogue's motors too: --motors."
+    ),
     "gears": GearsFile,
     "reality": Reality,
 }
