@@ -15,8 +15,8 @@ from ocs_design.requirement.maneuver import (
     STANDARD_GRAVITY,
     Maneuver,
 )
-from ocs_design.requirement.specification import SECTIONS, Specification, keys_of
-from ocs_design.requirement.values import Faults, Text, Value
+from ocs_design.requirement.specification import SECTIONS, Specification
+from ocs_design.requirement.values import Faults, Text, Value, keys_of
 
 # A specification takes a few thousand bytes.
 _FILE = TextKind(

@@ -1,13 +1,13 @@
 """The specification: every key of the file and every option of the command line, once.
 
-A field is a key: its name is the TOML key and, with dashes, the option; its annotation says how it
+A field is a key: its name is the TOML key and, with dashes, the option; its value says how it
 is read. None means that it was not stated and that a default holds.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Annotated, Any, TypeVar, get_args, get_type_hints
+from typing import Any, TypeVar, get_type_hints
 
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension
@@ -35,6 +35,8 @@ from ocs_design.requirement.values import (
     Switch,
     Text,
     WordOr,
+    keyed,
+    keys_of,
 )
 from ocs_design.requirement.words import (
     CATCH_TEXT,
@@ -141,39 +143,30 @@ PROJECTIONS = ("pseudo-inverse", "transpose")
 """How a torque on the trunk becomes torques of the wheels (docs/theory.md, The control law)."""
 
 
-_LENGTH = Quantity(Dimension.LENGTH)
+_LENGTH, _MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
 
 
 @dataclass(frozen=True, kw_only=True)
 class RobotSection:
     """`[robot]`: which robot and how it stands; mass [kg] and inertia [kg m^2] replace a file."""
 
-    file: Annotated[str | None, Key(Text(), "robot file: URDF, xacro or MJCF")] = None
-    name: Annotated[str | None, Key(Text(), "name of the robot")] = None
-    trunk: Annotated[str | None, Key(Text(), "link that carries the device")] = None
-    legs: Annotated[
-        tuple[str, ...] | None, Key(LinkNames(), "a link of each foot; none: it has no legs")
-    ] = None
-    posture: Annotated[str | None, Key(Text(), "zero, stand, or a name from the file")] = None
-    joints: Annotated[
-        Mapping[str, float] | None,
-        Key(JointValues(), "joint values on top of the posture", option="joint"),
-    ] = None
-    mass: Annotated[float | None, Key(Quantity(Dimension.MASS), "mass of the robot")] = None
-    inertia: Annotated[
-        tuple[float, ...] | None,
-        Key(
-            Quantities(Dimension.INERTIA, (3, 6)),
-            "inertia about the centre of mass: Ixx, Iyy, Izz[, Ixy, Ixz, Iyz]",
-        ),
-    ] = None
-    human: Annotated[
-        Person | None, Key(PersonText(), "a person in place of a file, who wears the device")
-    ] = None
-    weighed: Annotated[
-        float | None,
-        Key(Quantity(Dimension.MASS), "what the robot weighs on scales, to check its file's parts"),
-    ] = None
+    file: str | None = keyed(Text(), "robot file: URDF, xacro or MJCF")
+    name: str | None = keyed(Text(), "name of the robot")
+    trunk: str | None = keyed(Text(), "link that carries the device")
+    legs: tuple[str, ...] | None = keyed(LinkNames(), "a link of each foot; none: it has no legs")
+    posture: str | None = keyed(Text(), "zero, stand, or a name from the file")
+    joints: Mapping[str, float] | None = keyed(
+        JointValues(), "joint values on top of the posture", "joint"
+    )
+    mass: float | None = keyed(_MASS, "mass of the robot")
+    inertia: tuple[float, ...] | None = keyed(
+        Quantities(Dimension.INERTIA, (3, 6)),
+        "inertia about the centre of mass: Ixx, Iyy, Izz[, Ixy, Ixz, Iyz]",
+    )
+    human: Person | None = keyed(PersonText(), "a person in place of a file, who wears the device")
+    weighed: float | None = keyed(
+        _MASS, "what the robot weighs on scales, to check its file's parts"
+    )
 
 
 WORDS = (
@@ -198,60 +191,44 @@ TURNS = ("turn", "catch")
 class RequirementSection:
     """`[requirement]`: what the wheels must do [rad/s, rad/s, kg m^2, m/s^2]."""
 
-    rate_change: Annotated[float | None, Key(TRUNK_RATE, "change of the trunk's rate")] = None
-    wheel_speed_max: Annotated[float | None, Key(WHEEL_SPEED, "highest speed of a wheel")] = None
-    spin_inertia: Annotated[
-        float | None, Key(Quantity(Dimension.INERTIA), "spin inertia of one wheel, asked directly")
-    ] = None
-    gravity: Annotated[float | None, Key(GRAVITY, "where maneuvers state none")] = None
-    jump_height: Annotated[
-        tuple[float, ...] | None,
-        Key(Several(HEIGHT), "height of a jump, of the centre of mass"),
-    ] = None
-    kick: Annotated[
-        tuple[Kick, ...] | None, Key(Several(KickText()), "impulse on the trunk during a jump")
-    ] = None
-    fall: Annotated[
-        tuple[float, ...] | None,
-        Key(Several(HEIGHT), "height of the trunk that a fall starts at"),
-    ] = None
-    tilt: Annotated[
-        tuple[Tilt, ...] | None, Key(Several(TiltText()), "of the trunk when a fall starts")
-    ] = None
-    flip: Annotated[tuple[float, ...] | None, Key(Several(FLIP), "turn in pitch during a jump")] = (
-        None
+    rate_change: float | None = keyed(TRUNK_RATE, "change of the trunk's rate")
+    wheel_speed_max: float | None = keyed(WHEEL_SPEED, "highest speed of a wheel")
+    spin_inertia: float | None = keyed(
+        Quantity(Dimension.INERTIA), "spin inertia of one wheel, asked directly"
     )
-    turn: Annotated[
-        tuple[About, ...] | None, Key(Several(TURN_TEXT), "turn to any attitude during a jump")
-    ] = None
-    catch: Annotated[
-        tuple[About, ...] | None,
-        Key(Several(CATCH_TEXT), "rates at lift-off that the wheels stop"),
-    ] = None
-    pivot: Annotated[
-        Pivot | None, Key(PivotText(), "point or edge that balance and stand_up are about")
-    ] = None
-    balance: Annotated[
-        tuple[About | Kick, ...] | None,
-        Key(Several(UpsetText()), "tilt or impulse to get over on the pivot"),
-    ] = None
-    stand_up: Annotated[
-        tuple[Climb, ...] | None, Key(Several(ClimbText()), "tilt to stand up from on the pivot")
-    ] = None
-    maneuvers: Annotated[
-        str | None,
-        Key(Choice(("paper", "none")), "the paper's three beside what else is asked, or none"),
-    ] = None
-    reliability: Annotated[
-        float | None, Key(Chance(), "share of robots that shall pass as built (`[reality]`)")
-    ] = None
-    survives: Annotated[
-        str | None, Key(Choice(SURVIVED), "whether it lands level though a drive stops in flight")
-    ] = None
-    detection: Annotated[
-        float | None,
-        Key(Quantity(Dimension.TIME), "time until it is known that a drive has stopped"),
-    ] = None
+    gravity: float | None = keyed(GRAVITY, "where maneuvers state none")
+    jump_height: tuple[float, ...] | None = keyed(
+        Several(HEIGHT), "height of a jump, of the centre of mass"
+    )
+    kick: tuple[Kick, ...] | None = keyed(Several(KickText()), "impulse on the trunk during a jump")
+    fall: tuple[float, ...] | None = keyed(
+        Several(HEIGHT), "height of the trunk that a fall starts at"
+    )
+    tilt: tuple[Tilt, ...] | None = keyed(Several(TiltText()), "of the trunk when a fall starts")
+    flip: tuple[float, ...] | None = keyed(Several(FLIP), "turn in pitch during a jump")
+    turn: tuple[About, ...] | None = keyed(Several(TURN_TEXT), "turn to any attitude during a jump")
+    catch: tuple[About, ...] | None = keyed(
+        Several(CATCH_TEXT), "rates at lift-off that the wheels stop"
+    )
+    pivot: Pivot | None = keyed(PivotText(), "point or edge that balance and stand_up are about")
+    balance: tuple[About | Kick, ...] | None = keyed(
+        Several(UpsetText()), "tilt or impulse to get over on the pivot"
+    )
+    stand_up: tuple[Climb, ...] | None = keyed(
+        Several(ClimbText()), "tilt to stand up from on the pivot"
+    )
+    maneuvers: str | None = keyed(
+        Choice(("paper", "none")), "the paper's three beside what else is asked, or none"
+    )
+    reliability: float | None = keyed(
+        Chance(), "share of robots that shall pass as built (`[reality]`)"
+    )
+    survives: str | None = keyed(
+        Choice(SURVIVED), "whether it lands level though a drive stops in flight"
+    )
+    detection: float | None = keyed(
+        Quantity(Dimension.TIME), "time until it is known that a drive has stopped"
+    )
 
     @property
     def notices(self) -> float | None:
@@ -273,178 +250,117 @@ class RequirementSection:
 class OcsSection:
     """`[ocs]`: how the device sits on the trunk, and what it may weigh [rad, m, kg]."""
 
-    layout: Annotated[
-        str | None, Key(Choice((*LAYOUTS, ALL_LAYOUTS)), "how the wheels' axes lie")
-    ] = None
-    axes: Annotated[
-        tuple[float, ...] | None,
-        Key(
-            Quantities(Dimension.RATIO, _OF_WHEELS),
-            "directions of the wheels' axes by hand, in place of a layout: x, y, z of each",
-        ),
-    ] = None
-    alpha: Annotated[
-        float | None, Key(INCIDENCE, "incidence of a pair's axes, or elevation of a pyramid's")
-    ] = None
-    alpha_criterion: Annotated[str | None, Key(Choice(CRITERIA), "how the incidence is chosen")] = (
-        None
+    layout: str | None = keyed(Choice((*LAYOUTS, ALL_LAYOUTS)), "how the wheels' axes lie")
+    axes: tuple[float, ...] | None = keyed(
+        Quantities(Dimension.RATIO, _OF_WHEELS),
+        "directions of the wheels' axes by hand, in place of a layout: x, y, z of each",
     )
-    position: Annotated[
-        tuple[float, ...] | None,
-        Key(
-            Quantities(Dimension.LENGTH, _OF_WHEELS),
-            "centre of a pair's left wheel on the trunk: x, y, z; of other layouts, of each wheel",
-        ),
-    ] = None
-    mass_max: Annotated[
-        float | None, Key(Quantity(Dimension.MASS), "largest mass of the device, all modules")
-    ] = None
-    lighter_by: Annotated[
-        float | None,
-        Key(Quantity(Dimension.MASS), "to be told what must give for a device so much lighter"),
-    ] = None
-    co_design: Annotated[
-        bool | None, Key(Switch(), "whether to refine all dimensions by optimal control in 3-D")
-    ] = None
-    guard: Annotated[
-        str | None,
-        Key(Choice(GUARDS), "what the housings hold: fingers out, or also a wheel that bursts"),
-    ] = None
+    alpha: float | None = keyed(
+        INCIDENCE, "incidence of a pair's axes, or elevation of a pyramid's"
+    )
+    alpha_criterion: str | None = keyed(Choice(CRITERIA), "how the incidence is chosen")
+    position: tuple[float, ...] | None = keyed(
+        Quantities(Dimension.LENGTH, _OF_WHEELS),
+        "centre of a pair's left wheel on the trunk: x, y, z; of other layouts, of each wheel",
+    )
+    mass_max: float | None = keyed(_MASS, "largest mass of the device, all modules")
+    lighter_by: float | None = keyed(
+        _MASS, "to be told what must give for a device so much lighter"
+    )
+    co_design: bool | None = keyed(
+        Switch(), "whether to refine all dimensions by optimal control in 3-D"
+    )
+    guard: str | None = keyed(
+        Choice(GUARDS), "what the housings hold: fingers out, or also a wheel that bursts"
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class FlywheelSection:
     """`[flywheel]`: the room for a rim and what it is made of [m, kg]."""
 
-    r_max: Annotated[float | None, Key(_LENGTH, "largest outer radius of a rim")] = None
-    r_min: Annotated[float | None, Key(_LENGTH, "smallest bore radius of a rim")] = None
-    h_max: Annotated[float | None, Key(_LENGTH, "largest height of a rim")] = None
-    h_min: Annotated[float | None, Key(_LENGTH, "smallest height of a rim")] = None
-    wall_min: Annotated[float | None, Key(_LENGTH, "smallest wall, outer less bore radius")] = None
-    wheel_mass_max: Annotated[
-        float | None, Key(Quantity(Dimension.MASS), "largest mass of a rim")
-    ] = None
-    material: Annotated[
-        str | None,
-        Key(Text((STEEL, AUTO)), "material of a rim, from the catalogue; steel or auto: of many"),
-    ] = None
-    web: Annotated[
-        str | None,
-        Key(
-            Choice(WEBS),
-            "what joins a rim to its motor: a disc of one piece with it, one of aluminium that "
-            "it is shrunk on, or none: massless spokes",
-        ),
-    ] = None
-    stress_safety: Annotated[
-        float | None, Key(Number(), "yield strength over hoop stress at the highest speed")
-    ] = None
-    lightening: Annotated[
-        int | None,
-        Key(Count(), "holes in a web that has room for them; 0: none"),
-    ] = None
-    chamfer: Annotated[
-        float | None,
-        Key(
-            Quantity(Dimension.LENGTH, Sign.NOT_NEGATIVE, LARGEST_CHAMFER),
-            "broken edges of a wheel with a web, at 45 deg",
-        ),
-    ] = None
-    balancing_holes: Annotated[
-        int | None, Key(Count(), "in each face of a rim with a web; 0: none")
-    ] = None
-    balancing_hole_diameter: Annotated[
-        float | None, Key(_LENGTH, "of each, on the rim's middle radius")
-    ] = None
-    balancing_hole_depth: Annotated[float | None, Key(_LENGTH, "of each, from its face")] = None
+    r_max: float | None = keyed(_LENGTH, "largest outer radius of a rim")
+    r_min: float | None = keyed(_LENGTH, "smallest bore radius of a rim")
+    h_max: float | None = keyed(_LENGTH, "largest height of a rim")
+    h_min: float | None = keyed(_LENGTH, "smallest height of a rim")
+    wall_min: float | None = keyed(_LENGTH, "smallest wall, outer less bore radius")
+    wheel_mass_max: float | None = keyed(_MASS, "largest mass of a rim")
+    material: str | None = keyed(
+        Text((STEEL, AUTO)), "material of a rim, from the catalogue; steel or auto: of many"
+    )
+    web: str | None = keyed(
+        Choice(WEBS),
+        "what joins a rim to its motor: a disc of one piece with it, one of aluminium that "
+        "it is shrunk on, or none: massless spokes",
+    )
+    stress_safety: float | None = keyed(
+        Number(), "yield strength over hoop stress at the highest speed"
+    )
+    lightening: int | None = keyed(Count(), "holes in a web that has room for them; 0: none")
+    chamfer: float | None = keyed(
+        Quantity(Dimension.LENGTH, Sign.NOT_NEGATIVE, LARGEST_CHAMFER),
+        "broken edges of a wheel with a web, at 45 deg",
+    )
+    balancing_holes: int | None = keyed(Count(), "in each face of a rim with a web; 0: none")
+    balancing_hole_diameter: float | None = keyed(_LENGTH, "of each, on the rim's middle radius")
+    balancing_hole_depth: float | None = keyed(_LENGTH, "of each, from its face")
 
 
 @dataclass(frozen=True, kw_only=True)
 class MotorSection:
     """`[motor]`: what drives a wheel [N m]."""
 
-    name: Annotated[
-        str | None,
-        Key(Names(), "motors to choose from, of the catalogue; auto, or none", option="motor"),
-    ] = None
-    gear: Annotated[
-        str | None, Key(Text((AUTO, "direct")), "gear from the catalogue, direct, or auto")
-    ] = None
-    any: Annotated[
-        bool | None,
-        Key(Switch(), "whether motors may lack what a builder needs", option="motors-any"),
-    ] = None
-    motors: Annotated[
-        str | None, Key(Text(), "file with motors to choose from instead, CSV or TOML")
-    ] = None
-    with_catalogue: Annotated[
-        bool | None, Key(Switch(), "whether to choose from the catalogue too, beside that file")
-    ] = None
-    gears: Annotated[str | None, Key(Text(), "file with gears of your own, CSV or TOML")] = None
-    torque_max: Annotated[
-        float | None, Key(Quantity(Dimension.TORQUE), "largest torque on a wheel")
-    ] = None
+    name: str | None = keyed(
+        Names(), "motors to choose from, of the catalogue; auto, or none", "motor"
+    )
+    gear: str | None = keyed(Text((AUTO, "direct")), "gear from the catalogue, direct, or auto")
+    any: bool | None = keyed(Switch(), "whether motors may lack what a builder needs", "motors-any")
+    motors: str | None = keyed(Text(), "file with motors to choose from instead, CSV or TOML")
+    with_catalogue: bool | None = keyed(
+        Switch(), "whether to choose from the catalogue too, beside that file"
+    )
+    gears: str | None = keyed(Text(), "file with gears of your own, CSV or TOML")
+    torque_max: float | None = keyed(Quantity(Dimension.TORQUE), "largest torque on a wheel")
 
 
 @dataclass(frozen=True, kw_only=True)
 class SupplySection:
     """`[supply]`: what feeds all motors, drawn or fed back, and their controllers [V, A, W, kg]."""
 
-    voltage: Annotated[
-        float | None, Key(SUPPLY, "of the supply of all motors", option="bus-voltage")
-    ] = None
-    current_max: Annotated[
-        float | None,
-        Key(
-            Quantity(Dimension.CURRENT),
-            "largest current of all motors, drawn or fed back",
-            option="bus-current",
-        ),
-    ] = None
-    power_max: Annotated[
-        float | None,
-        Key(
-            Quantity(Dimension.POWER),
-            "largest power of all motors, drawn or fed back",
-            option="bus-power",
-        ),
-    ] = None
-    controllers: Annotated[
-        float | str | None,
-        Key(
-            WordOr((AUTO, NO_CONTROLLERS), Quantity(Dimension.MASS)),
-            "mass of one motor controller; none: not counted",
-        ),
-    ] = None
+    voltage: float | None = keyed(SUPPLY, "of the supply of all motors", "bus-voltage")
+    current_max: float | None = keyed(
+        Quantity(Dimension.CURRENT),
+        "largest current of all motors, drawn or fed back",
+        "bus-current",
+    )
+    power_max: float | None = keyed(
+        Quantity(Dimension.POWER), "largest power of all motors, drawn or fed back", "bus-power"
+    )
+    controllers: float | str | None = keyed(
+        WordOr((AUTO, NO_CONTROLLERS), _MASS), "mass of one motor controller; none: not counted"
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class ValidationSection:
     """`[validation]`: the proof by simulation; gains [1/s^2, 1/s]."""
 
-    enabled: Annotated[
-        bool | None, Key(Switch(), "whether to simulate at all", option="validate")
-    ] = None
-    projection: Annotated[
-        str | None, Key(Choice(PROJECTIONS), "how the law's torque falls to the wheels")
-    ] = None
-    kp: Annotated[float | None, Key(Number(), "gain on the attitude error")] = None
-    kd: Annotated[float | None, Key(Number(), "gain on the rate error")] = None
-    ballistic: Annotated[
-        bool | None, Key(Switch(), "whether jumps start at lift-off, without a push-off")
-    ] = None
-    seed: Annotated[int | None, Key(Count(), "seed of all random numbers")] = None
-    video: Annotated[bool | None, Key(Switch(), "whether to film the flights")] = None
-    certify: Annotated[
-        bool | None, Key(Switch(), "whether to fly robots as they might be built, until it is sure")
-    ] = None
-    control_period: Annotated[
-        float | None,
-        Key(Quantity(Dimension.TIME, most=0.1), "from one torque to the next, whole milliseconds"),
-    ] = None
-    desaturate: Annotated[
-        bool | None, Key(Switch(), "whether the wheels are braked while the robot stands")
-    ] = None
+    enabled: bool | None = keyed(Switch(), "whether to simulate at all", "validate")
+    projection: str | None = keyed(Choice(PROJECTIONS), "how the law's torque falls to the wheels")
+    kp: float | None = keyed(Number(), "gain on the attitude error")
+    kd: float | None = keyed(Number(), "gain on the rate error")
+    ballistic: bool | None = keyed(Switch(), "whether jumps start at lift-off, without a push-off")
+    seed: int | None = keyed(Count(), "seed of all random numbers")
+    video: bool | None = keyed(Switch(), "whether to film the flights")
+    certify: bool | None = keyed(
+        Switch(), "whether to fly robots as they might be built, until it is sure"
+    )
+    control_period: float | None = keyed(
+        Quantity(Dimension.TIME, most=0.1), "from one torque to the next, whole milliseconds"
+    )
+    desaturate: bool | None = keyed(
+        Switch(), "whether the wheels are braked while the robot stands"
+    )
 
 
 LONGEST_REPR = 200
@@ -501,13 +417,6 @@ SECTIONS: Mapping[str, type] = {
     name: kind for name, kind in get_type_hints(Specification).items() if name != "maneuvers"
 }
 """Class of each section of the file, by its name in brackets."""
-
-
-@cache
-def keys_of(section: type) -> Mapping[str, Key]:
-    """Every key of a section by name, in order."""
-    hints = get_type_hints(section, include_extras=True)
-    return {item.name: get_args(hints[item.name])[1] for item in fields(section)}
 
 
 @cache

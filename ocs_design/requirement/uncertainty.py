@@ -9,20 +9,20 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cache
 from math import inf, isfinite, pi, sqrt
 from pathlib import Path
 from statistics import NormalDist
 from types import MappingProxyType
-from typing import Annotated, Any, get_args, get_type_hints
+from typing import Any
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.errors import QuantityError, SpecificationError
 from ocs_design.common.files import TextKind
 from ocs_design.common.units import Dimension, format_quantity, parse_quantity
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
-from ocs_design.requirement.values import Faults, Key, Quantity, Text, Value
+from ocs_design.requirement.values import Faults, Quantity, Text, Value, keyed, keys_of
 
 CUT = 3.0
 """Standard deviations at which a normal distribution ends: no part is off by ten."""
@@ -180,73 +180,52 @@ _RATE_SPREAD = Spread(Dimension.ANGULAR_SPEED, "deg/s", 0.0)
 class UncertaintySection:
     """`[reality]`: distributions that `validate --samples` draws from; None: the default."""
 
-    file: Annotated[
-        str | None,
-        Key(Text(), "file of distributions in place of the defaults, TOML", option="reality"),
-    ] = None
-    mass_error: Annotated[
-        Distribution | None, Key(_RELATIVE, "relative, of all of the robot's masses alike")
-    ] = None
-    inertia_error: Annotated[
-        Distribution | None,
-        Key(_RELATIVE, "relative, of the trunk's second moments of mass along x, y and z"),
-    ] = None
-    com_error: Annotated[
-        Distribution | None,
-        Key(Spread(Dimension.LENGTH, "mm"), "of the trunk's centre of mass along x, y and z"),
-    ] = None
-    incidence_error: Annotated[
-        Distribution | None, Key(_ANGLE, "of each wheel's incidence angle")
-    ] = None
-    torque_constant_error: Annotated[
-        Distribution | None, Key(_RELATIVE, "relative, of each motor's torque constant")
-    ] = None
-    resistance_error: Annotated[
-        Distribution | None, Key(_RELATIVE, "relative, of each motor's resistance")
-    ] = None
-    bus_voltage_error: Annotated[
-        Distribution | None, Key(_RELATIVE, "relative, of the supply's voltage")
-    ] = None
-    coulomb_friction: Annotated[
-        Distribution | None,
-        Key(Spread(Dimension.TORQUE, "mN m", 0.0), "of each wheel at any speed"),
-    ] = None
-    viscous_friction: Annotated[
-        Distribution | None,
-        Key(Spread(Dimension.DAMPING, "uN m s/rad", 0.0), "of each wheel, over its speed"),
-    ] = None
-    air_drag: Annotated[
-        Distribution | None,
-        Key(Spread(Dimension.RATIO, "%", 0.0), "of the wheels, over what the formulas say"),
-    ] = None
-    torque_delay: Annotated[
-        Distribution | None,
-        Key(
-            Spread(Dimension.TIME, "ms", 0.0, 0.1), "from measurement to torque, whole milliseconds"
-        ),
-    ] = None
-    attitude_noise: Annotated[
-        Distribution | None,
-        Key(_ANGLE_SPREAD, "standard deviation of each measurement of attitude"),
-    ] = None
-    attitude_bias: Annotated[
-        Distribution | None, Key(_ANGLE, "constant error of measured roll and pitch")
-    ] = None
-    gyro_noise: Annotated[
-        Distribution | None,
-        Key(_RATE_SPREAD, "standard deviation of each measured rate"),
-    ] = None
-    gyro_bias: Annotated[
-        Distribution | None, Key(_RATE, "constant error of the measured rates about x, y and z")
-    ] = None
-    contact_friction: Annotated[
-        Distribution | None,
-        Key(Spread(Dimension.RATIO, "%", 0.01), "coefficient between feet and floor"),
-    ] = None
-    takeoff_rate: Annotated[
-        Distribution | None,
-        Key(_RATE, "that a push-off leaves about roll and pitch beyond what it was planned to"),
-    ] = None
+    file: str | None = keyed(
+        Text(), "file of distributions in place of the defaults, TOML", "reality"
+    )
+    mass_error: Distribution | None = keyed(
+        _RELATIVE, "relative, of all of the robot's masses alike"
+    )
+    inertia_error: Distribution | None = keyed(
+        _RELATIVE, "relative, of the trunk's second moments of mass along x, y and z"
+    )
+    com_error: Distribution | None = keyed(
+        Spread(Dimension.LENGTH, "mm"), "of the trunk's centre of mass along x, y and z"
+    )
+    incidence_error: Distribution | None = keyed(_ANGLE, "of each wheel's incidence angle")
+    torque_constant_error: Distribution | None = keyed(
+        _RELATIVE, "relative, of each motor's torque constant"
+    )
+    resistance_error: Distribution | None = keyed(_RELATIVE, "relative, of each motor's resistance")
+    bus_voltage_error: Distribution | None = keyed(_RELATIVE, "relative, of the supply's voltage")
+    coulomb_friction: Distribution | None = keyed(
+        Spread(Dimension.TORQUE, "mN m", 0.0), "of each wheel at any speed"
+    )
+    viscous_friction: Distribution | None = keyed(
+        Spread(Dimension.DAMPING, "uN m s/rad", 0.0), "of each wheel, over its speed"
+    )
+    air_drag: Distribution | None = keyed(
+        Spread(Dimension.RATIO, "%", 0.0), "of the wheels, over what the formulas say"
+    )
+    torque_delay: Distribution | None = keyed(
+        Spread(Dimension.TIME, "ms", 0.0, 0.1), "from measurement to torque, whole milliseconds"
+    )
+    attitude_noise: Distribution | None = keyed(
+        _ANGLE_SPREAD, "standard deviation of each measurement of attitude"
+    )
+    attitude_bias: Distribution | None = keyed(_ANGLE, "constant error of measured roll and pitch")
+    gyro_noise: Distribution | None = keyed(
+        _RATE_SPREAD, "standard deviation of each measured rate"
+    )
+    gyro_bias: Distribution | None = keyed(
+        _RATE, "constant error of the measured rates about x, y and z"
+    )
+    contact_friction: Distribution | None = keyed(
+        Spread(Dimension.RATIO, "%", 0.01), "coefficient between feet and floor"
+    )
+    takeoff_rate: Distribution | None = keyed(
+        _RATE, "that a push-off leaves about roll and pitch beyond what it was planned to"
+    )
 
 
 _SPACE, _TILT = ("x", "y", "z"), ("roll", "pitch")
@@ -438,6 +417,5 @@ def uncertainty_of_texts(texts: Mapping[str, str], where: str) -> UncertaintySec
 @cache
 def spreads() -> Mapping[str, Spread]:
     """How each distribution is read, by its key."""
-    hints = get_type_hints(UncertaintySection, include_extras=True)
-    how = {item.name: get_args(hints[item.name])[1].value for item in fields(UncertaintySection)}
+    how = {name: key.value for name, key in keys_of(UncertaintySection).items()}
     return {name: value for name, value in how.items() if isinstance(value, Spread)}

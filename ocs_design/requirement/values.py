@@ -7,9 +7,10 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from difflib import get_close_matches
 from enum import Enum
+from functools import cache
 from math import pi
 from reprlib import repr as shortened
 from typing import Any, Generic, TypeVar
@@ -502,6 +503,17 @@ class Key:
     value: Value[Any]
     summary: str
     option: str = ""
+
+
+def keyed(value: Value[T], summary: str, option: str = "") -> T | None:
+    """A field of a section that is a key, None where it is not stated (`Key`)."""
+    return field(default=None, metadata={"key": Key(value, summary, option)})
+
+
+@cache
+def keys_of(section: type) -> Mapping[str, Key]:
+    """Every key of a section by name, in order."""
+    return {item.name: item.metadata["key"] for item in fields(section)}
 
 
 class Faults(list[str]):

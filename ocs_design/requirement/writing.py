@@ -22,7 +22,7 @@ from ocs_design.common.units import (
     si_unit,
 )
 from ocs_design.requirement.maneuver import Maneuver, kind_of
-from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, keys_of
+from ocs_design.requirement.specification import SECTIONS, Specification, all_keys
 from ocs_design.requirement.uncertainty import Distribution, Spread
 from ocs_design.requirement.values import (
     ONE_TURN,
@@ -32,6 +32,7 @@ from ocs_design.requirement.values import (
     Several,
     Value,
     WordOr,
+    keys_of,
 )
 from ocs_design.requirement.words import About, Climb, Kick, Person, Pivot, Tilt
 

@@ -18,9 +18,9 @@ from ocs_design.requirement.specification import (
     RequirementSection,
     Specification,
     all_keys,
-    keys_of,
 )
 from ocs_design.requirement.uncertainty import Distribution
+from ocs_design.requirement.values import keys_of
 from ocs_design.requirement.writing import commented_toml, rounded_text
 from ocs_design.robot.manual import robot_by_hand
 
