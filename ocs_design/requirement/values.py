@@ -226,10 +226,7 @@ class Several(Value[tuple[Any, ...]]):
 class Number(Value[float]):
     """A bare positive number."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "positive number"
+    takes = "positive number"
 
     def read(self, raw: object, where: str) -> float:
         """Value that `raw` stands for (`Value.read`)."""
@@ -239,10 +236,7 @@ class Number(Value[float]):
 class Chance(Value[float]):
     """A share of all flights, from an even chance to all but certain: 0.99 or 99%."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "number from 0.5 to below 1, or 50% to below 100%"
+    takes = "number from 0.5 to below 1, or 50% to below 100%"
 
     def read(self, raw: object, where: str) -> float:
         """Value that `raw` stands for (`Value.read`)."""
@@ -261,10 +255,7 @@ class Chance(Value[float]):
 class Count(Value[int]):
     """A whole number, zero or positive."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "whole number"
+    takes = "whole number"
 
     def read(self, raw: object, where: str) -> int:
         """Value that `raw` stands for (`Value.read`)."""
@@ -291,10 +282,7 @@ class Text(Value[str]):
 
     words: tuple[str, ...] = ()
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "text"
+    takes = "text"
 
     def read(self, raw: object, where: str) -> str:
         """Value that `raw` stands for (`Value.read`)."""
@@ -309,10 +297,7 @@ class Text(Value[str]):
 class Names(Value[str]):
     """One name, or several: a list, or one text with commas between them. Twice is once."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "name, or several with commas between them"
+    takes = "name, or several with commas between them"
 
     def read(self, raw: object, where: str) -> str:
         """Value that `raw` stands for (`Value.read`), as one text."""
@@ -336,10 +321,7 @@ def names_in(text: str) -> tuple[str, ...]:
 class LinkNames(Value[tuple[str, ...]]):
     """Some names: a TOML array, or text with commas; the word `none` stands for no name."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "names, or none"
+    takes = "names, or none"
 
     def read(self, raw: object, where: str) -> tuple[str, ...]:
         """Value that `raw` stands for (`Value.read`)."""
@@ -400,10 +382,7 @@ class WordOr(Value[float | str]):
 class Switch(Value[bool]):
     """True or false."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "true or false"
+    takes = "true or false"
 
     def read(self, raw: object, where: str) -> bool:
         """Value that `raw` stands for (`Value.read`)."""
@@ -419,10 +398,7 @@ class JointValues(Value[Mapping[str, float]]):
     A table, or texts `NAME=VALUE` from the command line.
     """
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "table of joint = angle or length"
+    takes = "table of joint = angle or length"
 
     def read(self, raw: object, where: str) -> Mapping[str, float]:
         """Value that `raw` stands for (`Value.read`)."""

@@ -80,10 +80,7 @@ class KickText(Value[Kick]):
 
     _PARTS = re.compile(r"\s*(.+?)\s+at\s+(.+?)(?:\s+along\s+(.+?))?\s*")
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left"
+    takes = "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left"
 
     def read(self, raw: object, where: str) -> Kick:
         """Value that `raw` stands for (`Value.read`)."""
@@ -121,10 +118,7 @@ class PersonText(Value[Person]):
 
     _PARTS = re.compile(r"\s*([\d.]+ *[a-z]+)[\s,]+([\d.]+ *[a-z]+)(?:\s+with\s+(.+?))?\s*", re.I)
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "MASS HEIGHT, and if you like with PAYLOAD"
+    takes = "MASS HEIGHT, and if you like with PAYLOAD"
 
     def read(self, raw: object, where: str) -> Person:
         """Value that `raw` stands for (`Value.read`)."""
@@ -278,10 +272,7 @@ def _tilt(raw: object, where: str) -> About:
 class UpsetText(Value[About | Kick]):
     """What a robot on a pivot is to get over: a tilt, or an impulse."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return f"{TILT_TEXT.takes}, or {KickText().takes}"
+    takes = f"{TILT_TEXT.takes}, or {KickText().takes}"
 
     def read(self, raw: object, where: str) -> About | Kick:
         """Value that `raw` stands for (`Value.read`)."""
@@ -307,10 +298,7 @@ _BY_BRAKE = " by brake"
 class ClimbText(Value[Climb]):
     """A tilt, a time if one is stated, and `by brake` if it is."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "as in 'roll 45deg in 0.5s', 'roll 45deg by brake'"
+    takes = "as in 'roll 45deg in 0.5s', 'roll 45deg by brake'"
 
     def read(self, raw: object, where: str) -> Climb:
         """Value that `raw` stands for (`Value.read`)."""
@@ -335,10 +323,7 @@ class Pivot:
 class PivotText(Value[Pivot]):
     """A point, and the direction of an edge through it."""
 
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return "X,Y,Z, and for an edge along X,Y,Z or a word such as left"
+    takes = "X,Y,Z, and for an edge along X,Y,Z or a word such as left"
 
     def read(self, raw: object, where: str) -> Pivot:
         """Value that `raw` stands for (`Value.read`)."""
