@@ -149,10 +149,14 @@ def _trimesh_bounds(path: Path) -> FloatArray | None:
 
 
 def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
-    """A mesh of any kind, in metres if the file states its unit."""
+    """A mesh of any kind without its colours, in metres if the file states its unit."""
     import trimesh  # noqa: PLC0415 - takes 1.7 s, and only few meshes need it
 
-    mesh = trimesh.load_mesh(path)
+    scene = trimesh.load_scene(path)
+    for part in scene.geometry.values():
+        # Pictures on several parts would be packed into one, which takes longer than all else.
+        part.visual = trimesh.visual.ColorVisuals()
+    mesh = scene.to_mesh()
     if mesh.units is not None:
         mesh.convert_units("meters")
     return mesh
