@@ -20,7 +20,7 @@ from ocs_design.parts.joints import (
     SERVICE,
     WARMEST,
     Correction,
-    Joint,
+    Margin,
     Ring,
     ShrinkFit,
     TurningRings,
@@ -57,7 +57,7 @@ def burst_of(device: Device) -> Containment:
     return containment(piece, wheel.outer_radius, wheel.height)
 
 
-def joints_of(device: Device) -> tuple[Joint, ...]:
+def joints_of(device: Device) -> tuple[Margin, ...]:
     """Joints of one module's wheel, those of the rim first; none with massless spokes.
 
     Where no capacity is known, the joint keeps the device from being built.
@@ -91,13 +91,13 @@ def _elastic(material: Material | None) -> tuple[float, float] | None:
     return material.elastic_modulus, material.poisson_ratio
 
 
-def _rim_joints(device: Device) -> Iterator[Joint]:
+def _rim_joints(device: Device) -> Iterator[Margin]:
     wheel = device.flywheel
     rings, speed = wheel_rings(wheel), OVERSPEED * device.motor.top_speed
     if wheel.web is None:
         return
     if rings is None:
-        yield Joint(
+        yield Margin(
             RIM_JOINT, 0.0, None, "Pa", f"elastic figures of {wheel.material} are not known"
         )
     elif wheel.web.material == wheel.material:
@@ -105,12 +105,12 @@ def _rim_joints(device: Device) -> Iterator[Joint]:
     else:
         fit = rim_fit(device)
         if fit is None:
-            yield Joint(RIM_JOINT, 0.0, None, "Pa", "thermal expansions are not known")
+            yield Margin(RIM_JOINT, 0.0, None, "Pa", "thermal expansions are not known")
         else:
             yield from _shrunk(wheel, fit)
 
 
-def _one_piece(wheel: Flywheel, rings: tuple[Ring, ...], speed: float) -> Joint:
+def _one_piece(wheel: Flywheel, rings: tuple[Ring, ...], speed: float) -> Margin:
     """Largest stress of a wheel of one piece, hub, web and rim."""
     turning, names = TurningRings.of(rings, speed), ["the hub", "the web", "the rim"]
     values = [turning.peak(ring) for ring in range(len(rings))]
@@ -128,7 +128,7 @@ def _one_piece(wheel: Flywheel, rings: tuple[Ring, ...], speed: float) -> Joint:
         f"one piece; stress in {where} at {OVERSPEED:g} x top speed, rotating disc of three "
         "thicknesses, against yield"
     )
-    return Joint(RIM_JOINT, peaks[where], materials()[wheel.material].yield_strength, "Pa", note)
+    return Margin(RIM_JOINT, peaks[where], materials()[wheel.material].yield_strength, "Pa", note)
 
 
 def rim_fit(device: Device) -> ShrinkFit | None:
@@ -148,7 +148,7 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     )
 
 
-def _shrunk(wheel: Flywheel, fit: ShrinkFit) -> Iterator[Joint]:
+def _shrunk(wheel: Flywheel, fit: ShrinkFit) -> Iterator[Margin]:
     """Pressure, stresses and buckling of a shrink fit."""
     web = wheel.web
     if web is None:
@@ -156,7 +156,7 @@ def _shrunk(wheel: Flywheel, fit: ShrinkFit) -> Iterator[Joint]:
     across = ", ".join(
         format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most)
     )
-    yield Joint(
+    yield Margin(
         RIM_JOINT,
         fit.needed,
         fit.held,
@@ -170,8 +170,8 @@ def _shrunk(wheel: Flywheel, fit: ShrinkFit) -> Iterator[Joint]:
         ("rim of the shrink fit", fit.stress_rim, wheel.material),
     ):
         strength = materials()[material].yield_strength
-        yield Joint(name, stress, strength, "Pa", "largest stress at the tightest fit, to yield")
-    yield Joint(
+        yield Margin(name, stress, strength, "Pa", "largest stress at the tightest fit, to yield")
+    yield Margin(
         "web of the shrink fit, to buckling",
         fit.squeezed,
         fit.buckling,
@@ -180,7 +180,7 @@ def _shrunk(wheel: Flywheel, fit: ShrinkFit) -> Iterator[Joint]:
     )
 
 
-def _shaft_joints(device: Device) -> Iterator[Joint]:
+def _shaft_joints(device: Device) -> Iterator[Margin]:
     """What holds the wheel on its motor."""
     drive, web = device.motor, device.flywheel.web
     mounting = drive.mounting
@@ -189,13 +189,13 @@ def _shaft_joints(device: Device) -> Iterator[Joint]:
         return
     if drive.gear != DIRECT.name:
         unknown = "how a wheel is held on this gear is not in the catalogue"
-        yield Joint(SHAFT_JOINT, torque, None, "N m", unknown)
+        yield Margin(SHAFT_JOINT, torque, None, "N m", unknown)
     elif mounting is not None and mounting.rotor is not None:
         circle = mounting.rotor
         held, figures = screw(circle.thread), (circle.bolts, circle.radius, circle.screws)
         tight = format_quantity(tightening_torque(held, circle.screws), "N m", digits=2)
         force = f"{preload(held, circle.screws):,.0f} N"
-        yield Joint(
+        yield Margin(
             SHAFT_JOINT,
             torque,
             hub_joint(mounting, 0.0),
@@ -203,7 +203,7 @@ def _shaft_joints(device: Device) -> Iterator[Joint]:
             f"friction under {circle}, class {circle.screws}, tightened with {tight} to {force}, "
             f"against {SERVICE:g} x peak torque",
         )
-        yield Joint(
+        yield Margin(
             "shaft joint, screws in shear",
             torque,
             shear_torque(held, *figures),
@@ -215,7 +215,7 @@ def _shaft_joints(device: Device) -> Iterator[Joint]:
         carried = hub_joint(mounting, length)
         across = format_quantity(mounting.shaft_diameter, "mm")
         long = format_quantity(length, "mm", digits=3)
-        yield Joint(
+        yield Margin(
             SHAFT_JOINT,
             torque,
             carried,
@@ -226,7 +226,7 @@ def _shaft_joints(device: Device) -> Iterator[Joint]:
         )
     else:
         unknown = "the shaft and the rotor's threads are not in the catalogue"
-        yield Joint(SHAFT_JOINT, torque, None, "N m", unknown)
+        yield Margin(SHAFT_JOINT, torque, None, "N m", unknown)
 
 
 @dataclass(frozen=True)

@@ -186,7 +186,12 @@ class CoDesignRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class PriceRecord:
-    """What one more of a limit buys: see `sizing.selection.prices.Price` (SI)."""
+    """What one more of a limit buys, the limit by its name in `sizing.limits.LIMITS`.
+
+    Attributes:
+        limit: its name. value: as it is [SI]. changed: the looser one [SI].
+        mass_change: of the whole device [kg], at most 0.
+    """
 
     limit: str
     value: float

@@ -156,7 +156,7 @@ def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
     for part in scene.geometry.values():
         # Pictures on several parts would be packed into one, which takes longer than all else.
         part.visual = trimesh.visual.ColorVisuals()
-    mesh = scene.to_mesh()
+    mesh: trimesh.Trimesh = scene.to_mesh()
     if mesh.units is not None:
         mesh.convert_units("meters")
     return mesh

@@ -1,13 +1,13 @@
 """Margins of a motion: demand against capacity, and the worst of several motions."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.joints import OVERSPEED
+from ocs_design.parts.joints import OVERSPEED, Margin
 from ocs_design.sizing.motion import (
     Consumption,
     DrivenWheel,
@@ -15,40 +15,6 @@ from ocs_design.sizing.motion import (
     consumption,
     torque_constant,
 )
-
-
-@dataclass(frozen=True)
-class Margin:
-    """What is asked of one part against what it stands.
-
-    Attributes:
-        name: of the quantity; one name is one kind of margin.
-        demand: largest that is asked, never negative.
-        capacity: what the part stands; None: no limit, or none known, and `note` says which.
-        unit: of both, SI.
-        note: what the figures rest on, one sentence; empty if there is nothing to say.
-        scenario: name of the maneuver that asks it; empty if none does.
-        of_motion: whether a maneuver has any part in it.
-    """
-
-    name: str
-    demand: float
-    capacity: float | None
-    unit: str
-    note: str = ""
-    scenario: str = ""
-    of_motion: bool = True
-
-    @property
-    def factor(self) -> float | None:
-        """Capacity over demand: below 1 it is exceeded; None: no limit, or nothing asked."""
-        return None if self.capacity is None or self.demand == 0.0 else self.capacity / self.demand
-
-    @property
-    def _strain(self) -> tuple[float, float]:
-        """Grows with what is asked, and with its share of the capacity first."""
-        factor = self.factor
-        return (0.0 if factor is None else 1.0 / factor, self.demand)
 
 
 def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, ...]:
@@ -64,7 +30,7 @@ def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, 
     for name, margins in by_scenario:
         for margin in margins:
             kept = found.get(margin.name)
-            if kept is None or margin._strain > kept._strain:
+            if kept is None or margin.strain > kept.strain:
                 found[margin.name] = replace(margin, scenario=name if margin.of_motion else "")
     return tuple(found.values())
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from ocs_design.actuation.motor import Motor, build_gaps
 from ocs_design.device.joints import RIM_JOINT, SHAFT_JOINT
 from ocs_design.device.records import Buildable, MarginRecord, OpenPoint
-from ocs_design.parts.joints import Joint
+from ocs_design.parts.joints import Margin
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import listed
 from ocs_design.robot.links import listed as some_of
@@ -59,7 +59,7 @@ def buildable(
     motor: Motor | None,
     mounting: Mounting | None,
     margins: Sequence[MarginRecord],
-    joints: Sequence[Joint] = (),
+    joints: Sequence[Margin] = (),
     robot: Robot | None = None,
 ) -> Buildable:
     """Whether a device can be built as it stands, and what is open.
@@ -104,13 +104,13 @@ def _motor_points(motor: Motor) -> Iterator[OpenPoint]:
         )
 
 
-def _joint_points(joints: Sequence[Joint]) -> Iterator[OpenPoint]:
+def _joint_points(joints: Sequence[Margin]) -> Iterator[OpenPoint]:
     """Joints that do not hold, or of which it is not known."""
     for joint in joints:
         cure = _JOINT_CURES[SHAFT_JOINT if joint.name.startswith(SHAFT_JOINT) else RIM_JOINT]
         if joint.capacity is None:
             yield OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure)
-        elif joint.margin is not None and joint.margin < 1.0 and joint.name not in _SPARE:
+        elif joint.factor is not None and joint.factor < 1.0 and joint.name not in _SPARE:
             asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
             yield OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure)
 

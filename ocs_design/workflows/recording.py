@@ -31,7 +31,6 @@ from ocs_design.device.records import (
     OcsDesign,
     OcsRecord,
     Owed,
-    PriceRecord,
     RankedRecord,
     ReachRecord,
     RejectionRecord,
@@ -47,7 +46,7 @@ from ocs_design.device.records import (
 )
 from ocs_design.export.assembly_notes import device_notes, trunk_notes
 from ocs_design.export.time_series import export_time_series, series_file
-from ocs_design.parts.joints import SERVICE
+from ocs_design.parts.joints import SERVICE, Margin
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 from ocs_design.requirement.maneuver import Maneuver, StandUp, kind_of
 from ocs_design.requirement.resolving import Resolved
@@ -59,7 +58,6 @@ from ocs_design.sizing.margins import (
     HOOP_STRESS,
     MOTOR_TORQUE,
     WHEEL_SPEED,
-    Margin,
     margins,
     worst,
 )
@@ -85,12 +83,11 @@ def record_margins(
         found = tuple(_without_motor(resolved, designed, runs))
     else:
         motions = (*_planned(plans), *_flown(runs))
-        held = (
-            Margin(joint.name, joint.demand, joint.capacity, joint.unit, joint.note)
-            for joint in joints_of(designed.device)
-        )
         braked = tuple(_braked(resolved, designed, plans))
-        found = (*_of_drive(designed.choice, designed.device, resolved, motions, braked), *held)
+        found = (
+            *_of_drive(designed.choice, designed.device, resolved, motions, braked),
+            *joints_of(designed.device),
+        )
     wheel, envelope = designed.device.flywheel, resolved.envelope
     room = (
         Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"),
@@ -257,10 +254,7 @@ def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> Selec
             violation=refined.fine_violation,
             remark=refined.note,
         ),
-        prices=tuple(
-            recorded(PriceRecord, price, limit=price.limit.name)
-            for price in mass_prices(problem, selection.best)
-        ),
+        prices=tuple(mass_prices(problem, selection.best)),
         kept=kept,
     )
 

@@ -46,7 +46,7 @@ def test_one_piece_stands_its_largest_stress_at_over_speed():
     peaks = [turning.peak(ring) for ring in range(3)]
     assert joint.demand == pytest.approx(max(*peaks, turning.peak_at_hole(0, 0.006)))
     assert joint.capacity == STEEL.yield_strength
-    assert joint.margin == pytest.approx(joint.capacity / joint.demand)
+    assert joint.factor == pytest.approx(joint.capacity / joint.demand)
     assert one.motor.top_speed == pytest.approx(min(650.4, 300.0 * pi))
 
 
@@ -56,7 +56,7 @@ def test_a_rim_on_another_web_is_shrunk_on():
     fit = rim_fit(device(web=ALUMINIUM))
     joint = found["rim joint"]
     assert (joint.demand, joint.capacity) == (fit.needed, fit.held)
-    assert joint.margin == pytest.approx(1.5)
+    assert joint.factor == pytest.approx(1.5)
     # 1.5 x 0.9 N m on 2 pi 36^2 x 1 mm by a friction of 0.1.
     assert joint.demand == pytest.approx(1.35 / (2.0 * pi * 0.036**2 * WEB_THICKNESS * 0.1))
     assert rim_fit(device()) is None
@@ -87,7 +87,7 @@ def test_a_shaft_alone_is_bonded():
 )
 def test_what_is_not_in_the_catalogue_has_no_capacity(unknown):
     joint = named(unknown)["shaft joint"]
-    assert joint.capacity is joint.margin is None
+    assert joint.capacity is joint.factor is None
     assert "not in the catalogue" in joint.note
 
 

@@ -8,6 +8,7 @@ from rich.console import Console
 from stories import design
 
 from ocs_design.device.records import Alternative, MarginRecord
+from ocs_design.parts.joints import Margin
 from ocs_design.report.limits import (
     alternatives_note,
     alternatives_table,
@@ -21,7 +22,6 @@ from ocs_design.report.limits import (
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import Toned
 from ocs_design.report.text.layout import items, show
-from ocs_design.sizing.margins import Margin
 
 MARGINS = (
     Margin("motor torque", 0.4, 1.0, "N m", "", "drop"),

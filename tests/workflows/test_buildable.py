@@ -8,7 +8,7 @@ import pytest
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
 from ocs_design.device.records import Clearance, MarginRecord
-from ocs_design.parts.joints import Joint
+from ocs_design.parts.joints import Margin
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.workflows.buildable import buildable
@@ -71,8 +71,8 @@ def test_what_only_asks_for_a_pause_or_gives_less_torque_is_not_open(name):
 @pytest.mark.parametrize(
     ("joint", "words"),
     [
-        (Joint("rim joint", 2e6, 1e6, "Pa", ""), "rim joint: 2.0 MPa asked, 1.0 MPa held"),
-        (Joint("shaft joint", 1.0, None, "N m", "not in the catalogue"), "not in the catalogue"),
+        (Margin("rim joint", 2e6, 1e6, "Pa", ""), "rim joint: 2.0 MPa asked, 1.0 MPa held"),
+        (Margin("shaft joint", 1.0, None, "N m", "not in the catalogue"), "not in the catalogue"),
     ],
 )
 def test_a_joint_that_does_not_hold_or_is_not_known_is_open(joint, words):
@@ -82,7 +82,7 @@ def test_a_joint_that_does_not_hold_or_is_not_known_is_open(joint, words):
 
 
 def test_screws_in_shear_are_a_reserve():
-    spare = Joint("shaft joint, screws in shear", 2.0, 1.0, "N m", "")
+    spare = Margin("shaft joint, screws in shear", 2.0, 1.0, "N m", "")
     assert buildable(WHOLE, FREE, (), (spare,)).yes is True
 
 

@@ -7,11 +7,11 @@ heavier the next drive is.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
-from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED, Limit
+from ocs_design.device.records import PriceRecord
+from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.device import of_parts
 from ocs_design.sizing.selection.problem import SelectionProblem, limits_of, with_limit
@@ -31,22 +31,7 @@ _HOLDS, _MOVES = 1e-6, 1e-9
 """Slack of an active limit, and change of it that counts as moved; logarithms of ratios."""
 
 
-@dataclass(frozen=True)
-class Price:
-    """Mass that a slightly looser limit saves.
-
-    Attributes:
-        limit: which one. value: as it is [SI]. changed: the looser one [SI].
-        mass_change: of the whole device [kg], at most 0.
-    """
-
-    limit: Limit
-    value: float
-    changed: float
-    mass_change: float
-
-
-def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[Price]:
+def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceRecord]:
     """Prices of all limits that are stated, with the same motor, gear and material.
 
     Args:
@@ -70,7 +55,12 @@ def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[Price]
             found = lightest(looser, start)
             if found.violation <= _HELD:
                 change = min(float(np.expm1(found.value - before)), 0.0)
-        yield Price(limit, value, changed, float(change * chosen.modules_mass))
+        yield PriceRecord(
+            limit=limit.name,
+            value=value,
+            changed=changed,
+            mass_change=float(change * chosen.modules_mass),
+        )
 
 
 def _programme(alone: SelectionProblem) -> Programme:

@@ -7,7 +7,8 @@ import pytest
 from driven_wheels import BELT, EC45, STEEL, driven_wheel
 
 from ocs_design.device.layout import module_axes
-from ocs_design.sizing.margins import Margin, margins, worst
+from ocs_design.parts.joints import Margin
+from ocs_design.sizing.margins import margins, worst
 from ocs_design.sizing.motion import Motion
 
 AXES = module_axes(np.radians(30.0))
