@@ -32,8 +32,8 @@ from ocs_design.requirement.maneuver import (
     TurnTo,
 )
 from ocs_design.requirement.specification import RequirementSection
-from ocs_design.requirement.values import did_you_mean
-from ocs_design.requirement.words import Kick, Tilt, Vector3
+from ocs_design.requirement.values import Vector3, did_you_mean
+from ocs_design.requirement.words import Kick, Tilt
 from ocs_design.robot.robot import Robot
 
 

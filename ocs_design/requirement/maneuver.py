@@ -7,9 +7,20 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from enum import StrEnum
+from functools import cached_property
 from math import cos, exp, hypot, log, pi, remainder, sqrt
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    Self,
+    TypeAlias,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 import numpy as np
 
@@ -30,6 +41,7 @@ from ocs_design.requirement.values import (
     Sign,
     Text,
     Value,
+    Vector3,
 )
 from ocs_design.robot.mass import MassProperties
 
@@ -53,6 +65,19 @@ class Slew:
     begins: float = 0.0
 
 
+Time: TypeAlias = Annotated[float, Quantity(Dimension.TIME)]
+Height: TypeAlias = Annotated[float, HEIGHT]
+Tilt: TypeAlias = Annotated[float, TILT]
+Turn: TypeAlias = Annotated[float, TURN]
+Spin: TypeAlias = Annotated[float, SPIN]
+Torque: TypeAlias = Annotated[Vector3, Quantities(Dimension.TORQUE, (3,))]
+Impulse: TypeAlias = Annotated[Vector3, Quantities(Dimension.IMPULSE, (3,))]
+Point: TypeAlias = Annotated[Vector3, Quantities(Dimension.LENGTH, (3,))]
+Rate: TypeAlias = Annotated[Vector3, Quantities(Dimension.ANGULAR_SPEED, (3,))]
+
+_LONGEST_STRIDE = 5.0
+"""[s]: a giraffe's takes one; a robot is watched for several."""
+
 STANDARD_GRAVITY = 9.81
 """[m/s^2], as the paper takes it."""
 
@@ -67,9 +92,11 @@ class Maneuver(ABC):
         incidence: angle that the device is set to by hand [rad]; None: the design's.
     """
 
-    name: str
-    gravity: float = STANDARD_GRAVITY
-    incidence: float | None = None
+    name: Annotated[str, Text()]
+    gravity: Annotated[float, Quantity(Dimension.ACCELERATION, Sign.NOT_NEGATIVE)] = (
+        STANDARD_GRAVITY
+    )
+    incidence: Annotated[float | None, INCIDENCE] = None
 
     @property
     def turn(self) -> FloatArray:
@@ -151,7 +178,7 @@ class Unforeseen(Maneuver):
         duration: of the torque [s].
     """
 
-    torque: tuple[float, float, float]
+    torque: Vector3
     duration: float
 
     @property
@@ -199,13 +226,13 @@ class Disturbance(Unforeseen):
             in B [N s], shape (3,). point: where it hits the trunk, in B [m], shape (3,).
     """
 
-    takeoff_velocity: tuple[float, float]
-    torque: tuple[float, float, float]
-    onset: float
-    duration: float
-    velocity_change: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    impulse: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    takeoff_velocity: Annotated[tuple[float, float], Quantities(Dimension.SPEED, (2,))]
+    torque: Torque
+    onset: Annotated[float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE)]
+    duration: Time
+    velocity_change: Annotated[Vector3, Quantities(Dimension.SPEED, (3,))] = (0.0, 0.0, 0.0)
+    impulse: Impulse = (0.0, 0.0, 0.0)
+    point: Point = (0.0, 0.0, 0.0)
 
     def on(self, body: MassProperties) -> Self:
         """Disturbance of a body: the angular impulse r x p about its centre of mass, and p / m."""
@@ -263,10 +290,12 @@ class Shove(Unforeseen):
         stride: of a trot on the spot [s]; 0: the robot stands.
     """
 
-    torque: tuple[float, float, float]
-    duration: float
-    settling: float
-    stride: float = 0.0
+    torque: Torque
+    duration: Time
+    settling: Time
+    stride: Annotated[float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE)] = (
+        0.0
+    )
 
     @property
     def time_left(self) -> float:
@@ -283,16 +312,16 @@ class Shove(Unforeseen):
         )
 
 
-def _millimetres(point: tuple[float, float, float]) -> str:
+def _millimetres(point: Vector3) -> str:
     x, y, z = point
     return _row((1e3 * x, 1e3 * y, 1e3 * z))
 
 
-def _torque(torque: tuple[float, float, float]) -> str:
+def _torque(torque: Vector3) -> str:
     return f"{_row(torque)} N m"
 
 
-def _row(values: tuple[float, float, float]) -> str:
+def _row(values: Vector3) -> str:
     return f"({', '.join(f'{value:.3g}' for value in values)})"
 
 
@@ -326,9 +355,9 @@ class Drop(Reorientation):
         height: of the trunk frame's origin over the ground [m]. roll, pitch: at release [rad].
     """
 
-    height: float
-    roll: float = 0.0
-    pitch: float
+    height: Height
+    roll: Tilt = 0.0
+    pitch: Tilt
 
     def time(self, standing_height: float) -> float:
         """Time from release until the feet of the levelled robot meet the ground [s].
@@ -374,9 +403,9 @@ class Flip(Reorientation):
         angle: of pitch [rad]; a back-flip is negative about y (left). duration: from lift-off [s].
     """
 
-    jump_height: float
-    angle: float
-    duration: float
+    jump_height: Height
+    angle: Turn
+    duration: Time
 
     @property
     def turn(self) -> FloatArray:
@@ -455,14 +484,14 @@ class TurnTo(Reorientation):
         direct: whether the wheels reach the vertical, and no loop of the tilt is needed.
     """
 
-    jump_height: float = 0.0
-    roll: float = 0.0
-    pitch: float = 0.0
-    yaw: float = 0.0
-    duration: float
-    rate: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    wheel_speed: float = 0.0
-    end: str = End.ATTITUDE
+    jump_height: Height = 0.0
+    roll: Turn = 0.0
+    pitch: Turn = 0.0
+    yaw: Annotated[float, YAW] = 0.0
+    duration: Time
+    rate: Rate = (0.0, 0.0, 0.0)
+    wheel_speed: Spin = 0.0
+    end: Annotated[str, Choice(tuple(End))] = End.ATTITUDE
     estimate: float = 1.0
     direct: bool = False
 
@@ -551,8 +580,8 @@ class TurnTo(Reorientation):
 class Catch(TurnTo):
     """A stop of a trunk that turns as it leaves the ground."""
 
-    rate: tuple[float, float, float]
-    end: str = End.LEVEL
+    rate: Rate
+    end: Annotated[str, Choice(tuple(End))] = End.LEVEL
 
 
 class Actuation(StrEnum):
@@ -638,13 +667,13 @@ class Pivoted(Maneuver):
         body: that stands, in B; None: not known yet (`on`).
     """
 
-    pivot: tuple[float, float, float]
-    edge: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    roll: float = 0.0
-    pitch: float = 0.0
-    duration: float
-    wheel_speed: float = 0.0
-    end: str = End.LEVEL
+    pivot: Point
+    edge: Annotated[Vector3, Quantities(Dimension.RATIO, (3,))] = (0.0, 0.0, 0.0)
+    roll: Tilt = 0.0
+    pitch: Tilt = 0.0
+    duration: Time
+    wheel_speed: Spin = 0.0
+    end: Annotated[str, Choice((End.LEVEL, End.ATTITUDE))] = End.LEVEL
     estimate: float = 1.0
     slower: float = 1.0
     body: MassProperties | None = None
@@ -819,9 +848,9 @@ class Balance(Pivoted):
         impulse: of a force right then, in B [N s], shape (3,). point: where it hits, in B [m].
     """
 
-    rate: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    impulse: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rate: Rate = (0.0, 0.0, 0.0)
+    impulse: Impulse = (0.0, 0.0, 0.0)
+    point: Point = (0.0, 0.0, 0.0)
 
     _longest: ClassVar[float] = 2.0
 
@@ -872,7 +901,7 @@ class StandUp(Pivoted):
         actuation: see `Actuation`.
     """
 
-    actuation: str = Actuation.MOTOR
+    actuation: Annotated[str, Choice(tuple(Actuation))] = Actuation.MOTOR
 
     @property
     def braked(self) -> bool:
@@ -1013,12 +1042,19 @@ class ManeuverKind:
     """A kind of maneuver as the file sees it.
 
     Attributes:
-        maneuver: the class.
-        values: how each of its fields is read.
+        maneuver: the class; a field whose annotation has a `Value` is a key of the file.
     """
 
     maneuver: type[Maneuver]
-    values: Mapping[str, Value[Any]]
+
+    @cached_property
+    def values(self) -> Mapping[str, Value[Any]]:
+        """How each key is read, by its name."""
+        hints = get_type_hints(self.maneuver, include_extras=True)
+        read = {item.name: hints[item.name] for item in fields(self.maneuver)}
+        return {
+            name: get_args(hint)[1] for name, hint in read.items() if get_origin(hint) is Annotated
+        }
 
     @property
     def required(self) -> tuple[str, ...]:
@@ -1026,88 +1062,16 @@ class ManeuverKind:
         return tuple(item.name for item in fields(self.maneuver) if item.default is MISSING)
 
 
-_COMMON: Mapping[str, Value[Any]] = {
-    "name": Text(),
-    "gravity": Quantity(Dimension.ACCELERATION, Sign.NOT_NEGATIVE),
-    "incidence": INCIDENCE,
-}
-_TIME = Quantity(Dimension.TIME)
-_LONGEST_STRIDE = 5.0
-"""[s]: a giraffe's takes one; a robot is watched for several."""
-
-_TURN: Mapping[str, Value[Any]] = {
-    **_COMMON,
-    "jump_height": HEIGHT,
-    "roll": TURN,
-    "pitch": TURN,
-    "yaw": YAW,
-    "duration": _TIME,
-    "rate": Quantities(Dimension.ANGULAR_SPEED, (3,)),
-    "wheel_speed": SPIN,
-    "end": Choice(tuple(End)),
-}
-
-_PIVOT: Mapping[str, Value[Any]] = {
-    **_COMMON,
-    "pivot": Quantities(Dimension.LENGTH, (3,)),
-    "edge": Quantities(Dimension.RATIO, (3,)),
-    "roll": TILT,
-    "pitch": TILT,
-    "duration": _TIME,
-    "wheel_speed": SPIN,
-    "end": Choice((End.LEVEL, End.ATTITUDE)),
-}
-
 MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     {
-        "disturbance": ManeuverKind(
-            Disturbance,
-            {
-                **_COMMON,
-                "takeoff_velocity": Quantities(Dimension.SPEED, (2,)),
-                "torque": Quantities(Dimension.TORQUE, (3,)),
-                "onset": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE),
-                "duration": _TIME,
-                "velocity_change": Quantities(Dimension.SPEED, (3,)),
-                "impulse": Quantities(Dimension.IMPULSE, (3,)),
-                "point": Quantities(Dimension.LENGTH, (3,)),
-            },
-        ),
-        "shove": ManeuverKind(
-            Shove,
-            {
-                **_COMMON,
-                "torque": Quantities(Dimension.TORQUE, (3,)),
-                "duration": _TIME,
-                "settling": _TIME,
-                "stride": Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE),
-            },
-        ),
-        "drop": ManeuverKind(
-            Drop,
-            {**_COMMON, "height": HEIGHT, "roll": TILT, "pitch": TILT},
-        ),
-        "flip": ManeuverKind(
-            Flip,
-            {
-                **_COMMON,
-                "jump_height": HEIGHT,
-                "angle": TURN,
-                "duration": _TIME,
-            },
-        ),
-        "turn": ManeuverKind(TurnTo, _TURN),
-        "catch": ManeuverKind(Catch, _TURN),
-        "balance": ManeuverKind(
-            Balance,
-            {
-                **_PIVOT,
-                "rate": Quantities(Dimension.ANGULAR_SPEED, (3,)),
-                "impulse": Quantities(Dimension.IMPULSE, (3,)),
-                "point": Quantities(Dimension.LENGTH, (3,)),
-            },
-        ),
-        "stand-up": ManeuverKind(StandUp, {**_PIVOT, "actuation": Choice(tuple(Actuation))}),
+        "disturbance": ManeuverKind(Disturbance),
+        "shove": ManeuverKind(Shove),
+        "drop": ManeuverKind(Drop),
+        "flip": ManeuverKind(Flip),
+        "turn": ManeuverKind(TurnTo),
+        "catch": ManeuverKind(Catch),
+        "balance": ManeuverKind(Balance),
+        "stand-up": ManeuverKind(StandUp),
     }
 )
 """Every kind by the word that `kind` takes."""

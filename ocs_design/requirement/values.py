@@ -13,7 +13,7 @@ from enum import Enum
 from functools import cache
 from math import pi
 from reprlib import repr as shortened
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from ocs_design.common.errors import OcsError, QuantityError, SpecificationError
 from ocs_design.common.units import (
@@ -26,6 +26,8 @@ from ocs_design.common.units import (
 )
 
 T = TypeVar("T")
+
+Vector3: TypeAlias = tuple[float, float, float]
 
 ONE_TURN = 6.3
 """[rad], to two digits: a larger bare number was meant in degrees."""

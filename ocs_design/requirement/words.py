@@ -21,9 +21,8 @@ from ocs_design.requirement.values import (
     Sign,
     Text,
     Value,
+    Vector3,
 )
-
-Vector3 = tuple[float, float, float]
 
 DIRECTIONS: Mapping[str, Vector3] = MappingProxyType(
     {
