@@ -129,8 +129,9 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
         return offered
     complete = tuple(found for found in offered if not build_gaps(found))
     if not complete:
+        lacks = [f"{each.name} lacks {', '.join(build_gaps(each))}" for each in offered]
         raise SpecificationError(
-            "no motor can be built with: " + "; ".join(map(_lacks, offered[:MOST_NAMED])),
+            "no motor can be built with: " + "; ".join(lacks[:MOST_NAMED]),
             hint="Fill in the figures, name the motor with --motor, or see what any motor would do "
             "with --motors-any",
         )
@@ -164,10 +165,6 @@ def highest_rated_voltage(specification: Specification) -> float | None:
 
 MOST_NAMED = 3
 """Motors whose gaps a message names."""
-
-
-def _lacks(found: Motor) -> str:
-    return f"{found.name} lacks {', '.join(build_gaps(found))}"
 
 
 def _materials(name: str) -> tuple[Material, ...]:

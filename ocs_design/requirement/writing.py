@@ -118,7 +118,9 @@ def written(  # noqa: PLR0911
         case WordOr(quantity=quantity), float() | int():
             return written(value, quantity, figures)
         case Quantity(dimension=dimension), float() | int():
-            return _text(_quantity(value, dimension, figures))
+            small = dimension is not Dimension.LENGTH or abs(value) < 1.0
+            unit = PEOPLE_UNITS.get(dimension, si_unit(dimension)) if small else si_unit(dimension)
+            return _text(_told(value, dimension, unit, figures))
         case Spread(dimension=dimension), Distribution():
             told = partial(_told, dimension=dimension, unit=how.unit, figures=figures)
             return _text(value.written(told))
@@ -132,12 +134,6 @@ def written(  # noqa: PLR0911
             return f"{value:.4g}"
         case _:
             return _plain(value)
-
-
-def _quantity(value: float, dimension: Dimension, figures: Figures) -> str:
-    small = dimension is not Dimension.LENGTH or abs(value) < 1.0
-    unit = PEOPLE_UNITS.get(dimension, si_unit(dimension)) if small else si_unit(dimension)
-    return _told(value, dimension, unit, figures)
 
 
 def _told(value: float, dimension: Dimension, unit: str, figures: Figures) -> str:

@@ -33,10 +33,11 @@ class LegGeometry:
 
 def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeometry, ...]:
     """Chain and plane of each leg in B."""
-    up = up_axis(tree, trunk, legs)
+    up, placements = up_axis(tree, trunk, legs), tree.placements_from(trunk, neutral_posture(tree))
+    chains = [leg_chain(tree, leg, placements) for leg in legs]
     return tuple(
         LegGeometry(leg, chain, leg_plane(chain, leg.foot, up))
-        for leg, chain in zip(legs, _chains(tree, trunk, legs), strict=True)
+        for leg, chain in zip(legs, chains, strict=True)
     )
 
 
@@ -89,11 +90,6 @@ def axis_name(direction: FloatArray) -> str:
     """Name of the axis that a direction is nearest to, such as `+x`."""
     axis = int(np.argmax(np.abs(direction)))
     return f"{'-' if direction[axis] < 0.0 else '+'}{'xyz'[axis]}"
-
-
-def _chains(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[Chain]:
-    placements = tree.placements_from(trunk, neutral_posture(tree))
-    return [leg_chain(tree, leg, placements) for leg in legs]
 
 
 BASE_FRAME = "ocs_base"

@@ -87,7 +87,10 @@ def recognise(
         return Recognition(best, (), _stated(trunk, None))
     if none.confidence >= SURE and arms:
         return Recognition(none, (), _stated(trunk, None))
-    asked = sorted({id(each): each for each in (best, *likely)}.values(), key=_order)
+    asked = sorted(
+        {id(each): each for each in (best, *likely)}.values(),
+        key=lambda each: (not each.legs, -each.confidence),
+    )
     if all(each.legs for each in asked):
         asked.append(none)
     root = tree.bodies[0].name
@@ -133,10 +136,6 @@ def _speaks(reading: Reading, what: str) -> bool | None:
 def _stated(trunk: str | None, legs: Sequence[str] | None) -> frozenset[str]:
     named = (("trunk", trunk is not None), ("legs", legs is not None))
     return frozenset(what for what, given in named if given)
-
-
-def _order(reading: Reading) -> tuple[bool, float]:
-    return not reading.legs, -reading.confidence
 
 
 def _best(readings: Sequence[Reading], usual: Sequence[Leg]) -> Reading:

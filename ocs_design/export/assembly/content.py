@@ -216,7 +216,7 @@ class Assembly:
             Chapter("Steps, for each module", tuple(self._steps()), numbered=True),
             Chapter("Balance", tuple(self._balance())),
             Chapter("Spin test, before anything goes on the robot", tuple(self._test()), True),
-            Chapter("Wiring", tuple(self._wiring())),
+            Chapter("Wiring", tuple(electrics(self.device, self.margins).sentences())),
             Chapter("Safety", tuple(self._safety())),
         )
         return tuple(chapter for chapter in whole if chapter.texts)
@@ -321,8 +321,9 @@ class Assembly:
         """What the joints of the wheel rest on, and how a wheel is put on a shaft."""
         if "drum" not in self.numbers:
             return
+        screwed = any(name.startswith("wheel") for name in self.screws)
         for joint in joints_of(self.device):
-            if joint.name == SHAFT_JOINT and not any(map(_is_wheel_s, self.screws)):
+            if joint.name == SHAFT_JOINT and not screwed:
                 yield f"Put the wheel on the motor's shaft: {joint.note}."
             elif joint.name == SHAFT_JOINT:
                 yield f"That joint carries the wheel by {joint.note}."
@@ -531,9 +532,6 @@ class Assembly:
             "it must stay below what controllers and battery stand."
         )
 
-    def _wiring(self) -> Iterator[str]:
-        yield from electrics(self.device, self.margins).sentences()
-
     def _safety(self) -> Iterator[str]:
         speed, burst = self.top_speed, self.burst
         if speed is None or burst is None:
@@ -609,10 +607,6 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
         return f"cut{cut}", "" if name == "sleeves" else f"{name}.stl"
     made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
     return made, "wheel.pdf"
-
-
-def _is_wheel_s(purpose: str) -> bool:
-    return purpose.startswith("wheel")
 
 
 def _short(purpose: str) -> str:

@@ -3,7 +3,7 @@
 The wheel's axis is z, the floor of its housing at -z, the motor behind it; y points down.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import cos, pi, sin
 
@@ -116,7 +116,13 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         return tuple(wheel)
     foot, mount = printed_foot(device), motor_mount(device)
     floor = -foot.housing.half_height
-    screws = [(each, _screws(each, floor)) for each in mount.screwed]
+    screws = [
+        (
+            each,
+            _ring(each.fastening, each.circle.radius, -pi / 2.0, floor + each.along, each.towards),
+        )
+        for each in mount.screwed
+    ]
     on_wheel = [piece for each, piece in screws if each.towards < 0.0 and holds_wheel(each)]
     inside = [piece for each, piece in screws if each.towards < 0.0 and not holds_wheel(each)]
     behind = [piece for each, piece in screws if each.towards > 0.0]
@@ -147,12 +153,6 @@ def holds_wheel(screwed: Screwed) -> bool:
     return screwed.fastening.purpose.startswith("wheel")
 
 
-def _screws(screwed: Screwed, floor: float) -> Piece:
-    """Screws of a mount; `floor` is the outside of the housing's floor along the axis [m]."""
-    circle, along = screwed.circle, floor + screwed.along
-    return _ring(screwed.fastening, circle.radius, -pi / 2.0, along, screwed.towards)
-
-
 def _ring(
     fastening: Fastening, radius: float, first: float, along: float, towards: float = -1.0
 ) -> Piece:
@@ -175,10 +175,11 @@ def _ring(
 
 
 def _foot_screws(device: Device) -> Piece:
-    """Screws of the foot in the middle of its slots."""
+    """Screws of the foot from above, in the middle of its slots."""
     foot, held = printed_foot(device), foot_screws(device)
     places = [np.array([0.0, side * foot.slot_radius, BASE_THICKNESS]) for side in (1.0, -1.0)]
-    screws = _placed(_upright_screws(held, places), foot.placement)
+    one = solid_mesh(_screw(held.screw, held.length), 24)
+    screws = _placed(merged([one.moved(place) for place in places]), foot.placement)
     return Piece(held.purpose, screws, held, drop=-_APART * foot.housing.radius)
 
 
@@ -206,12 +207,6 @@ def _plate_pieces(device: Device) -> Iterator[Piece]:
         yield Piece("sleeves", merged(sleeves), drop=down, shared=True, count=len(sleeves))
     for name, meshes in bodies.items():
         yield Piece(name, merged(meshes), drop=lowest, shared=True)
-
-
-def _upright_screws(held: Fastening, places: Iterable[FloatArray]) -> Mesh:
-    """Screws from above, the undersides of their heads at those places [m]."""
-    one = solid_mesh(_screw(held.screw, held.length), 24)
-    return merged([one.moved(place) for place in places])
 
 
 def _screw(screw: Screw, length: float) -> Revolution:

@@ -219,7 +219,10 @@ def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
     )
     show(console, Table(heads, rows))
     note(console, "ratio: motor speed over wheel speed. Without a gear it is 1: direct.")
-    _print_lacking(console, {sheet.name: sheet.missing for sheet in found})
+    lacking = [f"{sheet.name}: no {', '.join(sheet.missing)}" for sheet in found if sheet.missing]
+    if lacking:
+        heading(console, "Cannot be chosen")
+        items(console, lacking)
 
 
 def print_materials(console: Console, found: Sequence[Material]) -> None:
@@ -237,14 +240,6 @@ def print_materials(console: Console, found: Sequence[Material]) -> None:
         for material in found
     )
     show(console, Table(heads, rows))
-
-
-def _print_lacking(console: Console, lacking: Mapping[str, Sequence[str]]) -> None:
-    """What cannot be chosen, and which figures it lacks."""
-    lines = [f"{name}: no {', '.join(lacks)}" for name, lacks in lacking.items() if lacks]
-    if lines:
-        heading(console, "Cannot be chosen")
-        items(console, lines)
 
 
 def _figure(value: float | None, unit: str, form: str) -> str:

@@ -95,7 +95,10 @@ class _Boxed:
 def clustered(surface: Surface, cell: float) -> Surface:
     """A surface whose vertices in one cell [m] are one; triangles that shrink to nothing go."""
     cluster = _numbered(_Boxed.around(surface).cells(cell))
-    faces = _distinct(cluster[surface.faces])
+    # Faces of three corners, each once.
+    moved = cluster[surface.faces]
+    kept, key = _keyed(*moved.T)
+    faces = moved[kept][np.unique(key, return_index=True)[1]]
     vertices = _representatives(surface, cluster, cell)
     used, renumbered = np.unique(faces, return_inverse=True)
     return Surface(vertices[used], renumbered.reshape(-1, 3), surface.color)
@@ -104,12 +107,6 @@ def clustered(surface: Surface, cell: float) -> Surface:
 def _numbered(values: NDArray[np.int64]) -> NDArray[np.int64]:
     """The place of each among the distinct ones, from zero."""
     return np.asarray(np.unique(values, return_inverse=True)[1].ravel())
-
-
-def _distinct(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Faces of three corners, each once."""
-    kept, key = _keyed(*faces.T)
-    return np.asarray(faces[kept][np.unique(key, return_index=True)[1]])
 
 
 def _keyed(
