@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, assume, given, settings
 from rims import PAPER_STEEL, STEEL, paper_problem, rim_problems, room
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.sizing.bound.rim import solve_rim
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
+from ocs_design.sizing.bound.rim_program import solve_rim
 from ocs_design.sizing.changes import MOST_CHANGE
 from ocs_design.sizing.limits import RIM_LIMITS
 from ocs_design.sizing.relaxation import (

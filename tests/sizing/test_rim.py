@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 from rims import PAPER_STEEL, paper_problem, random_problem, rim_problems, room
 
 from ocs_design.common.errors import UsageError
-from ocs_design.sizing.bound.rim import solve_rim
 from ocs_design.sizing.bound.rim_problem import RimProblem, check_limits, lightest_rim
-from ocs_design.sizing.bound.rim_program import RimConstraints, optimise_rim
+from ocs_design.sizing.bound.rim_program import RimConstraints, optimise_rim, solve_rim
 from ocs_design.sizing.limits import RIM_LIMITS
 
 STEP = 1e-6

@@ -6,48 +6,36 @@ from dataclasses import dataclass
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Criterion
-from ocs_design.requirement.bound import SpinDemand
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import (
     DeadEnd,
     DeviceProblem,
+    FixedPoint,
     best_incidences,
     find_fixed_point,
 )
-from ocs_design.sizing.bound.rim import RimSolution, solve_rim
 from ocs_design.sizing.bound.rim_problem import check_limits, lightest_rim
+from ocs_design.sizing.bound.rim_program import RimSolution, solve_rim
 from ocs_design.sizing.relaxation import infeasible_device
 
 
 @dataclass(frozen=True, eq=False)
-class DeviceSizing:
-    """Two sized wheels on their robot.
+class DeviceSizing(FixedPoint):
+    """Two sized wheels on their robot, where what they are asked for is settled.
 
     Attributes:
-        incidence: of the wheel axes [rad].
         incidence_by_criterion: the best one under each criterion, with the device [rad].
         incidence_by_criterion_robot: the same for the robot alone.
-        demands: what each part of the requirement asks of a wheel.
-        spin_inertia: of each wheel [kg m^2].
         rim: of each wheel.
         centers: of the left and the right wheel in B [m], shape (2, 3).
-        total: robot and both wheels, braked, in B.
-        residual: of the fixed point, relative.
-        iterations: to the fixed point.
     """
 
-    incidence: float
     incidence_by_criterion: Mapping[Criterion, float]
     incidence_by_criterion_robot: Mapping[Criterion, float]
-    demands: tuple[SpinDemand, ...]
-    spin_inertia: float
     rim: RimSolution
     centers: FloatArray
-    total: MassProperties
-    residual: float
-    iterations: int
 
 
 def size_device(
@@ -95,14 +83,9 @@ def solve_device(problem: DeviceProblem) -> DeviceSizing:
     rim = solve_rim(rim_problem)
     shape = lightest_rim(found.spin_inertia, rim_problem.limits)
     return DeviceSizing(
-        incidence=found.incidence,
+        **vars(found),
         incidence_by_criterion=best_incidences(problem, shape, found.incidence),
         incidence_by_criterion_robot=best_incidences(problem, None, found.incidence),
-        demands=found.demands,
-        spin_inertia=found.spin_inertia,
         rim=rim,
         centers=problem.place(rim.outer_radius, rim.height),
-        total=found.total,
-        residual=found.residual,
-        iterations=found.iterations,
     )
