@@ -5,7 +5,6 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ocs_design.common.units import format_quantity
 from ocs_design.device.records import ManeuverRecord, OcsDesign, SelectionRecord
 from ocs_design.report import limits, selection, warnings
 from ocs_design.report.device import criterion_table, device_facts, device_title, drawn_facts
@@ -20,6 +19,7 @@ from ocs_design.report.text.layout import (
     warn,
 )
 from ocs_design.report.text.robot import print_joints, print_robot
+from ocs_design.report.text.summary import print_lighter
 from ocs_design.report.text.validation import print_headline, print_runs
 from ocs_design.report.verdict import headline
 
@@ -88,17 +88,6 @@ def print_alternatives(console: Console, design: OcsDesign) -> None:
         if vain:
             note(console, vain)
     print_lighter(console, design)
-
-
-def print_lighter(console: Console, design: OcsDesign) -> None:
-    """What would have to give for a lighter device; nothing where that was not asked."""
-    if design.lighter is not None:
-        asked = format_quantity(design.lighter.by, "g", 3)
-        heading(console, f"What must give for {asked} less")
-        if design.lighter.changes:
-            show(console, limits.lighter_table(design), fewest=2)
-        else:
-            note(console, "No change that was looked for makes it so much lighter.")
 
 
 def print_solution(console: Console, design: OcsDesign) -> None:

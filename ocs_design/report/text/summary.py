@@ -6,6 +6,7 @@ from pathlib import Path, PurePosixPath
 from rich.console import Console
 from rich.text import Text
 
+from ocs_design.common.units import format_quantity
 from ocs_design.device.records import DESIGN_FILE, OcsDesign
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
@@ -16,13 +17,12 @@ from ocs_design.report.flights import (
     survival_cost,
     survival_sentence,
 )
-from ocs_design.report.limits import assumed, heat, lighter, owed_to, tightest
+from ocs_design.report.limits import assumed, heat, lighter, lighter_table, owed_to, tightest
 from ocs_design.report.quantities import degrees_number, grams
 from ocs_design.report.table import Cell, Table, columns, listed
 from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import facts, heading, items, note, show
 from ocs_design.report.text.plots import tilt_plots
-from ocs_design.report.text.size import print_lighter
 from ocs_design.report.text.validation import print_headline
 from ocs_design.report.verdict import Headline, headline
 from ocs_design.report.warnings import all_warnings
@@ -118,6 +118,17 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
     if plotted:
         times = listed([f"{run.series.time[-1]:.1f}" for run in runs[::2]])
         note(console, f"tilt: off level from start to end, {times} s; full: deg of a full bar")
+
+
+def print_lighter(console: Console, design: OcsDesign) -> None:
+    """What would have to give for a lighter device; nothing where that was not asked."""
+    if design.lighter is not None:
+        asked = format_quantity(design.lighter.by, "g", 3)
+        heading(console, f"What must give for {asked} less")
+        if design.lighter.changes:
+            show(console, lighter_table(design), fewest=2)
+        else:
+            note(console, "No change that was looked for makes it so much lighter.")
 
 
 def print_assumed(console: Console, assumptions: Sequence[str]) -> None:

@@ -61,7 +61,7 @@ def _found(
     problem.check()
     found = look(problem)
     if not found.places:
-        refused = Refused(found)
+        refused = Refused(problem, rejections(found, ()))
         raise refused.advised() if advise else refused
     return found
 

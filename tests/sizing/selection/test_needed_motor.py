@@ -10,8 +10,7 @@ from selections import random_problem
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.maneuver import Balance
-from ocs_design.sizing.selection.advice import Refused
-from ocs_design.sizing.selection.needed_motor import NeededMotor, needed_motor
+from ocs_design.sizing.selection.advice import NeededMotor, Refused, needed_motor
 from ocs_design.sizing.selection.select import select
 
 SEEDS = (0, 3, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (9, 12, 17, 21)))
