@@ -2,10 +2,14 @@
 
 Every error carries its data as attributes, a message that says what is wrong and where, and a
 hint that names the cure. The command line prints them as one panel; anything else that escapes
-is a bug and keeps its traceback.
+is a bug and keeps its traceback. For what is not installed the cure is a command, made here.
 """
 
+import shlex
+import sys
 from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any, ClassVar
 
 INTERRUPTED = 130
@@ -135,3 +139,22 @@ class MissingToolError(OcsError):
 
     kind = "missing_tool"
     exit_code = 5
+
+
+DISTRIBUTION = "ocs-design"
+
+
+def install_command(*requirements: str, options: str = "") -> str:
+    """Command of the tool that made this environment: pip, pipx or uv."""
+    what = " ".join([*options.split(), *(f"'{each}'" for each in requirements)])
+    environment = Path(sys.prefix)
+    if (environment / "pipx_metadata.json").is_file():
+        return f"pipx runpip {environment.name} install {what}"
+    if find_spec("pip") is None:
+        return f"uv pip install --python {shlex.quote(sys.executable)} {what}"
+    return f"pip install {what}"
+
+
+def extra_command(*extras: str) -> str:
+    """Command that installs extras of this program, such as `ocs-design[step]`."""
+    return install_command(f"{DISTRIBUTION}[{','.join(extras)}]")

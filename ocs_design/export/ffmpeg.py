@@ -3,7 +3,7 @@
 import shutil
 from importlib.util import find_spec
 
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import extra_command
 
 FFMPEG_HINT = f"{extra_command('video')}, or on Debian: apt install ffmpeg"
 

@@ -11,8 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from ocs_design.common.errors import MissingToolError, UsageError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import MissingToolError, UsageError, extra_command
 
 if TYPE_CHECKING:
     from ocs_design.device.device import Device

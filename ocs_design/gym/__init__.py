@@ -3,8 +3,7 @@
 Gymnasium imports what stands before the colon, so this loads nothing else.
 """
 
-from ocs_design.common.errors import MissingToolError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import MissingToolError, extra_command
 
 try:
     from gymnasium.envs.registration import register

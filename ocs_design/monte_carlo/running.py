@@ -13,8 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ocs_design.common.errors import MissingToolError, OcsError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import MissingToolError, OcsError, extra_command
 from ocs_design.monte_carlo.campaign import Campaign, fly_samples
 from ocs_design.monte_carlo.outcomes import Block, Outcomes, Storage
 from ocs_design.monte_carlo.summary import shares

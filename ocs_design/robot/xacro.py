@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
 
-from ocs_design.common.errors import MissingToolError, RobotError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import MissingToolError, RobotError, extra_command
 
 SECONDS = 5.0
 """Longest processor time of an expansion, half of its longest duration; large robots take one."""

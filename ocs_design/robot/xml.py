@@ -12,8 +12,7 @@ from xml.parsers.expat import ErrorString, errors
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.errors import RobotError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import RobotError, extra_command
 from ocs_design.robot.links import Warnings
 from ocs_design.robot.tree import LARGEST_NUMBER
 

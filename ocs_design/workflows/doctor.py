@@ -22,9 +22,8 @@ from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
 from packaging.utils import canonicalize_name
 
-from ocs_design.common.errors import MissingToolError
+from ocs_design.common.errors import DISTRIBUTION, MissingToolError, install_command
 from ocs_design.common.files import processors as usable
-from ocs_design.common.installing import DISTRIBUTION, install_command
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.export.ffmpeg import FFMPEG_HINT, ffmpeg_program
 from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of

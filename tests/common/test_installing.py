@@ -4,8 +4,8 @@ import sys
 
 import pytest
 
-from ocs_design.common import installing
-from ocs_design.common.installing import extra_command, install_command
+from ocs_design.common import errors
+from ocs_design.common.errors import extra_command, install_command
 
 
 @pytest.mark.parametrize(
@@ -20,7 +20,7 @@ def test_the_command_is_that_of_the_environment(receipt, has_pip, command, tmp_p
     if receipt:
         (tmp_path / receipt).touch()
     monkeypatch.setattr(sys, "prefix", str(tmp_path))
-    monkeypatch.setattr(installing, "find_spec", lambda name: has_pip or None)
+    monkeypatch.setattr(errors, "find_spec", lambda name: has_pip or None)
     wanted = command.format(name=tmp_path.name, python=sys.executable)
     assert extra_command("dxf", "step") == wanted
 

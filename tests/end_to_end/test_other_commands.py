@@ -9,7 +9,7 @@ from commands import BOUND, BY_HAND, SOLO12, run
 from products import equal_rate
 
 from ocs_design import __version__
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import extra_command
 
 PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
 

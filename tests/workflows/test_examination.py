@@ -10,8 +10,7 @@ from commands import run
 from loading import HEAVY, modules_loaded_by
 from rich.console import Console
 
-from ocs_design.common.errors import MissingToolError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.report.text.doctor import print_examination
 from ocs_design.workflows import doctor

@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ocs_design.common.errors import MissingToolError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.export.templates import template_file
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import svg_file

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import extra_command
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.report.table import Table, Tone, Toned, columns, listed
 from ocs_design.report.text.layout import heading, items, show

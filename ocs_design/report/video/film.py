@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.common.errors import MissingToolError
+from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.common.files import safe_name
-from ocs_design.common.installing import extra_command
 from ocs_design.device.device import Device
 from ocs_design.export.ffmpeg import FFMPEG_HINT
 from ocs_design.export.film import Frames, Take, film_model, render_takes

@@ -26,8 +26,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.errors import MissingToolError
-from ocs_design.common.installing import extra_command
+from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia, hoop_weights
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
 from ocs_design.sizing.relaxation import infeasible_rim
