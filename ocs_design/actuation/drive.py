@@ -68,6 +68,17 @@ class DriveLine:
             power_max=self.power_max * share,
         )
 
+    def divided(self, factor: float) -> "DriveLine":
+        """The line within which torque and speed may still grow by this factor."""
+        return replace(
+            self,
+            stall_torque=self.stall_torque / factor,
+            no_load_speed=self.no_load_speed / factor,
+            torque_limit=self.torque_limit / factor,
+            speed_max=self.speed_max / factor,
+            power_max=self.power_max / factor**2,
+        )
+
     def begun(self, speed: float | FloatArray) -> "DriveLine":
         """The line over the change of a wheel's speed, from one that it begins with [rad/s].
 

@@ -148,6 +148,11 @@ class Story:
     command: str = ""
     assembly: Assembly | None = None
 
+    @property
+    def pivots(self) -> frozenset[str]:
+        """Scenarios about a pivot (`was_on_pivot`)."""
+        return frozenset(each.scenario for each in self.design.validation if was_on_pivot(each))
+
 
 def story_in(
     folders: Sequence[Path],

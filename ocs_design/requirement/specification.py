@@ -129,7 +129,7 @@ RELIABILITY = 0.99
 """Share of robots that shall pass, where nothing is stated."""
 
 NONE_STOPS, ONE_STOPS = "none", "any one motor"
-SURVIVED = (NONE_STOPS, ONE_STOPS, "one")
+SURVIVED = ("one", ONE_STOPS, NONE_STOPS)
 """Drives that may stop in flight, the last word short for the one before."""
 
 DETECTION = 0.02

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.reference import track
-from ocs_design.simulation.wheel_law import RegulatedPlan, Target, shared_by_others
+from ocs_design.simulation.wheel_law import RegulatedPlan, Target
 from ocs_design.simulation.world import World
+from ocs_design.sizing.trajectory.gyrostat import shared_by_others
 
 _EARLIEST = 0.5
 """Share of the push-off before which feet that let go of the ground do not count."""

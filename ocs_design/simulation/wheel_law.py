@@ -497,19 +497,6 @@ class StoppedDrive:
     detection: float
 
 
-def shared_by_others(axes: FloatArray, wheel: int) -> FloatArray:
-    """Matrix from torques of all motors to those of the others with the same torque on the trunk.
-
-    `pinv(A_k) A`, with A_k the axes without column k, which is zero: the smallest torques, and as
-    near as the axes left allow.
-
-    Args:
-        axes: A, as columns, shape (3, n). wheel: k, whose motor is to give none.
-    """
-    runs = np.arange(axes.shape[1]) != wheel
-    return np.asarray(runs[:, None] * (np.linalg.pinv(axes * runs, rcond=OUT_OF_REACH) @ axes))
-
-
 def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:
     """Turn about roll and pitch that takes the trunk to its target [rad], in B, shape (n, 2).
 

@@ -248,7 +248,14 @@ def read_task(
         planning = import_module("ocs_design.sizing.trajectory.plans")
         kept, standing = design.selection.kept, standing_height(robot)
         demands = None if kept is None else kept.demands
-        plans = planning.plan(robot.mass_properties, device, maneuvers, standing, demands)
+        plans = planning.plan(
+            robot.mass_properties,
+            device,
+            maneuvers,
+            standing,
+            demands,
+            one_stops=design.requirement.detection is not None,
+        )
         references = trajectories(plans)
     return Task(
         path=path,

@@ -302,7 +302,11 @@ def _sized_or_advised(
         at_angle = [each for each in tried if each.problem.incidence is not None]
         closest = min(held or at_angle, key=lambda each: each.nearest.shortfall, default=closest)
     with steps.step("look for the smallest changes that would do") as step:
-        advised = closest.advised(step.update, default=specification.asks_nothing)
+        advised = closest.advised(
+            step.update,
+            default=specification.asks_nothing,
+            lightest=all(each.problem.incidence is not None for each in tried),
+        )
     advised.assumptions, advised.warnings = closest.assumptions, closest.warnings
     raise advised
 
@@ -651,6 +655,7 @@ def _plan(sized: _Sized, maneuvers: Sequence[Maneuver]) -> Mapping[str, "Referen
         maneuvers,
         requirement.standing_height,
         None if kept is None else kept.demands,
+        one_stops=requirement.detection is not None,
     )
 
 

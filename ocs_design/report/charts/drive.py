@@ -45,7 +45,7 @@ def torque_speed_chart(motor: Drive, flights: Sequence[Flight]) -> Chart | None:
     if not driven:
         return None
     plane = _Plane.of(motor)
-    # The path of each wheel up to touchdown; what follows is no part of the maneuver.
+    # The path of each wheel up to where it is judged; what follows is no part of the maneuver.
     paths = [
         Line(
             in_unit(flight.wheel_speed(wheel)[flight.driven], "rpm"),
@@ -72,7 +72,7 @@ def torque_speed_chart(motor: Drive, flights: Sequence[Flight]) -> Chart | None:
         title="Torque and speed of a wheel",
         description="What the drive can give at each speed of the wheel, at full voltage and "
         f"current and at the {RESERVE:.0%} that the design may use, with the path of each maneuver "
-        "up to touchdown; solid for the first wheel, dashed for the others.",
+        "up to where it is judged; solid for the first wheel, dashed for the others.",
         x=Axis("wheel speed", "rpm", -1.05 * widest, 1.05 * widest),
         y=Axis("torque on the wheel", "N m", -tallest, tallest),
         marks=(*marks, *paths),

@@ -68,4 +68,4 @@ def all_charts(story: Story) -> Iterator[Chart]:
     for charts in scenario_charts(story).values():
         yield from charts
     if story.monte_carlo is not None:
-        yield from distribution_charts(story.monte_carlo)
+        yield from distribution_charts(story.monte_carlo, story.pivots)

@@ -1,6 +1,6 @@
 """Time series of a maneuver with the device and without it, and histograms of many flights."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 
 import numpy as np
 
@@ -152,11 +152,15 @@ def _ends(lines: Sequence[Line | Area]) -> FloatArray:
     return np.concatenate([[np.nanmin(line.y), np.nanmax(line.y), 0.0] for line in lines])
 
 
-def distribution_charts(record: MonteCarloRecord) -> Iterator[Chart]:
-    """Attitude at touchdown, peak speed and peak torque of each scenario."""
+def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) -> Iterator[Chart]:
+    """Attitude where it is judged, peak speed and peak torque of each scenario.
+
+    `pivots`: scenarios about a pivot, which have no touchdown.
+    """
     for each in record.scenarios:
+        judged = "when due" if each.scenario in pivots else "at touchdown"
         spreads = (
-            ("off_level", "off level at touchdown", "deg", each.attitude_error, LANDING_TOLERANCE),
+            ("off_level", f"off level {judged}", "deg", each.attitude_error, LANDING_TOLERANCE),
             ("peak_speed", "highest wheel speed", "rpm", each.peak_wheel_speed, None),
             ("peak_torque", "highest torque", "N m", each.peak_wheel_torque, None),
         )

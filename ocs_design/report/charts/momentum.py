@@ -47,7 +47,7 @@ class Taken:
 
 
 def taken(story: Story) -> tuple[Taken, ...]:
-    """Momenta of each flight with the device up to touchdown; if none was flown, those asked for.
+    """Momenta of each flight with the device until it is judged; if none, those asked for.
 
     A motor's choice may turn a robot with less momentum than constant torque one way and then the
     other would take, which is what the demands count: then only flights tell.
@@ -155,7 +155,7 @@ def momentum_chart(story: Story) -> Chart:
         name="momentum",
         title="Momentum that the wheels can take, and took",
         description="Outline of the roll and pitch momenta that the wheels take together at their "
-        "highest speed, and the momenta that they took in each maneuver up to touchdown.",
+        "highest speed, and the momenta that they took in each maneuver up to where it is judged.",
         x=Axis("roll momentum", "N m s", -reach, reach),
         y=Axis("pitch momentum", "N m s", -reach, reach),
         marks=tuple(marks),

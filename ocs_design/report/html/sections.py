@@ -264,7 +264,7 @@ def monte_carlo_section(story: Story) -> Markup:
         element("p", f"{campaign_title(record)}."),
         table("How often they pass", success_table(record)),
         *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
-        figures(distribution_charts(record)),
+        figures(distribution_charts(record, story.pivots)),
         details("What was drawn", facts(drawn_facts(record.reality))),
     )
 

@@ -71,12 +71,15 @@ class Refused(Infeasible):
         )
         self.problem, self.nearest = problem, nearest
 
-    def advised(self, progress: Progress = unseen, *, default: bool = False) -> Infeasible:
+    def advised(
+        self, progress: Progress = unseen, *, default: bool = False, lightest: bool = True
+    ) -> Infeasible:
         """The error with the single changes that would do.
 
         Args:
             progress: is told the share that is done.
             default: whether nobody asked for these maneuvers.
+            lightest: whether the lightest incidence may be a cure, as nobody has tried it.
         """
         reason = self.nearest.reason
         changes: dict[Limit, float] = {}
@@ -86,7 +89,11 @@ class Refused(Infeasible):
             # No change of a limit mends an incidence.
             if reason is not Reason.INCIDENCE:
                 changes = single_changes(field, progress)
-            hints = [*_caught(field), *self._motor_hint(), *_hints(field, reason, changes)]
+            hints = [
+                *_caught(field),
+                *self._motor_hint(),
+                *_hints(field, reason, changes, lightest=lightest),
+            ]
             if default:
                 hints = [_default_hint(field, changes.get(TIME)), *hints]
         if any(kept.demand > 1.0 for kept in self.problem.requirement.reserves.values()):
@@ -169,7 +176,9 @@ def slowed_maneuvers(field: Field, factor: float) -> SelectionProblem:
     return with_time(problem, factor, set(slow))
 
 
-def _hints(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iterator[str]:
+def _hints(
+    field: Field, reason: Reason, changes: Mapping[Limit, float], *, lightest: bool
+) -> Iterator[str]:
     """Sentences on what would do."""
     if changes:
         texts = [_change_text(field, limit, value) for limit, value in changes.items()]
@@ -183,7 +192,7 @@ def _hints(field: Field, reason: Reason, changes: Mapping[Limit, float]) -> Iter
         return
     free = replace(field.problem, incidence=None)
     stated = layout.pairs and field.problem.incidence is not None
-    if stated and field.changed(free).possible:
+    if lightest and stated and field.changed(free).possible:
         yield (
             "At another incidence there is a device: leave out --alpha and choose "
             "--alpha-criterion lightest."

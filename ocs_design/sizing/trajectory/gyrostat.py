@@ -129,3 +129,26 @@ class Gyrostat:
         """Matrix from a torque on the trunk to the smallest minus motor torques, shape (n, 3)."""
         inverse = np.linalg.pinv(self.axes, rcond=OUT_OF_REACH)
         return np.asarray(inverse / self.reaction, dtype=np.float64)
+
+
+def shared_by_others(axes: FloatArray, wheel: int) -> FloatArray:
+    """Matrix from torques of all motors to those of the others with the same torque on the trunk.
+
+    `pinv(A_k) A`, with A_k the axes without column k, which is zero: the smallest torques, and as
+    near as the axes left allow.
+
+    Args:
+        axes: A, as columns, shape (3, n). wheel: k, whose motor is to give none.
+    """
+    runs = np.arange(axes.shape[1]) != wheel
+    return np.asarray(runs[:, None] * (np.linalg.pinv(axes * runs, rcond=OUT_OF_REACH) @ axes))
+
+
+def taken_over(axes: FloatArray) -> float:
+    """Most that any motor gives once another has stopped, over the most that one gave before.
+
+    The largest row sum of `shared_by_others`, over all that may stop: at least 1, and 2 for four
+    wheels in two pairs, a triad and a pyramid.
+    """
+    wheels = range(axes.shape[1])
+    return max(float(np.abs(shared_by_others(axes, each)).sum(axis=1).max()) for each in wheels)

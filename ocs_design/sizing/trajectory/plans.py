@@ -32,7 +32,7 @@ from ocs_design.sizing.trajectory.boundary import (
     vertical_of,
 )
 from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
-from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
+from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat, taken_over
 from ocs_design.sizing.trajectory.motion import HeadingLoop
 from ocs_design.sizing.trajectory.program import Solution, Turn, solve
 from ocs_design.sizing.trajectory.tracking import tracking_gains
@@ -54,6 +54,8 @@ BALANCE_STEP, _AT_ONCE = 5e-3, 1e-9
 
 _SAME = 1e-6
 """Change of heading that is none [rad]."""
+
+_TOO_MUCH_FOR_OTHERS = "the wheels left do not follow the turn if a drive stops early in it"
 
 _UNFORESEEN = "a push is not known beforehand: no trajectory is planned, feedback holds the trunk"
 
@@ -88,7 +90,8 @@ class Reference:
         planned: the trajectory's program, or the last one that failed; None: not tried.
         needed: least time over the one asked for, of a turn that is not made in it; None: it is, or
             no time would do.
-        share: of voltage, current and power that the trajectory keeps to.
+        share: of voltage, current and power that the trajectory keeps to; where a drive may stop,
+            that it leaves the others to keep to.
         part: of the tilt from which a robot on a pivot would stand up, where it does not from all.
         spun: speed of the fastest wheel that a brake stops at the start [rad/s]; 0: none does.
     """
@@ -108,6 +111,8 @@ def plan(
     maneuvers: Sequence[Maneuver],
     standing_height: float,
     kept: Mapping[str, float] | None = None,
+    *,
+    one_stops: bool = False,
 ) -> Mapping[str, Reference]:
     """The turn of least peak power for each maneuver by its name; none is planned for a push.
 
@@ -117,6 +122,7 @@ def plan(
         maneuvers: each at its own incidence, if it has one.
         standing_height: of the trunk over the ground [m].
         kept: factor on what is asked that the device keeps for a maneuver, by its name; 1 if none.
+        one_stops: see `reference`.
     """
     line, factors, found = drive_line_of(device), kept or {}, {}
     for maneuver in maneuvers:
@@ -124,7 +130,9 @@ def plan(
         own = maneuver.on(with_device(robot, flown))
         gyrostat = gyrostat_of(robot, flown, own)
         kept_of = factors.get(maneuver.name, 1.0)
-        found[maneuver.name] = reference(gyrostat, line, own, standing_height, kept_of)
+        found[maneuver.name] = reference(
+            gyrostat, line, own, standing_height, kept_of, one_stops=one_stops
+        )
     return found
 
 
@@ -134,11 +142,15 @@ def reference(
     maneuver: Maneuver,
     standing_height: float,
     kept: float = 1.0,
+    *,
+    one_stops: bool = False,
 ) -> Reference:
     """Least peak power within `PLANNED` of voltage, current and power, else with all of them.
 
     What the device keeps in reserve is left to the feedback: a plan of least power would use it up
-    and run at top speed, which a robot with more inertia than designed cannot follow.
+    and run at top speed, which a robot with more inertia than designed cannot follow. For the same
+    reason a plan that others shall take over leaves them all of that: torques of a plan for all
+    wheels grow by `taken_over`, and the device was sized for them.
 
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
@@ -147,6 +159,7 @@ def reference(
             a robot on a pivot the gains that balance it.
         standing_height: of the trunk over the ground [m].
         kept: factor on what is asked that the device keeps.
+        one_stops: whether the others shall follow it after any one drive has stopped.
     """
     if isinstance(maneuver, Unforeseen):
         return Reference(None, _UNFORESEEN, None)
@@ -166,14 +179,18 @@ def reference(
             note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
             return Reference(None, note, None, part=most / spun, spun=spun)
     first = GENTLE if asked.end != End.LEVEL else ()
-    for share in dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)):
-        planned = gentlest(asked, gyrostat, line.reserved(share))
+    shares = tuple(dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)))
+    grows = taken_over(gyrostat.axes) if one_stops else 1.0
+    for share, left in [(own, each) for each in dict.fromkeys((grows, 1.0)) for own in shares]:
+        planned = gentlest(asked, gyrostat, line.divided(left).reserved(share))
         if not planned.failure:
             break
     else:
         return _refused(maneuver, asked, gyrostat, line, planned)
     trajectory, note = planned.trajectory, ""
-    if share == 1.0:
+    if left != grows:
+        share, note = share * grows, _TOO_MUCH_FOR_OTHERS
+    elif share == 1.0:
         note = f"the turn takes more than {PLANNED:.1%} of voltage, current or power"
     if isinstance(maneuver, Pivoted):
         trajectory = _balanced(gyrostat, line, maneuver, trajectory)
@@ -185,7 +202,7 @@ def reference(
             note = "; ".join(filter(None, (told, note)))
     elif asked.end != End.LEVEL:
         # What holds the trunk level corrects no heading.
-        trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory))
+        trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory, share))
     return Reference(replace(trajectory, note=note), note, planned, share=share, spun=spun)
 
 

@@ -24,7 +24,9 @@ AT_REST = 0.2
 """Speed of wheels beside upright that is worth it, over that without load."""
 
 
-def tracking_gains(gyrostat: Gyrostat, line: DriveLine, trajectory: Trajectory) -> FloatArray:
+def tracking_gains(
+    gyrostat: Gyrostat, line: DriveLine, trajectory: Trajectory, share: float = PLANNED
+) -> FloatArray:
     """Gains from attitude, rate and wheel speed errors to motor torque, shape (m, n, 6 + n).
 
     The motors get the planned torque minus gain times error: attitude as the rotation vector from
@@ -39,6 +41,7 @@ def tracking_gains(gyrostat: Gyrostat, line: DriveLine, trajectory: Trajectory) 
     Args:
         gyrostat: robot and device. line: of the drives, nothing held back.
         trajectory: m samples, with attitude not needed.
+        share: of the drives that the plan keeps to; `PLANNED` where it takes more.
     """
     wheels, count = gyrostat.axes.shape[1], len(trajectory.time)
     size, inverse = 6 + wheels, gyrostat.inverse_mass_matrix
@@ -54,7 +57,7 @@ def tracking_gains(gyrostat: Gyrostat, line: DriveLine, trajectory: Trajectory) 
     if not np.isfinite(spare):
         spare = float(np.abs(trajectory.wheel_torque).max())
     if not gyrostat.stands:
-        spare *= 1.0 - PLANNED
+        spare *= 1.0 - min(share, PLANNED)
     effort = np.eye(wheels) / spare**2
     gains = np.zeros((count, wheels, size))
     if gyrostat.stands:

@@ -38,6 +38,12 @@ def test_the_area_of_a_histogram_is_that_of_its_flights():
     assert np.isclose(rules["allowed"], 5.0)
 
 
+def test_a_robot_on_a_pivot_never_touches_down():
+    (lands,), (stands,) = (distribution_charts(record(VALUES), each) for each in ((), ("drop",)))
+    assert "touchdown" in lands.title
+    assert "touchdown" not in stands.title + stands.description
+
+
 def test_flights_that_are_all_alike_have_a_bin_too():
     (chart,) = distribution_charts(record(np.zeros(5)))
     assert chart.x.low < 0.0 < chart.x.high

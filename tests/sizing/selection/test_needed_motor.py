@@ -77,6 +77,16 @@ def test_the_refusal_names_it():
     assert needed_motor(problem, nearest).text in caught.value.advised().hint
 
 
+def test_an_incidence_that_was_tried_is_no_cure():
+    """With the wheels on pitch no motor rolls the robot; at another incidence one would."""
+    problem = random_problem(0, motors=2, mounted=False)
+    with pytest.raises(Refused) as caught:
+        select(replace(problem, incidence=0.0), advise=False)
+    cure = "choose --alpha-criterion lightest"
+    assert cure in caught.value.advised().hint
+    assert cure not in caught.value.advised(lightest=False).hint
+
+
 def test_where_no_time_is_set_any_torque_does_and_none_is_named():
     problem, model = too_weak(0)
     by_rate = replace(problem.requirement, maneuvers=(), rate_change=1.0)

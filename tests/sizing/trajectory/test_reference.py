@@ -2,10 +2,12 @@ import re
 
 import numpy as np
 import pytest
-from gyrostats import DIAGONAL, EC_45_FLAT, PUSH, STANDING, body, drop
+from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, PUSH, STANDING, body, drop
 
+from ocs_design.device.layout import ISOTROPIC, Layout, LayoutName
 from ocs_design.requirement.maneuver import TurnTo
 from ocs_design.sizing.trajectory.flight import limit_violation
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import PLANNED, reference
 
 FORTY = np.radians(40.0)
@@ -62,3 +64,26 @@ def test_a_turn_that_takes_longer_is_refused_with_its_time():
     told = re.fullmatch(r".* this turn in 1.7 s: they need (.*) s", found.note)
     assert told
     assert 1.0 / 1.05 < 2.0 / float(told[1]) < 1.05
+
+
+@pytest.mark.parametrize("layout", [LayoutName.TRIAD, LayoutName.PYRAMID])
+def test_the_others_can_take_over_a_plan_whichever_drive_stops_at_its_start(layout):
+    """The wheels left give its torque on the trunk and hold its momentum within their limits.
+
+    With half of the spin inertia nothing is left for that, and the plan says so.
+    """
+    axes = Layout(layout).axes(ISOTROPIC)
+    for inertia, follow in ((4e-4, True), (2e-4, False)):
+        gyrostat = Gyrostat(FULL, axes, inertia)
+        found = reference(gyrostat, EC_45_FLAT, BACK_FLIP, STANDING, one_stops=True)
+        worst = 0.0
+        for lost in range(axes.shape[1]):
+            left = np.delete(axes, lost, axis=1)
+            speed, torque = (
+                np.linalg.lstsq(left, axes @ each.T, rcond=None)[0].T
+                for each in (found.trajectory.wheel_speed, found.trajectory.wheel_torque)
+            )
+            worst = max(worst, limit_violation(speed, torque, EC_45_FLAT.reserved(PLANNED)))
+        assert (worst < 1e-6) == follow
+        assert (found.note == "") == follow
+        assert (found.share <= PLANNED) == follow
