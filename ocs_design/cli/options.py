@@ -418,7 +418,12 @@ def specified_by_command(context: typer.Context) -> "Specification":
     base = Specification() if file is None else read_specification(Path(file))
     typed = specification_from_options(_options(context.params))
     merged = merge(base, typed)
-    if typed.requirement.detection is not None and merged.requirement.survives is None:
+    if typed.ocs.alpha is not None and typed.ocs.alpha_criterion is not None:
+        raise UsageError(
+            "--alpha states the angle, and --alpha-criterion how to find it",
+            hint="leave one of them out",
+        )
+    if typed.requirement.detection is not None and merged.requirement.notices is None:
         raise UsageError(
             "--detection says nothing without --survives",
             hint="add --survives one, or leave --detection out",

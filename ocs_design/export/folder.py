@@ -50,16 +50,7 @@ def check_target(target: Path, *, force: bool) -> None:
     if not parent.is_dir():
         fault = errno.ENOTDIR if any(map(Path.is_file, target.absolute().parents)) else errno.ENOENT
         raise OutputError(f"{parent}: no such folder", hint=CURES[fault])
-    clear_leftovers(target)
-    # Tried, as rights do not tell: root may write to all of /proc, and /proc takes nothing.
-    try:
-        with staging_beside(target):
-            pass
-    except OSError as error:
-        fault = errno.EACCES if error.errno in {None, errno.ENOENT} else error.errno
-        raise OutputError(
-            f"{parent}: cannot be written to: {os.strerror(fault)}", hint=CURES.get(fault, "")
-        ) from error
+    _check_writable(target)
     if not os.path.lexists(target):
         return
     if target.is_symlink() or not target.is_dir():
@@ -77,6 +68,25 @@ def check_target(target: Path, *, force: bool) -> None:
             hint="choose another folder with -o, or replace this one with --force; in Python: "
             "`out=`, `force=True`",
         )
+
+
+def _check_writable(target: Path) -> None:
+    """Fail if nothing can be made beside `target`; leftovers of killed runs there are removed.
+
+    Raises:
+        OutputError: nothing can.
+    """
+    clear_leftovers(target)
+    # Tried, as rights do not tell: root may write to all of /proc, and /proc takes nothing.
+    try:
+        with staging_beside(target):
+            pass
+    except OSError as error:
+        fault = errno.EACCES if error.errno in {None, errno.ENOENT} else error.errno
+        raise OutputError(
+            f"{target.absolute().parent}: cannot be written to: {os.strerror(fault)}",
+            hint=CURES.get(fault, ""),
+        ) from error
 
 
 @contextmanager
@@ -176,10 +186,12 @@ def check_file_target(target: Path, *, force: bool) -> None:
     """Fail before any work is done if `target` could not be written in the end.
 
     Raises:
-        OutputError: it exists and `force` is not set, or is no file; or its folder does not exist.
+        OutputError: it exists and `force` is not set, or is no file; or its folder does not exist
+            or cannot be written to.
     """
     if not target.absolute().parent.is_dir():
         raise OutputError(f"{target.absolute().parent}: no such folder", hint=CURES[errno.ENOENT])
+    _check_writable(target)
     if not os.path.lexists(target):
         return
     if not target.is_file():

@@ -118,6 +118,11 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
     if specified.name not in {None, AUTO, NO_MOTOR}:
         known = known_motors(file)
         named = dict.fromkeys(names_in(specified.name or ""))
+        if alone := [word for word in (AUTO, NO_MOTOR) if word in named]:
+            raise SpecificationError(
+                f"{alone[0]!r} stands alone, and motors are named beside it",
+                hint=f"Leave out {alone[0]!r}, or the motors.",
+            )
         return tuple(motor(name, known) for name in named)
     only_own = file is not None and not specified.with_catalogue
     offered = tuple((load_motors(file) if only_own and file else known_motors(file)).values())

@@ -356,7 +356,8 @@ class Assembly:
             if module.name in standing
         }
         alike = len(set(angles.values())) == 1
-        scale = ", ".join(value if alike else f"{value} ({name})" for name, value in angles.items())
+        each_own = (f"{value} ({name})" for name, value in angles.items())
+        scale = next(iter(angles.values())) if alike else ", ".join(each_own)
         held, motor, plate = found.fastening, self.device.motor, self.device.plate
         mass = self.device.flywheel.mass + self.device.carrier.mass - motor.controller_mass
         yield (
