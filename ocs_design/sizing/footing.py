@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
-from math import copysign, cos, inf, pi, sin, sqrt
+from math import ceil, copysign, cos, inf, log, pi, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,6 +94,9 @@ MODULE_SHARE = 0.1
 
 _SAME = 1e-9
 """Distance between places that are the same but for rounding [m]."""
+
+_ALIKE = 1.02
+"""Ratio of sizes, or of masses, of modules that are nearly equal."""
 
 _STEP = 4e-3
 """Step between places along the trunk [m], or a sixteenth of a module's reach."""
@@ -444,45 +447,93 @@ def _nearest_footing(surface: Surface, feet: Feet, search: Search) -> Footing | 
     return None
 
 
-@lru_cache(maxsize=64)
 def _behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Footing | None:
     """The place behind the trunk nearest to the robot's middle where a mast carries pairs.
 
     They stand one above the other, on plates of one kind, by the lightest tube that bears them.
     """
-    back, pairs = trunk_back(robot), layout.pairs
-    if back is None or not pairs:
+    rough = replace(
+        feet,
+        radius=_rounded_up(feet.radius),
+        slot_radius=_rounded_up(feet.slot_radius),
+        reach=_rounded_up(feet.reach),
+        height=_rounded_up(feet.height),
+        mass=_rounded_up(feet.mass),
+    )
+    larger = Size(_rounded_up(size.reach), _rounded_up(size.standing))
+    back, at = trunk_back(robot), _mast_spot(robot, rough, larger, layout)
+    if back is None or at is None:
+        return None
+    feet, search = (
+        _stacked(feet, size, layout),
+        Search(collision_model(robot), Sizes(size, size), layout),
+    )
+    far, height, spacer = at
+    arms = _all_arms(feet, size, far=far)
+    masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms)
+    return next((footing for footing in masted if footing is not None), None)
+
+
+def _rounded_up(value: float) -> float:
+    """By up to a fiftieth, so that what is nearly equal is looked for once."""
+    return _ALIKE ** ceil(log(value, _ALIKE))
+
+
+def _stacked(feet: Feet, size: Size[float], layout: Layout) -> Feet:
+    """Feet of pairs one above the other."""
+    out = CLEARANCE * size.reach
+    return replace(feet, bases=((0.0, out), (0.0, -out)) * layout.pairs)
+
+
+def _all_arms(feet: Feet, size: Size[float], *, far: bool) -> Iterator[CarrierPlate]:
+    """Plates on the arms of each tube in stock that bears them, as short as may be or longer.
+
+    On the shortest, pairs stand to both sides of the upright; on the longer ones behind it.
+    """
+    masts = (
+        Mast(side, wall, side + max(_between(side, size), side, feet.y * far), 0.0, 0.0, 0.0)
+        for side, wall in TUBES
+    )
+    return (plate for mast in masts if (plate := _on_arms(feet, mast)) is not None)
+
+
+@lru_cache(maxsize=64)
+def _mast_spot(
+    robot: Robot, feet: Feet, size: Size[float], layout: Layout
+) -> tuple[bool, float, float] | None:
+    """Whether a mast's arms are long, height of its lowest plate and thickness of its block [m].
+
+    None: no mast holds them.
+    """
+    back = trunk_back(robot)
+    if back is None or not layout.pairs:
         return None
     search = Search(collision_model(robot), Sizes(size, size), layout)
-    out = CLEARANCE * size.reach
-    feet = replace(feet, bases=((0.0, out), (0.0, -out)) * pairs)
+    feet = _stacked(feet, size, layout)
     down, up = back.x_range
     step = size.reach / 4.0
     heights = np.arange(down - 2.0 * size.standing, up + size.standing, step).tolist()
-    arms = [
-        plate
-        for side, wall in TUBES
-        if (plate := _on_arms(feet, Mast(side, wall, side + out, 0.0, 0.0, 0.0))) is not None
-    ]
-    if not arms:
+    arms = {far: list(_all_arms(feet, size, far=far)) for far in (False, True)}
+    if not all(arms.values()):
         return None
-    face = back.farthest(down, up, arms[0].support)
+    face = back.farthest(down, up, arms[False][0].support)
     spots = [
-        (_placed(back, arms[0], size, height, face + spacer), height, spacer)
-        for height, spacer in product(heights, SPACERS)
+        (_placed(back, plates[0], size, height, face + spacer), far, height, spacer)
+        for (far, plates), height, spacer in product(arms.items(), heights, SPACERS)
     ]
     # A block is heavier than a longer way up.
-    for place, height, spacer in sorted(spots, key=lambda each: (each[2], search.cost(each[0]))):
-        tubes = _tubes(arms[0], place.centers(size), height, face + spacer)
+    spots.sort(key=lambda each: (each[3], search.cost(each[0])))
+    for place, far, height, spacer in spots:
+        tubes = _tubes(arms[far][0], place.centers(size), height, face + spacer)
         if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.hit, tubes)):
             continue
-        masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms)
+        masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms[far])
         for footing in (each for each in masted if each is not None):
             # A wider tube moves modules by less than what is kept free around them.
             if not search.is_free(footing.place):
                 break
             if not any(map(search.hit, plate_solids(footing.plate))):
-                return footing
+                return far, height, spacer
     return None
 
 
@@ -512,7 +563,8 @@ def _on_arms(feet: Feet, mast: Mast) -> CarrierPlate | None:
     bearing = (
         plate
         for plate in plates
-        if plate.stress(feet.mass, feet.height) <= MAST_YIELD
+        if plate.shape.half_width(np.asarray(mast.side / 2.0)) <= mast.back
+        and plate.stress(feet.mass, feet.height) <= MAST_YIELD
         and plate.arm_stress(feet.mass, feet.height) <= MAST_YIELD
     )
     return min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)
@@ -540,12 +592,13 @@ def _placed(
     """
     mast, out = plate.mast, CLEARANCE * size.reach
     assert mast is not None, "a plate on arms"
-    # An arm, as wide as across its corners, and its plate have room over the modules below.
-    room = sqrt(2.0) * mast.side + plate.thickness
+    # Arms reach down between the modules below, and these to both sides of the upright.
+    room = max(0.0, sqrt(2.0) * mast.side - out + _between(mast.side, size)) + plate.thickness
     apart = size.standing / size.reach + CLEARANCE
     rows = range(len(plate.rows))
     top = height + rows[-1] * (room + apart * size.reach) + plate.thickness + size.standing + out
-    x = -round(max(back.farthest(height, top, 2.0 * out), face + mast.side), 6)
+    behind = max(back.farthest(height, top, 2.0 * out), face + mast.face - out)
+    x = -round(behind, 6)
     origins = [(x, 0.0, height + plate.thickness + row * room) for row in rows]
     sides = [(-CLEARANCE, sense * CLEARANCE) for sense in SENSES]
     return Place(
@@ -553,6 +606,15 @@ def _placed(
         tuple((*side, row * apart) for row in rows for side in sides),
         upright=True,
     )
+
+
+def _between(side: float, size: Size[float]) -> float:
+    """How far off a tube modules to both its sides must be to be clear of it [m].
+
+    It is as wide as across its corners.
+    """
+    aside = CLEARANCE * size.reach - side / sqrt(2.0)
+    return sqrt(max(0.0, size.reach**2 - aside**2))
 
 
 def _masted(

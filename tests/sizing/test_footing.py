@@ -2,8 +2,8 @@
 
 import re
 from dataclasses import replace
-from itertools import combinations, product
-from math import acos, pi, sqrt
+from itertools import combinations, pairwise, product
+from math import acos, hypot, pi, sqrt
 
 import msgspec
 import numpy as np
@@ -411,6 +411,14 @@ def test_where_nothing_stands_on_top_a_mast_carries_it(column, name):
     assert plate.mast_stress(mass, height) <= MAST_YIELD
     assert plate.stress(mass, height) <= MAST_YIELD
     assert plate.screws_use(mass, height) <= 1.0
+    # Whatever way they turn, modules are clear of the upright between them and of the arms above.
+    mast, reach = plate.mast, device_size(device).reach
+    aside = plate.across - mast.side / 2.0
+    assert mast.back < plate.across
+    assert reach <= hypot(aside, mast.back)
+    for below, above in pairwise(plate.heights):
+        middle = below + plate.thickness + height
+        assert reach <= hypot(aside, above - mast.side - middle)
     # Screws are on the flat back, 6 cm behind the middle, and modules behind that.
     for place in plate.screw_places:
         x, y, z = place.position + np.array(plate.position)
