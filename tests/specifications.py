@@ -109,6 +109,7 @@ FULL = Specification(
         position=(0.1, 0.2, 1e-17),
         co_design=True,
         guard="containing",
+        wheel="disc",
         mass_max=1.25,
         lighter_by=0.09,
     ),

@@ -312,6 +312,12 @@ TASK_OPTIONS: Mapping[str, object] = {
         "Printed housings (default), or a steel ring in each that holds a wheel that bursts.",
         completion.of_key("ocs.guard"),
     ),
+    "wheel": _text(
+        "disc|ring",
+        "A rim on a disc that sits on the motor (default), or a ring bonded around the motor's "
+        "bell.",
+        completion.of_key("ocs.wheel"),
+    ),
     "material": _text(
         "NAME",
         "See `ocs-design catalogue materials`; steel (default): any steel; auto: any.",

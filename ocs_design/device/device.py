@@ -55,7 +55,7 @@ class Flywheel:
         hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
         stress_margin: yield strength over hoop stress; None if the strength is not known.
         stored_energy: at the highest wheel speed [J].
-        web: None: massless spokes.
+        web: None: massless spokes, or a ring around the motor's bell.
         cuts: chamfers and balancing holes of the rim.
     """
 
@@ -116,6 +116,7 @@ class Device:
         guard_wall: of the ring of mild steel in each housing [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
         layout: how the axes lie to each other.
+        on_bell: whether each wheel is a ring around the bell of its motor.
     """
 
     incidence: float
@@ -128,6 +129,7 @@ class Device:
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
     layout: Layout = PAIR
+    on_bell: bool = False
 
     @property
     def mass(self) -> float:

@@ -9,13 +9,18 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device, Flywheel
-from ocs_design.device.solids import foot_of
+from ocs_design.device.solids import foot_of, housing_of
+from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.foot import BASE_THICKNESS, stem_frequency
 from ocs_design.parts.guard import Containment, containment, fragment_of
 from ocs_design.parts.joints import (
+    BOND_SHARE,
     COLDEST,
+    EPOXY,
+    EPOXY_STRENGTH,
     FRICTION,
     GRADE,
+    HOTTEST,
     OVERSPEED,
     SERVICE,
     WARMEST,
@@ -24,7 +29,9 @@ from ocs_design.parts.joints import (
     Ring,
     ShrinkFit,
     TurningRings,
+    bell_bond_tension,
     correction,
+    cylinder_torque,
     holed_peaks,
     hub_joint,
     preload,
@@ -54,7 +61,7 @@ def burst_of(device: Device) -> Containment:
         web_mass=web,
         wheel_speed=device.motor.top_speed,
     )
-    return containment(piece, wheel.outer_radius, wheel.height)
+    return containment(piece, wheel.outer_radius, housing_of(device).rim_height)
 
 
 def joints_of(device: Device) -> tuple[Margin, ...]:
@@ -62,6 +69,8 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
 
     Where no capacity is known, the joint keeps the device from being built.
     """
+    if device.on_bell:
+        return tuple(_bell_joints(device))
     if device.flywheel.web is None:
         return ()
     return (*_rim_joints(device), *_shaft_joints(device))
@@ -229,6 +238,47 @@ def _shaft_joints(device: Device) -> Iterator[Margin]:
         yield Margin(SHAFT_JOINT, torque, None, "N m", unknown)
 
 
+def _bell_joints(device: Device) -> Iterator[Margin]:
+    """A ring around its motor's bell: its own stress, and the bond by torque and by speed."""
+    wheel, speed = device.flywheel, OVERSPEED * device.motor.top_speed
+    kind, held = materials().get(wheel.material), BOND_SHARE * EPOXY_STRENGTH
+    elastic = _elastic(kind)
+    if kind is None or elastic is None or kind.thermal_expansion is None:
+        unknown = f"elastic figures or expansion of {wheel.material} are not known"
+        yield Margin(RIM_JOINT, 0.0, None, "Pa", unknown)
+    else:
+        ring = Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *elastic)
+        alone = TurningRings.of((ring,), speed).peak(0)
+        note = f"a ring by itself at {OVERSPEED:g} x top speed, against yield"
+        yield Margin(RIM_JOINT, alone, kind.yield_strength, "Pa", note)
+        pulled = bell_bond_tension(
+            ring.inner,
+            ring.outer,
+            density=ring.density,
+            elastic_modulus=ring.elastic_modulus,
+            poisson_ratio=ring.poisson_ratio,
+            expansion=kind.thermal_expansion,
+            speed=speed,
+        )
+        yield Margin(
+            "rim joint, pull on the bond",
+            float(pulled),
+            held,
+            "Pa",
+            f"bonded around the bell with {EPOXY}; the ring would grow off a rigid bell at "
+            f"{OVERSPEED:g} x top speed, {COLDEST:g} to {HOTTEST:g} deg C, against "
+            f"{BOND_SHARE:.0%} of its {1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C",
+        )
+    yield Margin(
+        SHAFT_JOINT,
+        SERVICE * (device.motor.torque_limit or 0.0),
+        cylinder_torque(2.0 * wheel.inner_radius, wheel.height - 2.0 * wheel.cuts.chamfer, held),
+        "N m",
+        f"bonded around the bell with {EPOXY}, at {BOND_SHARE:.0%} of its "
+        f"{1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C, against {SERVICE:g} x peak torque",
+    )
+
+
 @dataclass(frozen=True)
 class Balance:
     """How one wheel is balanced: assembled on its motor, as what holds it leaves it off centre.
@@ -340,6 +390,8 @@ def balance_of(device: Device) -> Balance:
 def _centring(device: Device) -> tuple[float | None, str]:
     """How far off centre a wheel may sit on its motor [m], and what centres it."""
     mounting = device.motor.mounting
+    if device.on_bell:
+        return RUN_OUT / 2.0 + GLUE_GAP, "its glue gap, which the fixture evens out"
     if mounting is not None and mounting.shaft_diameter is not None:
         across = mounting.shaft_diameter
         return RUN_OUT / 2.0 + slip_fit_eccentricity(across), "its bore on the shaft, H7/h6"

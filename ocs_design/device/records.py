@@ -421,6 +421,7 @@ class OcsRecord:
     plate: CarrierPlate | None = None
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    on_bell: bool = False
     center_of_mass: Vector | None = None
     warnings: tuple[str, ...] = ()
     fitting: tuple[str, ...] = ()
@@ -452,6 +453,7 @@ class OcsRecord:
             guard_wall=self.guard_wall,
             foot_plate=self.foot_plate,
             layout=self.axes,
+            on_bell=self.on_bell,
         )
 
     @property

@@ -12,7 +12,7 @@ from ocs_design.parts.foot import BASE_THICKNESS, Foot
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of
 from ocs_design.parts.pedestal import HEAD_TOP, Pedestal, seat_thickness
-from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.parts.printed import CLEARANCE, LID_SCREW, WALL
 from ocs_design.robot.tree import BACKWARDS, Drum
 
 PLATE_DISCS = 0.5
@@ -24,22 +24,28 @@ _LEFT, _UP = np.eye(3)[1:]
 def motor_mount(device: Device) -> MotorMount:
     """How the motor is held, as far as that is known and fits the housing's floor."""
     motor = device.motor
-    mount = mount_of(motor, motor.gear_room, device.foot_plate).around(device.flywheel.height)
-    floor = housing_outer_radius(device.flywheel.outer_radius) - 2.0 * WALL
-    return mount if mount.holes.reach <= floor else MotorMount(foot_plate=device.foot_plate)
+    wheel, plate = device.flywheel, device.foot_plate
+    mount = mount_of(motor, motor.gear_room, plate, on_bell=device.on_bell).around(wheel.height)
+    floor = housing_outer_radius(wheel.outer_radius) - 2.0 * WALL
+    return mount if mount.holes.reach <= floor else MotorMount(foot_plate=plate)
+
+
+def housing_of(device: Device) -> Housing:
+    """Housing around one wheel, and around the motor whose bell that is on."""
+    wheel, mount = device.flywheel, motor_mount(device)
+    height = max(wheel.height, mount.room)
+    return Housing(wheel.outer_radius, height, mount.holes, LID_SCREW, device.guard_wall)
 
 
 def foot_of(device: Device) -> Foot:
     """Foot of one module, around the housing that it carries."""
-    wheel, mount = device.flywheel, motor_mount(device).holes
-    housing = Housing(wheel.outer_radius, wheel.height, mount, guard_wall=device.guard_wall)
-    return Foot(housing, device.foot_plate)
+    return Foot(housing_of(device), device.foot_plate)
 
 
 def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
     """Gear, motor and cage as far as their sizes are known, behind the foot's plate."""
-    motor, height = device.motor, device.flywheel.height
-    found = drive_cylinders(motor, motor.gear_room, motor_mount(device), height)
+    motor, mount = device.motor, motor_mount(device)
+    found = drive_cylinders(motor, motor.gear_room, mount, housing_of(device).rim_height)
     # Files of older versions do not know where the motor is behind a gear.
     unknown = motor.gear != DIRECT.name and motor.gear_room is None
     return tuple(solid for solid in found if not (unknown and solid.name == "motor"))

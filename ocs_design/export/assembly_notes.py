@@ -12,6 +12,7 @@ from ocs_design.device.joints import DAMPING, resonances_of
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import printed_foot, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
+from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
 from ocs_design.parts.carrier_plate import MODULUS as PLATE_MODULUS
 from ocs_design.parts.carrier_plate import YIELD_STRENGTH
@@ -48,6 +49,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
     mounting = motor.mounting or Mounting()
     return (
         *_held(mounting, device),
+        *_on_bell(device),
         *_driven(mounting, device),
         *_apart(device, foot),
         *_shaken(device, foot),
@@ -95,6 +97,33 @@ def _held(mounting: Mounting, device: Device) -> Iterator[str]:
         yield (
             f"the motor's screws, {stator}, do not fit the housing's floor of {room}: {_UNDRILLED}"
         )
+
+
+def _on_bell(device: Device) -> Iterator[str]:
+    """Notes on a ring around the motor's bell, and on the motor in the housing."""
+    bell, wheel = motor_mount(device).bell, device.flywheel
+    if bell is None:
+        return
+    length = device.motor.length or 0.0
+    middle = length - bell.front
+    low, high = (
+        format_quantity(middle + side * wheel.height / 2.0, "mm", digits=3) for side in (-1.0, 1.0)
+    )
+    yield (
+        f"the ring is {low} to {high} from the motor's back; that the bell is straight there is an "
+        f"estimate, {BELL_SHARE:.0%} of the motor's length in its middle, which no source gives: "
+        "measure it before the ring is made"
+    )
+    mounting = device.motor.mounting or Mounting()
+    if mounting.shaft_diameter is not None and mounting.shaft_length is None:
+        yield (
+            "how far the shaft stands out of the motor is in no source, and counts as nothing: if "
+            "it touches the lid, cut it off"
+        )
+    yield (
+        "the motor turns in the closed drum: cut a slot into its floor for the three wires, and "
+        "watch its temperature, as its continuous torque holds in free air"
+    )
 
 
 def _driven(mounting: Mounting, device: Device) -> Iterator[str]:

@@ -13,7 +13,12 @@ from ocs_design.device.joints import joints_of
 from ocs_design.device.records import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.device_parts import foot_screws, printed_foot, printed_parts
+from ocs_design.export.device_parts import (
+    foot_screws,
+    printed_foot,
+    printed_parts,
+    ring_fixture,
+)
 from ocs_design.export.electrics import electrics
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import (
@@ -24,6 +29,7 @@ from ocs_design.parts.carrier_plate import (
     sleeve_part,
 )
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
+from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 
 COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
@@ -106,7 +112,7 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         if device.guard_wall:
             ring = guard_ring(foot.housing)
             inside = foot.housing.inner_radius - device.guard_wall
-            tall = device.flywheel.height + 2.0 * CLEARANCE
+            tall = foot.housing.rim_height + 2.0 * CLEARANCE
             size = f"ring {_mm(2.0 * inside)} inside x {_mm(device.guard_wall)} wall x {_mm(tall)}"
             made = "bent and welded or turned from tube, bonded into the drum; holds a burst rim"
             rows.append(BillRow("guard ring", count, "mild steel (S235)", size, ring.mass(), made))
@@ -177,7 +183,13 @@ def _used_up(device: Device) -> Iterator[BillRow]:
     """What is used up in putting it together; wheels alone are not put together."""
     if device.carrier.mass == 0.0:
         return
-    if any(joint.note.startswith("bonded") for joint in joints_of(device)):
+    fixture = ring_fixture(device)
+    if fixture is not None:
+        where = "ring on bell, or an epoxy that is as strong at 80 deg C; follow its maker's sheet"
+        yield BillRow(f"epoxy {EPOXY}", 1, "", "", 0.0, where)
+        where = "3-D print ring_fixture.stl, one per ring: glue spoils it; not in the device"
+        yield BillRow("fixture for ring and bell", len(device.modules), "PETG", "", 0.0, where)
+    elif any(joint.note.startswith("bonded") for joint in joints_of(device)):
         where = "wheel on shaft; follow its maker's sheet"
         yield BillRow("retaining compound", 1, "", "", 0.0, where)
     screwed = (each.fastening for each in motor_mount(device).screwed)

@@ -7,13 +7,13 @@ from math import copysign, sqrt
 
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.device.device import Device, Flywheel
-from ocs_design.device.solids import motor_mount
+from ocs_design.device.solids import foot_of, motor_mount
+from ocs_design.parts.bell import fixture_part
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.foot import TRUNK_SCREWS, Foot, foot_part
-from ocs_design.parts.housing import Housing, guard_ring, housing_parts
+from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import LID_SCREW
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
 
 
@@ -77,9 +77,13 @@ def plate_pieces(device: Device) -> Mapping[str, Part]:
 
 def printed_foot(device: Device) -> Foot:
     """Foot of one module, with the housing that it carries."""
-    wheel, mount = device.flywheel, motor_mount(device).holes
-    housing = Housing(wheel.outer_radius, wheel.height, mount, LID_SCREW, device.guard_wall)
-    return Foot(housing, device.foot_plate)
+    return foot_of(device)
+
+
+def ring_fixture(device: Device) -> Part | None:
+    """What centres a ring on its bell while the glue sets; None: no ring is bonded on."""
+    bell, wheel = motor_mount(device).bell, device.flywheel
+    return None if bell is None else fixture_part(bell, wheel.outer_radius, wheel.height)
 
 
 def metal_pieces(device: Device) -> Mapping[str, Part]:

@@ -37,6 +37,15 @@ SERVICE = 1.5
 _POINTS = 33
 """Radii of each ring at which its stress is looked at, both edges among them."""
 
+_NO_WALL = 1e-15
+"""Least difference of the squares of two radii [m^2]."""
+
+_ROUNDED = 1e-6
+"""Share of a radius that rounding takes no more of."""
+
+_HALVINGS = 40
+"""Of an interval of radii, to rounding."""
+
 _BANDS = 16
 """Rings that a web's holes are cut into."""
 
@@ -339,6 +348,73 @@ def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
     return (
         None if shaft is None else cylinder_torque(shaft, bond_length, BOND_SHARE * BOND_STRENGTH)
     )
+
+
+# --- bonds around bells -----------------------------------------------------------------------
+
+EPOXY = "3M Scotch-Weld DP760"
+"""A toughened two-part epoxy that cures at room temperature."""
+
+EPOXY_STRENGTH = 24.1e6
+"""Its overlap shear strength at 80 deg C, cured at 23 deg C for a week [Pa]: product data sheet,
+3M, February 2009 (28.2 MPa at 23 deg C, 16.2 at 120; aluminium, etched, 0.15 mm of glue). Its
+strength in tension, which the sheet does not have, is taken for no more."""
+
+HOTTEST = 80.0
+"""Temperature that a bond on a bell must hold at [deg C]; the other end is `COLDEST`."""
+
+BELL_EXPANSION = 11.7e-6
+"""Thermal expansion of a bell [1/K]: its straight part is the magnets' yoke, of low-carbon steel
+(Callister, Materials Science and Engineering, 1020)."""
+
+
+def bell_bond_tension(
+    inner: float | FloatArray,
+    outer: float | FloatArray,
+    *,
+    density: float | FloatArray,
+    elastic_modulus: float | FloatArray,
+    poisson_ratio: float | FloatArray,
+    expansion: float | FloatArray,
+    speed: float | FloatArray,
+) -> FloatArray:
+    """Most that a bond around a bell is pulled by a ring that turns, cold or warm [Pa].
+
+    The bell counts as rigid: whatever it grows by itself, and gives way, takes from the pull. The
+    ring's constants A and B follow from no displacement at its bore and no stress at its edge, and
+    a ring whose bore has to give way by a strain e is pulled with
+    E e / ((R^2 + r^2) / (R^2 - r^2) + nu).
+
+    Args:
+        inner, outer: radii [m].
+        density, elastic_modulus, poisson_ratio: of the ring; a modulus of 0 leaves temperature out.
+        expansion: of it [1/K].
+        speed: [rad/s].
+    """
+    inner, outer = np.asarray(inner), np.asarray(outer)
+    nu, load = poisson_ratio, density * speed**2 / 8.0
+    stiff = 1.0 / ((1.0 - nu) * inner**2) + 1.0 / ((1.0 + nu) * outer**2)
+    of_b = load * ((1.0 + nu) * inner**2 - (3.0 + nu) * outer**2) / stiff
+    of_a = (1.0 - nu**2) * load * inner**2 - of_b / inner**2
+    spun = of_a / (1.0 - nu) - of_b / ((1.0 + nu) * inner**2) - (3.0 + nu) * load * inner**2
+    apart = expansion - BELL_EXPANSION
+    strain = np.maximum(apart * (HOTTEST - MADE), apart * (COLDEST - MADE))
+    give = (outer**2 + inner**2) / np.maximum(outer**2 - inner**2, _NO_WALL) + nu
+    return np.asarray(spun + elastic_modulus * strain / give)
+
+
+def bell_bond_radius(bore: FloatArray, most: float, **ring: FloatArray) -> FloatArray:
+    """Largest outer radius, up to `most` [m], of rings whose bond holds; the bore where none does.
+
+    Args:
+        bore: radius [m]. most: [m]. ring: see `bell_bond_tension`.
+    """
+    low, high = bore, np.maximum(bore, most)
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2.0
+        holds = bell_bond_tension(bore, middle, **ring) <= BOND_SHARE * EPOXY_STRENGTH
+        low, high = np.where(holds, middle, low), np.where(holds, high, middle)
+    return low * (1.0 - _ROUNDED)
 
 
 # --- balance ----------------------------------------------------------------------------------

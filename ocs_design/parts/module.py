@@ -53,12 +53,14 @@ class Printed:
         posts: of the motor's cage, whose floor is not in any mass either.
         guard_wall: of the steel ring in the housing [m]; 0: none.
         foot_plate: thickness of the foot's plate [m].
+        room: least height of a rim that the housing is made for (`MotorMount.room`) [m].
     """
 
     mount_reach: float | FloatArray
     posts: Posts[Any] = NO_POSTS
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    room: float | FloatArray = 0.0
 
     def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
         """Mass of all of it [kg]."""
@@ -73,10 +75,11 @@ class Printed:
         foot = self._foot(outer_radius, height)
         around: FloatArray = housing_mass_per_height(outer_radius, self.guard_wall)
         around = around + foot_mass_per_height(foot)
+        around = np.where(height >= np.asarray(self.room), around, 0.0)
         return around + self.posts.mass_per_height()
 
     def _foot(self, outer_radius: FloatArray, height: FloatArray) -> Foot[FloatArray]:
-        reach = np.asarray(self.mount_reach)
+        reach, height = np.asarray(self.mount_reach), np.maximum(height, self.room)
         return _foot(outer_radius, height, reach, self.guard_wall, self.foot_plate)
 
 
@@ -151,9 +154,11 @@ def standing(
     guard_wall: float = 0.0,
     *,
     foot_plate: float = PLATE_THICKNESS,
+    on_bell: bool = False,
 ) -> Carrier:
     """All that stands still around a wheel of that outer radius and height [m]."""
-    mount = mount_of(motor, gear.room, foot_plate)
+    mount = mount_of(motor, gear.room, foot_plate, on_bell=on_bell)
+    height = max(height, mount.room)
     held = by_floor(motor, gear, mount).shifted(-half_height(height), 0.0) + by_wheel(motor, mount)
     shell = shell_moments(outer_radius, height, mount.holes.reach, guard_wall, foot_plate)
     return Carrier.of(held + mount.posts.moments(height) + shell)

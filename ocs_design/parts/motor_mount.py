@@ -10,10 +10,11 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from math import inf, sin
 from operator import add
-from typing import Generic, NamedTuple, Protocol
+from typing import Generic, NamedTuple
 
 from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
+from ocs_design.parts.bell import Bell, HeldMotor, bell_of
 from ocs_design.parts.cage import FLOOR, HALF_POST, NO_POSTS, Cage, Posts
 from ocs_design.parts.housing import half_height, plate_back
 from ocs_design.parts.moments import MassMoments, Real, nothing, ring
@@ -34,22 +35,6 @@ _LEAST_EDGE = 0.1
 """Least angle of a post's wall beside its ear [rad]."""
 
 _DEPTH = "check the depth of the motor's thread"
-
-
-class HeldMotor(Protocol):
-    """The figures of a motor that its mount needs."""
-
-    @property
-    def mounting(self) -> Mounting | None:
-        """Its shaft and threads."""
-
-    @property
-    def diameter(self) -> float | None:
-        """Size of the motor's body [m]."""
-
-    @property
-    def length(self) -> float | None:
-        """Size of the motor's body [m]."""
 
 
 @dataclass(frozen=True)
@@ -102,8 +87,10 @@ class MotorMount:
         holes: in the housing's floor and in the foot's plate.
         cage: around the motor; None: it stands on the plate.
         screwed: that hold it.
-        gap: between plate and motor [m]. up: of its axis from the wheel's [m].
+        gap: between plate and motor [m]; below 0 where it stands in the housing.
+        up: of its axis from the wheel's [m].
         foot_plate: thickness of the foot's plate [m].
+        bell: of the motor, with a ring around it; None: its wheel stands before it.
     """
 
     holes: MountHoles = field(default_factory=MountHoles)
@@ -112,6 +99,7 @@ class MotorMount:
     gap: float = 0.0
     up: float = 0.0
     foot_plate: float = PLATE_THICKNESS
+    bell: Bell | None = None
 
     def around(self, rim_height: float) -> "MotorMount":
         """The mount behind a rim of that height [m]."""
@@ -127,7 +115,14 @@ class MotorMount:
     @property
     def rim_height_max(self) -> float:
         """Height of a rim that it leaves room for [m]; inf: any."""
+        if self.bell is not None:
+            return self.bell.straight
         return inf if self.cage is None else self.cage.rim_height_max
+
+    @property
+    def room(self) -> float:
+        """Least height of a rim that its housing is made for [m]; 0: any."""
+        return 0.0 if self.bell is None else self.bell.room
 
     @property
     def head_reach(self) -> float:
@@ -137,6 +132,8 @@ class MotorMount:
 
     def behind(self, motor: HeldMotor) -> Behind[float]:
         """How far back it reaches with the motor."""
+        if self.bell is not None:
+            return Behind(max(each.fastening.screw.head_height for each in self.screwed), 0.0)
         if self.cage is not None:
             heads = max(each.fastening.screw.head_height for each in self.screwed)
             return Behind(0.0, self.cage.reach, self.cage.back + heads)
@@ -155,7 +152,11 @@ class MotorMount:
 
 
 def mount_of(
-    motor: HeldMotor, room: GearRoom | None, foot_plate: float = PLATE_THICKNESS
+    motor: HeldMotor,
+    room: GearRoom | None,
+    foot_plate: float = PLATE_THICKNESS,
+    *,
+    on_bell: bool = False,
 ) -> MotorMount:
     """Mount of a motor on a foot's plate.
 
@@ -163,8 +164,12 @@ def mount_of(
         motor: with its mounting and size.
         room: of the gear between motor and wheel; None: its wheel is on its shaft or rotor.
         foot_plate: thickness of the foot's plate [m].
+        on_bell: whether its wheel is a ring around its bell.
     """
     mounting = motor.mounting
+    bell = bell_of(motor) if on_bell and room is None else None
+    if bell is not None and mounting is not None and mounting.stator is not None:
+        return _in_housing(motor, mounting, mounting.stator, bell, foot_plate)
     if room is not None:
         return MotorMount(gap=room.depth, up=room.offset, foot_plate=foot_plate)
     if mounting is None:
@@ -194,6 +199,18 @@ def mount_of(
     fastening = _fastening(stator, FLOOR, f"motor in its cage; {_DEPTH}", 1.0)
     held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)
     return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
+
+
+def _in_housing(
+    motor: HeldMotor, mounting: Mounting, stator: BoltCircle, bell: Bell, foot_plate: float
+) -> MotorMount:
+    """Mount of a motor on the housing's floor, with screws from behind the foot's plate."""
+    thick = PANEL + foot_plate
+    fastening = _fastening(stator, thick, f"motor on housing and foot; {_DEPTH}", 1.0)
+    screwed = Screwed(fastening, stator, -foot_plate, 1.0)
+    gap = -(thick + (motor.length or 0.0))
+    holes = screwed_by_face(mounting, stator)
+    return MotorMount(holes, None, (screwed,), gap=gap, foot_plate=foot_plate, bell=bell)
 
 
 def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:

@@ -6,6 +6,7 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records import Clearance, OcsDesign, OcsRecord, RobotRecord
+from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.report.quantities import (
     degrees,
     degrees_number,
@@ -133,6 +134,8 @@ def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
         f"{1e3 * length:.2f}" for length in (wheel.outer_radius, wheel.inner_radius, wheel.height)
     )
     yield "rim", f"R {outer}  r {inner}  h {height} mm, {wheel.material}"
+    if ocs.on_bell:
+        yield "ring", f"bonded around the motor's bell, {1e3 * GLUE_GAP:g} mm of epoxy"
     if wheel.web is not None:
         web, hub = wheel.web, wheel.web.hub
         sizes = f"{tenths(web.thickness)} mm, hub R {tenths(hub.radius)}  h {tenths(hub.height)} mm"

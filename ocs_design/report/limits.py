@@ -11,6 +11,8 @@ from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, lis
 from ocs_design.sizing.limits import LIMITS, TIME
 from ocs_design.sizing.margins import RMS_CURRENT
 from ocs_design.sizing.selection.device import (
+    BELL,
+    BOND,
     HOLED_STRESS,
     HOUSING,
     HUB,
@@ -28,6 +30,8 @@ _NOTHING = 5e-6
 _MEANING = {
     HOUSING: "A larger rim would be lighter, but its housing heavier by more.",
     MOUNT: "The screws of the motor's mount need a housing of this width.",
+    BELL: "The ring has the bore of the motor's bell with its glue, and its height at most.",
+    BOND: "The bond on the motor's bell holds no wider ring.",
     HUB: "The rim's bore must clear the hub.",
     LIGHTENING_HOLES: "The web must have room for its lightening holes.",
     HOLED_STRESS: "The web must hold at its lightening holes.",

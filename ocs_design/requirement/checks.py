@@ -6,6 +6,7 @@ from math import pi
 
 import numpy as np
 
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
@@ -35,6 +36,7 @@ from ocs_design.requirement.specification import (
     NO_WEB,
     PAIR,
     PYRAMID,
+    RING,
     STEEL,
     TURNS,
     WHEELS,
@@ -91,6 +93,7 @@ def contradictions(specification: Specification) -> Iterator[str]:
             f"flywheel.lightening: a web of {ALUMINIUM_WEB} that a rim is shrunk on has no holes: "
             "it is pressed together"
         )
+    yield from _of_a_ring(specification)
     if flywheel.web == NO_WEB:
         for key in OF_WEBS:
             if getattr(flywheel, key) is not None:
@@ -100,6 +103,19 @@ def contradictions(specification: Specification) -> Iterator[str]:
         yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
     yield from _without_gravity(specification)
     yield from _too_short_flights(specification.maneuvers)
+
+
+def _of_a_ring(specification: Specification) -> Iterator[str]:
+    """What a ring around the motor's bell has nothing of, one line each."""
+    if specification.ocs.wheel != RING:
+        return
+    for key in ("web", "lightening"):
+        if getattr(specification.flywheel, key) is not None:
+            yield f"flywheel.{key}: a ring around the motor's bell has no web (ocs.wheel)"
+    if specification.motor.gear not in {None, DIRECT.name}:
+        yield "motor.gear: a ring turns with the motor's bell, without a gear (ocs.wheel)"
+    if specification.ocs.co_design:
+        yield "ocs.co_design: changes the bore, which the motor's bell sets (ocs.wheel)"
 
 
 def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
@@ -222,19 +238,20 @@ def without_motor(specification: Specification) -> Iterator[str]:
     """What only a motor gives a meaning to, where none is wanted, one line each."""
     if specification.motor.name != NO_MOTOR:
         return
-    for key in ("gear", "any", "motors", "with_catalogue", "gears"):
-        if getattr(specification.motor, key) is not None:
-            yield f"motor.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+    of_motors = {
+        "motor": ("gear", "any", "motors", "with_catalogue", "gears"),
+        "flywheel": OF_WEBS,
+        "ocs": ("guard", "wheel"),
+    }
+    for table, keys in of_motors.items():
+        for key in keys:
+            if getattr(getattr(specification, table), key) is not None:
+                yield f"{table}.{key}: says nothing where motor.name is {NO_MOTOR!r}"
     for key, stated in vars(specification.supply).items():
         if stated is not None:
             yield f"supply.{key}: says nothing where motor.name is {NO_MOTOR!r}"
-    for key in OF_WEBS:
-        if getattr(specification.flywheel, key) is not None:
-            yield f"flywheel.{key}: says nothing where motor.name is {NO_MOTOR!r}"
     if specification.ocs.alpha_criterion == LIGHTEST:
         yield f"ocs.alpha_criterion: {LIGHTEST!r} needs a motor: motor.name is {NO_MOTOR!r}"
-    if specification.ocs.guard is not None:
-        yield f"ocs.guard: says nothing where motor.name is {NO_MOTOR!r}"
     if specification.ocs.lighter_by is not None:
         yield f"ocs.lighter_by: needs a motor: motor.name is {NO_MOTOR!r}"
     if specification.requirement.notices is not None:

@@ -47,6 +47,7 @@ from ocs_design.requirement.specification import (
     PAIR,
     PROJECTIONS,
     RELIABILITY,
+    RING,
     STEEL,
     FlywheelSection,
     MotorSection,
@@ -87,7 +88,9 @@ def default_specification(
             survives=NONE_STOPS,
             detection=DETECTION,
         ),
-        ocs=OcsSection(layout=PAIR, alpha_criterion=EQUAL_RATE, co_design=False, guard=FINGERS),
+        ocs=OcsSection(
+            layout=PAIR, alpha_criterion=EQUAL_RATE, co_design=False, guard=FINGERS, wheel=DISC
+        ),
         flywheel=FlywheelSection(
             material=STEEL,
             web=DISC,
@@ -250,7 +253,10 @@ def _assumptions(
                 else ("Gear: none, for how a gear and a motor are held together is not designed.")
             )
 
-    yield from _assumed_wheel(flywheel, envelope, materials, any_motor=choice is not None)
+    ring = specification.ocs.wheel == RING
+    yield from _assumed_wheel(
+        flywheel, envelope, materials, any_motor=choice is not None, ring=ring
+    )
     if choice is not None:
         yield (
             f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
@@ -295,13 +301,14 @@ def _assumed_wheel(
     materials: tuple[Material, ...],
     *,
     any_motor: bool,
+    ring: bool,
 ) -> Iterator[str]:
     """One sentence for everything about the wheels that was not specified."""
     chosen = materials[0]
-    if flywheel.web is None:
+    if flywheel.web is None and not ring:
         yield "Wheel: one piece; a thin disc with a hub joins the rim to its motor."
     if any_motor and flywheel.web != NO_WEB:
-        if flywheel.lightening is None and flywheel.web != ALUMINIUM_WEB:
+        if flywheel.lightening is None and flywheel.web != ALUMINIUM_WEB and not ring:
             yield f"Web: {LIGHTENING} lightening holes where it has room for them."
         if flywheel.chamfer is None:
             yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')}."

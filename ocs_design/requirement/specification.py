@@ -113,6 +113,11 @@ NO_WEB = "none"
 FINGERS, CONTAINING = GUARDS = "fingers", "containing"
 """Guards: the printed housing alone, or a ring of mild steel in it."""
 
+RING = "ring"
+"""A wheel that is a ring around the bell of its motor, bonded on; the other one is the disc."""
+
+CONSTRUCTIONS = (DISC, RING)
+
 WEBS = (DISC, ALUMINIUM_WEB, NO_WEB)
 
 LIGHTENING, LIGHTENINGS = 6, (0, 5, 6, 7, 8)
@@ -272,6 +277,10 @@ class OcsSection:
     )
     guard: str | None = keyed(
         Choice(GUARDS), "what the housings hold: fingers out, or also a wheel that bursts"
+    )
+    wheel: str | None = keyed(
+        Choice(CONSTRUCTIONS),
+        "a rim on a disc that sits on the motor, or a ring bonded around the motor's bell",
     )
 
 

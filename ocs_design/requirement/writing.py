@@ -337,6 +337,10 @@ KEY_NOTES: Mapping[str, KeyNote] = MappingProxyType(
             "containing: a ring of mild steel in each housing that holds a third of the rim at top "
             "speed, by a formula that nobody has tested on such rings."
         ),
+        "ocs.wheel": KeyNote(
+            "ring: bonded around the bell of an outrunner, as Mini Wheelbot has it; a flat module, "
+            "heavier where the wheel wants to be wide."
+        ),
         "flywheel.r_max": KeyNote(
             "Of the rim: its housing adds 3.6 mm all around. The wider the rim, the lighter."
         ),

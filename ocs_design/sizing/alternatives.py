@@ -14,7 +14,6 @@ from ocs_design.actuation.motor import build_gaps
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
-from ocs_design.device.bell_ring import ring_on_bell
 from ocs_design.device.records import SAVES_NOTHING, Alternative, Owed
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.resolving import Resolved
@@ -24,7 +23,11 @@ from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import LIMITS, TIME
 from ocs_design.sizing.on_robot import with_plate
 from ocs_design.sizing.relaxations import relaxations
-from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
+from ocs_design.sizing.selection.problem import (
+    SelectionProblem,
+    other_construction,
+    with_limit,
+)
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import lightest_below
 from ocs_design.sizing.sized import Choice, Designed
@@ -83,7 +86,7 @@ def alternatives(
 
     changes = _changes(specification, choice)
     found = [_answer(change, lightest(change), choice) for change in changes]
-    return (*found, *_constructions(designed))
+    return (*found, *_constructions(specification, resolved, choice, robot))
 
 
 def owed_to(designed: Designed, robot: Robot) -> Owed | None:
@@ -192,13 +195,21 @@ def _changes(specification: Specification, choice: Choice) -> Iterator[_Change]:
         )
 
 
-def _constructions(designed: Designed) -> Iterator[Alternative]:
-    """The other way to join rim and rotor."""
-    ring = ring_on_bell(designed.device)
-    if ring is not None:
-        yield Alternative(
-            change="a ring bonded around each motor's bell in place of the disc",
-            mass_total=designed.device.mass + len(designed.device.modules) * ring.beyond,
-            motor=designed.device.motor.name,
-            note="housing as it is",
-        )
+def _constructions(
+    specification: Specification, resolved: Resolved, choice: Choice, robot: Robot
+) -> Iterator[Alternative]:
+    """The other way to join rim and rotor, heavier or lighter."""
+    asked = replace(choice.problem, incidence=choice.chosen.incidence)
+    other = other_construction(specification, resolved, asked)
+    found = None if other is None else lightest_below(other, inf)
+    if other is None or found is None:
+        return
+    device = with_plate(found, other, robot)
+    yield Alternative(
+        change="a ring bonded around each motor's bell in place of the disc"
+        if other.on_bell
+        else "a disc on each motor in place of the ring around its bell",
+        mass_total=device.mass,
+        motor=device.motor.name,
+        note=f"--wheel {'ring' if other.on_bell else 'disc'}",
+    )

@@ -73,6 +73,7 @@ def assemble_selected(candidate: Candidate, supply: Supply) -> Device:
         supply=supply.told,
         guard_wall=candidate.guard_wall,
         foot_plate=candidate.foot_plate,
+        on_bell=candidate.on_bell,
     )
 
 

@@ -214,7 +214,8 @@ def _fixed_bounds(outer: FloatArray, limits: RimLimits) -> tuple[FloatArray, Flo
     return (
         np.maximum(np.asarray(limits.inner_radius_min) ** 2, (BORE_SHARE * outer) ** 2),
         np.minimum(
-            (outer - limits.wall_min) ** 2, (limits.stretch_max - weight * outer**2) / bore_weight
+            np.minimum((outer - limits.wall_min) ** 2, np.asarray(limits.inner_radius_max) ** 2),
+            (limits.stretch_max - weight * outer**2) / bore_weight,
         ),
     )
 

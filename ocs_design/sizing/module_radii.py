@@ -5,6 +5,7 @@ height is h = (k - t b^2) / (a^2 - b^2), and the limits bound b at each R, from 
 
     h_max: b^2 <= a^2 - (k - t a^2) / (h_max - t)    h_min: b^2 >= a^2 - (k - t a^2) / (h_min - t)
     wall:  b <= (R - w)^2                            bore:  b >= r_min^2, b >= (R / 100)^2
+    bell:  b <= r_max^2, where the bore is that of a ring around one
     hoop stress: b <= (S - (3 + nu) a) / (1 - nu)    mass:  k - t b^2 <= m_max / (pi rho) (a + b)
 
 Each pair of an upper and a lower bound leaves all radii on one side of where the two meet. So the
@@ -59,6 +60,7 @@ def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     crossings = [_tall_and_narrow, _tall_and_closed]
     if not np.all(np.isinf(limits.mass_max)):
         crossings += [_tall_and_heavy, _thin_and_heavy]
+        crossings += [_wide_and_heavy] if _held_bore(limits) else []
     radius: FloatArray = np.maximum(by_wall, np.asarray(limits.outer_radius_min))
     for crossing in crossings:
         radius = np.maximum(radius, _crossing_radius(crossing, inertia, limits))
@@ -74,6 +76,8 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     crossings = [_stretched_and_flat, _thin_and_flat]
     if not np.all(np.isinf(limits.mass_max)):
         crossings.append(_stretched_and_heavy)
+    if _held_bore(limits):
+        crossings.append(_wide_and_flat)
     radius: FloatArray = np.minimum(
         np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0))
     )
@@ -162,6 +166,23 @@ def _thin_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
         start = np.minimum(flat_wall_radius(asked.full / flat, wall), (asked.full / web) ** 0.25)
     outer = _root_from_above(excess, start, web)
     return _Crossing(outer - wall, outer)
+
+
+def _held_bore(limits: RimLimits) -> bool:
+    """Whether bores have an upper limit; these rims have no webs."""
+    return not np.all(np.isinf(limits.inner_radius_max))
+
+
+def _wide_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The largest bore and the largest mass: m (a + b) = k."""
+    bore = np.asarray(limits.inner_radius_max)
+    return _Crossing(bore, np.sqrt(np.maximum(asked.full / asked.mass - bore**2, 0.0)))
+
+
+def _wide_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
+    """The largest bore and the least height: h (a^2 - b^2) = k."""
+    bore = np.asarray(limits.inner_radius_max)
+    return _Crossing(bore, np.sqrt(np.sqrt(asked.full / np.asarray(limits.height_min) + bore**4)))
 
 
 def _stretched_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:

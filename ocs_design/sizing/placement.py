@@ -12,9 +12,10 @@ from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.device.solids import motor_mount
+from ocs_design.parts.bell import HeldMotor
 from ocs_design.parts.foot import base_radius, larger, wheel_height
 from ocs_design.parts.housing import half_height, housing_outer_radius, plate_back
-from ocs_design.parts.motor_mount import Behind, HeldMotor, mount_of
+from ocs_design.parts.motor_mount import Behind, mount_of
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
@@ -79,11 +80,12 @@ def motor_size(
     guard_wall: float = 0.0,
     *,
     foot_plate: float = PLATE_THICKNESS,
+    on_bell: bool = False,
 ) -> Size[Real]:
     """Size of a motor behind a gear of this room, as far as it is known."""
-    mount = mount_of(motor, room, foot_plate)
+    mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
     behind = mount.behind(motor)
-    reach = mount.holes.reach
+    reach, height = mount.holes.reach, larger(height, mount.room)
     return module_size(outer_radius, height, behind, reach, guard_wall, foot_plate=foot_plate)
 
 
@@ -127,7 +129,7 @@ def device_size(device: Device) -> Size[float]:
     behind = mount.behind(device.motor)
     return module_size(
         wheel.outer_radius,
-        wheel.height,
+        max(wheel.height, mount.room),
         behind,
         mount.holes.reach,
         device.guard_wall,

@@ -160,8 +160,9 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     rim_inertia = chosen.spin_inertia - chosen.rotor_share - chosen.hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
     limits = chosen.limits(problem.envelope)
-    mount = mount_of(chosen.motor, chosen.gear.room, chosen.foot_plate)
-    shell = Printed(mount.holes.reach, mount.posts, chosen.guard_wall, chosen.foot_plate)
+    motor, plate = chosen.motor, chosen.foot_plate
+    mount = mount_of(motor, chosen.gear.room, plate, on_bell=chosen.on_bell)
+    shell = Printed(mount.holes.reach, mount.posts, chosen.guard_wall, plate, mount.room)
     prices = {}
     for name in chosen.binding:
         field = _LIMIT_OF_NAME.get(name)

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from ocs_design.actuation.motor import Motor, build_gaps
 from ocs_design.device.joints import RIM_JOINT, SHAFT_JOINT
 from ocs_design.device.records import Buildable, MarginRecord, OpenPoint
-from ocs_design.parts.joints import Margin
+from ocs_design.parts.joints import EPOXY, Margin
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import listed
 from ocs_design.robot.links import listed as some_of
@@ -47,6 +47,7 @@ _JOINT_CURES = {
     "slower motor",
     SHAFT_JOINT: "choose a motor with threads in its rotor (--motor)",
 }
+_BOND_CURE = "choose a slower motor, or a disc in place of the ring (--wheel disc)"
 _SPARE = ("shaft joint, screws in shear",)
 """Joints that are a reserve: friction carries the torque."""
 
@@ -108,6 +109,8 @@ def _joint_points(joints: Sequence[Margin]) -> Iterator[OpenPoint]:
     """Joints that do not hold, or of which it is not known."""
     for joint in joints:
         cure = _JOINT_CURES[SHAFT_JOINT if joint.name.startswith(SHAFT_JOINT) else RIM_JOINT]
+        if EPOXY in joint.note:
+            cure = _BOND_CURE
         if joint.capacity is None:
             yield OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure)
         elif joint.factor is not None and joint.factor < 1.0 and joint.name not in _SPARE:

@@ -429,6 +429,7 @@ def _ocs(
         plate=device.plate,
         guard_wall=device.guard_wall,
         foot_plate=device.foot_plate,
+        on_bell=device.on_bell,
         center_of_mass=vector(
             (sized.total.mass * sized.total.com - robot.mass_properties.mass * robot.com)
             / device.mass

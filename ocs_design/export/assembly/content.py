@@ -37,7 +37,9 @@ from ocs_design.export.drawing.title_block import RUN_OUT
 from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.electrics import demand_of, electrics
 from ocs_design.export.formats import Subject
+from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.guard import Containment
+from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import stored_energy
 
@@ -266,6 +268,7 @@ class Assembly:
                 f"an oven{self._hot()} until it drops on the web on a flat plate, and let both "
                 "cool."
             )
+        yield from self._bonded()
         if "guard" in self.numbers:
             yield (
                 f"Bond the guard ring{self._number('guard')} into the drum"
@@ -288,6 +291,31 @@ class Assembly:
             yield "Run the spin test (below), lid on."
             yield from self._on_the_trunk()
         yield self._direction()
+
+    def _bonded(self) -> Iterator[str]:
+        """How a ring is bonded around the bell of its motor."""
+        if not self.device.on_bell:
+            return
+        gap, wide = 1e3 * GLUE_GAP, 2e3 * GLUE_GAP
+        yield (
+            "Measure the bell across its straight part before the ring is bored: the bore is "
+            f"{wide:g} mm wider. Print cad/ring_fixture.stl in PETG, one for each ring, floor "
+            "down; scrape it until bell and ring slide in, and wax it."
+        )
+        yield (
+            "Take the bell with its shaft off the stator, as its maker's clip allows, so that no "
+            f"glue gets into the motor. Roughen and degrease bell and bore. Lay the ring"
+            f"{self._number('flywheel')} on the step of the fixture, spread epoxy ({EPOXY}, or "
+            "one that is as strong at 80 °C) around the bell, and turn it down into the ring "
+            f"onto the fixture's floor: {gap:g} mm of glue all around. Weigh it down, turn the "
+            "ring once more, and let it cure for the full time on its maker's sheet."
+        )
+        yield (
+            "Put the bell back on its stator and turn it: run-out of the ring at most "
+            f"{2 * RUN_OUT:g} mm, to both sides and up and down. If it runs out of true, press the "
+            "bell out of the ring with a punch on its front, clean both and bond them again in a "
+            "new fixture. If it runs true, fill the other edge of the gap with epoxy too."
+        )
 
     def _hot(self) -> str:
         """How much hotter than its web a rim has to be to drop on it; empty: not known."""
@@ -323,7 +351,9 @@ class Assembly:
             return
         screwed = any(name.startswith("wheel") for name in self.screws)
         for joint in joints_of(self.device):
-            if joint.name == SHAFT_JOINT and not screwed:
+            if self.device.on_bell and EPOXY in joint.note:
+                yield f"{joint.name.capitalize()}: {joint.note}."
+            elif joint.name == SHAFT_JOINT and not screwed:
                 yield f"Put the wheel on the motor's shaft: {joint.note}."
             elif joint.name == SHAFT_JOINT:
                 yield f"That joint carries the wheel by {joint.note}."
@@ -471,7 +501,8 @@ class Assembly:
                 f"{1e3 * holes.depth:.2g} mm deep, in both faces of the rim, one opposite the "
                 f"other, {1e3 * holes.radius:.1f} mm from the axis: each pair takes "
                 f"{_two(1e6 * holes.mass * holes.radius)} g mm, all that have room on one half "
-                f"{_two(1e6 * holes.most)} g mm. Nothing is taken off the web."
+                f"{_two(1e6 * holes.most)} g mm."
+                f"{'' if wheel.web is None else ' Nothing is taken off the web.'}"
             )
         else:
             yield (

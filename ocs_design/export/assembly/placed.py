@@ -127,6 +127,8 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     inside = [piece for each, piece in screws if each.towards < 0.0 and not holds_wheel(each)]
     behind = [piece for each, piece in screws if each.towards > 0.0]
     back, guard = ([parts.pop(name)] if name in parts else [] for name in ("cage", "guard"))
+    # A motor whose bell has a ring stands in the drum.
+    within = [parts.pop("motor")] if mount.bell is not None else []
     drum, lid, base = (parts.pop(name) for name in ("drum", "lid", "foot"))
     lid_screws = _ring(
         LID_SCREWS, ear_axis(foot.housing.radius, LID_SCREW), FIRST_EAR, foot.housing.half_height
@@ -140,6 +142,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         base,
         drum,
         *inside,
+        *within,
         *guard,
         *wheel,
         *on_wheel,

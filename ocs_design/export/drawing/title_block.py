@@ -34,6 +34,7 @@ from ocs_design.export.drawing.wheel import (
     rim_inertia_error,
     seat,
 )
+from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.wheel import Wheel
 
@@ -191,6 +192,11 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
         "the motor's rotor not included."
     )
     yield _edges(wheel)
+    if drawing.bonded:
+        gap = plain(2.0 * GLUE_GAP)
+        yield f"Bonded around the motor's bell: bore {gap} wider than the bell as measured."
+        yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
+        return
     yield {
         Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
         Seat.ONE_PIECE: "Rim, web and hub turned from one bar.",

@@ -38,6 +38,7 @@ class WheelDrawing:
         speed: highest in service [rad/s]; None: not limited.
         interference: of a rim that is shrunk on, least and largest over the diameter [m]; None:
             there is none, or it is not known.
+        bonded: whether it is a ring around the bell of its motor.
     """
 
     wheel: Wheel
@@ -46,6 +47,7 @@ class WheelDrawing:
     tool: str
     speed: float | None
     interference: tuple[float, float] | None = None
+    bonded: bool = False
 
     @cached_property
     def masses(self) -> tuple[float, ...]:

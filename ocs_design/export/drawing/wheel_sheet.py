@@ -48,6 +48,7 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         tool=f"ocs-design {__version__}",
         speed=speed if math.isfinite(speed) else None,
         interference=None if fit is None else (2.0 * fit.least, 2.0 * fit.most),
+        bonded=device.on_bell,
     )
 
 

@@ -30,6 +30,7 @@ lighter. The vertex decides feasibility.
 """
 
 from dataclasses import dataclass, replace
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -38,6 +39,7 @@ from numpy.typing import ArrayLike
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import UsageError
+from ocs_design.parts.joints import bell_bond_radius
 from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import (
     LIGAMENT,
@@ -71,6 +73,7 @@ class RimLimits:
         web_weight: mass of the web over that of the disc; below 1 with lightening holes.
         lightened_bore: least bore with room for those [m]; 0: none. `inner_radius_min` has it.
         stretch_left: share of the stretch that they leave; `stretch_max` has it.
+        inner_radius_max: [m]; of a ring around a bell what `inner_radius_min` is; inf: any.
     """
 
     density: float | FloatArray
@@ -88,6 +91,7 @@ class RimLimits:
     web_weight: float | FloatArray = 1.0
     lightened_bore: float | FloatArray = 0.0
     stretch_left: float | FloatArray = 1.0
+    inner_radius_max: float | FloatArray = inf
 
     @property
     def heavy_web(self) -> float | FloatArray:
@@ -194,6 +198,62 @@ def limits_with_web(
         lightened_bore=lightened_bore,
         stretch_max=limits.stretch_max * stretch_left,
         stretch_left=stretch_left,
+    )
+
+
+_NO_HEIGHT = 1e-9
+"""Height of a ring that there is no room for [m]."""
+
+_LEAST_BELL = 1e-3
+"""Below the radius of any bell [m]."""
+
+
+def bond_figures(kind: Material) -> tuple[float, float, float]:
+    """Elastic modulus [Pa], Poisson's ratio and thermal expansion [1/K] of a ring on a bell.
+
+    Without all of them the temperature is left out here, and its joint is not known.
+    """
+    if kind.elastic_modulus is None or kind.thermal_expansion is None:
+        return 0.0, kind.poisson_ratio or 0.0, 0.0
+    return kind.elastic_modulus, kind.poisson_ratio or 0.0, kind.thermal_expansion
+
+
+def limits_on_bell(
+    limits: RimLimits,
+    bore: FloatArray,
+    overspeed: FloatArray,
+    bonded: FloatArray,
+    cuts: RimCuts = NO_CUTS,
+) -> RimLimits:
+    """Limits of rings around bells; there is none around a bell below the least bore.
+
+    Args:
+        limits: of the rims alone.
+        bore: radius of the ring's [m].
+        overspeed: at which the bond holds [rad/s].
+        bonded: `bond_figures` of the materials, shape (3, ...).
+        cuts: off the rings.
+    """
+    modulus, poisson_ratio, expansion = bonded
+    widest = bell_bond_radius(
+        np.maximum(bore, _LEAST_BELL),
+        float(np.max(limits.outer_radius_max)),
+        density=np.asarray(limits.density),
+        elastic_modulus=modulus,
+        poisson_ratio=poisson_ratio,
+        expansion=expansion,
+        speed=overspeed,
+    )
+    least = np.maximum(limits.inner_radius_min, cuts.inner_radius_min)
+    return replace(
+        limits,
+        outer_radius_max=np.minimum(limits.outer_radius_max, widest),
+        inner_radius_min=bore,
+        inner_radius_max=bore,
+        height_max=np.where((bore >= least) & (bore > 0.0), limits.height_max, _NO_HEIGHT),
+        height_min=np.maximum(limits.height_min, cuts.height_min),
+        wall_min=np.maximum(limits.wall_min, cuts.wall_min),
+        cuts=cuts,
     )
 
 

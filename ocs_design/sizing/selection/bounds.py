@@ -20,7 +20,7 @@ on the spin inertia; each pass tightens them.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
@@ -110,7 +110,7 @@ class RimFloor:
         Robot, maneuvers, supply and angle have no say: alternatives that differ in them share one.
         """
         parts = problem.motors, problem.gears, problem.materials, problem.lightenings
-        room = problem.envelope, problem.web, problem.cuts, problem.web_material
+        room = problem.envelope, problem.web, problem.on_bell, problem.cuts, problem.web_material
         rest = problem.foot_plate, problem.layout
         return cls._of(_Kept((*(tuple(each) for each in parts), *room, *rest), problem))
 
@@ -121,7 +121,10 @@ class RimFloor:
         materials, webs = len(problem.materials), len(problem.lightenings)
         # Every rim of every material, in every web.
         kinds = np.tile(np.repeat(np.arange(materials), _RIMS), webs)
-        mounts = [mount_of(motor, None, problem.foot_plate) for motor in problem.motors]
+        mounts = [
+            mount_of(motor, None, problem.foot_plate, on_bell=problem.on_bell)
+            for motor in problem.motors
+        ]
         geared = any(gear.room is not None for gear in problem.gears)
         # The holes of no motor's mount are nearer to the axis, and no wheel's hub is narrower.
         reach = 0.0 if geared else min(mount.holes.reach for mount in mounts)
@@ -134,7 +137,9 @@ class RimFloor:
             )
         slow, hub, mount = (np.full(kinds.size, value) for value in (1e-3, narrow, reach))
         share = np.repeat([LIGHTENED[count] for count in problem.lightenings], materials * _RIMS)
-        limits = rim_limits(problem, kinds, slow, hub, mount, lightened=share)
+        # No ring around any bell is lighter than a plain rim of any bore.
+        anywhere = replace(problem, on_bell=False)
+        limits = rim_limits(anywhere, kinds, slow, hub, mount, lightened=share)
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), materials * webs)
@@ -299,19 +304,19 @@ def least_inertia(
     holes = drives.mount_mass * problem.foot_plate
     fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
     web = np.pi * problem.web_thickness * drives.web_most * widest**2
-    guard = problem.guard_wall
+    guard, tallest = problem.guard_wall, np.maximum(room.height_max, drives.room)
     # Posts are longest behind the flattest rim.
     around = Printed(drives.mount_reach, guard_wall=guard, foot_plate=problem.foot_plate)
-    shell = around.mass(widest, zero + room.height_max) + drives.posts.mass(zero)
+    shell = around.mass(widest, tallest) + drives.posts.mass(zero)
     least = Least(
         mass=np.maximum(wheel + drives.hub_mass - drives.mount_mass, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
         inertia=drives.hub_inertia + rim / 2.0,
         behind=behind,
-        depth=(half_height(room.height_max) * stands + holes - at_floor.y - at_wheel.y) / behind,
+        depth=(half_height(tallest) * stands + holes - at_floor.y - at_wheel.y) / behind,
         above=(at_floor.z + at_wheel.z) / behind,
         smallest=drives.size(radius + guard, zero + room.height_min),
-        largest=drives.size(widest + guard, zero + room.height_max),
+        largest=drives.size(widest + guard, tallest),
         heaviest=at_floor.mass + at_wheel.mass + drives.hub_mass_most + fullest + web + shell,
     )
     return least_composite_inertia(problem.robot, problem.place, least, problem.layout)

@@ -35,6 +35,8 @@ from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
     RimProblem,
+    bond_figures,
+    limits_on_bell,
     limits_with_mount,
     limits_with_web,
     smallest_spin_inertia,
@@ -64,6 +66,8 @@ class Drives(Table):
         mount_reach, mount_mass: of the mount's holes [m, kg].
         post_area, post_gyration, seat, foot_plate: see `Posts`.
         height_max: of a rim that the mount leaves room for [m].
+        room: least height of a rim that the housing is made for (`MotorMount.room`) [m].
+        bell: radius of the bore of a ring around the motor's bell [m]; 0: there is none.
         hub_volume: mass of the wheel's hub, over its density [m^3].
         hub_radius: of that, or of the screws' heads beside it [m]; 0 without a web.
         rim_height: least one that leaves room for the hub's screws [m]; 0: any.
@@ -94,6 +98,8 @@ class Drives(Table):
     seat: FloatArray
     foot_plate: FloatArray
     height_max: FloatArray
+    room: FloatArray
+    bell: FloatArray
     hub_volume: FloatArray
     hub_radius: FloatArray
     rim_height: FloatArray
@@ -147,7 +153,7 @@ class Drives(Table):
     def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
         """Size of modules with rims of these outer radii, guard rings added, and heights [m]."""
         behind = Behind(self.behind_depth, self.behind_radius, self.behind_wheel)
-        thickness = self.foot_plate
+        thickness, height = self.foot_plate, np.maximum(height, self.room)
         return module_size(outer_radius, height, behind, self.mount_reach, foot_plate=thickness)
 
     @property
@@ -222,6 +228,7 @@ class Candidates(Table):
             drives.overspeed,
             drives.hub_radius,
             drives.mount_reach,
+            bell=drives.bell,
             rim_height=drives.rim_height,
             lightened=drives.lightened,
             lightened_bore=drives.lightened_bore,
@@ -235,7 +242,9 @@ class Candidates(Table):
     def shell(self) -> Printed:
         """Housing and foot around their wheels."""
         drives, problem = self.drives, self.problem
-        return Printed(drives.mount_reach, drives.posts, problem.guard_wall, problem.foot_plate)
+        return Printed(
+            drives.mount_reach, drives.posts, problem.guard_wall, problem.foot_plate, drives.room
+        )
 
     @cached_property
     def least_spin_inertia(self) -> FloatArray:
@@ -262,12 +271,13 @@ class Candidates(Table):
         web = web_inertia(self.limits, inner) / 2.0
         web = web + shapes.web_mass * self.problem.web_thickness**2 / 12.0
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
+        tall = np.maximum(height, drives.room)
         whole = (
             round_body(mass, wheel, across + web + drives.hub_across * drives.web_most)
-            + shell_moments(outer, height, drives.mount_reach, guard, self.problem.foot_plate)
+            + shell_moments(outer, tall, drives.mount_reach, guard, self.problem.foot_plate)
             + drives.posts.moments(height)
             + drives.by_wheel
-            + drives.by_floor.shifted(-half_height(height), np.zeros_like(height))
+            + drives.by_floor.shifted(-half_height(tall), np.zeros_like(tall))
         )
         return Modules.of(whole, drives.size(outer + guard, height))
 
@@ -284,6 +294,7 @@ def rim_limits(
     hub_radius: FloatArray,
     mount_reach: FloatArray,
     *,
+    bell: float | FloatArray = 0.0,
     rim_height: float | FloatArray = 0.0,
     lightened: float | FloatArray = 0.0,
     lightened_bore: float | FloatArray = 0.0,
@@ -295,6 +306,7 @@ def rim_limits(
         problem: room and materials.
         material: index of each. overspeed: at which its hoop stress is limited [rad/s].
         hub_radius: in its middle [m]. mount_reach: of the holes in its housing's floor [m].
+        bell: radius of the bores of rings around bells [m].
         rim_height: least one that leaves room for the hub's screws [m].
         lightened, lightened_bore, stretch_left: see `limits_with_web`.
     """
@@ -316,6 +328,9 @@ def rim_limits(
         web=np.zeros_like(density),
     )
     mounted = limits_with_mount(alone, mount_reach)
+    if problem.on_bell:
+        figures = np.array([bond_figures(kind) for kind in problem.materials])[material]
+        return limits_on_bell(mounted, np.asarray(bell), overspeed, figures.T, problem.cuts)
     if not problem.web:
         return mounted
     web = None if problem.web_material is None else problem.web_densities[material]
@@ -398,7 +413,7 @@ class _Seats(NamedTuple):
 
     Attributes:
         by_floor, by_wheel: see there.
-        columns: from `behind_depth` to `height_max`, shape (10, n).
+        columns: from `behind_depth` to `bell`, shape (12, n).
         head_reach: of the screws in the housing [m], shape (n,).
     """
 
@@ -414,7 +429,7 @@ def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> _Seats:
     motors = [problem.motors[m] for m in known.tolist()]
     # One row per motor behind a gear, and the next for the motor with the wheel on its shaft.
     rooms, plate = (GearRoom(), None), problem.foot_plate
-    held = [_seat(motor, room, plate) for motor in motors for room in rooms]
+    held = [_seat(motor, room, plate, problem.on_bell) for motor in motors for room in rooms]
     rows = np.array([figures for figures, _, _ in held])
     gears = [problem.gears[g] for g in pairs[:, 1].tolist()]
     row = 2 * of_motor + np.array([gear.room is None for gear in gears])
@@ -431,10 +446,10 @@ def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> _Seats:
 
 @lru_cache(maxsize=1024)
 def _seat(
-    motor: Motor, room: GearRoom | None, foot_plate: float
+    motor: Motor, room: GearRoom | None, foot_plate: float, on_bell: bool
 ) -> tuple[tuple[float, ...], MassMoments[float], MassMoments[float]]:
     """One motor's place: see `_Seats`; the same whatever the problem."""
-    mount = mount_of(motor, room, foot_plate)
+    mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
     figures = (
         *mount.behind(motor),
         mount.holes.reach,
@@ -444,6 +459,8 @@ def _seat(
         mount.posts.seat,
         foot_plate,
         mount.rim_height_max,
+        mount.room,
+        0.0 if mount.bell is None else mount.bell.bore,
         mount.head_reach,
     )
     return figures, by_floor(motor, DIRECT, mount), by_wheel(motor, mount)

@@ -34,6 +34,10 @@ HOUSING = "housing"
 """Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
 foot are heavier."""
 
+BELL, BOND = "bell", "bond on the bell"
+"""Stand for the bore, and the height, of a ring around a motor's bell, and for the radius that its
+bond holds."""
+
 HUB, WEB = "hub", "web"
 """Stand for the bore and the height where the hub and the web ask for more than was specified."""
 
@@ -61,7 +65,8 @@ def device_of(solved: Solved) -> Candidate:
     hub = problem.hub(motor, gear, problem.lightenings[drives.web[0]])
     cuts = candidates.limits.cuts
     guard, plate = problem.guard_wall, problem.foot_plate
-    carrier = standing(motor, gear, outer, height, guard, foot_plate=plate)
+    on_bell = problem.on_bell
+    carrier = standing(motor, gear, outer, height, guard, foot_plate=plate, on_bell=on_bell)
     web = problem.web_material
     wheel = wheel_body(
         inner,
@@ -72,9 +77,8 @@ def device_of(solved: Solved) -> Candidate:
         cuts=cuts,
         web_density=None if web is None else web.density,
     )
-    centers = frozen(
-        problem.place.centers(motor_size(motor, gear.room, outer, height, guard, foot_plate=plate))
-    )
+    size = motor_size(motor, gear.room, outer, height, guard, foot_plate=plate, on_bell=on_bell)
+    centers = frozen(problem.place.centers(size))
     incidence = float(solved.point.angle[0])
     line = (
         drives.stall_torque,
@@ -111,6 +115,7 @@ def device_of(solved: Solved) -> Candidate:
         guard_wall=guard,
         foot_plate=plate,
         layout=problem.layout,
+        on_bell=on_bell,
     )
 
 
@@ -248,15 +253,19 @@ def binding_limits(
     weight, bore_weight = hoop_weights(at["poisson_ratio"])
     stretched = weight * outer**2 + bore_weight * inner**2
     bore = HUB if at["inner_radius_min"] > room.inner_radius_min else "r_min"
+    if np.isfinite(at["inner_radius_max"]):
+        bore = BELL
     if at["lightened_bore"] >= at["inner_radius_min"] > 0.0:
         bore = LIGHTENING_HOLES
     stress = HOLED_STRESS if at["stretch_left"] < 1.0 else "hoop_stress"
     seat = CUT_HEIGHT if limits.cuts.height_min >= at["height_min"] else WEB
     flat = seat if at["height_min"] > room.height_min else "h_min"
     wall = CUT_WALL if at["wall_min"] > room.wall_min else "wall_min"
+    tall = BELL if bore == BELL and at["height_max"] < room.height_max else "h_max"
+    largest = BOND if at["outer_radius_max"] < room.outer_radius_max else "r_max"
     touched = {
-        "r_max": (outer, at["outer_radius_max"]),
-        "h_max": (height, at["height_max"]),
+        largest: (outer, at["outer_radius_max"]),
+        tall: (height, at["height_max"]),
         stress: (stretched, at["stretch_max"]),
         "wheel_mass_max": (float(shapes.rim_mass[row]), at["mass_max"]),
         bore: (inner, at["inner_radius_min"]),
@@ -267,5 +276,5 @@ def binding_limits(
     names = tuple(
         name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
     )
-    radius_is_held = {"r_max", stress, MOUNT} & set(names) or {flat, wall} <= set(names)
+    radius_is_held = {"r_max", BOND, stress, MOUNT} & set(names) or {flat, wall} <= set(names)
     return names if radius_is_held else (*names, HOUSING)

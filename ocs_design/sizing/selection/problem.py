@@ -6,13 +6,14 @@ from math import isfinite
 
 import numpy as np
 
-from ocs_design.actuation.motor import Gear, Motor, Mounting
+from ocs_design.actuation.motor import DIRECT, Gear, Motor, Mounting
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material, material
 from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.common.errors import SpecificationError, UsageError
 from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
+from ocs_design.parts.bell import bell_of
 from ocs_design.parts.joints import SERVICE, hub_joint
 from ocs_design.parts.motor_mount import is_held
 from ocs_design.parts.printed import PLATE_THICKNESS
@@ -42,6 +43,7 @@ from ocs_design.requirement.specification import (
     LIGHTENING,
     LIGHTEST,
     NO_WEB,
+    RING,
     FlywheelSection,
     Specification,
 )
@@ -70,6 +72,7 @@ class SelectionProblem:
         incidence: of a pair's wheel axes, or the angle of another layout [rad]; None: the best.
         wheel_speed_max: stated highest speed of a wheel [rad/s]; None: what the drive can do.
         web: whether wheels have a web and a hub; massless spokes otherwise.
+        on_bell: whether they are rings around the bells of the motors, without web or gear.
         cuts: chamfers and balancing holes of wheels with a web; those without are plain rims.
         web_material: of web and hub; None: of one piece with the rim.
         lightenings: numbers of holes in a web to choose from, 0 a solid one.
@@ -88,6 +91,7 @@ class SelectionProblem:
     incidence: float | None = None
     wheel_speed_max: float | None = None
     web: bool = True
+    on_bell: bool = False
     cuts: RimCuts = NO_CUTS
     web_material: Material | None = None
     lightenings: Sequence[int] = (0,)
@@ -210,7 +214,7 @@ def selection_problem(
         replace(each, direct=direct) if isinstance(each, TurnTo) else each
         for each in resolved.requirement.maneuvers
     )
-    return SelectionProblem(
+    problem = SelectionProblem(
         robot=footing.carried(robot.mass_properties),
         requirement=replace(resolved.requirement, maneuvers=maneuvers),
         envelope=resolved.envelope,
@@ -229,7 +233,59 @@ def selection_problem(
         else None,
         lightenings=specified_lightenings(specification.flywheel),
     )
+    return on_bells(problem, choice.motors) if stated.wheel == RING else problem
 
+
+def on_bells(problem: SelectionProblem, motors: Sequence[Motor]) -> SelectionProblem:
+    """The problem with rings around the bells of those of these motors that have one.
+
+    Raises:
+        UsageError: none has.
+    """
+    belled = tuple(motor for motor in motors if bell_of(motor) is not None)
+    if not belled:
+        some = ", ".join(motor.name for motor in motors[:_NAMED])
+        raise UsageError(
+            f"no ring fits around the bell of {some}{' ...' if len(motors) > _NAMED else ''}: it "
+            "takes an outrunner that is screwed on by its back, of known diameter and length, with "
+            "a bell longer than its shaft stands out",
+            hint="Name another motor with --motor, or leave out --wheel ring.",
+        )
+    return replace(
+        problem,
+        motors=belled,
+        gears=(DIRECT,),
+        web=False,
+        on_bell=True,
+        web_material=None,
+        lightenings=(0,),
+    )
+
+
+def other_construction(
+    specification: Specification, resolved: Resolved, problem: SelectionProblem
+) -> SelectionProblem | None:
+    """A problem with rings in place of discs, or discs in place of rings; None: nothing to ask."""
+    choice, flywheel = resolved.choice, specification.flywheel
+    if choice is None or (flywheel.web == NO_WEB and not problem.on_bell):
+        return None
+    if problem.on_bell:
+        return replace(
+            problem,
+            motors=_held(specification, choice),
+            gears=choice.gears,
+            web=True,
+            on_bell=False,
+            lightenings=specified_lightenings(flywheel),
+        )
+    try:
+        return on_bells(problem, choice.motors)
+    except UsageError:
+        return None
+
+
+_NAMED = 3
+"""Motors that a message names."""
 
 _SPANS = 1e-3
 """Least singular value of axes that reach roll, pitch and yaw."""

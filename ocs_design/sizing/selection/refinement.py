@@ -243,6 +243,9 @@ class Programme:
         # A wall is at most the radius; one that is thicker is refused as too small a bore.
         inner = np.maximum(outer - wall, BORE_SHARE * outer / 2.0)
         limits = self.candidates.limits
+        # A ring around a bell has its bore, whatever the wall.
+        bell = np.asarray(limits.inner_radius_max)
+        inner = np.where(np.isfinite(bell), bell, inner)
         density = np.asarray(limits.density)
         cut = limits.cuts.mass(inner, outer, 1.0)
         mass = (cylinder_mass(inner, outer, height, 1.0) - cut) * density

@@ -255,7 +255,9 @@ def _limits(problem: SelectionProblem, drive: Drives) -> RimLimits:
     kinds = np.arange(len(problem.materials))
     each = drive.repeat(kinds.size)
     size = (each.hub_radius, each.mount_reach)
-    return rim_limits(problem, kinds, each.overspeed, *size, rim_height=each.rim_height)
+    return rim_limits(
+        problem, kinds, each.overspeed, *size, bell=each.bell, rim_height=each.rim_height
+    )
 
 
 def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
@@ -265,11 +267,13 @@ def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
 
 def _too_narrow(limits: RimLimits) -> str:
     """Clause on what leaves no radius below the largest; empty where something does."""
-    most, (where, radius) = float(np.asarray(limits.outer_radius_max)), _narrowest(limits)
+    most, (where, radius) = float(np.max(limits.outer_radius_max)), _narrowest(limits)
     if radius <= most:
         return ""
+    bonded = np.isfinite(limits.inner_radius_max).any()
+    largest = "by its bond and r_max the most" if bonded else "r_max"
     return (
-        f": {where} it has a radius of {format_quantity(radius, 'mm')} at the least, r_max "
+        f": {where} it has a radius of {format_quantity(radius, 'mm')} at the least, {largest} "
         f"is {format_quantity(most, 'mm')}"
     )
 
@@ -281,4 +285,6 @@ def _narrowest(limits: RimLimits) -> tuple[str, float]:
         "around its motor's mount": float(np.asarray(limits.outer_radius_min).min()),
         "around its hub and bore": float(around.min()),
     }
+    if np.isfinite(limits.inner_radius_max).any():
+        least["around its motor's bell"] = least.pop("around its hub and bore")
     return max(least.items(), key=lambda item: item[1])

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+import numpy as np
+
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.catalogue.materials import Material
@@ -19,6 +21,8 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
     RimProblem,
+    bond_figures,
+    limits_on_bell,
     limits_with_mount,
     limits_with_web,
     stretch_beside_holes,
@@ -83,6 +87,7 @@ class Candidate:
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
     layout: Layout = PAIR
+    on_bell: bool = False
 
     @property
     def web_density(self) -> float | None:
@@ -120,9 +125,13 @@ class Candidate:
     def limits(self, room: Envelope) -> RimLimits:
         """Limits of its rim, scalars, in the room that is specified."""
         alone = RimProblem(self.spin_inertia, room, self.material, self.overspeed).limits
-        mount = mount_of(self.motor, self.gear.room, self.foot_plate)
+        mount = mount_of(self.motor, self.gear.room, self.foot_plate, on_bell=self.on_bell)
         mounted = limits_with_mount(alone, mount.holes.reach)
         mounted = replace(mounted, height_max=min(room.height_max, mount.rim_height_max))
+        if mount.bell is not None:
+            bore, speed = np.asarray(mount.bell.bore), np.asarray(self.overspeed)
+            bonded = np.array(bond_figures(self.material))
+            return limits_on_bell(mounted, bore, speed, bonded, self.cuts)
         if self.hub is None:
             return mounted
         reach = max(self.hub.radius, mount.head_reach)

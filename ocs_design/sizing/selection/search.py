@@ -101,7 +101,8 @@ class Found:
         """State before the search."""
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
-        mounts = np.array([_held_mass(motor, problem.foot_plate) for motor in problem.motors])
+        plate, on_bell = problem.foot_plate, problem.on_bell
+        mounts = np.array([_held_mass(motor, plate, on_bell) for motor in problem.motors])
         gears = np.array([gear.mass for gear in problem.gears])
         direct = np.array([gear.room is None for gear in problem.gears])
         drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
@@ -188,9 +189,9 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
 
 
 @lru_cache(maxsize=512)
-def _held_mass(motor: Motor, foot_plate: float) -> float:
+def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
     """Mass of screws and cage at the least, less the holes [kg]."""
-    mount = mount_of(motor, None, foot_plate)
+    mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
     return mount.by_floor().mass + mount.by_wheel().mass
 
 

@@ -1,0 +1,115 @@
+"""The bell of an outrunner that a ring is bonded around in place of a wheel on a web.
+
+No web, no hub, no joint on a shaft, and a flat module, as Mini Wheelbot has it with brass around an
+MN4006 (github.com/wheelbot/Mini-Wheelbot, hardware/how-to-assemble-motors.md). The motor stands on
+the floor of the housing, inside the ring, and is screwed to floor and plate by its back.
+"""
+
+from typing import NamedTuple, Protocol
+
+from ocs_design.actuation.motor import Face, Mounting
+from ocs_design.parts.part import Part
+from ocs_design.parts.printed import CLEARANCE, DENSITY, WALL
+from ocs_design.parts.solids import revolved
+
+GLUE_GAP = 0.1e-3
+"""Gap between bell and ring [m]: what epoxy fills and a printed fixture keeps even."""
+
+BELL_SHARE = 0.45
+"""Straight part of a bell over its motor's length, in its middle: 11 of the 25 mm of an MN5006. An
+estimate: no row of the catalogue has that figure."""
+
+FIXTURE_FLOOR = 3.0e-3
+"""[m]: the bell's front is pressed on it while the glue sets."""
+
+FIXTURE_FIT = 0.1e-3
+"""Play of bell and ring in their fixture, on the radius [m]: to be scraped until both slide in."""
+
+GLUE_ROOM = 1.0e-3
+"""Width and depth of the groove under the glue gap [m]: what is squeezed out of it."""
+
+
+class HeldMotor(Protocol):
+    """The figures of a motor that its mount, or a ring around its bell, needs."""
+
+    @property
+    def mounting(self) -> Mounting | None:
+        """Its shaft and threads."""
+
+    @property
+    def diameter(self) -> float | None:
+        """Size of the motor's body [m]."""
+
+    @property
+    def length(self) -> float | None:
+        """Size of the motor's body [m]."""
+
+
+class Bell(NamedTuple):
+    """What a bell leaves a ring.
+
+    Attributes:
+        bore: radius of the ring's bore [m].
+        straight: largest height of the ring, whose middle is in the middle of its housing [m].
+        room: height of a rim whose housing has room for motor and shaft [m].
+        front: from the ring's middle to the motor's front [m].
+        shaft: radius of the shaft there, or 0 [m].
+    """
+
+    bore: float
+    straight: float
+    room: float
+    front: float
+    shaft: float
+
+
+def bell_of(motor: HeldMotor) -> Bell | None:
+    """Bell of a motor that is held by its back; None: it turns inside, or its size is not known.
+
+    The motor stands on the housing's floor, its shaft clear of the lid. So the middle of the
+    housing is beyond the bell's by half of shaft and clearance, and the ring may be that much lower
+    on both sides.
+    """
+    mounting, diameter, length = motor.mounting, motor.diameter, motor.length
+    if mounting is None or mounting.stator is None or mounting.stator_face is not Face.BACK:
+        return None
+    if diameter is None or length is None:
+        return None
+    before = (mounting.shaft_length or 0.0) + CLEARANCE
+    straight = BELL_SHARE * length - before
+    if straight <= 0.0:
+        return None
+    return Bell(
+        bore=diameter / 2.0 + GLUE_GAP,
+        straight=straight,
+        room=length + before - 2.0 * CLEARANCE,
+        front=(length - before) / 2.0,
+        shaft=(mounting.shaft_diameter or 0.0) / 2.0,
+    )
+
+
+def fixture_part(bell: Bell, outer_radius: float, height: float) -> Part[float]:
+    """What holds ring and bell on one axis while the glue sets, in the frame that it is printed in.
+
+    The bell stands on its front in a bore, the ring around it on a step and inside a wall.
+
+    Args:
+        bell: of the motor. outer_radius, height: of the ring [m].
+    """
+    around = bell.bore - GLUE_GAP + FIXTURE_FIT
+    step = FIXTURE_FLOOR + bell.front - height / 2.0
+    inside, top = outer_radius + FIXTURE_FIT, step + height / 2.0
+    hole = bell.shaft + FIXTURE_FIT if bell.shaft > 0.0 else 0.0
+    profile = [
+        (hole, 0.0),
+        (inside + WALL, 0.0),
+        (inside + WALL, top),
+        (inside, top),
+        (inside, step),
+        (around + GLUE_ROOM, step),
+        (around + GLUE_ROOM, step - GLUE_ROOM),
+        (around, step - GLUE_ROOM),
+        (around, FIXTURE_FLOOR),
+        (hole, FIXTURE_FLOOR),
+    ]
+    return Part("ring_fixture", DENSITY, (revolved(profile),))

@@ -1,0 +1,194 @@
+"""Wheels that are rings around the bells of their motors, chosen, built and compared."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from fronts import by_hand
+from part_gaps import overlap_volume, turning_clearance
+
+from ocs_design.common.errors import SpecificationError, UsageError
+from ocs_design.device.joints import balance_of, joints_of
+from ocs_design.export.assembly.placed import placed_parts
+from ocs_design.export.bill_of_materials import bill_rows
+from ocs_design.parts.bell import GLUE_GAP
+from ocs_design.parts.module import Printed
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.printed import CLEARANCE
+from ocs_design.requirement.specification import (
+    FlywheelSection,
+    MotorSection,
+    OcsSection,
+    Specification,
+)
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.sizing.alternatives import alternatives
+from ocs_design.sizing.design import design_device
+from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.selection.select import lightest_by
+
+ABOUT = 0.015
+"""To which an alternative's mass is good: the reserve of the device as it stands is kept."""
+
+
+@cache
+def made(wheel="ring", motor="Antigravity MN5008 KV400", **flywheel):
+    task = by_hand()
+    given = Specification(
+        robot=task.specification.robot,
+        motor=MotorSection(name=motor),
+        ocs=OcsSection(wheel=wheel),
+        flywheel=FlywheelSection(**flywheel),
+    )
+    task = task.with_specification(given)
+    return task, design_device(given, task.robot, task.resolved)
+
+
+def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
+    _, designed = made()
+    wheel, drive = designed.device.flywheel, designed.device.motor
+    assert wheel.web is None
+    assert wheel.inner_radius == pytest.approx(drive.diameter / 2.0 + GLUE_GAP, rel=1e-12)
+    assert wheel.height <= 0.45 * drive.length
+    assert [joint.name for joint in joints_of(designed.device)] == [
+        "rim joint",
+        "rim joint, pull on the bond",
+        "shaft joint",
+    ]
+    assert all(joint.factor >= 1.0 for joint in joints_of(designed.device))
+    assert balance_of(designed.device).off_centre > GLUE_GAP
+
+
+def test_the_rotor_counts():
+    _, designed = made()
+    wheel, chosen = designed.device.flywheel, designed.choice.chosen
+    outer, inner = wheel.outer_radius, wheel.inner_radius
+    plain = np.pi / 2.0 * wheel.density * wheel.height * (outer**4 - inner**4)
+    cut = wheel.cuts.axial_inertia(inner, outer, wheel.density)
+    assert wheel.spin_inertia == pytest.approx(plain - cut + chosen.motor.rotor_inertia, rel=1e-9)
+
+
+def test_no_ring_on_a_grid_is_lighter():
+    _, designed = made()
+    chosen = designed.choice.chosen
+    limits = chosen.limits(designed.choice.problem.envelope)
+    mount = mount_of(chosen.motor, None, chosen.foot_plate, on_bell=True)
+    shell = Printed(mount.holes.reach, foot_plate=chosen.foot_plate, room=mount.room)
+    inertia, inner = chosen.spin_inertia - chosen.rotor_share, chosen.inner_radius
+    outer = np.linspace(inner, float(limits.outer_radius_max), 4001)[1:]
+    left = inertia + limits.cuts.axial_inertia(inner, outer, limits.density)
+    height = 2.0 * left / (np.pi * limits.density * (outer**4 - inner**4))
+    rim = 2.0 * left / (outer**2 + inner**2) - limits.cuts.mass(inner, outer, limits.density)
+    fits = (height <= limits.height_max) & (height >= limits.height_min)
+    fits &= outer - inner >= limits.wall_min
+    best = np.where(fits, rim + shell.mass(outer, height), np.inf).min()
+    found = float(lightest_module(inertia, limits, shell).mass)
+    assert found == pytest.approx(best, rel=1e-5)
+    assert found <= best * (1.0 + 1e-12)
+    # A smaller one stands nearer to the robot, and needs a little less.
+    own = chosen.rim_mass + float(shell.mass(*map(np.array, (chosen.outer_radius, chosen.height))))
+    assert found <= own * (1.0 + 1e-12)
+    assert own <= found * 1.01
+
+
+def test_it_turns_free_of_all_that_stands_but_its_motor():
+    _, designed = made()
+    parts = placed_parts(designed.device)
+    ring, motor = parts["flywheel"][0], parts["motor"][0]
+    still = [parts[name][0] for name in ("drum", "lid")]
+    turning = turning_clearance([ring, motor], still[1:], 0.01)
+    assert turning_clearance([ring], still, 0.01) == pytest.approx(CLEARANCE, abs=1e-5)
+    # The shaft is not drawn: before the bell there is as much room as it takes, and clearance.
+    shaft = designed.device.motor.mounting.shaft_length
+    assert turning == pytest.approx(CLEARANCE + shaft, abs=1e-5)
+    assert overlap_volume(ring, motor) < 1e-12
+    assert overlap_volume(motor, still[0]) < 1e-12
+    gap = turning_clearance([ring], [motor], 0.01)
+    assert gap == pytest.approx(GLUE_GAP, abs=1e-5)
+
+
+def test_the_device_weighs_what_its_parts_weigh():
+    _, designed = made()
+    device = designed.device
+    rows = bill_rows(device)
+    assert sum(row.quantity * row.mass for row in rows) == pytest.approx(device.mass, rel=1e-12)
+    names = [row.part for row in rows]
+    assert any(name.startswith("epoxy") for name in names)
+    assert not any(name.startswith(("retaining", "cage")) for name in names)
+
+
+def test_what_stands_still_has_the_mass_properties_of_its_parts_in_their_places():
+    """But for the screws, whose mass is known and whose places move the middle by little."""
+    device = made()[1].device
+    parts = placed_parts(device)
+    names = ("drum", "lid", "foot", "motor")
+    still = combine(
+        [
+            part.mass_properties().moved(place.rotation, place.position)
+            for part, place in (parts[name] for name in names)
+        ]
+    )
+    point = MassProperties(device.motor.controller_mass, np.zeros(3), np.zeros((3, 3)))
+    middle = parts["motor"][0].mass_properties().com
+    still = combine([still, point.moved(np.eye(3), middle)])
+    screws = [row for row in bill_rows(device) if row.part.startswith("screw")]
+    own = sum(row.quantity * row.mass for row in screws if "plate on trunk" not in row.source)
+    own /= len(device.modules)
+    carrier = device.carrier.mass_properties()
+    assert carrier.mass == pytest.approx(still.mass + own, rel=1e-9)
+    # Along the axis, away from the motor; screws are within 60 mm of the wheel's middle.
+    assert carrier.com[1] == pytest.approx(still.com[2], abs=0.06 * own / carrier.mass)
+    assert carrier.inertia[1, 1] == pytest.approx(still.inertia[2, 2], rel=0.05)
+    assert carrier.inertia[2, 2] == pytest.approx(still.inertia[1, 1], rel=0.05)
+    # The motor stands on the floor, and its shaft is clear of the lid.
+    room = mount_of(device.motor, None, on_bell=True).room / 2.0 + CLEARANCE
+    back = middle[2] - device.motor.length / 2.0
+    shaft = device.motor.mounting.shaft_length
+    assert back == pytest.approx(-room)
+    assert back + device.motor.length + shaft + CLEARANCE == pytest.approx(room)
+
+
+def test_each_construction_tells_of_the_other():
+    sides = {}
+    for wheel in ("disc", "ring"):
+        task, designed = made(wheel)
+        found = alternatives(task.specification, task.resolved, designed, task.robot)
+        (sides[wheel],) = (each for each in found if each.note.startswith("--wheel"))
+    for wheel, other in (("disc", "ring"), ("ring", "disc")):
+        assert sides[wheel].note == f"--wheel {other}"
+        assert sides[wheel].mass_total == pytest.approx(made(other)[1].device.mass, rel=ABOUT)
+
+
+def test_none_of_the_motors_and_steels_alone_has_a_lighter_one():
+    """The search leaves out what its bounds say is heavier: each by itself cannot be left out."""
+    _, designed = made(motor=None)
+    problem = designed.choice.problem
+    some = (*problem.motors[::9], designed.choice.chosen.motor)
+    problem = replace(problem, motors=some, incidence=designed.choice.chosen.incidence)
+    found = [
+        lightest_by(replace(problem, motors=(motor,), materials=(kind,)), None)
+        for motor in problem.motors
+        for kind in problem.materials
+    ]
+    least = min(each.mass for each in found if each is not None)
+    assert lightest_by(problem, None).mass == pytest.approx(least, rel=1e-3)
+
+
+def test_a_motor_without_a_bell_is_refused_with_a_cure():
+    with pytest.raises(UsageError, match="no ring fits around the bell of EC 45") as raised:
+        made(motor="EC 45 flat 70 W 411812")
+    assert "--wheel ring" in raised.value.hint
+
+
+def test_what_a_ring_has_nothing_of_is_a_contradiction():
+    with pytest.raises(SpecificationError) as raised:
+        made(lightening=6)
+    assert any("ocs.wheel" in problem for problem in raised.value.problems)
+
+
+def test_a_bore_below_the_least_is_no_ring():
+    _, designed = made()
+    envelope = replace(designed.choice.problem.envelope, inner_radius_min=0.03)
+    narrow = designed.choice.chosen.limits(envelope)
+    assert np.isnan(float(lightest_module(1e-4, narrow, Printed(0.01)).mass))
