@@ -26,6 +26,9 @@ _EARLIEST = 0.5
 SURE = 5e-3
 """How long nothing may touch the ground before a robot is taken to fly [s]."""
 
+SCRAPE = 30e-3
+"""A foot that touches so soon after has not let go yet [s]: a hop as short rises by 1 mm."""
+
 NEVER = -1
 
 
@@ -40,6 +43,7 @@ class FlightClock:
         planned = np.array([0.0 if w.legs is None else w.legs.lift_off for w in worlds])
         self._earliest = np.ceil(_EARLIEST * planned / period)
         self._sure = max(1, round(SURE / period))
+        self._scrape = round(SCRAPE / period)
         self._in_air = np.zeros(len(worlds), dtype=np.int64)
         standing = np.array([world.stands or 0.0 for world in worlds])
         settled = np.round(standing / period).astype(np.int64)
@@ -60,6 +64,8 @@ class FlightClock:
         left, in_air = self.lift_off[: len(touches)], self._in_air[: len(touches)]
         free = (k >= self._earliest[: len(touches)]) & ~touches.any(axis=1)
         in_air[:] = np.where(free, in_air + 1, 0)
+        pushes_off = self._earliest[: len(touches)] > 0.0
+        left[pushes_off & touches.any(axis=1) & (k - left < self._scrape)] = NEVER
         flies = (left == NEVER) & (in_air == self._sure)
         left[flies] = k + 1 - self._sure
 

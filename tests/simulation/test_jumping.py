@@ -184,6 +184,16 @@ def test_lift_off_takes_five_milliseconds_without_a_contact(world):
     assert clock.steps(late + 7, 1)[0] == 2
 
 
+def test_a_foot_that_scrapes_just_after_lift_off_has_not_let_go(world):
+    """Aliengo's sample 253: 5 ms without contact, and the flight was measured to end there."""
+    clock = FlightClock([world], 5e-3)
+    late = int(world.legs.lift_off / 5e-3)
+    touch, free = np.ones((1, 5), dtype=bool), np.zeros((1, 5), dtype=bool)
+    for k, contact in enumerate([free, touch] + [free] * 7 + [touch], start=late):
+        clock.look(k, contact)
+    assert clock.lift_off[0] == late + 2
+
+
 def test_feet_that_lift_early_in_the_push_off_do_not_count(world):
     clock = FlightClock([world], 5e-3)
     clock.look(3, np.zeros((1, 5), dtype=bool))
