@@ -95,7 +95,7 @@ class Refused(Infeasible):
                 *_hints(field, reason, changes, lightest=lightest),
             ]
             if default:
-                hints = [_default_hint(field, changes.get(TIME)), *hints]
+                hints = [_default_hint(field), *hints]
         if any(kept.demand > 1.0 for kept in self.problem.requirement.reserves.values()):
             hints = [*hints, "A lower --reliability keeps less in reserve."]
         return Infeasible(
@@ -206,13 +206,8 @@ def _hints(
         yield advice([], MOST_CHANGE, "loosen several, ask for less, or add stronger motors.")
 
 
-def _default_hint(field: Field, factor: float | None) -> str:
-    """Which maneuvers nobody asked for, which of them can be done, and how slowly the others.
-
-    Args:
-        field: of the problem.
-        factor: times their time in which all can be done; None: not known.
-    """
+def _default_hint(field: Field) -> str:
+    """Which maneuvers nobody asked for, and which of them can be done as they are."""
     problem = field.problem
     asked = problem.requirement
     fine = [
@@ -220,13 +215,10 @@ def _default_hint(field: Field, factor: float | None) -> str:
         for each in asked.maneuvers
         if field.changed(replace(problem, requirement=replace(asked, maneuvers=(each,)))).possible
     ]
-    slow = () if factor is None else slowed_maneuvers(field, factor).requirement.maneuvers
-    able = [f"{each.name} ({each.summary})" for each in slow if each not in asked.maneuvers]
     texts = [
         unasked(asked.maneuvers),
         f"{listed(fine)} can be done as it is." if len(fine) == 1 else "",
         f"{listed(fine)} can be done, each by itself." if len(fine) > 1 else "",
-        f"All can be done with {listed(able)}." if able else "",
     ]
     return " ".join(filter(None, texts))
 
