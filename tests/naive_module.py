@@ -15,9 +15,17 @@ from naive_outline import green
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.parts import motor_mount
-from ocs_design.parts.foot import BASE_THICKNESS, Foot
+from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
-from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, PANEL, WALL, MountHoles
+from ocs_design.parts.printed import (
+    BASE_THICKNESS,
+    CLEARANCE,
+    DENSITY,
+    LID_SCREW,
+    PANEL,
+    WALL,
+    MountHoles,
+)
 
 GAP, DEEP = CLEARANCE + WALL, CLEARANCE + PANEL
 MARKS = ((24, 2.5e-3), (12, 4.0e-3))

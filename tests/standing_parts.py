@@ -10,10 +10,10 @@ import numpy as np
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Face
 from ocs_design.parts.cage import FLOOR, cage_part
-from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, Foot, foot_part
+from ocs_design.parts.foot import PLATE_THICKNESS, Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.printed import LID_SCREW, PANEL
+from ocs_design.parts.printed import BASE_THICKNESS, LID_SCREW, PANEL
 from ocs_design.robot.mass import MassProperties
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])

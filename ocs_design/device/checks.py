@@ -5,7 +5,7 @@ Files are made from it without a second look, so what is no length, mass or dire
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
-from math import isfinite
+from math import isfinite, pi
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ocs_design.actuation.fasteners import SCREW_NAMES
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device
 from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.robot.mass import MassProperties
 
 LARGEST = 1e12
@@ -60,6 +61,7 @@ def check_device(device: Device) -> None:
         for part in ("flywheel", "motor", "carrier", "plate")
         for fault in _figures(getattr(device, part), part)
     ]
+    faults += _pedestal_faults(device)
     if device.plate is not None:
         faults += _plate_faults(device.plate)
     if not 0.0 <= device.guard_wall <= LARGEST_LENGTH:
@@ -108,6 +110,31 @@ def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
     lengths = np.array([*plate.position, *plate.sleeves, *np.ravel([*plate.trunk, *plate.feet])])
     if not (np.abs(lengths) <= LARGEST_LENGTH).all() or min(plate.sleeves, default=0.0) < 0.0:
         yield "a place of the plate is beyond all measure"
+
+
+def _pedestal_faults(device: Device) -> Iterator[str]:
+    """Faults of pedestals that can be none, or are under nothing."""
+    if device.plate is not None and device.pedestals:
+        yield "a plate and pedestals at once"
+    for pedestal in device.pedestals:
+        yield from _faults_of(pedestal)
+        if pedestal.module not in {module.name for module in device.modules}:
+            yield f"a pedestal is under no module: {pedestal.module}"
+
+
+def _faults_of(pedestal: Pedestal) -> Iterator[str]:
+    sizes = {
+        name: getattr(pedestal, name)
+        for name in ("base_radius", "slot_radius", "wheel_height", "middle", "thickness", "base")
+    }
+    for name, size in sizes.items():
+        if not SMALLEST_LENGTH <= size <= LARGEST_LENGTH:
+            yield f"pedestals.{name} is {size:g}"
+    if not _UNIT_TOLERANCE < pedestal.lean <= pi / 2.0 + _UNIT_TOLERANCE:
+        yield f"pedestals.lean is {pedestal.lean:g}"
+    places = np.array([*pedestal.position, pedestal.heading])
+    if not (np.abs(places) <= LARGEST_LENGTH).all():
+        yield "a place of a pedestal is beyond all measure"
 
 
 def _figures(value: object, path: str) -> Iterator[str]:

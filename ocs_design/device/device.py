@@ -11,6 +11,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import PAIR, Layout, sense, standing_frames
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, WebHoles
 from ocs_design.requirement.maneuver import Maneuver
@@ -116,6 +117,7 @@ class Device:
         guard_wall: of the ring of mild steel in each housing [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
         layout: how the axes lie to each other.
+        pedestals: under the feet that lean; empty: none do, or nothing holds any.
         on_bell: whether each wheel is a ring around the bell of its motor.
     """
 
@@ -129,17 +131,24 @@ class Device:
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
     layout: Layout = PAIR
+    pedestals: tuple[Pedestal, ...] = ()
     on_bell: bool = False
 
     @property
     def mass(self) -> float:
-        """Mass of all modules, wheels, motors, gears, housings and feet, and of the plate [kg]."""
-        plate = 0.0 if self.plate is None else self.plate.mass
-        return len(self.modules) * (self.flywheel.mass + self.carrier.mass) + plate
+        """Mass of all modules, wheels, motors, gears, housings and feet, and of `under` [kg]."""
+        modules = len(self.modules) * (self.flywheel.mass + self.carrier.mass)
+        return modules + sum(each.mass for each in self.under)
+
+    @property
+    def under(self) -> tuple[CarrierPlate | Pedestal, ...]:
+        """What is between the feet and the trunk: plate and pedestals."""
+        return (*(() if self.plate is None else (self.plate,)), *self.pedestals)
 
     def plated(self, robot: MassProperties) -> MassProperties:
-        """A robot, in B, with the plate under the feet where there is one."""
-        return robot if self.plate is None else combine([robot, self.plate.mass_properties()])
+        """A robot, in B, with what is under the feet where there is anything."""
+        under = [each.mass_properties() for each in self.under]
+        return combine([robot, *under]) if under else robot
 
     @property
     def axes(self) -> FloatArray:

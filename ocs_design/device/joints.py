@@ -11,7 +11,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.solids import foot_of, housing_of
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.parts.foot import BASE_THICKNESS, stem_frequency
+from ocs_design.parts.foot import stem_frequency
 from ocs_design.parts.guard import Containment, containment, fragment_of
 from ocs_design.parts.joints import (
     BOND_SHARE,
@@ -40,6 +40,7 @@ from ocs_design.parts.joints import (
     slip_fit_eccentricity,
     tightening_torque,
 )
+from ocs_design.parts.printed import BASE_THICKNESS
 from ocs_design.parts.rim import LIGAMENT
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"

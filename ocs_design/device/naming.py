@@ -87,8 +87,8 @@ def carrier_names(device: Device) -> tuple[str, ...]:
 
 
 def plate_names(device: Device) -> tuple[str, ...]:
-    """Name of the plate under the feet; none where there is none."""
-    return () if device.plate is None else (PLATE,)
+    """Name of the body of what is under the feet; none where they stand on the trunk."""
+    return (PLATE,) if device.under else ()
 
 
 def joint_names(device: Device) -> tuple[str, ...]:

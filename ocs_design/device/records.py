@@ -23,6 +23,7 @@ from ocs_design.device.device import NO_CARRIER, Device, Flywheel, Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.robot.robot import Mount, Robot
 
@@ -419,6 +420,7 @@ class OcsRecord:
     motor: Drive
     carrier: Carrier = NO_CARRIER
     plate: CarrierPlate | None = None
+    pedestals: tuple[Pedestal, ...] = ()
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
     on_bell: bool = False
@@ -453,6 +455,7 @@ class OcsRecord:
             guard_wall=self.guard_wall,
             foot_plate=self.foot_plate,
             layout=self.axes,
+            pedestals=self.pedestals,
             on_bell=self.on_bell,
         )
 

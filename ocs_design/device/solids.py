@@ -1,18 +1,18 @@
 """What a module fills, as cylinders in B: for what it is near, and what could hit it."""
 
 from dataclasses import dataclass, replace
-from math import acos, cos, hypot, sin, sqrt
+from math import acos, atan2, ceil, cos, hypot, sin, sqrt
 
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Module
 from ocs_design.parts.carrier_plate import CarrierPlate, directions
-from ocs_design.parts.foot import BASE_THICKNESS, Foot
+from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of
-from ocs_design.parts.pedestal import HEAD_TOP, Pedestal, seat_thickness
-from ocs_design.parts.printed import CLEARANCE, LID_SCREW, WALL
+from ocs_design.parts.pedestal import FLANGE, Pedestal, strengthened
+from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, LID_SCREW, TRUNK_SCREW, WALL
 from ocs_design.robot.tree import BACKWARDS, Drum
 
 PLATE_DISCS = 0.5
@@ -51,22 +51,56 @@ def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
     return tuple(solid for solid in found if not (unknown and solid.name == "motor"))
 
 
-def pedestal_of(device: Device, module: Module) -> Pedestal[float]:
-    """Pedestal under the foot of a module that leans, which stands clear of what is below it.
+def pedestal_of(device: Device, module: Module, plane: float | None = None) -> Pedestal:
+    """Pedestal under the foot of a module that leans, as thick as its module asks.
 
-    The foot is as far up the seat as keeps housing and drive above the heads of the near flange.
+    At the least the foot is as far up the seat as keeps housing and drive clear above the heads of
+    the near flange.
+
+    Args:
+        device, module: in its place.
+        plane: height of what it stands on in B [m]; None: as high as the lowest one reaches down.
     """
-    foot = foot_of(device)
-    lean = acos(min(1.0, float(module.frame[2, 2])))
+    foot, frame = foot_of(device), module.frame
+    lean = acos(min(1.0, max(0.0, float(frame[2, 2]))))
     behind = [(-foot.housing.half_height, foot.wheel_height - foot.housing.radius)]
     behind += [
         (solid.low, foot.wheel_height + solid.up - solid.radius) for solid in drive_solids(device)
     ]
-    high = HEAD_TOP - BASE_THICKNESS + CLEARANCE
+    high = TRUNK_SCREW.head_height + CLEARANCE
     middle = max((high - up * cos(lean)) / sin(lean) - along for along, up in behind)
-    pedestal = Pedestal(foot, lean, max(foot.base_radius, middle))
-    mass = device.flywheel.mass + device.carrier.mass
-    return replace(pedestal, thickness=seat_thickness(pedestal, mass))
+    along = cos(lean) * frame[:, 1] - sin(lean) * frame[:, 2]
+    low = Pedestal(
+        foot.base_radius,
+        foot.slot_radius,
+        foot.wheel_height,
+        lean,
+        max(foot.base_radius, middle),
+        module=module.name,
+        heading=atan2(along[1], along[0]),
+    )
+    above = None if plane is None else float(module.position[2]) - plane
+    found = strengthened(low, device.flywheel.mass + device.carrier.mass, above)
+    x, y, z = (module.position - found.placement.rotation @ found.wheel).tolist()
+    return replace(found, position=(x, y, z))
+
+
+def pedestal_solids(pedestal: Pedestal) -> tuple[Drum, ...]:
+    """What a pedestal fills: cylinders across it, side by side around base, seat and brace."""
+    thick, place = max(pedestal.base, pedestal.thickness), pedestal.placement
+    end, far = pedestal.length, pedestal.seat.rotation[:, 1] * pedestal.length
+    floor, up = np.array([0.0, 0.0, pedestal.base / 2.0]), np.array([0.0, 0.0, pedestal.base])
+    along = np.array([0.0, 1.0, 0.0])
+    bars = [(floor - FLANGE * along, floor + (end + FLANGE) * along)]
+    bars += [(up, up + far), (up + end * along, up + far)]
+    found = []
+    for start, stop in bars:
+        # So close that each bar is within them to half its thickness on either side.
+        count = 1 + ceil(float(np.linalg.norm(stop - start)) / (sqrt(3.0) * thick))
+        for share in np.linspace(0.0, 1.0, count):
+            middle = place.rotation @ (start + share * (stop - start)) + place.position
+            found.append(Drum(middle, place.rotation[:, 0], thick, pedestal.width))
+    return tuple(found)
 
 
 @dataclass(frozen=True)

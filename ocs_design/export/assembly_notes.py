@@ -10,16 +10,16 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.joints import DAMPING, resonances_of
 from ocs_design.device.solids import drive_solids, motor_mount
-from ocs_design.export.device_parts import printed_foot, wheel_geometry
+from ocs_design.export.device_parts import foot_holes, printed_foot, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
 from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
 from ocs_design.parts.carrier_plate import MODULUS as PLATE_MODULUS
 from ocs_design.parts.carrier_plate import YIELD_STRENGTH
-from ocs_design.parts.foot import TRUNK_SCREW, Foot, foot_part, stem_shock
+from ocs_design.parts.foot import Foot, foot_part, stem_shock
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
-from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH_ACROSS
+from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH_ACROSS, TRUNK_SCREW
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 
 _UNDRILLED = "drill floor and plate for it"
@@ -205,6 +205,13 @@ def trunk_notes(device: Device) -> tuple[str, ...]:
     if device.carrier.mass == 0.0:
         return ()
     plate = device.plate
+    if device.pedestals:
+        count = 4 * len(device.pedestals) + 2 * len(foot_holes(device))
+        return (
+            f"printed pedestals carry the feet that lean; the trunk needs threads "
+            f"{TRUNK_SCREW.name} for {count} screws, whose places are on cad/drilling.pdf; whether "
+            "its wall bears them is not looked at, and how much pedestals bend is not computed",
+        )
     if plate is None:
         return (
             f"the trunk needs threads {TRUNK_SCREW.name} for the feet's screws, which stand at 45 "

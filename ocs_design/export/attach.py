@@ -28,6 +28,7 @@ from ocs_design.export.module_bodies import (
     carrier_inertial,
     flywheel_inertial,
     largest_torque,
+    under_feet,
     wheel_placement,
 )
 from ocs_design.robot.mass import MassProperties
@@ -85,10 +86,10 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         carrier = carrier_inertial(device, module)
         if carrier is not None:
             _add_body(wheels, carrier_name(module), carrier, place).set_frame(frame)
-    if device.plate is not None:
-        own = device.plate.own_mass_properties()
-        place = base @ Placement(np.eye(3), np.array(device.plate.position))
-        _add_body(wheels, PLATE, own, place).set_frame(frame)
+    under = under_feet(device)
+    if under is not None:
+        own, position = under
+        _add_body(wheels, PLATE, own, base @ Placement(np.eye(3), position)).set_frame(frame)
     # Bodies added in any other way shift the values of keyframes to wrong joints.
     trunk.attach_frame(frame, PREFIX, "")
 

@@ -15,6 +15,9 @@ from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import (
     foot_screws,
+    pedestal_kinds,
+    pedestal_pieces,
+    pedestal_screws,
     printed_foot,
     printed_parts,
     ring_fixture,
@@ -30,7 +33,7 @@ from ocs_design.parts.carrier_plate import (
 )
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import EPOXY
-from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
+from ocs_design.parts.printed import CLEARANCE, PANEL, TRUNK_SCREW, WALL
 
 COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
 
@@ -119,10 +122,28 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         # The screws of wheel and motor only where the catalogue has their threads.
         screwed = (each.fastening for each in mount.screwed)
         counted = f"mass: steel of {STEEL:g} kg/m^3 of its ISO 4762 dimensions"
-        held = (*screwed, LID_SCREWS, foot_screws(device))
-        rows += [_screws(each, count, f"{each.purpose}; {counted}") for each in held]
+        feet = [foot_screws(device, module) for module in device.modules]
+        held = dict.fromkeys((*screwed, LID_SCREWS), count) | {
+            each: feet.count(each) for each in feet
+        }
+        rows += [_screws(each, of, f"{each.purpose}; {counted}") for each, of in held.items()]
     plate = () if device.plate is None else _plate_rows(device.plate)
-    return [*rows, *plate, *_electrics(device, margins), *_used_up(device)]
+    return [*rows, *plate, *_pedestal_rows(device), *_electrics(device, margins), *_used_up(device)]
+
+
+def _pedestal_rows(device: Device) -> Iterator[BillRow]:
+    """The pedestals under the feet that lean, and the screws that hold them on the trunk."""
+    parts, screws = pedestal_pieces(device), pedestal_screws(device)
+    for name, kind in pedestal_kinds(device).items():
+        one, count = kind[0], len(kind)
+        made = (
+            f"3-D print, lying on its side, {name}.stl; seat and brace {_mm(one.thickness)}, base "
+            f"{_mm(one.base)}; tap its 2 holes {TRUNK_SCREW.name} for the foot's screws"
+        )
+        size = " x ".join(map(_mm, one.sizes))
+        whose = " and ".join(each.module for each in kind)
+        yield BillRow(f"pedestal of {whose}", count, "PETG", size, parts[name].mass(), made)
+        yield _screws(screws[name], count, screws[name].purpose)
 
 
 def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:

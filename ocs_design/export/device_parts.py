@@ -5,15 +5,19 @@ from dataclasses import replace
 from itertools import compress
 from math import copysign, sqrt
 
+import numpy as np
+
 from ocs_design.actuation.fasteners import Fastening
-from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.device import Device, Flywheel, Module
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.bell import fixture_part
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import mast_part, plate_part
-from ocs_design.parts.foot import TRUNK_SCREWS, Foot, foot_part
+from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
+from ocs_design.parts.pedestal import SEAT_SCREWS, Pedestal, drilled
+from ocs_design.parts.printed import TRUNK_SCREWS
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
 
 
@@ -108,8 +112,39 @@ def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
     return found
 
 
-def foot_screws(device: Device) -> Fastening:
-    """Screws of each foot, into the plate where there is one, else into the trunk."""
+def pedestal_pieces(device: Device) -> Mapping[str, Part]:
+    """The pedestals by the names of their files, those of one shape once."""
+    return {name: drilled(kind[0]) for name, kind in pedestal_kinds(device).items()}
+
+
+def pedestal_kinds(device: Device) -> Mapping[str, tuple[Pedestal, ...]]:
+    """The pedestals by the names of their files, those of one shape together."""
+    kinds: dict[bytes, tuple[Pedestal, ...]] = {}
+    for each in device.pedestals:
+        shape = np.round([each.lean, each.middle, each.thickness, each.base], 9).tobytes()
+        kinds[shape] = (*kinds.get(shape, ()), each)
+    if len(kinds) == 1:
+        return {"pedestal": device.pedestals}
+    return {f"pedestal_{kind[0].module}": kind for kind in kinds.values()}
+
+
+def pedestal_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
+    """Places of each pedestal's screws in B, x and y [m], by the name of its module."""
+    return {each.module: each.in_base(each.holes) for each in device.pedestals}
+
+
+def pedestal_screws(device: Device) -> Mapping[str, Fastening]:
+    """Screws that hold one pedestal on the trunk, by the name of its file."""
+    return {
+        name: replace(kind[0].base_screws, purpose=f"{name.replace('_', ' ')} on trunk")
+        for name, kind in pedestal_kinds(device).items()
+    }
+
+
+def foot_screws(device: Device, module: Module) -> Fastening:
+    """Screws of a module's foot, into its pedestal, the plate or the trunk."""
+    if any(each.module == module.name for each in device.pedestals):
+        return SEAT_SCREWS
     return TRUNK_SCREWS if device.plate is None else replace(TRUNK_SCREWS, purpose="foot on plate")
 
 

@@ -11,6 +11,7 @@ from ocs_design.export.module_bodies import (
     carrier_inertial,
     flywheel_inertial,
     largest_torque,
+    under_feet,
     wheel_rpy,
 )
 from ocs_design.export.templates import fill, numbers, quoted
@@ -21,7 +22,6 @@ from ocs_design.export.visuals import (
     plain_plate_visuals,
     plate_visuals,
 )
-from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Mount
@@ -90,19 +90,22 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
                 "visuals": visuals_urdf(look(device, module)),
             }
             elements.append(fill("carrier.urdf", carrier))
-    if device.plate is not None:
+    if device.under:
         shown = plain_plate_visuals(device) if mesh is None else plate_visuals(device)
-        elements.append(fill("carrier.urdf", plate_urdf(device.plate, parent, visuals_urdf(shown))))
+        elements.append(fill("carrier.urdf", plate_urdf(device, parent, visuals_urdf(shown))))
     return "".join(elements)
 
 
-def plate_urdf(plate: CarrierPlate, parent: str, visuals: str) -> dict[str, str]:
-    """Values of the plate under the feet, for the template of what stands still."""
+def plate_urdf(device: Device, parent: str, visuals: str) -> dict[str, str]:
+    """Values of what is under the feet, for the template of what stands still."""
+    under = under_feet(device)
+    assert under is not None, "a device with a plate or pedestals"
+    own, position = under
     return {
-        **inertial_values(plate.own_mass_properties()),
+        **inertial_values(own),
         "link": PLATE,
         "parent": quoted(parent),
-        "position": numbers(plate.position),
+        "position": numbers(position),
         "rpy": numbers(np.zeros(3)),
         "visuals": visuals,
     }

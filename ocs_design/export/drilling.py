@@ -30,7 +30,8 @@ from ocs_design.export.drawing.sheet import (
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.formats import Subject
 from ocs_design.parts.flattening import flat_outline
-from ocs_design.parts.foot import TRUNK_SCREW
+from ocs_design.parts.pedestal import FLANGE
+from ocs_design.parts.printed import TRUNK_SCREW
 
 MILLIMETRES = 1000.0
 
@@ -95,10 +96,11 @@ def drilling_of(subject: Subject) -> Drilling | None:
         return None
     plate, foot, standing = device.plate, printed_foot(device), foot_holes(device)
     feet = [place for places in standing.values() for place in places]
-    if not feet:
+    pedestals = [place for each in device.pedestals for place in each.in_base(each.holes)]
+    if not feet and not pedestals:
         return None
     if plate is None:
-        holes, thread = _millimetres(feet), TRUNK_SCREW
+        holes, thread = _millimetres([*feet, *pedestals]), TRUNK_SCREW
     else:
         x, y, _ = plate.position
         holes = _millimetres([(x + along, y + across) for along, across in plate.trunk])
@@ -119,6 +121,12 @@ def drilling_of(subject: Subject) -> Drilling | None:
         base = MILLIMETRES * foot.base_radius
         items += [Circle(middle, base, THIN), *_cross(middle, CROSS)]
         items.append(Text((middle[0] + base / 2.0, middle[1]), f"{module.name} foot", 2.5))
+    for each in device.pedestals:
+        side, near, far = each.width / 2.0, -FLANGE, each.length + FLANGE
+        around = [(-side, near), (side, near), (side, far), (-side, far), (0.0, each.length / 2.0)]
+        *rim, inside = _millimetres(each.in_base(around))
+        items.append(Polyline((*rim, rim[0]), THIN))
+        items.append(Text(inside, f"{each.module} pedestal", 2.5))
     if plate is not None and mast is not None:
         low, high = (MILLIMETRES * (plate.position[2] + end) for end in (mast.low, mast.high))
         half = MILLIMETRES * mast.side / 2.0
@@ -136,7 +144,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
     )
 
 
-def _millimetres(places: list[Point] | list[list[float]]) -> tuple[Point, ...]:
+def _millimetres(places: Iterable[Point] | list[list[float]]) -> tuple[Point, ...]:
     return tuple((MILLIMETRES * x, MILLIMETRES * y) for x, y in places)
 
 

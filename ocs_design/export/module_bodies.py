@@ -12,7 +12,7 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Module
-from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.rotations import rotation_from_rpy
 from ocs_design.robot.tree import Placement
 
@@ -60,6 +60,16 @@ def carrier_placement(module: Module) -> Placement:
     # Half a turn is one to the last digit.
     whole = np.round(turn)
     return Placement(np.where(np.abs(turn - whole) < _ROUNDING, whole, turn), np.zeros(3))
+
+
+def under_feet(device: Device) -> tuple[MassProperties, FloatArray] | None:
+    """Plate and pedestals as one body, and its place in B [m]; None where there are none."""
+    plate = device.plate
+    if plate is not None:
+        return plate.own_mass_properties(), np.array(plate.position)
+    if not device.pedestals:
+        return None
+    return combine(each.mass_properties() for each in device.pedestals), np.zeros(3)
 
 
 def largest_torque(motor: Drive) -> float | None:

@@ -13,6 +13,7 @@ from ocs_design.export.module_bodies import (
     carrier_inertial,
     flywheel_inertial,
     largest_torque,
+    under_feet,
     wheel_rpy,
 )
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
@@ -72,14 +73,15 @@ def _module(device: Device, module: Module, place: dict[str, str]) -> str:
 
 
 def _plate(device: Device, place: dict[str, str]) -> str:
-    """The plate under the feet; empty where there is none."""
-    plate = device.plate
-    if plate is None:
+    """What is under the feet; empty where they stand on the trunk."""
+    under = under_feet(device)
+    if under is None:
         return ""
+    own, position = under
     values = {
         **place,
-        "pose": numbers([*plate.position, 0.0, 0.0, 0.0]),
-        **inertial_values(plate.own_mass_properties()),
+        "pose": numbers([*position, 0.0, 0.0, 0.0]),
+        **inertial_values(own),
         "link": PLATE,
         "joint": f"{PLATE}_fixed",
         "visuals": _visuals(plain_plate_visuals(device)),

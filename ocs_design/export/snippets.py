@@ -41,6 +41,7 @@ from ocs_design.export.module_bodies import (
     carrier_inertial,
     flywheel_inertial,
     largest_torque,
+    under_feet,
     wheel_placement,
     wheel_rpy,
 )
@@ -175,10 +176,10 @@ def _macro_carrier(device: Device) -> str:
 
 
 def _macro_plate(device: Device) -> str:
-    """The plate under the feet, on the macro's own base."""
-    if device.plate is None:
+    """What is under the feet, on the macro's own base."""
+    if not device.under:
         return ""
-    values = plate_urdf(device.plate, "", visuals_urdf(plain_plate_visuals(device)))
+    values = plate_urdf(device, "", visuals_urdf(plain_plate_visuals(device)))
     named = {"link": "${prefix}" + PLATE, "parent": "${prefix}ocs_base"}
     return fill("carrier.urdf", {**values, **named})
 
@@ -253,14 +254,15 @@ def _module_mjcf(device: Device, module: Module) -> str:
 
 
 def _plate_mjcf(device: Device) -> str:
-    """The plate under the feet; empty where there is none."""
-    plate = device.plate
-    if plate is None:
+    """What is under the feet; empty where they stand on the trunk."""
+    under = under_feet(device)
+    if under is None:
         return ""
+    own, position = under
     values = {
-        "position": numbers(plate.position),
+        "position": numbers(position),
         "quaternion": numbers(quaternion(np.eye(3))),
-        **inertial_values(plate.own_mass_properties()),
+        **inertial_values(own),
         "body": PLATE.removeprefix(PREFIX),
         "geoms": _geoms(plain_plate_visuals(device)),
     }

@@ -44,6 +44,8 @@ from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import (
     metal_pieces,
+    pedestal_kinds,
+    pedestal_pieces,
     printed_parts,
     wheel_pieces,
 )
@@ -79,12 +81,14 @@ _TIMESTAMP = "2000-01-01T00:00:00"
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `flywheel.step`, or one file for each of its pieces, and one for each other part.
 
-    `plate.step` is what the feet stand on, where that is designed; `module.step` has all of one
-    module in its place, motor and gear as cylinders, and `device.step` all modules and the plate.
+    `plate.step` or `pedestal*.step` is what feet stand on, where that is designed; `module.step`
+    has all of one module in its place, motor and gear as cylinders, and `device.step` all modules
+    and what is under them.
     """
     device = subject.device
     printed = {f"housing_{part.name}": part for part in printed_parts(device)}
     metal = {**wheel_pieces(device.flywheel), **metal_pieces(device)}
+    printed |= pedestal_pieces(device)
     for name, part in {**metal, **printed}.items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
     (folder / "module.step").write_bytes(module_bytes(device))
@@ -100,7 +104,7 @@ def module_bytes(device: Device) -> bytes:
 
 
 def device_bytes(device: Device) -> bytes:
-    """STEP of all modules, each of the same pieces, and the plate, in the base frame B."""
+    """STEP of all modules, each of the same pieces, and what is under them, in the base frame B."""
     assembly = _Assembly()
     module, whole = assembly.add_module(device), assembly.add_group("device")
     for each in device.modules:
@@ -113,6 +117,10 @@ def device_bytes(device: Device) -> bytes:
         for part, position in bodies:
             label = assembly.add_part(part.name, part, ALUMINIUM)
             assembly.put(label, whole, Placement(np.eye(3), np.array(position)), part.name)
+    for name, part in pedestal_pieces(device).items():
+        label = assembly.add_part(name, part, PRINT)
+        for pedestal in pedestal_kinds(device)[name]:
+            assembly.put(label, whole, pedestal.placement, f"pedestal {pedestal.module}")
     return assembly.written("device")
 
 

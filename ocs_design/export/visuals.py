@@ -6,6 +6,7 @@ They have neither mass nor contact, and stand in the frame of the module's wheel
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from math import cos, pi, sin
 from pathlib import Path
 from typing import TypeAlias
 
@@ -19,9 +20,11 @@ from ocs_design.export.module_bodies import carrier_placement
 from ocs_design.export.stl import METRES, stl_bytes, wheel_stl
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.carrier_plate import CarrierPlate, directions, plate_bodies
-from ocs_design.parts.foot import BASE_THICKNESS, Foot, foot_part
+from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
+from ocs_design.parts.pedestal import FLANGE, Pedestal, drilled
+from ocs_design.parts.printed import BASE_THICKNESS
 from ocs_design.robot.tree import Placement, ShapeKind
 
 WHEEL_MESH = "meshes/ocs_flywheel.stl"
@@ -35,6 +38,9 @@ foot and cage in their own."""
 PLATE_MESH = Path("meshes/ocs_plate.stl")
 """The plate under the feet with its sleeves, in its own frame, likewise."""
 
+PEDESTAL_MESH = Path("meshes/ocs_pedestals.stl")
+"""All pedestals under the feet, in the base frame B, likewise."""
+
 Color: TypeAlias = tuple[float, float, float, float]
 """Red, green, blue and opacity, 0..1, as screens take them (sRGB)."""
 
@@ -45,6 +51,7 @@ GEAR: Color = (0.75, 0.6, 0.3, 1.0)
 ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
 _COLORS = {"housing": SHELL, "foot": PRINT, "cage": SHELL, "motor": MOTOR, "gear": GEAR}
 _COLORS["plate"] = ALUMINIUM
+_COLORS["pedestal"] = PRINT
 
 _SECTIONS = 64
 """Chords of a full circle: a quarter of those that are printed."""
@@ -55,7 +62,7 @@ class Visual:
     """Shape without mass and contact.
 
     Attributes:
-        name: housing, foot, cage, motor, gear or plate.
+        name: housing, foot, cage, motor, gear, plate or pedestal.
         kind, size: see `ShapeKind`: box, cylinder or mesh.
         place: of the shape's frame in that of the module's wheel.
         mesh: of `carrier_meshes`; None for the other kinds.
@@ -87,11 +94,22 @@ def device_meshes(device: Device) -> Mapping[Path, bytes]:
         path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
         for path, mesh in carrier_meshes(device).items()
     }
-    if device.plate is None:
-        return {**wheel, **carrier}
-    mesh = plate_mesh(device.plate)
-    plate = {PLATE_MESH: stl_bytes(mesh, PLATE_MESH.stem, units_per_metre=METRES)}
-    return {**wheel, **carrier, **plate}
+    under = {
+        path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
+        for path, mesh in _under_meshes(device)
+    }
+    return {**wheel, **carrier, **under}
+
+
+def _under_meshes(device: Device) -> Iterator[tuple[Path, Mesh]]:
+    """Plate and pedestals, those there are."""
+    if device.plate is not None:
+        yield PLATE_MESH, plate_mesh(device.plate)
+    if device.pedestals:
+        meshes = [
+            part_mesh(drilled(each), _SECTIONS).placed(each.placement) for each in device.pedestals
+        ]
+        yield PEDESTAL_MESH, merged(meshes)
 
 
 def plate_mesh(plate: CarrierPlate) -> Mesh:
@@ -100,15 +118,17 @@ def plate_mesh(plate: CarrierPlate) -> Mesh:
 
 
 def plate_visuals(device: Device) -> tuple[Visual, ...]:
-    """The plate under the feet as a mesh, in its own frame; none where there is none."""
-    return () if device.plate is None else (_mesh("plate", PLATE_MESH, _shifted(0.0, 0.0, 0.0)),)
+    """What is under the feet as a mesh, in its own frame; none where they stand on the trunk."""
+    names = {PLATE_MESH: "plate", PEDESTAL_MESH: "pedestal"}
+    here = _shifted(0.0, 0.0, 0.0)
+    return tuple(_mesh(names[path], path, here) for path, _ in _under_meshes(device))
 
 
 def plain_plate_visuals(device: Device) -> tuple[Visual, ...]:
-    """The plate under the feet of a box and cylinders, for files that stand alone."""
+    """What is under the feet of boxes and cylinders, for files that stand alone."""
     plate = device.plate
     if plate is None:
-        return ()
+        return tuple(box for each in device.pedestals for box in _plain_pedestal(each))
     half, arm = plate.thickness / 2.0, plate.across / 2.0
     sleeves = (
         _cylinder(
@@ -128,6 +148,25 @@ def plain_plate_visuals(device: Device) -> tuple[Visual, ...]:
         )
     )
     return (*bodies, *sleeves, *_plain_mast(plate))
+
+
+def _plain_pedestal(pedestal: Pedestal) -> Iterator[Visual]:
+    """Boxes for base, seat and brace, whose slopes stand for the lean's."""
+    place, half, end = pedestal.placement, pedestal.width / 2.0, pedestal.length / 2.0
+    thick, lean = pedestal.thickness / 2.0, pedestal.lean
+    long = end + FLANGE
+    base = _shifted(0.0, end, pedestal.base / 2.0)
+    yield Visual("pedestal", ShapeKind.BOX, (half, long, pedestal.base / 2.0), place @ base)
+    seat = Placement(pedestal.seat.rotation, np.array([0.0, 0.0, pedestal.base]))
+    own = seat @ _shifted(0.0, end, -thick)
+    yield Visual("pedestal", ShapeKind.BOX, (half, end, thick), place @ own)
+    # From the far end of the seat to that of the base, at half the lean off the upright.
+    tall, turn = 2.0 * end * sin(lean / 2.0), (pi - lean) / 2.0
+    c, s = -cos(turn), sin(turn)
+    rotation = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    foot = Placement(rotation, np.array([0.0, 2.0 * end, pedestal.base]))
+    brace = foot @ _shifted(0.0, tall / 2.0, thick)
+    yield Visual("pedestal", ShapeKind.BOX, (half, tall / 2.0, thick), place @ brace)
 
 
 def _plain_mast(plate: CarrierPlate) -> Iterator[Visual]:

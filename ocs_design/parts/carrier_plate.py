@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.moments import MassMoments
 from ocs_design.parts.outline import Outline
 from ocs_design.parts.part import Part
@@ -54,9 +55,6 @@ for 1.2."""
 MAST_YIELD = 115e6 / 1.25
 """Of 6061-T6 beside a weld, over the partial factor of joints [Pa]: f_o,haz of EN 1999-1-1, table
 3.2b, and table 8.1."""
-
-SCREW_TENSION, SCREW_SHEAR = 0.9 * 800e6 / 1.25, 0.6 * 800e6 / 1.25
-"""Of screws of class 8.8 over their stress area [Pa]: EN 1993-1-8, table 3.4."""
 
 TUBES = (
     (0.025, 2.0e-3),
@@ -332,35 +330,6 @@ class Mast:
         bent = bending * self.side / (2.0 * self.second_moment)
         twisted = twisting / (2.0 * self.wall * (self.side - self.wall) ** 2)
         return sqrt(bent**2 + 3.0 * twisted**2)
-
-
-def screw_use(held: Screw, tension: FloatArray, shear: FloatArray) -> FloatArray:
-    """Share of a screw's strength that tension and shear take [N]: EN 1993-1-8, table 3.4.
-
-    F_v / F_v,Rd + F_t / (1.4 F_t,Rd), and F_t / F_t,Rd at the least.
-    """
-    area = pi / 4.0 * (held.diameter - 0.9382 * held.pitch) ** 2
-    pulled, sheared = tension / (SCREW_TENSION * area), shear / (SCREW_SHEAR * area)
-    return np.maximum(pulled, sheared + pulled / 1.4)
-
-
-def pattern_use(
-    held: Screw, force: float, arms: tuple[float, FloatArray], half: tuple[FloatArray, FloatArray]
-) -> FloatArray:
-    """Largest share of strength that a force along any one axis takes of four screws.
-
-    They stand at +-p above and +-q beside their middle: a moment pulls at two of them, and a push
-    sideways shears them by itself and by its moment over 4 sqrt(p^2 + q^2).
-
-    Args:
-        held: the screws. force: on all that they hold [N].
-        arms: of the force, off what they are in and above their middle [m]. half: p and q [m].
-    """
-    (off, up), (p, q), share = arms, half, force / 4.0
-    down = screw_use(held, share * off / p, np.asarray(share))
-    forward = screw_use(held, share * (1.0 + up / p), np.asarray(0.0))
-    sideways = screw_use(held, share * off / q, share * (1.0 + up / np.hypot(p, q)))
-    return np.maximum(np.maximum(down, forward), sideways)
 
 
 @dataclass(frozen=True)

@@ -15,17 +15,20 @@ from typing import Any, Generic
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Fastening, screw
 from ocs_design.parts.housing import Housing, housing_outer_radius, plate_back
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
+    AROUND_SLOT,
+    BASE_THICKNESS,
     CLEARANCE,
     DENSITY,
     MODULUS,
     PLATE_THICKNESS,
     SHOCK,
     STRENGTH_ACROSS,
+    TRUNK_SCREW,
+    TRUNK_SCREWS,
     UPRIGHT,
     WALL,
     MountHoles,
@@ -33,9 +36,6 @@ from ocs_design.parts.printed import (
 from ocs_design.parts.shapes import ArcSlot, Disc, Keyhole, Rectangle
 from ocs_design.parts.solids import Prism
 from ocs_design.robot.tree import Placement
-
-BASE_THICKNESS = 3.0e-3
-"""[m]: the trunk's screws press on it."""
 
 PLATE_MARGIN = 3.0e-3
 """Margin of the plate around the mount's holes [m]."""
@@ -55,16 +55,6 @@ HALF_SWING = pi / 4.0
 
 So the trunk's screws stand at 45 degrees to the lateral direction.
 """
-
-TRUNK_SCREW = screw("M3")
-
-TRUNK_SCREWS = Fastening(
-    TRUNK_SCREW, 2, BASE_THICKNESS, "foot on trunk; longer if its thread begins deeper"
-)
-"""Through a slot each."""
-
-AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
-"""Room of heads, or of a wall, around the middle of a slot [m]."""
 
 KNEE = 1.0e-3
 """Over which the base's radius goes over from what its slots ask for to what its stem does [m]: the

@@ -10,13 +10,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.parts import foot as feet
 from ocs_design.parts import housing as housings
 from ocs_design.parts.cage import NO_POSTS, Posts
-from ocs_design.parts.foot import (
-    TRUNK_SCREWS,
-    Foot,
-    foot_mass_per_height,
-    foot_moments,
-    trunk_screw_moments,
-)
+from ocs_design.parts.foot import Foot, foot_mass_per_height, foot_moments, trunk_screw_moments
 from ocs_design.parts.housing import (
     LID_SCREWS,
     Housing,
@@ -27,7 +21,7 @@ from ocs_design.parts.housing import (
 )
 from ocs_design.parts.moments import Carrier, MassMoments, Real, point, round_body
 from ocs_design.parts.motor_mount import MotorMount, mount_of
-from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles
+from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, TRUNK_SCREWS, MountHoles
 
 SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
 """Mass of the screws of lid and foot [kg]."""

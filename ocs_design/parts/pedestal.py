@@ -7,24 +7,32 @@ each with two of the trunk's screws; they are tightened from above before the fo
 The foot's screws go into threads that are cut into the seat.
 
 Its own frame: x across, y along the base towards the far end of the seat, z up; its origin is
-below the line where seat and base meet, on the underside. Sizes may be arrays that broadcast.
+below the line where seat and base meet, on the underside.
 """
 
-from dataclasses import dataclass
-from math import ceil, cos, pi, sin, sqrt
-from typing import Any, Generic
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from math import ceil, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.carrier_plate import pattern_use
-from ocs_design.parts.foot import AROUND_SLOT, BASE_THICKNESS, TRUNK_SCREW, Foot, larger
-from ocs_design.parts.moments import Real
+from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import DENSITY, SHOCK, STRENGTH_ACROSS, WALL
+from ocs_design.parts.printed import (
+    AROUND_SLOT,
+    BASE_THICKNESS,
+    DENSITY,
+    SHOCK,
+    STRENGTH_ACROSS,
+    TRUNK_SCREW,
+    TRUNK_SCREWS,
+    WALL,
+)
 from ocs_design.parts.shapes import Disc, Polygon
 from ocs_design.parts.solids import Prism
+from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.tree import Placement
 
 LEAST_SEAT = IN_PLASTIC * TRUNK_SCREW.diameter
@@ -37,10 +45,6 @@ base stands upright on the near end."""
 FLANGE = FLANGE_SCREW + AROUND_SLOT
 """Length of each flange [m]."""
 
-HEAD_TOP = BASE_THICKNESS + TRUNK_SCREW.head_height
-"""Height of the heads of the trunk's screws [m]."""
-
-BASE_SCREWS = Fastening(TRUNK_SCREW, 4, BASE_THICKNESS, "pedestal on trunk")
 SEAT_SCREWS = Fastening(
     TRUNK_SCREW, 2, BASE_THICKNESS, "foot on pedestal, which is tapped", IN_PLASTIC
 )
@@ -51,49 +55,98 @@ SHEAR = 0.577
 ON_ITS_SIDE = Placement(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), np.zeros(3))
 """Of the profile, y and z of the pedestal, pushed along x."""
 
+_ROUNDS = 50
+"""Steps of 0.1 mm, at most, by which a base grows that must be thicker the higher it stands."""
+
 
 @dataclass(frozen=True)
-class Pedestal(Generic[Real]):
+class Pedestal:
     """Frame under one leaning foot.
 
     Attributes:
-        foot: that stands on it.
+        base_radius, slot_radius: of the foot on it, and of the circle that its screws are on [m].
+        wheel_height: of the wheel's middle above the foot's underside [m].
         lean: angle of the seat over the horizontal, more than 0 and up to pi/2 [rad].
         middle: of the foot's base along the seat, from its near end [m].
         thickness: of seat and brace [m].
+        base: thickness of base and flanges [m].
+        module: name of what stands on it.
+        position: of its origin in B [m].
+        heading: of its y axis in B, from x to y [rad].
     """
 
-    foot: Foot[Real]
+    base_radius: float
+    slot_radius: float
+    wheel_height: float
     lean: float
-    middle: Real
-    thickness: Real | float = LEAST_SEAT
+    middle: float
+    thickness: float = LEAST_SEAT
+    base: float = BASE_THICKNESS
+    module: str = ""
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    heading: float = pi / 2.0
 
     @property
-    def length(self) -> Real:
+    def length(self) -> float:
         """Length of the seat, and of the base without its flanges [m]."""
-        return self.middle + self.foot.base_radius
+        return self.middle + self.base_radius
 
     @property
-    def off(self) -> Real:
+    def off(self) -> float:
         """How far across and along the seat its screws are from the foot's middle [m]."""
-        return self.foot.slot_radius * sqrt(0.5)
+        return self.slot_radius * sqrt(0.5)
 
     @property
-    def width(self) -> Real:
+    def width(self) -> float:
         """Width across, with room around the foot's screws [m]."""
         return 2.0 * (self.off + AROUND_SLOT)
 
     @property
-    def height(self) -> Real:
+    def height(self) -> float:
         """Height of the seat's far end [m]."""
-        return BASE_THICKNESS + self.length * sin(self.lean)
+        return self.base + self.length * sin(self.lean)
+
+    @property
+    def sizes(self) -> tuple[float, float, float]:
+        """Length with its flanges, width and height [m]."""
+        return self.length + 2.0 * FLANGE, self.width, self.height
 
     @property
     def seat(self) -> Placement:
-        """Frame of the foot on it: z square to the seat. Of numbers."""
+        """Frame of the foot on it: z square to the seat."""
         along, up = self._directions
         rotation = np.stack([[1.0, 0.0, 0.0], along, up], axis=1)
-        return Placement(rotation, np.array([0.0, 0.0, BASE_THICKNESS]) + self.middle * along)
+        return Placement(rotation, np.array([0.0, 0.0, self.base]) + self.middle * along)
+
+    @property
+    def wheel(self) -> FloatArray:
+        """Middle of the wheel [m], shape (3,)."""
+        return self.seat.rotation[:, 2] * self.wheel_height + self.seat.position
+
+    @property
+    def holes(self) -> tuple[tuple[float, float], ...]:
+        """Places of the trunk's screws, x and y [m]."""
+        ends = -FLANGE_SCREW, self.length + FLANGE_SCREW
+        return tuple((x, y) for x in (-self.off, self.off) for y in ends)
+
+    @property
+    def placement(self) -> Placement:
+        """Its frame in B."""
+        along, across = cos(self.heading), sin(self.heading)
+        rotation = [[across, along, 0.0], [-along, across, 0.0], [0.0, 0.0, 1.0]]
+        return Placement(np.array(rotation), np.array(self.position))
+
+    def in_base(self, places: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+        """Places of its underside in B, x and y [m]."""
+        turned = [
+            self.placement.rotation @ [x, y, 0.0] + self.placement.position for x, y in places
+        ]
+        return tuple((float(x), float(y)) for x, y, _ in turned)
+
+    @property
+    def base_screws(self) -> Fastening:
+        """Screws of its flanges."""
+        return Fastening(TRUNK_SCREW, 4, self.base, "pedestal on trunk")
 
     @property
     def _directions(self) -> tuple[FloatArray, FloatArray]:
@@ -101,46 +154,60 @@ class Pedestal(Generic[Real]):
         return np.array([0.0, c, s]), np.array([0.0, -s, c])
 
     @property
-    def profile(self) -> Polygon[Real]:
+    def profile(self) -> Polygon[float]:
         """Outline from the side."""
-        end, base = self.length, BASE_THICKNESS
+        end, base = self.length, self.base
         far = end * cos(self.lean), base + end * sin(self.lean)
-        low: tuple[Any, ...] = (
-            (-FLANGE, 0.0),
-            (end + FLANGE, 0.0),
-            (end + FLANGE, base),
-            (end, base),
-        )
+        low = ((-FLANGE, 0.0), (end + FLANGE, 0.0), (end + FLANGE, base), (end, base))
         return Polygon((*low, far, (0.0, base), (-FLANGE, base)))
 
     @property
-    def window(self) -> Polygon[Real]:
+    def window(self) -> Polygon[float]:
         """What the frame leaves open; nothing where the lean is too small for it."""
         near = self.thickness / sin(self.lean)
         beyond = self.thickness / cos(self.lean / 2.0)
-        size = larger(self.length - near - beyond, 0.0)
-        base = BASE_THICKNESS
-        apex = near + size * cos(self.lean), base + size * sin(self.lean)
-        return Polygon(((near, base), (near + size, base), apex))
+        size = max(self.length - near - beyond, 0.0)
+        apex = near + size * cos(self.lean), self.base + size * sin(self.lean)
+        return Polygon(((near, self.base), (near + size, self.base), apex))
+
+    @property
+    def mass(self) -> float:
+        """Mass with the screws in base and seat, less those that hold a foot without it [kg]."""
+        return sum(body.mass for body in self._bodies())
+
+    def mass_properties(self) -> MassProperties:
+        """Mass properties in B of what `mass` counts, screws as points."""
+        place = self.placement
+        return combine(self._bodies()).moved(place.rotation, place.position)
+
+    def _bodies(self) -> tuple[MassProperties, ...]:
+        held, none = self.base_screws, np.zeros((3, 3))
+        head = self.base - held.centre
+        seat = self.seat.position + (BASE_THICKNESS - SEAT_SCREWS.centre) * self._directions[1]
+        return (
+            drilled(self).mass_properties(),
+            *(
+                MassProperties(held.mass / held.count, np.array([x, y, head]), none)
+                for x, y in self.holes
+            ),
+            # A foot's own are counted with its module.
+            MassProperties(SEAT_SCREWS.mass - TRUNK_SCREWS.mass, seat, none),
+        )
 
 
-def pedestal_part(pedestal: Pedestal[Real]) -> Part[Real]:
-    """The pedestal in its own frame without its holes for screws, to be weighed over arrays."""
+def pedestal_part(pedestal: Pedestal) -> Part[float]:
+    """The pedestal in its own frame without its holes for screws."""
     half = pedestal.width / 2.0
     frame = Prism(pedestal.profile, -half, half, ON_ITS_SIDE)
     opened = Prism(pedestal.window, -half, half, ON_ITS_SIDE)
     return Part("pedestal", DENSITY, (frame,), (opened,))
 
 
-def drilled(pedestal: Pedestal[float]) -> Part[float]:
+def drilled(pedestal: Pedestal) -> Part[float]:
     """The pedestal in its own frame, with its holes."""
     blank, off = pedestal_part(pedestal), pedestal.off
     through = TRUNK_SCREW.clearance_hole / 2.0
-    base = [
-        Prism(Disc(through, (x, y)), 0.0, BASE_THICKNESS)
-        for x in (-off, off)
-        for y in (-FLANGE_SCREW, pedestal.length + FLANGE_SCREW)
-    ]
+    base = [Prism(Disc(through, place), 0.0, pedestal.base) for place in pedestal.holes]
     # Left on the near side, right on the far one: opposite each other, as the foot's slots.
     seat = [
         Prism(
@@ -151,22 +218,26 @@ def drilled(pedestal: Pedestal[float]) -> Part[float]:
     return Part(blank.name, DENSITY, blank.solids, (*blank.holes, *base, *seat))
 
 
-def pedestal_mass(pedestal: Pedestal[float]) -> float:
-    """Mass with the screws in base and seat, less those that hold a foot without it [kg]."""
-    feet = TRUNK_SCREW.mass(TRUNK_SCREW.length_through(BASE_THICKNESS)) * SEAT_SCREWS.count
-    return drilled(pedestal).mass() + BASE_SCREWS.mass + SEAT_SCREWS.mass - feet
-
-
-def seat_thickness(pedestal: Pedestal[float], mass: float) -> float:
-    """Thickness with which the seat bears `SHOCK`, to the next 0.1 mm [m].
+def strengthened(pedestal: Pedestal, mass: float, above: float | None = None) -> Pedestal:
+    """The pedestal as thick as `SHOCK` asks of seat and flanges, to the next 0.1 mm.
 
     Args:
-        pedestal: whose seat may have another thickness. mass: of the module on it [kg].
+        pedestal: whose thicknesses are not looked at. mass: of the module on it [kg].
+        above: of the wheel's middle above the underside, for which the foot goes along the seat
+            [m]; None: the foot stays where it is.
     """
-    return max(LEAST_SEAT, ceil(1e4 * _seat_needed(pedestal, mass)) / 1e4)
+    found = replace(pedestal, base=BASE_THICKNESS)
+    for _ in range(_ROUNDS):
+        if above is not None:
+            up = above - found.base - found.wheel_height * cos(found.lean)
+            found = replace(found, middle=up / sin(found.lean))
+        if found.base >= _flange_needed(found, mass):
+            break
+        found = replace(found, base=found.base + 1e-4)
+    return replace(found, thickness=max(LEAST_SEAT, ceil(1e4 * _seat_needed(found, mass)) / 1e4))
 
 
-def _seat_needed(pedestal: Pedestal[float], mass: float) -> float:
+def _seat_needed(pedestal: Pedestal, mass: float) -> float:
     """Thickness at which the seat breaks under `SHOCK` [m].
 
     A beam whose ends are held simply, under a force F at the wheel in any direction of the frame's
@@ -175,32 +246,45 @@ def _seat_needed(pedestal: Pedestal[float], mass: float) -> float:
     `sigma = 6 M / (w t^2)`: Roark's Formulas for Stress and Strain, 7th edition, table 8.1, cases
     1e and 3e, with the section modulus of a rectangle.
     """
-    arm = float(np.hypot(pedestal.length / 4.0, pedestal.foot.wheel_height))
+    arm = hypot(pedestal.length / 4.0, pedestal.wheel_height)
     return sqrt(6.0 * mass * SHOCK * arm / (pedestal.width * STRENGTH_ACROSS))
 
 
-def pedestal_use(pedestal: Pedestal[float], mass: float) -> float:
+def _arms(pedestal: Pedestal) -> tuple[float, float, float, float]:
+    """Wheel beside and above the middle of the trunk's screws, and half of their distances [m]."""
+    _, y, above = pedestal.wheel.tolist()
+    half = pedestal.length / 2.0
+    return abs(y - half), above, half + FLANGE_SCREW, pedestal.off
+
+
+def _flange_needed(pedestal: Pedestal, mass: float) -> float:
+    """Thickness at which a flange breaks under `SHOCK` [m].
+
+    A cantilever of half the width that one screw presses on: Roark, case 1a of the same table.
+    """
+    aside, above, along, across = _arms(pedestal)
+    pulled = mass * SHOCK / 4.0 * (1.0 + max((above + aside) / along, above / across))
+    return sqrt(6.0 * pulled * FLANGE_SCREW / (pedestal.width / 2.0 * STRENGTH_ACROSS))
+
+
+def pedestal_use(pedestal: Pedestal, mass: float) -> float:
     """Largest share of strength that `SHOCK` takes of what holds a module on its pedestal.
 
-    The trunk's screws (`pattern_use`), the flanges that they press on as cantilevers, the seat
-    (`seat_thickness`), and the threads in it, which pull out as a cylinder of plastic is sheared: a
-    force at the wheel turns the foot about its edge, and two screws hold it as far as they are from
-    there.
+    The trunk's screws (`pattern_use`), the flanges that they press on as cantilevers, the seat, and
+    the threads in it, which pull out as a cylinder of plastic is sheared: a force at the wheel
+    turns the foot about its edge, and two screws hold it as far as they are from there.
 
     Args:
         mass: of the module [kg].
     """
-    foot, force = pedestal.foot, mass * SHOCK
-    wheel = pedestal.seat @ Placement(np.eye(3), np.array([0.0, 0.0, foot.wheel_height]))
-    half = pedestal.length / 2.0 + FLANGE_SCREW, pedestal.off
-    aside, above = abs(wheel.position[1] - pedestal.length / 2.0), wheel.position[2]
-    arms, pattern = (above, np.asarray(aside)), (np.asarray(half[0]), np.asarray(half[1]))
+    force = mass * SHOCK
+    aside, above, along, across = _arms(pedestal)
+    arms, pattern = (above, np.asarray(aside)), (np.asarray(along), np.asarray(across))
     screws = float(pattern_use(TRUNK_SCREW, force, arms, pattern))
-    pulled = force / 4.0 * (1.0 + max((above + aside) / half[0], above / half[1]))
-    flange = 6.0 * pulled * FLANGE_SCREW / (pedestal.width / 2.0 * BASE_THICKNESS**2)
+    flange = (_flange_needed(pedestal, mass) / pedestal.base) ** 2
     seat = (_seat_needed(pedestal, mass) / pedestal.thickness) ** 2
-    edge, out = foot.base_radius, foot.slot_radius
+    edge, out = pedestal.base_radius, pedestal.slot_radius
     lever = min(2.0 * edge, 2.0 * (edge**2 + out**2) / (edge + out))
     thread = pi * TRUNK_SCREW.diameter * IN_PLASTIC * TRUNK_SCREW.diameter
-    pulled_out = force * (foot.wheel_height / lever + 0.5) / (thread * SHEAR * STRENGTH_ACROSS)
-    return float(max(screws, flange / STRENGTH_ACROSS, seat, pulled_out))
+    pulled_out = force * (pedestal.wheel_height / lever + 0.5) / (thread * SHEAR * STRENGTH_ACROSS)
+    return float(max(screws, flange, seat, pulled_out))

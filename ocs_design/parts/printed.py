@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Screw, screw
+from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.parts.moments import MassMoments, Real, nothing
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
@@ -53,6 +53,19 @@ MODULUS = 1.8e9
 data sheet, ISO 527-2: 1.7 to 1.9 GPa); additive.tools/materials/petg has 2 to 3 GPa."""
 
 LID_SCREW = screw("M2")
+
+BASE_THICKNESS = 3.0e-3
+"""Of a foot [m]: the trunk's screws press on it."""
+
+TRUNK_SCREW = screw("M3")
+
+TRUNK_SCREWS = Fastening(
+    TRUNK_SCREW, 2, BASE_THICKNESS, "foot on trunk; longer if its thread begins deeper"
+)
+"""Through a slot of a foot each."""
+
+AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
+"""Room of heads, or of a wall, around the middle of a slot [m]."""
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Takes coordinates of the wheel's frame, z along its axis and y down, to the module's own."""

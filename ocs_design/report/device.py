@@ -176,6 +176,12 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
         name, its = ("carrier plate", "its") if count == 1 else (f"{count} carrier plates", "their")
         on = "" if plate.mast is None else " on a mast behind the trunk"
         yield name, f"{grams(plate.mass)} with {its} screws, {text} mm{on}"
+    if ocs.pedestals:
+        mass = grams(sum(each.mass for each in ocs.pedestals))
+        largest = " x ".join(tenths(length) for length in max(each.sizes for each in ocs.pedestals))
+        count = len(ocs.pedestals)
+        name = "pedestal" if count == 1 else f"{count} pedestals"
+        yield name, f"{mass} with their screws, at most {largest} mm"
     yield "total mass", f"{grams(ocs.mass_total)} ({share_of_robot(design)})"
     controllers = len(ocs.modules) * ocs.motor.controller_mass
     if controllers > _NO_MASS:

@@ -9,17 +9,23 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
-from math import ceil, copysign, cos, inf, log, pi, sin, sqrt
+from math import ceil, copysign, cos, inf, isfinite, log, pi, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
-from ocs_design.common.arrays import FloatArray, frozen
-from ocs_design.device.device import Device
+from ocs_design.common.arrays import FloatArray, frozen, vector
+from ocs_design.device.device import Device, Module
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout
-from ocs_design.device.solids import foot_of, mast_solids, plate_solids
+from ocs_design.device.solids import (
+    foot_of,
+    mast_solids,
+    pedestal_of,
+    pedestal_solids,
+    plate_solids,
+)
 from ocs_design.parts.carrier_plate import (
     EDGE,
     MAST_YIELD,
@@ -31,12 +37,13 @@ from ocs_design.parts.carrier_plate import (
     Mast,
     Point,
     directions,
-    pattern_use,
     plate_part,
 )
-from ocs_design.parts.foot import AROUND_SLOT, TRUNK_SCREW, Foot
+from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
-from ocs_design.parts.printed import SHOCK
+from ocs_design.parts.joints import pattern_use
+from ocs_design.parts.pedestal import FLANGE, Pedestal
+from ocs_design.parts.printed import AROUND_SLOT, SHOCK, TRUNK_SCREW
 from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.mass import MassProperties, combine
@@ -53,6 +60,7 @@ from ocs_design.sizing.placement import (
     device_size,
     place_at,
     place_free,
+    place_on_top,
 )
 
 FLATNESS = 1e-3
@@ -91,6 +99,12 @@ SLEEVE_MAX = 0.03
 
 MODULE_SHARE = 0.1
 """Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
+
+SPARE = 1e-3
+"""Height by which a pedestal may be higher than it must be [m], so that places settle."""
+
+_ENDLESS = 1e3
+"""Step of a surface of one place [m]."""
 
 _SAME = 1e-9
 """Distance between places that are the same but for rounding [m]."""
@@ -205,14 +219,17 @@ class Footing:
     Attributes:
         place: of the modules by their size.
         plate: what they would stand on, were they as large as they may be; None: the trunk.
+        pedestals: under those that lean.
     """
 
     place: Place
     plate: CarrierPlate | None
+    pedestals: tuple[Pedestal, ...] = ()
 
     def carried(self, robot: MassProperties) -> MassProperties:
-        """The robot with that plate, which the chosen device's own replaces."""
-        return robot if self.plate is None else combine([robot, self.plate.mass_properties()])
+        """The robot with plate and pedestals, which the chosen device's own replace."""
+        under = [*(() if self.plate is None else (self.plate,)), *self.pedestals]
+        return combine([robot, *(each.mass_properties() for each in under)]) if under else robot
 
 
 def footing_of(
@@ -286,15 +303,19 @@ def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
         replace(module, position=frozen(center))
         for module, center in zip(device.modules, centers, strict=True)
     )
-    return replace(device, modules=tuple(modules), plate=found.plate)
+    return replace(device, modules=tuple(modules), plate=found.plate, pedestals=found.pedestals)
 
 
 def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | None:
     """Footing of a chosen device; see `stand_on_trunk`. None: where it is, on nothing known."""
     surface = trunk_surface(robot)
-    if surface is None or device.carrier.mass == 0.0:
+    if device.carrier.mass == 0.0:
         return None
     feet, layout = feet_of(device), device.layout
+    if not feet.slopes:
+        return _pedestalled(robot, surface, device, stated=stated)
+    if surface is None:
+        return None
     if stated:
         places = [module.position for module in device.modules]
         if layout != PAIR:
@@ -325,7 +346,8 @@ def feet_of(device: Device) -> Feet:
 def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     """What the feet stand on, and each screw of the plate where there is one.
 
-    Empty for wheels without feet. A foot whose wheel's axis is not horizontal stands on nothing.
+    Empty for wheels without feet. A foot whose wheel's axis is not horizontal stands on its
+    pedestal, and that on the trunk; without one it stands on nothing.
     """
     if device.carrier.mass == 0.0:
         return ()
@@ -333,7 +355,14 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     height, found = foot_of(device).wheel_height, []
     for module, middle in zip(device.modules, feet.middles, strict=True):
         name, underside = f"{module.name} foot", float(module.position[2]) - height
-        if module.frame[2, 2] < 1.0 - OUT_OF_REACH:
+        under = [each for each in device.pedestals if each.module == module.name]
+        if under and surface is None:
+            found.append(
+                FootContact(f"{module.name} pedestal", "trunk", None, None, None, 0.0, held=None)
+            )
+        elif under and surface is not None:
+            found += [_under_pedestal(surface, device, module, each) for each in under]
+        elif _leans(module):
             found.append(FootContact(name, "trunk", 0.0, 0.0, inf, 0.0, held=False, leans=True))
         elif plate is not None:
             found.append(_on_plate(name, plate, feet, middle, underside))
@@ -345,6 +374,122 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     if plate is not None:
         found += _plate_contacts(robot, plate)
     return tuple(found)
+
+
+def _leans(module: Module) -> bool:
+    return float(module.frame[2, 2]) < 1.0 - OUT_OF_REACH
+
+
+def _under_pedestal(
+    surface: Surface, device: Device, module: Module, pedestal: Pedestal
+) -> FootContact:
+    """Contact of a pedestal with the trunk, which also has to bear the foot where it is."""
+    plane, base, place = pedestal.position[2], _base(pedestal), pedestal.placement
+    depth = plane - _heights(surface, base)
+    share = float(((depth <= FLATNESS) & (depth >= -PROUD)).mean())
+    lands = [
+        _disc(vector(place.rotation @ [*hole, 0.0] + place.position)[:2], AROUND_SLOT)
+        for hole in pedestal.holes
+    ]
+    gap = max(0.0, float((plane - _heights(surface, np.concatenate(lands))).max()))
+    proud = max(0.0, -float(depth.min()))
+    wheel = place.rotation @ pedestal.wheel + place.position
+    seated = (
+        bool(np.allclose(wheel, module.position, rtol=0.0, atol=1e-6))
+        and pedestal.middle >= pedestal_of(device, module).middle - 1e-6
+    )
+    held = gap <= FLATNESS and proud <= PROUD and seated
+    area = share * pedestal.width * (pedestal.length + 2.0 * FLANGE)
+    return FootContact(f"{module.name} pedestal", "trunk", area, share, gap, proud, held)
+
+
+def _base(pedestal: Pedestal) -> FloatArray:
+    """Points all over a pedestal's underside in B [m], shape (n, 2)."""
+    half, place = pedestal.width / 2.0, pedestal.placement
+    ends = (-half, half), (-FLANGE, pedestal.length + FLANGE)
+    grid = [np.linspace(low, high, 2 + int((high - low) / 1e-3)) for low, high in ends]
+    points = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    return points @ place.rotation[:2, :2].T + place.position[:2]
+
+
+def _pedestalled(
+    robot: Robot, surface: Surface | None, device: Device, *, stated: bool
+) -> Footing | None:
+    """The nearest place where the trunk holds the pedestals of those that lean, and other feet.
+
+    Each stands on what the trunk has beneath it, and no limb comes near. Stated places stay, and a
+    pedestal is as high as there is room under its foot. A trunk whose shapes are not known counts
+    as flat.
+    """
+    layout, size = device.layout, device_size(device)
+    if surface is None:
+        _, _, top = place_on_top(robot, layout).origins[0]
+        surface = Surface(0.0, 0.0, _ENDLESS, np.array([[top]]))
+    if any(_leans(module) and module.frame[2, 1] < -OUT_OF_REACH for module in device.modules):
+        return None
+    if stated:
+        held = _all_held(surface, device, fixed=True)
+        place = place_at(tuple(np.ravel([each.position for each in device.modules])), layout)
+        return None if held is None else Footing(place, None, held[1])
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    ring, start = np.array(_ring_of(layout, size.reach)), round(float(robot.com[0]), 6) + 0.0
+    low, high = surface.x_range
+    steps = np.arange(np.ceil((low - start) / _STEP), (high - start) / _STEP) * _STEP
+    for shift in (0.0, *sorted(steps[steps != 0.0].tolist(), key=abs)):
+        x = round(start + shift, 6)
+        modules = tuple(
+            replace(module, position=frozen([x + along, across, float(module.position[2])]))
+            for module, (along, across) in zip(device.modules, ring.tolist(), strict=True)
+        )
+        held = _all_held(surface, replace(device, modules=modules), fixed=False)
+        if held is None:
+            continue
+        heights, pedestals = held
+        around_it = around((x, 0.0, 0.0), layout)
+        # Not rounded: a pedestal's seat is where its foot is.
+        origins = tuple((x, 0.0, height - size.standing) for height in heights)
+        place = replace(around_it, origins=origins)
+        solids = [solid for each in pedestals for solid in pedestal_solids(each)]
+        if search.is_off(solids) and search.is_free(place) and not any(map(search.hit, solids)):
+            return Footing(place, None, pedestals)
+    return None
+
+
+def _all_held(
+    surface: Surface, device: Device, *, fixed: bool
+) -> tuple[list[float], tuple[Pedestal, ...]] | None:
+    """Heights of the modules in B and the pedestals under them; None: the trunk holds not all.
+
+    Args:
+        surface: of the trunk. device: with its modules over the places that they shall have.
+        fixed: whether their heights are theirs as well.
+    """
+    heights, found, foot = [], [], foot_of(device)
+    for module in device.modules:
+        own = float(module.position[2])
+        low = pedestal_of(device, module) if _leans(module) else None
+        middle = vector(module.position)[:2]
+        beneath = _disc(middle, foot.base_radius) if low is None else _base(low)
+        plane = round(_highest(surface, beneath), 6)
+        if not isfinite(plane):
+            return None
+        least = plane + (foot.wheel_height if low is None else float(low.wheel[2]))
+        if low is None:
+            lands = foot.slot_radius - AROUND_SLOT, foot.slot_radius + AROUND_SLOT
+            height = own if fixed else least
+            under = height - foot.wheel_height
+            on = _contact("", surface, middle, foot.base_radius, plane=under, lands=lands)
+        else:
+            # As high as it is, where that does, so that places settle.
+            within = least <= own <= least + SPARE
+            height = own if fixed or within else round(least + SPARE / 2.0, 5)
+            placed = replace(module, position=frozen([*module.position[:2], height]))
+            found.append(pedestal_of(device, placed, plane))
+            on = _under_pedestal(surface, device, placed, found[-1])
+        if not on.held:
+            return None
+        heights.append(height)
+    return heights, tuple(found)
 
 
 def _on_plate(

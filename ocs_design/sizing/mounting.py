@@ -19,10 +19,11 @@ from ocs_design.device.solids import (
     mast_solids,
     module_solids,
     pedestal_of,
+    pedestal_solids,
     plate_heads,
     plate_solids,
 )
-from ocs_design.parts.pedestal import FLANGE, Pedestal, pedestal_mass, pedestal_use
+from ocs_design.parts.pedestal import Pedestal, pedestal_use
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.clearance import (
@@ -53,7 +54,7 @@ class Mounting:
         com_shift: of the centre of mass by the device, in B [m], shape (3,).
         inertia_change: of I_xx, I_yy and I_zz about the centre of mass, over the robot's own.
         feet: what each foot stands on, the plate among them; empty where wheels have no feet.
-        pedestals: what would hold each foot that leans; neither mass nor places count them.
+        pedestals: what holds each foot that leans, or would.
         module_mass: of what stands on each [kg].
     """
 
@@ -63,7 +64,7 @@ class Mounting:
     com_shift: FloatArray
     inertia_change: FloatArray
     feet: tuple[FootContact, ...] = ()
-    pedestals: tuple[Pedestal[float], ...] = ()
+    pedestals: tuple[Pedestal, ...] = ()
     module_mass: float = 0.0
 
     @property
@@ -77,28 +78,43 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
 
     Feet on a trunk whose shapes are not known are no open point: `Mounting.known` tells of them.
     """
-    return (*_leaning(mounting), *_hanging(mounting.feet), *_hitting(mounting))
+    return (
+        *_leaning(mounting),
+        *_weak(mounting),
+        *_hanging(mounting.feet),
+        *_hitting(mounting),
+    )
 
 
 def _leaning(mounting: Mounting) -> Iterator[OpenPoint]:
-    """Feet that lean, and the pedestals that would hold them."""
+    """Feet that lean and have no pedestals, and those that would hold them."""
     leaning = [contact.name for contact in mounting.feet if contact.leans]
     if not leaning:
         return
-    largest = max(mounting.pedestals, key=pedestal_mass)
-    mass = format_quantity(sum(map(pedestal_mass, mounting.pedestals)), "g", digits=3)
-    length, width, height = (
-        format_quantity(size, "mm", digits=2)
-        for size in (largest.length + 2.0 * FLANGE, largest.width, largest.height)
-    )
+    largest = max(mounting.pedestals, key=lambda each: each.mass)
+    mass = format_quantity(sum(each.mass for each in mounting.pedestals), "g", digits=3)
+    length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
     use = max(pedestal_use(each, mounting.module_mass) for each in mounting.pedestals)
     yield OpenPoint(
-        what=f"{' and '.join(leaning)}: the wheel's axis is not horizontal, and a foot stands "
-        f"only upright. Pedestals of PETG under them would weigh {mass} together, the largest "
-        f"{length} long, {width} wide and {height} high, and use {use:.0%} of their strength at "
-        "20 g; neither mass nor places nor files count them",
+        what=f"{' and '.join(leaning)}: the wheel's axis is not horizontal, and no place was found "
+        "where the trunk is flat enough under pedestals for the feet that lean, and under the "
+        f"other feet. They would weigh {mass} together, the largest {length} long, {width} wide "
+        f"and {height} high, and use {use:.0%} of their strength at 20 g; neither mass nor places "
+        "nor files count them",
         cure="take a layout whose axes are horizontal: --layout pair, triad or single",
     )
+
+
+def _weak(mounting: Mounting) -> Iterator[OpenPoint]:
+    """Pedestals that do not bear their modules."""
+    if any(contact.leans for contact in mounting.feet):
+        return
+    use = max((pedestal_use(each, mounting.module_mass) for each in mounting.pedestals), default=0)
+    if use > 1.0:
+        yield OpenPoint(
+            what=f"the pedestals' screws or threads would use {use:.0%} of their strength at 20 g",
+            cure="take a layout whose axes are horizontal: --layout pair, triad or single",
+        )
 
 
 def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
@@ -167,6 +183,7 @@ def mounting_of(
     flown = [[module_solids(each, module) for module in each.modules] for each in turned.values()]
     solids = [solid for modules in flown for module in modules for solid in module.all]
     solids += plate_solids(device.plate)
+    solids += [solid for each in device.pedestals for solid in pedestal_solids(each)]
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     feet = contacts_of(robot, device)
     return Mounting(
@@ -176,7 +193,8 @@ def mounting_of(
         com_shift=whole.com - robot.com,
         inertia_change=np.diag(whole.inertia) / np.diag(robot.inertia) - 1.0,
         feet=feet,
-        pedestals=tuple(
+        pedestals=device.pedestals
+        or tuple(
             pedestal_of(device, module)
             for module, contact in zip(device.modules, feet, strict=False)
             if contact.leans
@@ -240,7 +258,10 @@ def _nearest_part(
     """
     limbs = [part for part in collision.parts if part.limb]
     modules = [module for each in flown for module in each]
-    below = chain(plate_solids(device.plate), *(module.foot for module in modules))
+    frames = {each.module: pedestal_solids(each) for each in device.pedestals}
+    below = chain(
+        plate_solids(device.plate), *frames.values(), *(module.foot for module in modules)
+    )
     bodies = [solid for module in modules for solid in module.body]
     found = _clearance(
         collision.nearest(solid, collision.nominal, parts)
@@ -261,6 +282,13 @@ def _nearest_part(
         for (_, one), (module, other) in combinations(zip(device.modules, each, strict=True), 2):
             apart = min(collision.between(*solids) for solids in product(one.all, other.all))
             known.append(Clearance(flywheel_name(module), apart))
+        for module, own in zip(device.modules, each, strict=True):
+            known += [
+                Clearance("pedestal", collision.between(body, solid))
+                for name, frame in frames.items()
+                if name != module.name
+                for body, solid in product(own.all, frame)
+            ]
     discs = plate_solids(device.plate)[:1] + plate_heads(device.plate) + mast_solids(device.plate)
     known += [
         Clearance("plate", collision.between(body, solid)) for body in bodies for solid in discs

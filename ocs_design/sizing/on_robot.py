@@ -39,7 +39,7 @@ _TOO_THICK = 0.2e-3
 
 
 def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) -> Candidate:
-    """A selected device with the plate that it stands on, where the trunk does not hold it.
+    """A selected device with the plate or the pedestals that it stands on, where it needs any.
 
     Args:
         candidate: as selected; its plate is not looked at. problem: that it was selected for.
@@ -47,7 +47,7 @@ def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) ->
     """
     device = assemble_selected(candidate, problem.supply)
     device = stand_on_trunk(device, robot, stated=problem.place.stated)
-    return replace(candidate, plate=device.plate)
+    return replace(candidate, plate=device.plate, pedestals=device.pedestals)
 
 
 def with_plates(

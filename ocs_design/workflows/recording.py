@@ -427,6 +427,7 @@ def _ocs(
         motor=device.motor,
         carrier=device.carrier,
         plate=device.plate,
+        pedestals=device.pedestals,
         guard_wall=device.guard_wall,
         foot_plate=device.foot_plate,
         on_bell=device.on_bell,

@@ -13,10 +13,10 @@ from ocs_design.actuation.fasteners import (
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.export.assembly.tightening import tightened
 from ocs_design.parts.cage import FLOOR
-from ocs_design.parts.foot import BASE_THICKNESS, PLATE_THICKNESS, TRUNK_SCREWS
+from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import LID_SCREWS
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.printed import CLEARANCE, PANEL
+from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, PANEL, TRUNK_SCREWS
 
 HELD = [
     motor

@@ -23,10 +23,10 @@ from ocs_design.parts.carrier_plate import (
     mast_part,
     plate_bodies,
     plate_part,
-    screw_use,
     sleeve_part,
     twisting_stress,
 )
+from ocs_design.parts.joints import screw_use
 from ocs_design.robot.mass import combine, physical_defect
 
 

@@ -10,10 +10,8 @@ from made_parts import FOOT, HOUSING
 
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.foot import (
-    BASE_THICKNESS,
     MARK_DEPTH,
     PLATE_THICKNESS,
-    TRUNK_SCREW,
     Foot,
     foot_part,
     plate_thickness,
@@ -21,7 +19,7 @@ from ocs_design.parts.foot import (
     stem_shock,
 )
 from ocs_design.parts.housing import Housing, housing_parts
-from ocs_design.parts.printed import CLEARANCE, SHOCK, WALL, MountHoles
+from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, SHOCK, TRUNK_SCREW, WALL, MountHoles
 from ocs_design.parts.solids import Prism
 
 

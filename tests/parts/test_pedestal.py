@@ -8,19 +8,18 @@ import trimesh
 from made_parts import FOOT, HOUSING
 
 from ocs_design.export.meshes import part_manifold, part_mesh
-from ocs_design.parts.foot import BASE_THICKNESS, TRUNK_SCREW, Foot, foot_part
-from ocs_design.parts.housing import Housing, housing_parts
+from ocs_design.parts.foot import foot_part
+from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.pedestal import (
-    FLANGE_SCREW,
-    HEAD_TOP,
     LEAST_SEAT,
+    SEAT_SCREWS,
     Pedestal,
     drilled,
     pedestal_part,
     pedestal_use,
-    seat_thickness,
+    strengthened,
 )
-from ocs_design.parts.printed import MountHoles
+from ocs_design.parts.printed import BASE_THICKNESS, TRUNK_SCREW, TRUNK_SCREWS
 from ocs_design.parts.solids import Prism, hollow_cylinder
 
 LEANS = np.radians([25.0, np.degrees(np.arctan(np.sqrt(0.5))), 60.0, 90.0])
@@ -28,7 +27,8 @@ LEANS = np.radians([25.0, np.degrees(np.arctan(np.sqrt(0.5))), 60.0, 90.0])
 
 def pedestal(lean: float) -> Pedestal:
     # Far enough up the seat for a module with nothing behind its plate.
-    return Pedestal(FOOT, lean, FOOT.base_radius + 5e-3)
+    middle = FOOT.base_radius + 5e-3
+    return Pedestal(FOOT.base_radius, FOOT.slot_radius, FOOT.wheel_height, lean, middle)
 
 
 def at(part, *placements):
@@ -57,17 +57,21 @@ def test_holes_lie_within_it_and_do_not_overlap(lean):
     assert part_manifold(part).volume() * part.density == pytest.approx(part.mass(), rel=1e-9)
 
 
-def test_arrays_weigh_what_each_does():
-    radii = np.array([0.02, 0.03, 0.05])
-
-    def of(radius):
-        foot = Foot(Housing(radius, radius / 3.0, MountHoles(0.0 * radius)))
-        return pedestal_part(Pedestal(foot, LEANS[1], foot.base_radius)).moments()
-
-    whole, alone = of(radii), [of(float(radius)) for radius in radii]
-    for name in ("mass", "y", "z", "xx", "yy", "zz", "yz"):
-        expected = [getattr(each, name) for each in alone]
-        np.testing.assert_allclose(getattr(whole, name), expected, rtol=1e-12)
+@pytest.mark.parametrize("lean", LEANS)
+def test_mass_is_that_of_its_mesh_and_of_its_screws_in_its_place(lean):
+    made = replace(pedestal(lean), position=(0.1, -0.2, 0.3), heading=0.7)
+    body = at(drilled(made), made.placement)
+    mesh = body.to_mesh()
+    found = trimesh.Trimesh(mesh.vert_properties[:, :3], mesh.tri_verts)
+    # A foot that stands on the trunk has two screws of its own, which its module counts.
+    screws = made.base_screws.mass + SEAT_SCREWS.mass - TRUNK_SCREWS.mass
+    printed = body.volume() * drilled(made).density
+    assert made.mass == pytest.approx(printed + screws, rel=1e-9)
+    whole = made.mass_properties()
+    assert whole.mass == pytest.approx(made.mass)
+    # Four screws of 1 g move it by no more than their share of it, over its own length.
+    bound = screws / made.mass * (made.length + made.height)
+    assert np.linalg.norm(whole.com - found.center_mass) < bound
 
 
 @pytest.mark.parametrize("lean", LEANS)
@@ -88,32 +92,42 @@ def test_driver_reaches_every_screw_of_the_base(lean):
     made, radius = pedestal(lean), TRUNK_SCREW.head_diameter / 2.0
     body = at(drilled(made))
     foot = at(foot_part(FOOT), made.seat)
-    for x in (-made.off, made.off):
-        for y in (-FLANGE_SCREW, made.length + FLANGE_SCREW):
-            driver = part_manifold(
-                replace(
-                    drilled(made),
-                    solids=(hollow_cylinder(0.0, radius, BASE_THICKNESS, 0.3),),
-                    holes=(),
-                )
-            ).translate((x, y, 0.0))
-            assert (body ^ driver).volume() < 1e-15
-            head = driver.trim_by_plane((0.0, 0.0, -1.0), -HEAD_TOP)
-            assert (foot ^ head).volume() < 1e-15
+    for x, y in made.holes:
+        driver = part_manifold(
+            replace(
+                drilled(made),
+                solids=(hollow_cylinder(0.0, radius, made.base, 0.3),),
+                holes=(),
+            )
+        ).translate((x, y, 0.0))
+        assert (body ^ driver).volume() < 1e-15
+        head = driver.trim_by_plane((0.0, 0.0, -1.0), -(made.base + TRUNK_SCREW.head_height))
+        assert (foot ^ head).volume() < 1e-15
 
 
-def test_seat_is_as_thick_as_it_must_be():
-    made = pedestal(LEANS[1])
-    heavy = 3.0
-    thick = replace(made, thickness=seat_thickness(made, heavy))
+def test_is_as_thick_as_it_must_be():
+    made, heavy = pedestal(LEANS[1]), 3.0
+    light, thick = strengthened(made, 0.01), strengthened(made, heavy)
+    assert (light.thickness, light.base) == (LEAST_SEAT, BASE_THICKNESS)
     assert thick.thickness > LEAST_SEAT
-    assert seat_thickness(made, 0.01) == LEAST_SEAT
-    # The section modulus goes with the square.
-    assert seat_thickness(made, 4.0 * heavy) == pytest.approx(2.0 * thick.thickness, abs=2e-4)
-    # So thick, the seat is not what breaks first: the flanges are.
-    assert pedestal_use(thick, heavy) > 1.0
+    assert thick.base > BASE_THICKNESS
+    # A tenth of a millimetre less of either is too little.
+    for thinner in (
+        replace(thick, thickness=thick.thickness - 1.01e-4),
+        replace(thick, base=thick.base - 1.01e-4),
+    ):
+        assert pedestal_use(thinner, heavy) > 1.0
+    # The section modulus of the seat goes with the square.
+    four = strengthened(made, 4.0 * heavy)
+    assert four.thickness == pytest.approx(2.0 * thick.thickness, abs=2e-4)
     # All loads are proportional to the mass.
     assert pedestal_use(thick, 2.0) == pytest.approx(2.0 * pedestal_use(thick, 1.0))
+
+
+@pytest.mark.parametrize("lean", LEANS)
+def test_wheel_is_as_high_as_asked(lean):
+    above = pedestal(lean).wheel[2] + 4e-3
+    assert strengthened(pedestal(lean), 2.0, above).wheel[2] == pytest.approx(above)
 
 
 def test_screws_of_the_seat_fit_the_slots():

@@ -15,7 +15,7 @@ from robots import ROBOTS
 from wheels import driven_device
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.common.errors import Infeasible
+from ocs_design.common.errors import Infeasible, OcsError
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
@@ -32,7 +32,9 @@ from ocs_design.parts.carrier_plate import (
     plate_bodies,
 )
 from ocs_design.parts.part import Part
-from ocs_design.parts.shapes import Rectangle
+from ocs_design.parts.pedestal import drilled
+from ocs_design.parts.printed import TRUNK_SCREW
+from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.requirement.resolving import resolve
@@ -281,6 +283,40 @@ def test_the_selection_carries_the_plate_of_the_largest_modules(boxed):
     )
 
 
+@pytest.mark.parametrize("name", [LayoutName.ORTHOGONAL, LayoutName.PYRAMID])
+def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
+    """Each foot's plane is its seat's; settled places stay, and what is raised hangs."""
+    robot, layout = boxed(0.8, length=0.8), Layout(name)
+    modules = tuple(
+        map(Module, layout.names, layout.axes(layout.angle or 0.0).T, np.zeros((len(layout), 3)))
+    )
+    loose = replace(DEVICE, modules=modules, layout=layout, incidence=layout.angle or 0.0)
+    device = stand_on_trunk(loose, robot, stated=False)
+    masses = sum(each.mass for each in device.pedestals)
+    assert device.mass - loose.mass == pytest.approx(masses)
+    assert masses > 0.0
+    frames = {module.name: module for module in device.modules}
+    for each in device.pedestals:
+        module, seat = frames[each.module], each.placement @ each.seat
+        assert each.position[2] == pytest.approx(TOP, abs=1e-6)
+        np.testing.assert_allclose(seat.rotation[:, 1:], module.frame[:, 1:], atol=1e-9)
+        middle = module.position - FOOT.wheel_height * module.frame[:, 2]
+        np.testing.assert_allclose(seat.position, middle, atol=1e-9)
+    again = stand_on_trunk(device, robot, stated=False)
+    assert again.pedestals == device.pedestals
+    assert all(contact.held for contact in contacts_of(robot, device))
+    raised = tuple(
+        replace(module, position=np.add(module.position, [0.0, 0.0, 0.002]))
+        for module in device.modules
+    )
+    fallen = contacts_of(robot, replace(device, modules=raised))
+    assert not any(contact.held for contact in fallen)
+    assert check_device(device) is None
+    (other, *rest) = device.pedestals
+    with pytest.raises(OcsError, match="under no module"):
+        check_device(replace(device, pedestals=(replace(other, module="none"), *rest)))
+
+
 @pytest.mark.parametrize("layout", [LayoutName.PAIR, LayoutName.TRIAD])
 @pytest.mark.parametrize("name", REAL)
 def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
@@ -313,21 +349,31 @@ def swept(part):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in LayoutName if name is not LayoutName.BY_HAND])
-def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name):
+@pytest.mark.parametrize(
+    ("name", "width"),
+    [
+        *((name, 0.12) for name in LayoutName if name is not LayoutName.BY_HAND),
+        (LayoutName.ORTHOGONAL, 0.6),
+        (LayoutName.PYRAMID, 0.6),
+    ],
+)
+def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
     """What turns is its whole body of revolution; all others are as they are made."""
-    robot, layout = boxed(0.12), Layout(name)
+    robot, layout = boxed(width), Layout(name)
     angle = 0.5 if layout.angle is None else layout.angle
     _, sized = designed("Antigravity MN5006 KV450")
     whole = sized.device
     centers = place_on_top(robot, layout).centers(device_size(whole))
     modules = tuple(map(Module, layout.names, layout.axes(angle).T, centers))
     device = stand_on_trunk(replace(whole, modules=modules, layout=layout), robot, stated=False)
-    upright = layout.stands(angle).all()
+    stands = layout.stands(angle)
+    upright = stands.all()
+    held = upright or width > 0.5
+    assert len(device.pedestals) == (0 if width < 0.5 else (~stands).sum())
     assert (device.plate is not None) == (upright and len(layout) > 1)
     assert (
         mounting_open_points(mounting_of(robot, device, (), robot.mass_properties)) == ()
-    ) == upright
+    ) == held
     turning = wheel_pieces(device.flywheel)
     solids = {
         (module.name, name): solid.transform(np.column_stack([place.rotation, place.position]))
@@ -346,8 +392,14 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name):
         drum = hollow_cylinder(0.0, head.radius, -head.height / 2.0, head.height / 2.0)
         solid = part_manifold(Part("head", 1.0, (drum,)), 96)
         solids["head", number] = solid.translate(head.center)
-    if upright:
-        box = Rectangle(-0.3, 0.3, -0.06, 0.06)
+    for each in device.pedestals:
+        where = np.column_stack([each.placement.rotation, each.placement.position])
+        solids["pedestal", each.module] = part_manifold(drilled(each), 96).transform(where)
+        radius, high = TRUNK_SCREW.head_diameter / 2.0, each.base + TRUNK_SCREW.head_height
+        heads = tuple(Prism(Disc(radius, hole), each.base, high) for hole in each.holes)
+        solids["heads", each.module] = part_manifold(Part("heads", 1.0, heads), 96).transform(where)
+    if held:
+        box = Rectangle(-0.3, 0.3, -width / 2.0, width / 2.0)
         trunk = part_manifold(Part("trunk", 1.0, (Prism(box, -TOP, TOP),)), 96)
         solids["trunk", ""] = trunk
     meet = {

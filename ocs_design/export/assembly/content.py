@@ -32,7 +32,13 @@ from ocs_design.export.assembly.placed import Piece, holds_wheel, module_pieces
 from ocs_design.export.assembly.tightening import Tightened, tightened
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
-from ocs_design.export.device_parts import foot_holes, printed_foot, wheel_geometry
+from ocs_design.export.device_parts import (
+    foot_holes,
+    pedestal_holes,
+    pedestal_kinds,
+    printed_foot,
+    wheel_geometry,
+)
 from ocs_design.export.drawing.title_block import RUN_OUT
 from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.electrics import demand_of, electrics
@@ -40,6 +46,7 @@ from ocs_design.export.formats import Subject
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import EPOXY
+from ocs_design.parts.pedestal import SEAT_SCREWS
 from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import stored_energy
 
@@ -183,7 +190,7 @@ class Assembly:
                 what = piece.fastening.designation
                 yield PieceRow(number, f"screw, {_short(piece.name)}", count, f"bought: {what}", "")
             else:
-                label = _LABELS.get(piece.name, piece.name)
+                label = _LABELS.get(piece.name, piece.name.replace("_", " of "))
                 made, file = _made(self.device, piece.name, bill)
                 yield PieceRow(number, label, count, made, file)
 
@@ -208,7 +215,7 @@ class Assembly:
 
     def _count(self, piece: Piece) -> int:
         """How many of it the device has."""
-        modules = 1 if piece.shared else len(self.device.modules)
+        modules = 1 if piece.shared else piece.modules or len(self.device.modules)
         return modules * (piece.count if piece.fastening is None else piece.fastening.count)
 
     def chapters(self) -> tuple[Chapter, ...]:
@@ -333,7 +340,7 @@ class Assembly:
         return tuple(
             name
             for name in self.screws
-            if name.startswith(("lid", "foot on", "plate on", "mast on"))
+            if name.startswith(("lid", "foot on", "plate on", "mast on", "pedestal"))
         )
 
     def _motor(self) -> Iterator[str]:
@@ -372,13 +379,30 @@ class Assembly:
 
     def _on_the_trunk(self) -> Iterator[str]:
         foot = printed_foot(self.device)
-        name, found = next(each for each in self.screws.items() if each[0].startswith("foot on"))
         standing = foot_holes(self.device)
+        name, found = next(
+            (name, found)
+            for name, found in self.screws.items()
+            if name.startswith("foot on") and not (standing and name == SEAT_SCREWS.purpose)
+        )
         places = [
             f"{module} foot {' and '.join(f'({1e3 * x:.1f}, {1e3 * y:.1f})' for x, y in ends)}"
             for module, ends in standing.items()
         ]
-        under = float(self.device.modules[0].position[2]) - foot.wheel_height
+        holes = pedestal_holes(self.device)
+        places += [
+            f"{module} pedestal {', '.join(f'({1e3 * x:.1f}, {1e3 * y:.1f})' for x, y in ends)}"
+            for module, ends in holes.items()
+        ]
+        heights = [
+            *(
+                float(module.position[2]) - foot.wheel_height
+                for module in self.device.modules
+                if module.name not in holes
+            ),
+            *(each.position[2] for each in self.device.pedestals),
+        ]
+        stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
         # Each axis's own, from the lateral direction: those of a ring's modules differ.
         angles = {
             module.name: format_quantity(float(np.arctan2(*np.abs(module.axis[:2]))), "deg")
@@ -402,7 +426,8 @@ class Assembly:
         else:
             yield "All modules are of the same parts, each turned as its wheel's axis points."
         frame = "in mm forward and to the left of the frame that the design is in (`robot.trunk` of"
-        places_of = f"{'; '.join(places)}; the feet stand at z = {1e3 * under:.1f} mm"
+        what = "feet and pedestals" if standing and holes else "pedestals" if holes else "the feet"
+        places_of = f"{'; '.join(places)}; {what} stand at z = {stand} mm"
         if plate is None:
             under_feet = "trunk"
             yield (
@@ -452,6 +477,9 @@ class Assembly:
                 for each in self._late
                 if each.startswith(("plate on", "mast on"))
             )
+        yield from self._on_pedestals()
+        if not standing:
+            return
         yield (
             "Scribe a line forward through the middle of each foot, turn the foot until it meets "
             f"the scale at {scale}, and tighten {held.count} x "
@@ -459,6 +487,31 @@ class Assembly:
             f"m each, into {'the threads' if plate else 'threads, inserts or nuts'} of the "
             f"{under_feet}."
         )
+
+    def _on_pedestals(self) -> Iterator[str]:
+        """How pedestals come on the trunk, and the feet that lean on them."""
+        for name, kind in pedestal_kinds(self.device).items():
+            one = kind[0]
+            turned = ", ".join(
+                f"{format_quantity(each.heading, 'deg', digits=3)} ({each.module})" for each in kind
+            )
+            yield (
+                f"Print {len(kind)} x {name}{self._number(name)} (cad/{name}.stl) in PETG on its "
+                "side, of solid layers, as strong as it is computed; tap the 2 holes of its seat "
+                f"{one.base_screws.screw.name}. Its seat's far end points, from forward to the "
+                f"left, to {turned}. Screw it to the trunk before the foot is on it: "
+                + self._screwed(f"{name.replace('_', ' ')} on trunk")
+            )
+        if self.device.pedestals:
+            name = SEAT_SCREWS.purpose
+            middles = " and ".join(
+                f"{1e3 * kind[0].middle:.1f} mm" for kind in pedestal_kinds(self.device).values()
+            )
+            yield (
+                f"Scribe a line across each seat, {middles} up from its low end, put the foot's "
+                "middle on it with the wheel's axis along the seat, and turn the foot until the "
+                f"line meets the scale at 0 deg. {self._screwed(name)}"
+            )
 
     def _direction(self) -> str:
         names = " and ".join(joint_name(module) for module in self.device.modules)
@@ -626,8 +679,8 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
         return f"bought: {motor.full_name}", ""
     if name == "gear":
         return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
-    if name in ("drum", "lid", "foot", "cage"):
-        return "printed, PETG", f"housing_{name}.stl"
+    if name in ("drum", "lid", "foot", "cage") or name.startswith("pedestal"):
+        return "printed, PETG", f"{'' if 'pedestal' in name else 'housing_'}{name}.stl"
     starts = {"rim": "flywheel rim", "hub": "flywheel web", "sleeves": "sleeve"}
     start = starts.get(name, name)
     row = next((each for each in bill if each.part.startswith(start)), None)

@@ -15,6 +15,9 @@ from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import (
     foot_screws,
+    pedestal_kinds,
+    pedestal_pieces,
+    pedestal_screws,
     printed_foot,
     printed_parts,
     wheel_pieces,
@@ -23,11 +26,11 @@ from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
 from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import cage_placement
 from ocs_design.parts.carrier_plate import plate_bodies
-from ocs_design.parts.foot import BASE_THICKNESS
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import LID_SCREW, ear_axis
+from ocs_design.parts.pedestal import SEAT_SCREWS
+from ocs_design.parts.printed import BASE_THICKNESS, LID_SCREW, ear_axis
 from ocs_design.parts.solids import HERE, Revolution, hollow_cylinder, revolved
 from ocs_design.robot.tree import Placement
 
@@ -51,6 +54,7 @@ class Piece:
             is pulled off along the axis.
         shared: whether the device has it once, for both modules.
         count: of equal ones in the mesh; screws have theirs in `fastening`.
+        modules: how many modules have it; None: all.
     """
 
     name: str
@@ -59,6 +63,7 @@ class Piece:
     drop: float | None = None
     shared: bool = False
     count: int = 1
+    modules: int | None = None
 
     def moved(self, offset: FloatArray) -> "Piece":
         """The piece elsewhere."""
@@ -137,8 +142,9 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         *behind,
         *back,
         *parts.values(),
-        _foot_screws(device),
+        *_foot_screws(device),
         *_plate_pieces(device),
+        *_pedestal_pieces(device),
         base,
         drum,
         *inside,
@@ -177,13 +183,33 @@ def _ring(
     return Piece(fastening.purpose, merged(meshes), fastening)
 
 
-def _foot_screws(device: Device) -> Piece:
-    """Screws of the foot from above, in the middle of its slots."""
-    foot, held = printed_foot(device), foot_screws(device)
-    places = [np.array([0.0, side * foot.slot_radius, BASE_THICKNESS]) for side in (1.0, -1.0)]
-    one = solid_mesh(_screw(held.screw, held.length), 24)
-    screws = _placed(merged([one.moved(place) for place in places]), foot.placement)
-    return Piece(held.purpose, screws, held, drop=-_APART * foot.housing.radius)
+def _foot_screws(device: Device) -> Iterator[Piece]:
+    """Screws of the foot from above, in the middle of its slots; into what each foot stands on."""
+    foot = printed_foot(device)
+    feet = [foot_screws(device, module) for module in device.modules]
+    for held in dict.fromkeys(feet):
+        # A pedestal's holes are where the slots of a foot end that is not turned on it.
+        angle = pi / 4.0 if held is SEAT_SCREWS else pi / 2.0
+        across, along = foot.slot_radius * cos(angle), foot.slot_radius * sin(angle)
+        places = [np.array([s * across, s * along, BASE_THICKNESS]) for s in (1.0, -1.0)]
+        one = solid_mesh(_screw(held.screw, held.length), 24)
+        screws = _placed(merged([one.moved(place) for place in places]), foot.placement)
+        apart = -_APART * foot.housing.radius
+        yield Piece(held.purpose, screws, held, drop=apart, modules=feet.count(held))
+
+
+def _pedestal_pieces(device: Device) -> Iterator[Piece]:
+    """A pedestal of each kind under the foot, with the screws of its flanges."""
+    foot, parts, screws = printed_foot(device), pedestal_pieces(device), pedestal_screws(device)
+    apart = _APART * foot.housing.radius
+    for name, kind in pedestal_kinds(device).items():
+        one, held = kind[0], screws[name]
+        place = foot.placement @ one.seat.inverse()
+        screw = solid_mesh(_screw(held.screw, held.length), 24)
+        heads = merged([screw.moved(np.array([x, y, one.base])) for x, y in one.holes])
+        yield Piece(held.purpose, _placed(heads, place), held, drop=apart, modules=len(kind))
+        mesh = _placed(part_mesh(parts[name], SECTIONS), place)
+        yield Piece(name, mesh, drop=2.0 * apart, modules=len(kind))
 
 
 def _plate_pieces(device: Device) -> Iterator[Piece]:

@@ -14,6 +14,7 @@ from ocs_design.device.records import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import Hub, RimCuts, wheel_body
 from ocs_design.requirement.froude import Envelope
@@ -57,6 +58,7 @@ class Candidate:
         guard_wall: of the steel rings in the housings [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
         layout: of the modules.
+        pedestals: under feet that lean; empty: none, or not looked for yet.
     """
 
     motor: Motor
@@ -87,6 +89,7 @@ class Candidate:
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
     layout: Layout = PAIR
+    pedestals: tuple[Pedestal, ...] = ()
     on_bell: bool = False
 
     @property
@@ -103,7 +106,7 @@ class Candidate:
 
     @property
     def mass(self) -> float:
-        """Mass of all modules and of the plate under them [kg]."""
+        """Mass of all modules and of what is under them [kg]."""
         return self.modules_mass + self.plate_mass
 
     @property
@@ -113,8 +116,9 @@ class Candidate:
 
     @property
     def plate_mass(self) -> float:
-        """Mass of the plate; 0 without one [kg]."""
-        return 0.0 if self.plate is None else self.plate.mass
+        """Mass of plate and pedestals; 0 without any [kg]."""
+        plate = 0.0 if self.plate is None else self.plate.mass
+        return plate + sum(each.mass for each in self.pedestals)
 
     @property
     def printed_mass(self) -> float:

@@ -7,8 +7,8 @@ from built import DEVICES
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.parts.foot import TRUNK_SCREWS
 from ocs_design.parts.housing import LID_SCREWS
+from ocs_design.parts.printed import TRUNK_SCREWS
 
 BUILT = ("caged", "by its face", "unknown threads", "in a guard ring")
 
