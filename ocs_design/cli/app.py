@@ -136,11 +136,11 @@ def size(
     verbose: opt.Verbose = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """Size a device for a robot, export it and prove it in simulation.
+    """Size a device for a robot, export it and fly it.
 
     A quantity is SI, or carries its unit: 30mm, 7200rpm, 40deg, 102g. Exit codes: 0 done, 1 a
-    scenario fails, 2 wrong usage, 3 the input cannot be read, 4 no design meets the specification,
-    5 an optional tool is missing.
+    scenario fails or it cannot be built, 2 wrong usage, 3 the input cannot be read, 4 no design
+    meets the specification, 5 an optional tool is missing.
     """
     _design(
         specified_by_command(context),
@@ -261,7 +261,10 @@ def inspect(
     ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """Show what is read from a robot: mass, inertia, posture, incidence angles, warnings."""
+    """Show what is read from a robot, and what is doubtful.
+
+    Mass, inertia, posture, legs, incidence angles, warnings.
+    """
     from ocs_design.common.files import to_json
     from ocs_design.report.text.console import make_console
     from ocs_design.report.text.robot import print_inspection
@@ -303,7 +306,10 @@ def bound(
     as_json: opt.AsJson = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """The paper's lower bound on the wheels' inertia by hand, and its curve."""
+    """Show the paper's lower bound of a robot by hand.
+
+    Least inertia of the wheels, and its curve over the incidence.
+    """
     from ocs_design.common.files import to_json
     from ocs_design.report.text.answers import print_bound
     from ocs_design.report.text.console import make_console
@@ -347,7 +353,7 @@ def catalogue(
     ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """What can be chosen, with sources.
+    """List motors, gears and materials, with sources.
 
     A motor of your own is a [[motor]] of a TOML file or a row of a CSV file for --motors: name,
     maker, source, mass_kg, kv_rpm_per_v or kt_nm_per_a, resistance_ohm, resistance_between

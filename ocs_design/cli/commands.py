@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 
 def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
-    """Show what is installed and works, what each thing is for, and how to get what is missing.
+    """Show what is installed, and how to get the rest.
 
-    Packages are imported and pictures drawn to see that they can be. Exit codes: 0 all that is
-    required works, 5 something required does not.
+    What each thing is for is told. Packages are imported and pictures drawn to see that they can
+    be. Exit codes: 0 all that is required works, 5 something required does not.
     """
     from ocs_design.report.text.console import Steps, make_console
     from ocs_design.report.text.doctor import print_examination
@@ -77,10 +77,11 @@ def init(
     quiet: opt.Quiet = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """Write a commented specification to start from: every key, its default and why to change it.
+    """Write a commented specification to start from.
 
-    On a terminal it asks for the robot, what it shall do, the room and the battery; an empty answer
-    takes the default. Options are written as stated. With a robot, defaults are scaled to it.
+    It has every key, its default and why to change it. On a terminal it asks for the robot, what it
+    shall do, the room and the battery; an empty answer takes the default. Options are written as
+    stated. With a robot, defaults are scaled to it.
     """
     from ocs_design.common.files import to_json
     from ocs_design.export.folder import check_file_target
@@ -225,11 +226,11 @@ def export(
     *,
     output: opt.Output,
 ) -> None:
-    """Write parts, robot files and snippets again from a design.json.
+    """Write the files of a design.json again.
 
-    They are the files that `ocs-design size` wrote, byte for byte. Files of the whole robot need
-    the robot's own file as it was, and its meshes. In the design's own folder, with --force, only
-    what is made anew is replaced.
+    Parts, robot files and snippets: they are the files that `ocs-design size` wrote, byte for byte.
+    Files of the whole robot need the robot's own file as it was, and its meshes. In the design's
+    own folder, with --force, only what is made anew is replaced.
     """
     from ocs_design.common.files import to_json
     from ocs_design.export.formats import formats_named
@@ -317,10 +318,10 @@ def pareto(
     *,
     output: opt.Output,
 ) -> None:
-    """Show what the lightest device weighs against time, angle or room.
+    """Show the lightest device against time, angle or room.
 
-    Every value is a design of its own, without its proof by simulation: `ocs-design size --spec
-    DIR/points/NN.toml` makes, exports and flies it. Exit code 4: no value has a device.
+    Every value is a design of its own, not flown yet. To make, export and fly one:
+    `ocs-design size --spec DIR/points/NN.toml`. Exit code 4: no value has a device.
     """
     from ocs_design.common.files import to_json
     from ocs_design.export.folder import check_target
@@ -424,14 +425,15 @@ def validate(
     *,
     output: opt.Output,
 ) -> None:
-    """Fly the maneuvers of a design.json again, with the device and without.
+    """Fly the maneuvers of a design.json again.
 
-    With --samples also many times over with what reality adds: sensors, delay, friction, and a
-    robot, device and motors that are not quite as designed, drawn from [reality] of the
-    specification. The same seed gives the same samples wherever they are flown. With --certify no
-    more of them than it takes to be sure of the reliability that was asked for. With --survives one
-    a drive stops on the way. Exit code 1: a scenario fails as designed, a landing with a drive
-    stopped is beyond the allowance, or the certificate falls short.
+    Each is flown with the device and without. With --samples also many times over with what reality
+    adds: sensors, delay, friction, and a robot, device and motors that are not quite as designed,
+    drawn from [reality] of the specification. The same seed gives the same samples wherever they
+    are flown. With --certify no more of them than it takes to be sure of the reliability that was
+    asked for. With --survives one a drive stops on the way. Exit code 1: a scenario fails as
+    designed, a landing with a drive stopped is beyond the allowance, or the certificate falls
+    short.
     """
     from ocs_design.report.text.console import Steps, make_console
 

@@ -353,7 +353,7 @@ TASK_OPTIONS: Mapping[str, object] = {
     ),
     "motors": MotorsFile,
     "with_catalogue": _flag(
-        "--with-catalogue", "Choose among the catalogue's motors too: --motors."
+        "--with-catalogue", "With --motors: choose among the catalogue's motors too."
     ),
     "gears": GearsFile,
     "reality": Reality,
