@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import TorqueConstantConvention, six_step_current
+from ocs_design.common.units import significant
 from ocs_design.device.device import Device
 from ocs_design.device.records import MarginRecord
 
@@ -77,7 +78,7 @@ class Electrics:
         ]
         at = "" if self.voltage is None else f" at {self.voltage:g} V"
         energies = [
-            f"{energy:.3g} J {way}"
+            f"{significant(energy, 3)} J {way}"
             for way, energy in (("out", self.energy_drawn), ("back", self.energy_fed_back))
             if energy is not None
         ]
@@ -110,9 +111,9 @@ class Electrics:
             yield f"The battery, for all motors together, {battery}. Cables and fuse stand as much."
         limits = []
         if self.supply_current is not None:
-            limits.append(f"{self.supply_current:.3g} A")
+            limits.append(f"{significant(self.supply_current, 3)} A")
         if self.supply_power is not None:
-            limits.append(f"{self.supply_power:.4g} W")
+            limits.append(f"{significant(self.supply_power, 4)} W")
         if limits:
             yield (
                 f"The design keeps to a supply of {' and '.join(limits)}, drawn or fed back: set "

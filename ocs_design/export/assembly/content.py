@@ -624,11 +624,13 @@ class Assembly:
         count = len(self.device.modules)
         energy = stored_energy(self.device.flywheel.spin_inertia, speed)
         both = demand_of(self.margins, "stored energy")
-        flown = "" if both is None else f"; the planned maneuvers reach {both:.3g} J in all wheels"
+        flown = ""
+        if both is not None:
+            flown = f"; the planned maneuvers reach {significant(both, 3)} J in all wheels"
         yield (
-            f"Each wheel stores {energy:.3g} J at {_rpm(speed)}, {count} of them "
-            f"{count * energy:.3g} J{flown}. That is {_two(count * energy / 9.81)} kg dropped from "
-            "1 m."
+            f"Each wheel stores {significant(energy, 3)} J at {_rpm(speed)}, {count} of them "
+            f"{significant(count * energy, 3)} J{flown}. That is "
+            f"{_two(count * energy / 9.81)} kg dropped from 1 m."
         )
         part = burst.fragment
         yield (
