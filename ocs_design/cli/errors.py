@@ -5,6 +5,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import TextIO
 
@@ -16,6 +17,7 @@ from ocs_design.common.errors import (
     OcsError,
     OutputError,
     SpecificationError,
+    UsageError,
 )
 from ocs_design.common.units import UNITS
 
@@ -35,6 +37,12 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         # now rather than in an hour.
         for name in (*arguments, str(Path.cwd())):
             name.encode()
+        for before, name in pairwise(("", *arguments)):
+            if not name.strip() or re.fullmatch(r"--[\w-]+=", name):
+                raise UsageError(
+                    f"{before if not name.strip() else name[:-1]}: what is typed for it is empty",
+                    hint="look whether the shell's variable is set, or leave the option out",
+                )
         result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
         sys.stdout.flush()
     except (typer.Abort, KeyboardInterrupt):
