@@ -87,6 +87,9 @@ SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
 
 SENSES = (1.0, -1.0)
 
+ASIDE = (0.0, 0.02, 0.04, 0.06, 0.08)
+"""How much farther to both sides pairs are tried, where a limb lies over the trunk's middle [m]."""
+
 _PATTERNS = 8
 """Patterns of a mast's screws that are tried."""
 
@@ -266,7 +269,7 @@ def footing_of(
         start = round(float(robot.com[0]), 6) + 0.0
         slopes = _slopes(layout.axes(ISOTROPIC if layout.angle is None else layout.angle))
         feet = Feet(start, _ring_of(layout, largest.reach), slopes, *base, mass)
-        found = _nearest_footing(surface, feet, Search(collision_model(robot), sizes, layout))
+        found = _on_trunk(surface, feet, Search(collision_model(robot), sizes, layout))
         if found is not None:
             return found
     return Footing(place_free(robot, envelope, layout).place, None)
@@ -325,7 +328,7 @@ def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | No
     size = device_size(device)
     feet = replace(feet, bases=_ring_of(layout, size.reach))
     search = Search(collision_model(robot), Sizes(size, size), layout)
-    found = _nearest_footing(surface, feet, search)
+    found = _on_trunk(surface, feet, search)
     # Wherever they stood, so that equal modules have one mast.
     return found or _behind(robot, replace(feet, x=0.0, bases=()), size, layout)
 
@@ -562,11 +565,24 @@ def _contact(
     return FootContact(name, "trunk", share * pi * radius**2, share, gap, proud, held)
 
 
-def _nearest_footing(surface: Surface, feet: Feet, search: Search) -> Footing | None:
+def _on_trunk(surface: Surface, feet: Feet, search: Search) -> Footing | None:
+    """The nearest place of the feet, of pairs as little apart as clears what lies between them."""
+    apart = ASIDE if search.layout.pairs else ASIDE[:1]
+    found = (_nearest_footing(surface, feet, search, aside) for aside in apart)
+    return next((footing for footing in found if footing is not None), None)
+
+
+def _nearest_footing(surface: Surface, feet: Feet, search: Search, aside: float) -> Footing | None:
     """The nearest place to that of the feet where they are held and no leg comes near.
 
     A longer sleeve is as bad as as far a way forward, and so is a plate as its thickness.
+
+    Args:
+        surface: of the trunk. feet: on it, as near to each other as may be. search: of places.
+        aside: how much farther to its side each stands [m].
     """
+    bases = tuple((x, y + copysign(aside, y)) for x, y in feet.bases)
+    feet = replace(feet, bases=bases)
     low, high = surface.x_range
     step = max(_STEP, feet.reach / 16.0)
     steps = np.arange(np.ceil((low - feet.x) / step), (high - feet.x) / step)
@@ -575,18 +591,20 @@ def _nearest_footing(surface: Surface, feet: Feet, search: Search) -> Footing | 
         # Nothing farther away can be better than what is nearer than that.
         while waiting and waiting[0][0] <= abs(shift):
             _, footing = waiting.pop(0)
-            if search.is_free(footing.place):
+            # Farther apart, modules leave room for a limb between them, but not a plate.
+            between = plate_solids(footing.plate) if aside else ()
+            if search.is_free(footing.place) and not any(map(search.hit, between)):
                 return footing
         if shift == np.inf:
             break
         moved = replace(feet, x=feet.x + shift)
-        held = None if _in_the_way(surface, moved, search) else _held_at(surface, moved)
+        held = None if _in_the_way(surface, moved, search, aside) else _held_at(surface, moved)
         if held is not None:
             plate = _plate_of(held)
             height = held.top if isinstance(held, CarrierPlate) else held
             origin = round(feet.x + shift, 6) + 0.0, 0.0, height
             lift = 0.0 if plate is None else plate.thickness + max(plate.sleeves)
-            place = around(origin, search.layout)
+            place = around(origin, search.layout, aside)
             waiting.append((abs(shift) + lift, Footing(place, plate)))
             waiting.sort(key=lambda each: each[0])
     return None
@@ -883,14 +901,14 @@ def _pads(back: Surface, radius: float, aside: float) -> tuple[FloatArray, Float
     return frozen(z[flat]), frozen(np.stack([low, top], axis=1)[flat])
 
 
-def _in_the_way(surface: Surface, feet: Feet, search: Search) -> bool:
+def _in_the_way(surface: Surface, feet: Feet, search: Search, aside: float) -> bool:
     """Whether a limb is where modules of several pairs would stand on the trunk itself.
 
     A plate would lift them by its thickness only, and is long looked for.
     """
     bases = np.concatenate([_disc(middle, feet.radius) for middle in feet.middles])
     top = _highest(surface, bases) if len(feet.rows) > 1 else np.nan
-    standing = around((feet.x, 0.0, top), search.layout)
+    standing = around((feet.x, 0.0, top), search.layout, aside)
     return bool(np.isfinite(top)) and not search.is_clear(standing)
 
 

@@ -158,11 +158,17 @@ def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
     return around((forward, 0.0, round(trunk_top(robot.tree, robot.trunk), 6)), layout)
 
 
-def around(middle: Direction, layout: Layout) -> Place:
-    """Upright modules around a point of what they stand on, in B [m]."""
-    ring = np.array(layout.ring) * CLEARANCE
-    outward = tuple(vector(each) for each in ring)
-    return Place((middle,) * len(layout), outward, upright=True)
+def around(middle: Direction, layout: Layout, aside: float = 0.0) -> Place:
+    """Upright modules around a point of what they stand on, in B [m].
+
+    Args:
+        middle: that point. layout: of the modules.
+        aside: how much farther to its side than it must each stands [m].
+    """
+    x, y, z = middle
+    outward = tuple(vector(each) for each in np.array(layout.ring) * CLEARANCE)
+    origins = tuple((x, y + float(np.sign(out)) * aside, z) for _, out, _ in outward)
+    return Place(origins, outward, upright=True)
 
 
 def place_at(position: tuple[float, ...], layout: Layout = PAIR) -> Place:

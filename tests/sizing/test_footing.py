@@ -51,6 +51,7 @@ from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing import (
+    ASIDE,
     FLATNESS,
     contacts_of,
     feet_of,
@@ -58,7 +59,7 @@ from ocs_design.sizing.footing import (
     stand_on_trunk,
 )
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
-from ocs_design.sizing.placement import device_size, place_free, place_on_top
+from ocs_design.sizing.placement import CLEARANCE, device_size, place_free, place_on_top
 
 DEVICE = driven_device()
 FOOT = foot_of(DEVICE)
@@ -348,6 +349,29 @@ def swept(part):
     return replace(part, holes=tuple(each for each in part.holes if isinstance(each, Revolution)))
 
 
+def built(device):
+    """Modules, plate and screw heads in their places, as solids; what turns fills all its turn."""
+    turning = wheel_pieces(device.flywheel)
+    solids = {
+        (module.name, name): solid.transform(np.column_stack([place.rotation, place.position]))
+        for name, (part, own) in placed_parts(device).items()
+        for solid in (part_manifold(swept(part) if name in turning else part, 96),)
+        for module in device.modules
+        for place in (wheel_placement(module) @ own,)
+    }
+    bodies = () if device.plate is None else plate_bodies(device.plate)
+    for number, (part, own) in enumerate(bodies):
+        at = own.position + device.plate.position
+        solids["plate", number] = part_manifold(part, 96).transform(
+            np.column_stack([own.rotation, at])
+        )
+    for number, head in enumerate(plate_heads(device.plate)):
+        drum = hollow_cylinder(0.0, head.radius, -head.height / 2.0, head.height / 2.0)
+        solid = part_manifold(Part("head", 1.0, (drum,)), 96)
+        solids["head", number] = solid.translate(head.center)
+    return solids
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "width"),
@@ -374,24 +398,7 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
     assert (
         mounting_open_points(mounting_of(robot, device, (), robot.mass_properties)) == ()
     ) == held
-    turning = wheel_pieces(device.flywheel)
-    solids = {
-        (module.name, name): solid.transform(np.column_stack([place.rotation, place.position]))
-        for name, (part, own) in placed_parts(device).items()
-        for solid in (part_manifold(swept(part) if name in turning else part, 96),)
-        for module in device.modules
-        for place in (wheel_placement(module) @ own,)
-    }
-    bodies = () if device.plate is None else plate_bodies(device.plate)
-    for number, (part, own) in enumerate(bodies):
-        at = own.position + device.plate.position
-        solids["plate", number] = part_manifold(part, 96).transform(
-            np.column_stack([own.rotation, at])
-        )
-    for number, head in enumerate(plate_heads(device.plate)):
-        drum = hollow_cylinder(0.0, head.radius, -head.height / 2.0, head.height / 2.0)
-        solid = part_manifold(Part("head", 1.0, (drum,)), 96)
-        solids["head", number] = solid.translate(head.center)
+    solids = built(device)
     for each in device.pedestals:
         where = np.column_stack([each.placement.rotation, each.placement.position])
         solids["pedestal", each.module] = part_manifold(drilled(each), 96).transform(where)
@@ -408,6 +415,55 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
         if (volume := (solids[one] ^ solids[other]).volume()) > 1e-12
     }
     assert meet == {}
+
+
+ARM = """<robot name="armed">
+  <link name="base">
+    <inertial><mass value="20"/><inertia ixx="0.3" iyy="0.6" izz="0.6" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><geometry><box size="0.6 {width} 0.1"/></geometry></collision>
+  </link>
+  <link name="arm">
+    <inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <collision><geometry><box size="0.6 0.06 0.06"/></geometry></collision>
+  </link>
+  <joint name="shoulder" type="revolute">
+    <parent link="base"/><child link="arm"/><origin xyz="0 0 0.13"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>"""
+
+
+@pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.DOUBLE_PAIR])
+@pytest.mark.parametrize("width", [0.12, 0.5])
+def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
+    """No part of any module, nor a plate under the arm, has any volume in common with it."""
+    (tmp_path / "armed.urdf").write_text(ARM.format(width=width))
+    robot, layout = read_robot(tmp_path / "armed.urdf", trunk="base"), Layout(name)
+    _, sized = designed("Antigravity MN5006 KV450")
+    axes = layout.axes(0.5).T
+    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
+    device = stand_on_trunk(
+        replace(sized.device, modules=modules, layout=layout), robot, stated=False
+    )
+    assert (device.plate is not None) == (width < 0.5)
+    assert mounting_open_points(mounting_of(robot, device, (), robot.mass_properties)) == ()
+    assert check_device(device) is None
+    (least,) = {round(float(abs(each.position[1])), 9) for each in device.modules}
+    farther = least - CLEARANCE * device_size(device).reach
+    (step,) = (index for index, each in enumerate(ASIDE) if abs(each - farther) < 1e-9)
+    arm = Rectangle(-0.3, 0.3, -0.03, 0.03)
+    arm = part_manifold(Part("arm", 1.0, (Prism(arm, 0.1, 0.16),)), 96)
+    solids = built(device)
+    assert max((solid ^ arm).volume() for solid in solids.values()) < 1e-12
+    # One step nearer to each other, balls around the modules would touch it: above their middle
+    # it ends, below it begins.
+    height = max(0.1, min(0.16, float(device.modules[0].position[2])))
+    off = hypot(
+        least - ASIDE[step] + ASIDE[step - 1] - 0.03, height - device.modules[0].position[2]
+    )
+    assert off < CLEARANCE * device_size(device).reach
 
 
 COLUMN = """<robot name="column">
