@@ -1,6 +1,7 @@
 """Extents of meshes, and with them of a robot's shapes and bodies."""
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,6 +10,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.errors import RobotError
+from ocs_design.robot.links import Warnings
 from ocs_design.robot.tree import Body, Shape, ShapeKind, Tree
 
 if TYPE_CHECKING:
@@ -160,6 +162,80 @@ def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
     if mesh.units is not None:
         mesh.convert_units("meters")
     return mesh
+
+
+Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""Rotation of a mesh whose y is upwards to z upwards."""
+
+_Y_UP_BODIES = 3
+"""Least number of bodies with such meshes: those of one or two may be round, and tell nothing."""
+
+_NEARER = 2.0 / 3.0
+"""Largest ratio of distances from the centres of mass by which meshes are said to lie better."""
+
+_ASSET = 1 << 16
+"""Bytes of a .dae that have its asset [bytes]."""
+
+
+def with_y_up(tree: Tree, warnings: Warnings) -> Tree:
+    """The tree with its COLLADA meshes turned to z upwards, where they are meant to be.
+
+    Files may state that their y is upwards. RViz and Gazebo do not turn them, three.js and what
+    reads them by Assimp do, and robots are made for either: they are turned where their middles
+    then lie much nearer to their bodies' centres of mass.
+
+    Args:
+        tree: of a URDF. warnings: takes that they were.
+    """
+    found = [
+        (body, shape, off, turned)
+        for body in tree.bodies
+        for shape in body.shapes
+        if shape.mesh is not None and _says_y_up(shape.mesh)
+        for turned in (_turned(shape),)
+        if (off := _off_centre(shape, body)) is not None
+    ]
+    if len({body.name for body, *_ in found}) < _Y_UP_BODIES:
+        return tree
+    before = sum(off for _, _, off, _ in found) / len(found)
+    after = sum(_off_centre(turned, body) or 0.0 for body, _, _, turned in found) / len(found)
+    if after > _NEARER * before:
+        return tree
+    millimetres = (f"{1e3 * off:.0f} mm" for off in (after, before))
+    warnings.add(
+        f"{len(found)} .dae meshes say that their y is upwards, and are turned so: on average they "
+        f"then lie {' and not '.join(millimetres)} off their links' centres of mass; RViz does not "
+        "turn them"
+    )
+    other = {id(shape): turned for _, shape, _, turned in found}
+    bodies = (
+        replace(body, shapes=tuple(other.get(id(each), each) for each in body.shapes))
+        for body in tree.bodies
+    )
+    return replace(tree, bodies=tuple(bodies))
+
+
+@cache
+def _says_y_up(path: Path) -> bool:
+    if path.suffix.lower() != ".dae":
+        return False
+    with path.open("rb") as stream:
+        return b"<up_axis>Y_UP" in stream.read(_ASSET)
+
+
+def _turned(shape: Shape) -> Shape:
+    """A mesh's shape with the mesh turned, and then scaled as before."""
+    x, y, z = shape.size
+    return replace(shape, size=(x, z, y), rotation=frozen(shape.rotation @ Y_UP))
+
+
+def _off_centre(shape: Shape, body: Body) -> float | None:
+    """Distance of the middle of a mesh's box from its body's centre of mass [m]."""
+    bounds = None if shape.mesh is None else mesh_bounds(shape.mesh, shape.size)
+    if bounds is None:
+        return None
+    middle = shape.position + shape.rotation @ bounds.mean(axis=0)
+    return float(np.linalg.norm(middle - body.mass_properties.com))
 
 
 _CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])

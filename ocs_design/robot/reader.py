@@ -14,7 +14,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.robot.checks import plausibility_warnings
 from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
 from ocs_design.robot.links import Warnings, check_whole, listed
-from ocs_design.robot.meshes import MESHES, trunk_top, unmeasured
+from ocs_design.robot.meshes import MESHES, trunk_top, unmeasured, with_y_up
 from ocs_design.robot.packages import MeshFinder
 from ocs_design.robot.posture import resolve_posture, unknown_name
 from ocs_design.robot.recognition import recognise
@@ -179,8 +179,8 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
     if root.tag == "robot" and is_xacro(root):
         content = expand_xacro(content, folder / Path(read.path_text).name, package_paths)
     finder = MeshFinder(folder, package_paths)
-    tree = read_urdf(content, find_mesh=finder)
     warnings, cure = Warnings(), ""
+    tree = with_y_up(read_urdf(content, find_mesh=finder), warnings)
     if finder.missing:
         first = next(iter(finder.missing))
         cure = finder.cure()

@@ -5,10 +5,12 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 import trimesh
+from robots import ROBOTS
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.meshes import check_mesh_file, mesh_bounds
 from ocs_design.robot.packages import MOST_FOLDERS, MeshFinder
+from ocs_design.robot.reader import load
 
 
 @pytest.fixture(autouse=True)
@@ -164,3 +166,49 @@ def test_meshes_that_are_too_large_or_in_archives_are_not_opened(tmp_path: Path,
         check_mesh_file(tmp_path / "text.stl")
     with pytest.raises(RobotError, match="not a mesh that can be read"):
         check_mesh_file(tmp_path / "box.3mf")
+
+
+def test_collada_with_y_up_is_turned_where_links_then_lie_in_their_meshes():
+    """As made, iCub mirrors itself in y: boxes around what is left and right do, with limbs at 0.
+
+    Not turned, its head lies beside the neck and its pelvis at its right hip.
+    """
+    tree = load(ROBOTS / "icub_description" / "robots" / "icub.urdf").tree
+    assert any("56 .dae meshes say that their y is upwards" in each for each in tree.warnings)
+    boxes = {}
+    for body, place in zip(tree.bodies, tree.placements_from("base_link", {}), strict=True):
+        points = [
+            trimesh.bounds.corners(trimesh.load_scene(shape.mesh).bounds)
+            * shape.size
+            @ shape.rotation.T
+            + shape.position
+            for shape in body.shapes
+            if shape.collides
+        ]
+        if points:
+            world = np.concatenate(points) @ place.rotation.T + place.position
+            boxes[body.name] = world.min(axis=0), world.max(axis=0)
+    low, high = boxes["head"]
+    assert low[2] > boxes["chest"][1][2]
+    assert (low[1] + high[1]) / 2.0 == pytest.approx(0.0, abs=0.01)
+    for name in ("upper_leg", "lower_leg", "ankle_2"):
+        left, right = boxes[f"l_{name}"], boxes[f"r_{name}"]
+        mirrored = np.array([right[0] * [1, -1, 1], right[1] * [1, -1, 1]])
+        np.testing.assert_allclose(np.sort(mirrored, axis=0), left, atol=0.01)
+
+
+@pytest.mark.parametrize(
+    "robot",
+    [
+        "tiago_description/robots/tiago",
+        "hextilt_description/urdf/hextilt_flying_arm_5",
+        "borinot_description/urdf/borinot_flying_arm_2",
+        "go1_description/urdf/go1",
+    ],
+)
+def test_collada_with_y_up_that_lies_right_is_left(robot):
+    """Whose files say so too, and which lie in their links as they are."""
+    tree = load(ROBOTS / f"{robot}.urdf").tree
+    shapes = [shape for body in tree.bodies for shape in body.shapes if shape.mesh is not None]
+    assert any(b"<up_axis>Y_UP" in shape.mesh.read_bytes()[:4096] for shape in shapes)
+    assert not any("y is upwards" in each for each in tree.warnings)

@@ -11,6 +11,8 @@ from ocs_design.robot.stance import SHARE_OF_LEG, stand
 SOLO12 = "solo_description/robots/solo12"
 # Ankles that cannot bend so far: 30 degrees in Romeo, not backwards at all in the simple humanoids.
 STRAIGHTER = {
+    "icub_description/robots/icub": 0.85,
+    "icub_description/robots/icub_reduced": 0.85,
     "romeo_description/urdf/romeo": 0.95,
     "romeo_description/urdf/romeo_small": 0.95,
     "romeo_description/urdf/romeo_laas_small": 0.95,
