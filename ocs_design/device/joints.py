@@ -330,7 +330,7 @@ class Resonance:
 
 
 def resonances_of(device: Device) -> tuple[Resonance, ...]:
-    """First bending modes of plate and foot that a wheel passes on its way to top speed.
+    """First bending modes of plate, sleeves and foot that a wheel passes on its way to top speed.
 
     A force U w^2 shakes a mass m on a spring by U / (2 zeta m) at resonance, however stiff it is.
     The plate is shaken by all of the unbalance, the stem only by its moment about it: at the end of
@@ -346,6 +346,9 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
     modes = [("foot", stem_frequency(foot, mass, inertia), lever)]
     if device.plate is not None:
         modes.insert(0, ("plate", device.plate.frequency(mass), 1.0))
+        if device.plate.mast is None and device.plate.arms == 2:
+            sleeved = device.plate.sway(mass, foot.wheel_height)
+            modes.insert(1, ("sleeve", sleeved, 1.0))
     unbalance = balance_of(device).unbalance
     return tuple(
         Resonance(

@@ -25,7 +25,6 @@ from ocs_design.export.device_parts import (
 from ocs_design.export.electrics import electrics
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import (
-    SLEEVE_WALL,
     CarrierPlate,
     mast_part,
     plate_part,
@@ -166,12 +165,12 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
         )
         mass = mast_part(plate, mast).mass()
         yield BillRow("mast", 1, plate.material, stock, mass, made)
-        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(SLEEVE_WALL)} wall"
+        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
         made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
         mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
         yield BillRow("sleeve in the mast", count, plate.material, stock, mass, made)
     for length in sorted({length for length in plate.sleeves if length > 0.0}):
-        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(SLEEVE_WALL)} wall"
+        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
         made = f"cut to {_mm(length)}, between {under} and trunk"
         count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
         yield BillRow(f"sleeve under the {under}", count, plate.material, stock, mass, made)

@@ -14,7 +14,7 @@ through the tube hold it, each in a sleeve that keeps the walls apart.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from math import acos, asin, hypot, pi, sin, sqrt, tan
+from math import acos, asin, hypot, inf, pi, sin, sqrt, tan
 from typing import TypeAlias, TypeVar
 
 import numpy as np
@@ -47,6 +47,10 @@ SAFETY = 2.0
 
 SLEEVE_WALL = 2.0e-3
 """Wall of a sleeve around its screw [m]: 7.4 mm outside for M3, wider than the screw's head."""
+
+POST_DEPTH = 1.9
+"""Depth of the threads of posts over their diameter, at least: aluminium then bears all of M8's
+preload with half of what strips it."""
 
 EDGE = 1.5
 """Least distance of a hole's middle from an edge, over its diameter: EN 1993-1-8, table 3.3, asks
@@ -352,6 +356,7 @@ class CarrierPlate:
         levels: height of the underside of each, likewise; empty: 0 [m].
         mast: that carries them; None: the trunk does.
         arms: of each plate, as many as feet on it.
+        sleeve_wall: of its sleeves around their screws [m].
     """
 
     position: tuple[float, float, float]
@@ -372,6 +377,7 @@ class CarrierPlate:
     levels: tuple[float, ...] = ()
     mast: Mast | None = None
     arms: int = 2
+    sleeve_wall: float = SLEEVE_WALL
 
     @property
     def shape(self) -> DogBone:
@@ -450,12 +456,27 @@ class CarrierPlate:
     @property
     def sleeve_radius(self) -> float:
         """Radius of the sleeves, outside [m]."""
-        return self.screw.clearance_hole / 2.0 + SLEEVE_WALL
+        return self.screw.clearance_hole / 2.0 + self.sleeve_wall
+
+    @property
+    def sleeve_section(self) -> tuple[float, float, float]:
+        """Area [m^2], section modulus [m^3] and second moment [m^4] of a sleeve."""
+        outside, inside = self.sleeve_radius, self.screw.clearance_hole / 2.0
+        second = pi / 4.0 * (outside**4 - inside**4)
+        return pi * (outside**2 - inside**2), second / outside, second
 
     @property
     def screw_lengths(self) -> tuple[float, ...]:
         """Length of each of the trunk's screws under its head [m]."""
-        return tuple(self.screw.length_through(self.clamped + each) for each in self.sleeves)
+        return tuple(
+            self.screw.length_through(self.clamped + each, self.thread_depth)
+            for each in self.sleeves
+        )
+
+    @property
+    def thread_depth(self) -> float:
+        """Depth of the trunk's threads over their diameter, at least."""
+        return POST_DEPTH if self.sleeve_wall > SLEEVE_WALL else 1.0
 
     @property
     def fastenings(self) -> tuple[Fastening, ...]:
@@ -469,6 +490,7 @@ class CarrierPlate:
                 f"{'plate' if self.mast is None else 'mast'} on trunk"
                 f"{f', {1e3 * length:.0f} mm long' if len(longest) > 1 else ''}; "
                 "longer if its thread begins deeper",
+                self.thread_depth,
             )
             for length, sleeve in longest.items()
         )
@@ -567,12 +589,59 @@ class CarrierPlate:
         y, z = np.array(self.trunk).T
         p, q = np.ptp(z) / 2.0, np.ptp(y) / 2.0
         up = abs(float(np.mean(self.heights)) + self.thickness + height - float(z.mean()))
-        gap, bore = max(self.sleeves), self.screw.clearance_hole / 2.0
+        gap, (_, section, _) = max(self.sleeves), self.sleeve_section
         off = self.mast.face + self.mast.spacer + gap
-        section = pi / 4.0 * (self.sleeve_radius**4 - bore**4) / self.sleeve_radius
         bent = force / 4.0 * (1.0 + up / hypot(p, q)) * gap / 2.0 / section
         used = float(pattern_use(self.screw, force, (off, np.asarray(up)), (p, q)))
         return max(used, bent / (YIELD_STRENGTH / SAFETY))
+
+    def posts_use(self, mass: float, height: float) -> float:
+        """Largest share of strength that `SHOCK` along any one axis takes of a pair's long sleeves.
+
+        The ends of four posts under a plate cannot turn: a push F sideways bends each by F / 4
+        times half its length. Its moment about the middle of their length pulls at two and presses
+        on two; see `pattern_use` for their screws. No joint opens: pull and bending are less than
+        what the screw's preload presses.
+
+        Args:
+            mass, height: see `stress`.
+        """
+        if len(self.rows) > 1:
+            return max(plate.posts_use(mass, height) for plate in self.each)
+        force, gap, (p, q) = 2.0 * mass * SHOCK, max(self.sleeves), self._half_pattern
+        arm, (area, section, _) = gap / 2.0 + self.thickness + height, self.sleeve_section
+        arms, half = (arm, np.asarray(0.0)), (np.asarray(p), np.asarray(q))
+        stress = force / 4.0 * (arm / min(p, q) / area + gap / 2.0 / section)
+        pressed = self.screw.preload / area
+        return max(
+            float(pattern_use(self.screw, force, arms, half)),
+            stress / min(pressed, YIELD_STRENGTH / SAFETY),
+            (stress + pressed) / YIELD_STRENGTH,
+        )
+
+    def sway(self, mass: float, height: float) -> float:
+        """First mode of a pair sideways on its sleeves, whose ends cannot turn [Hz].
+
+        Four of length l bend, by l^3 / (48 E I), and turn the plate about the middle of their
+        length, as those of one side become longer and those of the other shorter: by the arm to
+        there squared times l / (4 E (I + p^2 A)). The pair is a point.
+
+        Args:
+            mass, height: see `stress`.
+        """
+        if len(self.rows) > 1:
+            return min(plate.sway(mass, height) for plate in self.each)
+        gap, (area, _, second) = max(self.sleeves), self.sleeve_section
+        arm, near = gap / 2.0 + self.thickness + height, min(self._half_pattern)
+        turns = arm**2 * gap / (4.0 * (second + near**2 * area))
+        compliance = (gap**3 / (48.0 * second) + turns) / MODULUS
+        return float(1.0 / np.sqrt(2.0 * mass * compliance) / (2.0 * pi)) if gap else inf
+
+    @property
+    def _half_pattern(self) -> tuple[float, float]:
+        """Half the distances of four screws, forward and sideways [m]."""
+        along, across = np.ptp(np.array(self.trunk), axis=0) / 2.0
+        return float(along), float(across)
 
     def frequency(self, mass: float) -> float:
         """First mode of a module up and down on its plate, the trunk's screws held [Hz].

@@ -10,7 +10,6 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.errors import RobotError
-from ocs_design.robot.links import Warnings
 from ocs_design.robot.tree import Body, Shape, ShapeKind, Tree
 
 if TYPE_CHECKING:
@@ -177,15 +176,12 @@ _ASSET = 1 << 16
 """Bytes of a .dae that have its asset [bytes]."""
 
 
-def with_y_up(tree: Tree, warnings: Warnings) -> Tree:
+def with_y_up(tree: Tree) -> Tree:
     """The tree with its COLLADA meshes turned to z upwards, where they are meant to be.
 
     Files may state that their y is upwards. RViz and Gazebo do not turn them, three.js and what
     reads them by Assimp do, and robots are made for either: they are turned where their middles
-    then lie much nearer to their bodies' centres of mass.
-
-    Args:
-        tree: of a URDF. warnings: takes that they were.
+    then lie much nearer to their bodies' centres of mass, and a warning says so.
     """
     found = [
         (body, shape, off, turned)
@@ -202,7 +198,7 @@ def with_y_up(tree: Tree, warnings: Warnings) -> Tree:
     if after > _NEARER * before:
         return tree
     millimetres = (f"{1e3 * off:.0f} mm" for off in (after, before))
-    warnings.add(
+    sentence = (
         f"{len(found)} .dae meshes say that their y is upwards, and are turned so: on average they "
         f"then lie {' and not '.join(millimetres)} off their links' centres of mass; RViz does not "
         "turn them"
@@ -212,7 +208,7 @@ def with_y_up(tree: Tree, warnings: Warnings) -> Tree:
         replace(body, shapes=tuple(other.get(id(each), each) for each in body.shapes))
         for body in tree.bodies
     )
-    return replace(tree, bodies=tuple(bodies))
+    return replace(tree, bodies=tuple(bodies), warnings=(*tree.warnings, sentence))
 
 
 @cache

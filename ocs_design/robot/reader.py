@@ -179,8 +179,8 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
     if root.tag == "robot" and is_xacro(root):
         content = expand_xacro(content, folder / Path(read.path_text).name, package_paths)
     finder = MeshFinder(folder, package_paths)
+    tree = with_y_up(read_urdf(content, find_mesh=finder))
     warnings, cure = Warnings(), ""
-    tree = with_y_up(read_urdf(content, find_mesh=finder), warnings)
     if finder.missing:
         first = next(iter(finder.missing))
         cure = finder.cure()

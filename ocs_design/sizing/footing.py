@@ -14,7 +14,7 @@ from math import ceil, copysign, cos, inf, isfinite, log, pi, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.fasteners import Screw, screw
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device, Module
@@ -30,6 +30,7 @@ from ocs_design.parts.carrier_plate import (
     EDGE,
     MAST_YIELD,
     SAFETY,
+    SLEEVE_WALL,
     STOCK,
     TUBES,
     YIELD_STRENGTH,
@@ -72,7 +73,8 @@ PROUD = 1e-4
 HEAD_ROOM = 0.5e-3
 """Room between a screw's head and a foot's base [m]."""
 
-PLATE_SCREW = screw("M3")
+PLATE_SCREW, POST_SCREW = screw("M3"), screw("M8")
+"""Screws that hold a plate on the trunk: through sleeves at the most, and through posts."""
 
 SPREAD = 0.02
 """Least distance of a plate's screws, forward and sideways [m]: four heads of M5 and a key."""
@@ -87,7 +89,7 @@ SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
 
 SENSES = (1.0, -1.0)
 
-ASIDE = (0.0, 0.02, 0.04, 0.06, 0.08)
+ASIDE = (0.04, 0.08)
 """How much farther to both sides pairs are tried, where a limb lies over the trunk's middle [m]."""
 
 _PATTERNS = 8
@@ -99,6 +101,9 @@ what the narrowest does not [m]."""
 
 SLEEVE_MAX = 0.03
 """Longest sleeve under a plate [m]: four times as long as wide, for M3."""
+
+POST_WALL, POST_MAX = 4e-3, 0.17
+"""Wall of a post, and longest one [m]: with M8 x 200."""
 
 MODULE_SHARE = 0.1
 """Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
@@ -329,8 +334,7 @@ def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | No
     feet = replace(feet, bases=_ring_of(layout, size.reach))
     search = Search(collision_model(robot), Sizes(size, size), layout)
     found = _on_trunk(surface, feet, search)
-    # Wherever they stood, so that equal modules have one mast.
-    return found or _behind(robot, replace(feet, x=0.0, bases=()), size, layout)
+    return found or _behind(robot, feet, size, layout)
 
 
 def feet_of(device: Device) -> Feet:
@@ -566,20 +570,38 @@ def _contact(
 
 
 def _on_trunk(surface: Surface, feet: Feet, search: Search) -> Footing | None:
-    """The nearest place of the feet, of pairs as little apart as clears what lies between them."""
-    apart = ASIDE if search.layout.pairs else ASIDE[:1]
-    found = (_nearest_footing(surface, feet, search, aside) for aside in apart)
-    return next((footing for footing in found if footing is not None), None)
+    """The nearest place of the feet, as near to each other as may be, or of pairs another way."""
+    found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
+    if found is None and search.layout.pairs:
+        way = _way(search.collision.robot, *_rough(feet, search.sizes.largest), search.layout)
+        return None if way is None else _nearest_footing(surface, feet, search, *way)
+    return found
 
 
-def _nearest_footing(surface: Surface, feet: Feet, search: Search, aside: float) -> Footing | None:
+@lru_cache(maxsize=64)
+def _way(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> tuple[float, Screw] | None:
+    """How much farther apart pairs stand than they must, and what screws hold their plate.
+
+    Farther apart first, then on posts, over what stands up from the trunk; None: neither does.
+    """
+    surface, x = trunk_surface(robot), round(float(robot.com[0]), 6) + 0.0
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    feet = replace(feet, x=x, bases=_ring_of(layout, size.reach))
+    ways = [*((aside, PLATE_SCREW) for aside in ASIDE), (0.0, POST_SCREW)]
+    found = (way for way in ways if surface and _nearest_footing(surface, feet, search, *way))
+    return next(found, None)
+
+
+def _nearest_footing(
+    surface: Surface, feet: Feet, search: Search, aside: float, held_by: Screw
+) -> Footing | None:
     """The nearest place to that of the feet where they are held and no leg comes near.
 
     A longer sleeve is as bad as as far a way forward, and so is a plate as its thickness.
 
     Args:
         surface: of the trunk. feet: on it, as near to each other as may be. search: of places.
-        aside: how much farther to its side each stands [m].
+        aside: how much farther to its side each stands [m]. held_by: screws of a plate.
     """
     bases = tuple((x, y + copysign(aside, y)) for x, y in feet.bases)
     feet = replace(feet, bases=bases)
@@ -592,13 +614,16 @@ def _nearest_footing(surface: Surface, feet: Feet, search: Search, aside: float)
         while waiting and waiting[0][0] <= abs(shift):
             _, footing = waiting.pop(0)
             # Farther apart, modules leave room for a limb between them, but not a plate.
-            between = plate_solids(footing.plate) if aside else ()
+            posts = held_by is POST_SCREW
+            between = plate_solids(footing.plate) if aside or posts else ()
             if search.is_free(footing.place) and not any(map(search.hit, between)):
                 return footing
         if shift == np.inf:
             break
         moved = replace(feet, x=feet.x + shift)
-        held = None if _in_the_way(surface, moved, search, aside) else _held_at(surface, moved)
+        held = None
+        if not _in_the_way(surface, moved, search, aside):
+            held = _held_at(surface, moved, held_by=held_by)
         if held is not None:
             plate = _plate_of(held)
             height = held.top if isinstance(held, CarrierPlate) else held
@@ -615,16 +640,7 @@ def _behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Foot
 
     They stand one above the other, on plates of one kind, by the lightest tube that bears them.
     """
-    rough = replace(
-        feet,
-        radius=_rounded_up(feet.radius),
-        slot_radius=_rounded_up(feet.slot_radius),
-        reach=_rounded_up(feet.reach),
-        height=_rounded_up(feet.height),
-        mass=_rounded_up(feet.mass),
-    )
-    larger = Size(_rounded_up(size.reach), _rounded_up(size.standing))
-    back, at = trunk_back(robot), _mast_spot(robot, rough, larger, layout)
+    back, at = trunk_back(robot), _mast_spot(robot, *_rough(feet, size), layout)
     if back is None or at is None:
         return None
     feet, search = (
@@ -635,6 +651,21 @@ def _behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Foot
     arms = _all_arms(feet, size, far=far)
     masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms)
     return next((footing for footing in masted if footing is not None), None)
+
+
+def _rough(feet: Feet, size: Size[float]) -> tuple[Feet, Size[float]]:
+    """Feet of modules that are nearly equal, wherever they stood, and their size."""
+    rough = replace(
+        feet,
+        x=0.0,
+        bases=(),
+        radius=_rounded_up(feet.radius),
+        slot_radius=_rounded_up(feet.slot_radius),
+        reach=_rounded_up(feet.reach),
+        height=_rounded_up(feet.height),
+        mass=_rounded_up(feet.mass),
+    )
+    return rough, Size(_rounded_up(size.reach), _rounded_up(size.standing))
 
 
 def _rounded_up(value: float) -> float:
@@ -918,13 +949,17 @@ def _plate_of(held: CarrierPlate | float | None) -> CarrierPlate | None:
 
 
 def _held_at(
-    surface: Surface, feet: Feet, underside: float | None = None
+    surface: Surface,
+    feet: Feet,
+    underside: float | None = None,
+    held_by: Screw = PLATE_SCREW,
 ) -> CarrierPlate | float | None:
     """What holds the feet at their place: the trunk at a height [m], a plate, or nothing.
 
     Args:
         surface: of the trunk. feet: on it.
         underside: height of the feet in B, where it is stated [m]; None: what the trunk has.
+        held_by: screws of a plate.
     """
     sides = feet.middles
     bases = np.concatenate([_disc(side, feet.radius) for side in sides])
@@ -934,10 +969,12 @@ def _held_at(
         _contact("", surface, side, feet.radius, plane=plane, lands=lands).held for side in sides
     ):
         return float(round(plane, 6))
-    return _plate(surface, feet, underside) if feet.rows else None
+    return _plate(surface, feet, underside, held_by) if feet.rows else None
 
 
-def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlate | None:
+def _plate(
+    surface: Surface, feet: Feet, underside: float | None, held_by: Screw
+) -> CarrierPlate | None:
     """The lightest plate of its necks in stock that carries all modules; None: there is none.
 
     Each pair of them has a plate of its own, all alike and at one height. A ring has one.
@@ -946,8 +983,10 @@ def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlat
     ring = feet.slot_radius + edge
     # Heads stand clear of the feet, before and behind where these are nearest to each other.
     inside = max(0.0, feet.y - SPREAD / 2.0)
-    beside = sqrt(max(0.0, _apart(feet) ** 2 - inside**2)) if feet.arms == len(SENSES) else 0.0
-    least = max(SPREAD / 2.0, beside + _PATTERN_STEP) + EDGE * PLATE_SCREW.clearance_hole
+    beside = (
+        sqrt(max(0.0, _apart(feet, held_by) ** 2 - inside**2)) if feet.arms == len(SENSES) else 0.0
+    )
+    least = max(SPREAD / 2.0, beside + _PATTERN_STEP) + EDGE * held_by.clearance_hole
     blank = CarrierPlate(
         position=(feet.x, 0.0, 0.0),
         radius=ring,
@@ -959,9 +998,10 @@ def _plate(surface: Surface, feet: Feet, underside: float | None) -> CarrierPlat
         feet=feet.screws,
         trunk=(),
         sleeves=(),
-        thread=PLATE_SCREW.name,
+        thread=held_by.name,
         rows=feet.rows,
         arms=feet.arms,
+        sleeve_wall=SLEEVE_WALL if held_by is PLATE_SCREW else POST_WALL,
     )
     best: CarrierPlate | None = None
     for neck in (least + wider for wider in WIDER):
@@ -999,7 +1039,8 @@ def _borne(
         if held is None:
             return None
         plate = replace(held, thickness=thickness)
-        if plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY:
+        posts = plate.posts_use(feet.mass, feet.height) if _on_posts(plate) else 0.0
+        if plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY and posts <= 1.0:
             return plate
     return None
 
@@ -1022,7 +1063,8 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
         return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
     radius = plate.sleeve_radius
     x, _, z = plate.position
-    most = plate.neck - EDGE * PLATE_SCREW.clearance_hole
+    most = plate.neck - EDGE * plate.screw.clearance_hole
+    longest = POST_MAX if _on_posts(plate) else SLEEVE_MAX
     step = max(_PATTERN_STEP, feet.reach / 40.0)
     steps = [np.append(np.arange(SPREAD / 2.0, end, step), end) for end in (most, feet.y)]
     along, across = (each.ravel() for each in np.meshgrid(*steps, indexing="ij"))
@@ -1034,7 +1076,7 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
         along, across = np.append(along, steps[0]), np.append(across, between)
         shared = np.append(shared, np.ones(len(between), dtype=bool))
         apart = np.append(apart, shared[shared])
-    clear = apart & (np.hypot(along, feet.y - across) >= _apart(feet))
+    clear = apart & (np.hypot(along, feet.y - across) >= _apart(feet, plate.screw))
     along, across, shared = along[clear], across[clear], shared[clear]
     if not len(along):
         return None
@@ -1053,7 +1095,7 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
     heights = surface.height(points[..., 0], points[..., 1])
     top, low = heights.max(axis=2), heights.min(axis=2)
     with np.errstate(invalid="ignore"):
-        good = (top - low <= FLATNESS) & (z - top <= SLEEVE_MAX) & (top <= z + PROUD)
+        good = (top - low <= FLATNESS) & (z - top <= longest) & (top <= z + PROUD)
     ok = good.all(axis=1)
     if not ok.any():
         return None
@@ -1069,9 +1111,13 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
     )
 
 
-def _apart(feet: Feet) -> float:
+def _on_posts(plate: CarrierPlate) -> bool:
+    return plate.thread == POST_SCREW.name
+
+
+def _apart(feet: Feet, held_by: Screw) -> float:
     """Least distance of a plate's screws from the middle of a foot [m]."""
-    return feet.radius + PLATE_SCREW.head_diameter / 2.0 + HEAD_ROOM
+    return feet.radius + held_by.head_diameter / 2.0 + HEAD_ROOM
 
 
 def _heights(surface: Surface, points: FloatArray) -> FloatArray:

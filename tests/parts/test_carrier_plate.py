@@ -10,10 +10,12 @@ from hypothesis import strategies as st
 from naive_outline import flat_figures, green
 
 from ocs_design.actuation.fasteners import screw
+from ocs_design.export.assembly.tightening import tightened
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import (
     DENSITY,
     FILLET,
+    MODULUS,
     STOCK,
     CarrierPlate,
     DogBone,
@@ -310,3 +312,53 @@ def test_a_mast_bears_in_proportion_to_its_modules(mass, more):
     wider = replace(plate, mast=replace(plate.mast, wall=0.005))
     assert wider.mast_stress(mass, 0.1) < plate.mast_stress(mass, 0.1)
     assert wider.frequency(mass) > plate.frequency(mass)
+
+
+def on_posts(gap=0.15, p=0.015, q=0.06):
+    plate = plate_of(0.03, 0.12, 0.01)
+    holes = tuple((x, y) for y in (q, -q) for x in (p, -p))
+    return replace(plate, thread="M8", sleeve_wall=5e-3, trunk=holes, sleeves=(gap,) * 4)
+
+
+@pytest.mark.parametrize("forward", [True, False])
+def test_posts_sway_as_four_beams_under_a_rigid_plate_do(forward):
+    """By the stiffness of beams that are held at one end, for a plate that moves and turns."""
+    gap, height, mass = 0.15, 0.13, 3.0
+    p, q = (0.015, 0.06) if forward else (0.06, 0.015)
+    plate = on_posts(gap, p, q)
+    second, area = pi / 64.0 * (0.019**4 - 0.009**4), pi / 4.0 * (0.019**2 - 0.009**2)
+    bend = MODULUS * second / gap**3 * np.array([[12.0, -6.0 * gap], [-6.0 * gap, 4.0 * gap**2]])
+    stretch = MODULUS * area / gap * min(p, q) ** 2
+    stiffness = 4.0 * (bend + np.diag([0.0, stretch]))
+    # A force at the wheels' height above the posts' ends; turning moves that point the other way.
+    up = plate.thickness + height
+    lever = np.array([1.0, up])
+    moved = lever @ np.linalg.solve(stiffness, lever)
+    expected = 1.0 / (2.0 * pi * np.sqrt(2.0 * mass * moved))
+    assert plate.sway(mass, height) == pytest.approx(expected, rel=1e-9)
+    assert replace(plate, sleeves=(0.0,) * 4).sway(mass, height) == np.inf
+
+
+def test_posts_by_hand():
+    """19 mm by 9 mm: 220 mm^2, 639.5 mm^3; 3 kg each at 20 g are 1176.8 N on four of them.
+
+    Each is bent by 294.2 N x 75 mm and pulled by 294.2 N x 215 mm / 15 mm.
+    """
+    plate = on_posts()
+    area, section, _ = plate.sleeve_section
+    assert (area, section) == (
+        pytest.approx(219.91e-6, rel=1e-4),
+        pytest.approx(639.5e-9, rel=1e-3),
+    )
+    force = 294.2
+    stress = force * 0.075 / 639.5e-9 + force * 0.215 / 0.015 / 219.9e-6
+    # M8 of class 8.8: 0.9 x 640 MPa x 36.6 mm^2 / 1.132, friction 0.12 (VDI 2230-1).
+    pressed = 18.62e3 / 219.9e-6
+    shares = stress / pressed, stress / 127.5e6, (stress + pressed) / 255e6
+    assert plate.posts_use(3.0, 0.13) == pytest.approx(max(shares), rel=5e-3)
+    (held,) = plate.fastenings
+    whole = tightened(held, on_metal=False, head_on_print=False)
+    assert whole.torque == pytest.approx(held.screw.torque(held.screw.preload))
+    assert held.length == plate.screw_lengths[0]
+    assert on_posts(p=0.025).posts_use(3.0, 0.13) < plate.posts_use(3.0, 0.13)
+    assert on_posts(gap=0.1).posts_use(3.0, 0.13) < plate.posts_use(3.0, 0.13)

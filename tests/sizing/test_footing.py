@@ -451,19 +451,66 @@ def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
     assert mounting_open_points(mounting_of(robot, device, (), robot.mass_properties)) == ()
     assert check_device(device) is None
     (least,) = {round(float(abs(each.position[1])), 9) for each in device.modules}
-    farther = least - CLEARANCE * device_size(device).reach
-    (step,) = (index for index, each in enumerate(ASIDE) if abs(each - farther) < 1e-9)
+    reach = CLEARANCE * device_size(device).reach
+    assert min(abs(least - reach - each) for each in ASIDE) < 1e-9
     arm = Rectangle(-0.3, 0.3, -0.03, 0.03)
     arm = part_manifold(Part("arm", 1.0, (Prism(arm, 0.1, 0.16),)), 96)
     solids = built(device)
     assert max((solid ^ arm).volume() for solid in solids.values()) < 1e-12
-    # One step nearer to each other, balls around the modules would touch it: above their middle
-    # it ends, below it begins.
-    height = max(0.1, min(0.16, float(device.modules[0].position[2])))
-    off = hypot(
-        least - ASIDE[step] + ASIDE[step - 1] - 0.03, height - device.modules[0].position[2]
+    # As near to each other as they may be, balls around the modules would touch it.
+    up = float(device.modules[0].position[2])
+    assert hypot(reach - 0.03, up - max(0.1, min(0.16, up))) < reach
+
+
+BARS = "".join(
+    f'<collision><origin xyz="{x} 0 0.1"/><geometry><box size="0.01 0.24 0.1"/></geometry>'
+    "</collision>"
+    for x in np.arange(-0.28, 0.3, 0.07).round(3).tolist()
+)
+"""Bars across a trunk 100 mm above its top, 60 mm apart: no module stands between them."""
+
+
+@pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.DOUBLE_PAIR])
+def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed, name):
+    """Which bear it, are weighed with it, and have no volume in common with bars and modules."""
+    robot, layout = boxed(0.24, more=BARS), Layout(name)
+    _, sized = designed("Antigravity MN5006 KV450")
+    axes = layout.axes(0.5).T
+    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
+    device = stand_on_trunk(
+        replace(sized.device, modules=modules, layout=layout), robot, stated=False
     )
-    assert off < CLEARANCE * device_size(device).reach
+    plate = device.plate
+    assert plate.thread == "M8"
+    assert plate.sleeves == (pytest.approx(0.1, abs=1e-4),) * 4 * layout.pairs
+    assert plate.position[2] == pytest.approx(TOP + 0.1, abs=1e-4)
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    assert mounting_open_points(mounting) == ()
+    assert all(contact.held for contact in mounting.feet)
+    check_device(device)
+    feet = feet_of(device)
+    assert plate.posts_use(feet.mass, feet.height) <= 1.0
+    assert plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
+    assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
+    # Tubes of 17 mm by 9 mm are a part of what it weighs.
+    tubes = 4 * layout.pairs * 0.1 * plate.density * pi / 4.0 * (0.017**2 - 0.009**2)
+    screws = sum(plate.screw.mass(length) for length in plate.screw_lengths)
+    assert plate.mass > tubes + screws
+    solids = built(device)
+    boxes = [Prism(Rectangle(-0.3, 0.3, -0.12, 0.12), -TOP, TOP)]
+    boxes += [
+        Prism(Rectangle(x - 0.005, x + 0.005, -0.12, 0.12), TOP, TOP + 0.1)
+        for x in np.arange(-0.28, 0.3, 0.07).tolist()
+    ]
+    for box in boxes:
+        trunk = part_manifold(Part("trunk", 1.0, (box,)), 96)
+        assert max((solid ^ trunk).volume() for solid in solids.values()) < 1e-9
+    meet = [
+        (one, other)
+        for one, other in combinations(solids, 2)
+        if (solids[one] ^ solids[other]).volume() > 1e-12
+    ]
+    assert meet == []
 
 
 COLUMN = """<robot name="column">
