@@ -198,12 +198,12 @@ def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
         loss = f"efficiency {motor.gear_efficiency:.0%}"
         yield "gear", f"{motor.gear}, ratio {motor.gear_ratio:.3g}, {loss}"
     limits = []
-    if motor.torque_limit is not None:
-        limits.append(f"{motor.torque_limit:.3g} N m")
     if motor.speed_max is not None:
         limits.append(rpm(motor.speed_max))
-    free = f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
-    yield "drive at the wheel", f"{free}, at most {listed(limits)}" if limits else free
+    if motor.torque_limit is not None:
+        limits.append(f"{motor.torque_limit:.3g} N m")
+    free = f"turns {rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
+    yield "drive at the wheel", f"{free}; allowed {listed(limits)}" if limits else free
 
 
 def _place(ocs: OcsRecord) -> Iterator[tuple[str, str]]:

@@ -20,11 +20,13 @@ from ocs_design.export.device_parts import (
     pedestal_screws,
     printed_foot,
     printed_parts,
+    ring_fixture,
     wheel_pieces,
 )
 from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
 from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import cage_placement
+from ocs_design.parts.bell import FIXTURE_FLOOR
 from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
@@ -155,6 +157,24 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         lid,
         lid_screws,
     )
+
+
+def bonding_pieces(device: Device) -> tuple[Piece, ...]:
+    """Ring, motor and the fixture that both stand in while the glue sets; none without a ring.
+
+    The motor's front is down, y points down.
+    """
+    fixture, bell = ring_fixture(device), motor_mount(device).bell
+    if fixture is None or bell is None:
+        return ()
+    front = Placement(np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, FIXTURE_FLOOR + bell.front]))
+    down = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
+    parts = placed_parts(device)
+    pieces = [Piece("ring_fixture", _placed(part_mesh(fixture, SECTIONS), down))]
+    for name in ("motor", "flywheel"):
+        part, place = parts[name]
+        pieces.append(Piece(name, _placed(part_mesh(part, SECTIONS), down @ front @ place)))
+    return tuple(pieces)
 
 
 def holds_wheel(screwed: Screwed) -> bool:

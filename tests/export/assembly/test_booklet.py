@@ -154,8 +154,11 @@ def test_the_balance_says_how_much_is_left_and_what_holes_take():
     device = DEVICES["caged"]
     said, balance = texts(Assembly("solo12", device), "Balance"), balance_of(device)
     assert f"at most {1e6 * device.flywheel.mass * 6.3e-3 / 650.4:.2g} g mm" in said
-    pair = 1e6 * balance.correction.mass * balance.correction.radius
-    assert f"each pair takes {pair:.2g} g mm" in said
+    holes, rim = balance.correction, device.flywheel
+    pair = 2.0 * np.pi * holes.hole_radius**2 * holes.depth * rim.density
+    away = (rim.inner_radius + rim.outer_radius) / 2.0
+    assert f"a pair takes {1e3 * pair:.2g} g, which are {1e6 * pair * away:.2g} g mm" in said
+    assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in said
     assert balance.centred_by in said
 
 
