@@ -207,8 +207,8 @@ def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
 
 
 def _place(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
-    at = (f"{each.name} {', '.join(map(tenths, each.position))}" for each in ocs.modules)
-    yield "wheels at", f"{'; '.join(at)} mm"
+    at = (f"{each.name} ({', '.join(map(tenths, each.position))})" for each in ocs.modules)
+    yield "wheels at", f"{', '.join(at)} mm"
     yield "nearest, standing", _nearest(ocs.clearance)
     if ocs.mounting is not None:
         if ocs.mounting.landing is not None:
