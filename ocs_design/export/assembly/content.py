@@ -202,7 +202,7 @@ class Assembly:
                 what = piece.fastening.designation
                 yield PieceRow(number, f"screw, {_short(piece.name)}", count, f"bought: {what}", "")
             else:
-                label = _LABELS.get(piece.name, piece.name.replace("_", " of "))
+                label = _LABELS.get(piece.name, piece.name.replace("_", " "))
                 made, file = _made(self.device, piece.name, bill)
                 yield PieceRow(number, label, count, made, file)
 
@@ -441,7 +441,7 @@ class Assembly:
         if plate is None:
             under_feet = "trunk"
             yield (
-                "Drill the trunk by cad/drilling.pdf, printed at 100 %, which also says how deep, "
+                "Drill the trunk by cad/drilling.pdf, printed at 100 %; it says how deep. Places, "
                 f"{frame} design.json): "
                 f"{places_of}."
             )
@@ -455,7 +455,7 @@ class Assembly:
             if plate.mast is None:
                 yield (
                     f"{cut} {plate.thread} where its other {len(plate.trunk)} holes come to lie "
-                    "(cad/drilling.pdf, printed at 100 %, which also says how deep)."
+                    "(cad/drilling.pdf, printed at 100 %, which says how deep)."
                 )
             else:
                 yield (
@@ -510,7 +510,7 @@ class Assembly:
                 f"Print {len(kind)} x {name}{self._number(name)} (cad/{name}.stl) in PETG on its "
                 "side, of solid layers, as strong as it is computed; tap the 2 holes of its seat "
                 f"{one.base_screws.screw.name}. Its seat's far end points, from forward to the "
-                f"left, to {turned}. Screw it to the trunk before the foot is on it: "
+                f"left, to {turned}. It goes on the trunk before the foot is on it. "
                 + self._screwed(f"{name.replace('_', ' ')} on trunk")
             )
         if self.device.pedestals:
@@ -525,7 +525,7 @@ class Assembly:
             )
 
     def _direction(self) -> str:
-        names = " and ".join(joint_name(module) for module in self.device.modules)
+        names = ", ".join(joint_name(module) for module in self.device.modules)
         axes = "; ".join(
             f"{module.name} ({', '.join(f'{value:.3f}' for value in np.round(module.axis, 3))})"
             for module in self.device.modules

@@ -5,6 +5,7 @@ The wheel's axis is z, the floor of its housing at -z, the motor behind it; y po
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from math import cos, pi, sin
 
 import numpy as np
@@ -54,6 +55,7 @@ class Piece:
         fastening: of screws; None: no screws.
         drop: how far down it is drawn from its place where pieces are pulled apart [m]; None: it
             is pulled off along the axis.
+        aside: how far along the axis besides [m]: pedestals of several shapes have one place.
         shared: whether the device has it once, for both modules.
         count: of equal ones in the mesh; screws have theirs in `fastening`.
         modules: how many modules have it; None: all.
@@ -63,6 +65,7 @@ class Piece:
     mesh: Mesh
     fastening: Fastening | None = None
     drop: float | None = None
+    aside: float = 0.0
     shared: bool = False
     count: int = 1
     modules: int | None = None
@@ -221,15 +224,19 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
 def _pedestal_pieces(device: Device) -> Iterator[Piece]:
     """A pedestal of each kind under the foot, with the screws of its flanges."""
     foot, parts, screws = printed_foot(device), pedestal_pieces(device), pedestal_screws(device)
-    apart = _APART * foot.housing.radius
+    apart, beside = _APART * foot.housing.radius, np.inf
     for name, kind in pedestal_kinds(device).items():
         one, held = kind[0], screws[name]
         place = foot.placement @ one.seat.inverse()
         screw = solid_mesh(_screw(held.screw, held.length), 24)
         heads = merged([screw.moved(np.array([x, y, one.base])) for x, y in one.holes])
-        yield Piece(held.purpose, _placed(heads, place), held, drop=apart, modules=len(kind))
-        mesh = _placed(part_mesh(parts[name], SECTIONS), place)
-        yield Piece(name, mesh, drop=2.0 * apart, modules=len(kind))
+        heads, mesh = (_placed(each, place) for each in (heads, part_mesh(parts[name], SECTIONS)))
+        along = np.concatenate([heads.vertices[:, 2], mesh.vertices[:, 2]])
+        aside = min(0.0, beside - apart - float(along.max()))
+        beside = aside + float(along.min())
+        drawn = partial(Piece, aside=aside, modules=len(kind))
+        yield drawn(held.purpose, heads, held, drop=apart)
+        yield drawn(name, mesh, drop=2.0 * apart)
 
 
 def _plate_pieces(device: Device) -> Iterator[Piece]:

@@ -58,7 +58,9 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
             lift = shift
     # What goes on or under the foot follows it.
     return tuple(
-        piece if piece.drop is None else piece.moved(np.array([0.0, piece.drop, lift]))
+        piece
+        if piece.drop is None
+        else piece.moved(np.array([0.0, piece.drop, lift + piece.aside]))
         for piece in moved
     )
 

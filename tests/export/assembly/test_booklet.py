@@ -22,9 +22,10 @@ from ocs_design.export.assembly.booklet import (
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import pulled_apart, spread
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.export.device_parts import printed_parts
+from ocs_design.export.device_parts import printed_foot, printed_parts
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Polyline, Text
 from ocs_design.export.meshes import part_mesh
+from ocs_design.parts.pedestal import Pedestal
 
 
 @pytest.fixture(params=DEVICES, ids=str)
@@ -254,3 +255,24 @@ def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
 def test_large_figures_are_written_out(assembly):
     said = " ".join(text for chapter in assembly.chapters() for text in chapter.texts)
     assert not re.search(r"\de[+]", said)
+
+
+def test_pedestals_of_two_shapes_stand_beside_each_other():
+    """Each with its screws, and told and numbered by what stands on it."""
+    caged = DEVICES["caged"]
+    foot = printed_foot(caged)
+    low, high = (
+        Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, lean, 0.04, module=module)
+        for lean, module in ((0.3, "left"), (0.9, "right"))
+    )
+    assembly = Assembly("solo12", replace(caged, plate=None, pedestals=(low, high)))
+    apart = {piece.name: piece.mesh.vertices for piece in pulled_apart(assembly.pieces, 0.01)}
+    along = [
+        np.concatenate([apart[f"pedestal_{side}"], apart[f"pedestal {side} on trunk"]])[:, 2]
+        for side in ("left", "right")
+    ]
+    assert along[1].max() < along[0].min()
+    assert {"pedestal left", "pedestal right"} <= {row.name for row in assembly.piece_rows()}
+    # In their places they have one seat.
+    placed = {piece.name: piece for piece in assembly.pieces}
+    assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside
