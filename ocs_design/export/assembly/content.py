@@ -49,6 +49,7 @@ from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.electrics import demand_of, electrics
 from ocs_design.export.formats import Subject
 from ocs_design.parts.bell import GLUE_GAP
+from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.pedestal import SEAT_SCREWS
@@ -371,7 +372,11 @@ class Assembly:
         screwed = any(name.startswith("wheel") for name in self.screws)
         for joint in joints_of(self.device):
             if joint.name == SHAFT_JOINT and not screwed:
-                yield f"Put the wheel on the motor's shaft: {joint.note}."
+                yield (
+                    f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
+                    f"{1e3 * CLEARANCE:g} mm between rim and floor set its height; they come out "
+                    "when the compound is hard."
+                )
             elif joint.name == SHAFT_JOINT:
                 yield f"That joint carries the wheel by {joint.note}."
 
@@ -449,7 +454,8 @@ class Assembly:
             under_feet = "plate"
             cut = (
                 f"Cut the plate{self._number('plate')} (cad/plate.stl; `export --formats dxf` "
-                f"writes plate.dxf) and tap its holes {plate.foot_thread} for the feet, which are, "
+                f"writes plate.dxf), with holes of {1e3 * plate.screw.clearance_hole:g} mm for the "
+                f"trunk's screws, and tap those {plate.foot_thread} for the feet, which are, "
                 f"{frame} design.json), at {places_of}. Drill and tap the trunk"
             )
             if plate.mast is None:
@@ -491,9 +497,24 @@ class Assembly:
         yield from self._on_pedestals()
         if not standing:
             return
+        # Away from its motor.
+        outward = {
+            module.name: float(np.arctan2(module.frame[1, 1], module.frame[0, 1]))
+            for module in self.device.modules
+            if module.name in standing
+        }
+        looks = ", ".join(
+            f"{format_quantity(abs(angle), 'deg')} to the {'left' if angle > 0.0 else 'right'} of "
+            f"forward ({name})"
+            for name, angle in outward.items()
+        )
+        long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.base_radius - WALL)
         yield (
-            "Scribe a line forward through the middle of each foot, turn the foot until it meets "
-            f"the scale at {scale}, and tighten {held.count} x "
+            f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} "
+            f"deg apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe "
+            "a line forward through the middle of each foot, turn the foot until it meets "
+            f"the scale at {scale}, its lid looking {looks}, and tighten "
+            f"{held.count} x "
             f"{held.designation}{self._number(name)} with {found.torque:.2g} N "
             f"m each, into {'the threads' if plate else 'threads, inserts or nuts'} of the "
             f"{under_feet}."

@@ -25,6 +25,7 @@ from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import printed_foot, printed_parts
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Polyline, Text
 from ocs_design.export.meshes import part_mesh
+from ocs_design.export.module_bodies import carrier_placement, wheel_placement
 from ocs_design.parts.pedestal import Pedestal
 
 
@@ -276,3 +277,25 @@ def test_pedestals_of_two_shapes_stand_beside_each_other():
     # In their places they have one seat.
     placed = {piece.name: piece for piece in assembly.pieces}
     assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside
+
+
+@pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.TRIAD])
+def test_lids_look_where_the_robot_files_have_them(name):
+    """The lid is at the end of the carrier's axis that its wheel's motor is not at."""
+    layout, caged = Layout(name), DEVICES["caged"]
+    angle = np.pi / 6.0 if name is LayoutName.PAIR else layout.angle
+    modules = tuple(map(Module, layout.names, layout.axes(angle).T, np.eye(3)))
+    device = replace(caged, modules=modules, layout=layout, incidence=angle)
+    said = texts(Assembly("solo12", device), "Steps")
+    for module in modules:
+        turn = wheel_placement(module).rotation @ carrier_placement(module).rotation
+        x, y, _ = turn[:, 2]
+        degrees = np.degrees(np.arctan2(abs(y), x))
+        side = "left" if y > 0.0 else "right"
+        assert f"{degrees:.4g} deg to the {side} of forward ({module.name})" in said
+
+
+def test_the_wheel_is_bonded_as_high_as_it_was_designed():
+    assert "Strips of 2 mm between rim and floor" in texts(
+        Assembly("solo12", DEVICES["by its face"]), "Steps"
+    )
