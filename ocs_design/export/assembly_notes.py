@@ -216,12 +216,12 @@ def _frame_found(robot: Robot) -> str:
         return ""
     half = surface.step / 2.0
     ends = " and ".join(
-        f"{axis} = {1e3 * (low - half):.0f} to {1e3 * (high + half):.0f}"
+        f"{axis} = {1e3 * (low - half):.1f} to {1e3 * (high + half):.1f}"
         for axis, (low, high) in (("x", surface.x_range), ("y", surface.y_range))
     )
     return (
         "; to find that frame on the robot: in its file the trunk, with all that is fixed to it, "
-        f"reaches from {ends}, and up to z = {1e3 * surface.heights.max():.0f} mm"
+        f"reaches from about {ends}, and up to z = {1e3 * surface.heights.max():.1f} mm"
     )
 
 

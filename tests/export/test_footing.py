@@ -73,7 +73,7 @@ def test_the_frame_is_found_by_the_trunk_s_ends(plated):
         lows.append(middle - half)
         highs.append(middle + half)
     low, high = 1e3 * np.min(lows, axis=0), 1e3 * np.max(highs, axis=0)
-    found = re.findall(r"(?:= | to )(-?\d+)\b", said.split("reaches from")[1])
+    found = re.findall(r"(?:= | to )(-?[\d.]+)", said.split("reaches from")[1])
     expected = [low[0], high[0], low[1], high[1], high[2]]
     np.testing.assert_allclose(np.array(found, dtype=float), expected, atol=1.0)
 

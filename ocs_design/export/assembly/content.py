@@ -372,10 +372,11 @@ class Assembly:
         screwed = any(name.startswith("wheel") for name in self.screws)
         for joint in joints_of(self.device):
             if joint.name == SHAFT_JOINT and not screwed:
+                room = printed_foot(self.device).housing.rim_height - self.device.flywheel.height
                 yield (
                     f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
-                    f"{1e3 * CLEARANCE:g} mm between rim and floor set its height; they come out "
-                    "when the compound is hard."
+                    f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its "
+                    "height; they come out when the compound is hard."
                 )
             elif joint.name == SHAFT_JOINT:
                 yield f"That joint carries the wheel by {joint.note}."

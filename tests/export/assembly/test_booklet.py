@@ -296,6 +296,11 @@ def test_lids_look_where_the_robot_files_have_them(name):
 
 
 def test_the_wheel_is_bonded_as_high_as_it_was_designed():
-    assert "Strips of 2 mm between rim and floor" in texts(
-        Assembly("solo12", DEVICES["by its face"]), "Steps"
-    )
+    """What is between its rim and the drum's floor, by their meshes."""
+    device = DEVICES["by its face"]
+    assembly = Assembly("solo12", device)
+    meshes = {piece.name: piece.mesh.vertices for piece in assembly.pieces}
+    rim, drum = meshes["flywheel"], meshes["drum"]
+    below = drum[np.hypot(*drum[:, :2].T) < device.flywheel.inner_radius, 2].max()
+    low = rim[np.hypot(*rim[:, :2].T) > device.flywheel.inner_radius, 2].min()
+    assert f"Strips of {1e3 * (low - below):.1f} mm between" in texts(assembly, "Steps")
