@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from ocs_design.common.errors import RobotError
 from ocs_design.device.device import Device, Module
-from ocs_design.device.layout import SIDES, Layout, LayoutName
+from ocs_design.device.layout import Layout, LayoutName
 
 PREFIX = "ocs_"
 PLATE = f"{PREFIX}plate"
@@ -25,11 +25,6 @@ def flywheel_name(module: Module) -> str:
 def flywheels_among(bodies: Iterable[str]) -> list[str]:
     """Bodies of a robot that are wheels of the device, in their order."""
     return [name for name in bodies if name.startswith(PREFIX) and name.endswith(_FLYWHEEL)]
-
-
-def part_name(part: str, module: str) -> str:
-    """Part of a module for people, as in "left foot", or "foot 1" of a ring's."""
-    return f"{module} {part}" if module in SIDES else f"{part} {module}"
 
 
 def joint_name(module: Module) -> str:

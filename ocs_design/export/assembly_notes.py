@@ -214,10 +214,10 @@ def _frame_found(robot: Robot) -> str:
     surface = trunk_surface(robot)
     if surface is None:
         return ""
-    half = surface.step / 2.0
+    half, last = surface.step / 2.0, surface.y + surface.step * (surface.heights.shape[1] - 1)
     ends = " and ".join(
         f"{axis} = {1e3 * (low - half):.1f} to {1e3 * (high + half):.1f}"
-        for axis, (low, high) in (("x", surface.x_range), ("y", surface.y_range))
+        for axis, (low, high) in (("x", surface.x_range), ("y", (surface.y, last)))
     )
     return (
         "; to find that frame on the robot: in its file the trunk, with all that is fixed to it, "

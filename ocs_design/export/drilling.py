@@ -11,7 +11,6 @@ from pathlib import Path
 
 from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
-from ocs_design.device.naming import part_name
 from ocs_design.export.device_parts import foot_holes, printed_foot, trunk_reach
 from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
 from ocs_design.export.drawing.sheet import (
@@ -32,6 +31,7 @@ from ocs_design.export.drawing.sheet import (
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.formats import Subject
 from ocs_design.parts.flattening import flat_outline
+from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import FLANGE
 from ocs_design.parts.printed import TRUNK_SCREW
 

@@ -218,7 +218,7 @@ def _box(body: LeggedBody, layout: Layout, duration: float) -> tuple[FloatArray,
 
 
 def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
-    """What is overdrawn by how much, with semicolons between; empty if nothing is."""
+    """What is overdrawn by how much, joined by "and"; empty if nothing is."""
     duration = found.nodes[layout.duration, -1]
     speed = found.nodes[layout.v][-layout.joints :] / duration
     sentences = []
@@ -236,7 +236,7 @@ def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
         sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")
     if not sentences and not found.solved:
         return "no push-off was found within the legs' reach"
-    return "; ".join(sentences)
+    return " and ".join(sentences)
 
 
 @dataclass(frozen=True, eq=False)

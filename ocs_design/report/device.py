@@ -202,7 +202,7 @@ def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
         limits.append(rpm(motor.speed_max))
     if motor.torque_limit is not None:
         limits.append(f"{motor.torque_limit:.3g} N m")
-    free = f"turns {rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
+    free = f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
     yield "drive at the wheel", f"{free}; allowed {listed(limits)}" if limits else free
 
 

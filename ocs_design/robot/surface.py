@@ -71,11 +71,6 @@ class Surface:
         """First and last x of the surface [m]."""
         return self.x, self.x + self.step * (len(self.heights) - 1)
 
-    @property
-    def y_range(self) -> tuple[float, float]:
-        """First and last y of the surface [m]."""
-        return self.y, self.y + self.step * (self.heights.shape[1] - 1)
-
 
 @lru_cache(maxsize=1)
 def trunk_surface(robot: Robot) -> Surface | None:

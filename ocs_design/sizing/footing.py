@@ -19,7 +19,6 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device, Module
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout
-from ocs_design.device.naming import part_name
 from ocs_design.device.solids import (
     foot_of,
     mast_solids,
@@ -43,6 +42,7 @@ from ocs_design.parts.carrier_plate import (
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.joints import pattern_use
+from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import FLANGE, Pedestal
 from ocs_design.parts.printed import AROUND_SLOT, SHOCK, TRUNK_SCREW
 from ocs_design.requirement.froude import Envelope

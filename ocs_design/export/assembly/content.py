@@ -25,7 +25,7 @@ from ocs_design.device.joints import (
     rim_fit,
 )
 from ocs_design.device.layout import PAIR
-from ocs_design.device.naming import joint_name, part_name
+from ocs_design.device.naming import joint_name
 from ocs_design.device.records import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import (
@@ -52,6 +52,7 @@ from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import EPOXY
+from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import SEAT_SCREWS
 from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import stored_energy
