@@ -9,9 +9,10 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperCommand
 
 from ocs_design.cli import completion, errors
 from ocs_design.cli import options as opt
@@ -78,6 +79,14 @@ EXAMPLES: Mapping[str, tuple[str, ...]] = {
 def _examples(command: str) -> str:
     """Paragraph that is not to be wrapped, as the backspace says."""
     return "\b\n" + "\n".join(["Examples:", *(f"  {line}" for line in EXAMPLES[command])])
+
+
+class _OnDesign(TyperCommand):
+    """A command on a design: its usage has DESIGN without the braces that mean a choice."""
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:  # noqa: ANN401  # typer hides its type
+        """Pieces of the usage line."""
+        return [piece.strip("{}") for piece in super().collect_usage_pieces(ctx)]
 
 
 def main() -> int:
@@ -328,8 +337,8 @@ def bound(
         print_bound(make_console(color=not no_color), answer)
 
 
-app.command(epilog=_examples("export"))(export)
-app.command(epilog=_examples("validate"))(validate)
+app.command(cls=_OnDesign, epilog=_examples("export"))(export)
+app.command(cls=_OnDesign, epilog=_examples("validate"))(validate)
 app.command(epilog=_examples("pareto"))(pareto)
 app.command(epilog=_examples("init"))(init)
 app.command(epilog=_examples("doctor"))(doctor)

@@ -103,8 +103,8 @@ Survives: TypeAlias = Annotated[
     typer.Option(
         "--survives",
         autocompletion=completion.one_of("one", "none"),
-        metavar="MOTORS",
-        help="one, or 'any one motor': land level though any drive stops in flight.",
+        metavar="one",
+        help="Land within the allowance though any one of the drives stops in flight.",
     ),
 ]
 Detection: TypeAlias = Annotated[

@@ -21,6 +21,8 @@ from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH_ACROSS, TRUNK_SCREW
 from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.surface import trunk_surface
 
 _UNDRILLED = "drill floor and plate for it"
 
@@ -200,23 +202,46 @@ def _overlap(parts: str, beyond: float) -> str:
     )
 
 
-def trunk_notes(device: Device) -> tuple[str, ...]:
-    """Note on the holes that the trunk needs for the plate, or for the feet themselves."""
+def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
+    """Note on the holes that the trunk needs, and where the frame is that they are told in."""
     if device.carrier.mass == 0.0:
         return ()
+    return (f"{_trunk_holes(device)}{_frame_found(robot)}",)
+
+
+def _frame_found(robot: Robot) -> str:
+    """How the base frame is found on the robot; empty where the trunk's shapes are not known."""
+    surface = trunk_surface(robot)
+    if surface is None:
+        return ""
+    half, last = surface.step / 2.0, surface.y + surface.step * (surface.heights.shape[1] - 1)
+    ends = " and ".join(
+        f"{axis} = {1e3 * (low - half):.1f} to {1e3 * (high + half):.1f}"
+        for axis, (low, high) in (("x", surface.x_range), ("y", (surface.y, last)))
+    )
+    return (
+        "; to find that frame on the robot: in its file the trunk, with all that is fixed to it, "
+        f"reaches from about {ends}, and up to z = {1e3 * surface.heights.max():.1f} mm"
+    )
+
+
+def _trunk_holes(device: Device) -> str:
+    """Holes that the trunk needs for the plate, or for the feet themselves."""
     plate = device.plate
     if device.pedestals:
         count = 4 * len(device.pedestals) + 2 * len(foot_holes(device))
         return (
             f"printed pedestals carry the feet that lean; the trunk needs threads "
-            f"{TRUNK_SCREW.name} for {count} screws, whose places are on cad/drilling.pdf; whether "
-            "its wall bears them is not looked at, and how much pedestals bend is not computed",
+            f"{TRUNK_SCREW.name} for {count} screws, whose places in the base frame are on "
+            "cad/drilling.pdf; whether its wall bears them is not looked at, and how much "
+            "pedestals bend is not computed"
         )
     if plate is None:
         return (
             f"the trunk needs threads {TRUNK_SCREW.name} for the feet's screws, which stand at 45 "
             "degrees to the lateral direction on a circle of "
-            f"{format_quantity(2.0 * printed_foot(device).slot_radius, 'mm', digits=3)}",
+            f"{format_quantity(2.0 * printed_foot(device).slot_radius, 'mm', digits=3)}; their "
+            "places in the base frame are on cad/drilling.pdf"
         )
     x, y, z = plate.position
     if plate.mast is not None:
@@ -235,9 +260,9 @@ def trunk_notes(device: Device) -> tuple[str, ...]:
         return (
             f"a mast behind the trunk carries the feet; the trunk's back needs threads "
             f"{plate.thread} for its {len(plate.trunk)} screws at y, z = {places} mm of the base "
-            f"frame{sleeved}; whether its wall bears them is not looked at",
+            f"frame{sleeved}; whether its wall bears them is not looked at"
         )
     return (
         f"a plate carries the feet; the trunk needs threads {plate.thread} for its "
-        f"{len(plate.trunk)} screws at x, y = {places} mm of the base frame{sleeved}",
+        f"{len(plate.trunk)} screws at x, y = {places} mm of the base frame{sleeved}"
     )

@@ -276,7 +276,7 @@ def _web(web: Web) -> str:
         f"{hub.bolts} holes {_mm(2.0 * hub.bolt_hole_radius)} "
         f"on a circle of {_mm(2.0 * hub.bolt_circle_radius)}"
         if hub.bolts
-        else "no bolt circle: bond it on the shaft, or drill it to the motor's threads"
+        else "no bolt circle"
     )
     thick, holes = f"web {_mm(web.thickness)}", web.holes
     if holes is not None:

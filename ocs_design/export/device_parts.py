@@ -148,6 +148,22 @@ def foot_screws(device: Device, module: Module) -> Fastening:
     return TRUNK_SCREWS if device.plate is None else replace(TRUNK_SCREWS, purpose="foot on plate")
 
 
+def trunk_reach(device: Device) -> tuple[float, float]:
+    """Least and largest length of the trunk's screws beyond what they hold on it [m].
+
+    So much thread holds at least, and so deep it has to be where a screw stands on a short sleeve.
+    """
+    plate = device.plate
+    if plate is not None:
+        held = zip(plate.screw_lengths, plate.sleeves, strict=True)
+        reach = [length - plate.clamped - sleeve for length, sleeve in held]
+    else:
+        screws = [each.base_screws for each in device.pedestals]
+        screws += [TRUNK_SCREWS] if foot_holes(device) else []
+        reach = [each.length - each.thickness for each in screws]
+    return min(reach), max(reach)
+
+
 def printed_parts(device: Device) -> tuple[Part, ...]:
     """Drum, lid and foot around one wheel, and the cage of a motor that is held by its back.
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ocs_design.actuation.fasteners import Screw
-from ocs_design.export.device_parts import foot_holes, printed_foot
+from ocs_design.common.units import format_quantity, round_outwards
+from ocs_design.export.device_parts import foot_holes, printed_foot, trunk_reach
 from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
 from ocs_design.export.drawing.sheet import (
     CENTRE,
@@ -30,6 +31,7 @@ from ocs_design.export.drawing.sheet import (
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.formats import Subject
 from ocs_design.parts.flattening import flat_outline
+from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import FLANGE
 from ocs_design.parts.printed import TRUNK_SCREW
 
@@ -53,7 +55,9 @@ class Drilling:
         robot: its name. trunk: name of the link whose frame this is.
         holes: to be drilled into the trunk [mm].
         screw: that goes there.
-        items: the drawing, holes with their coordinates, feet and plate [mm].
+        reach: of the screws into the trunk, least and largest [m].
+        marks: holes with their coordinates, and the frame's axes [mm].
+        around: feet and plate [mm].
         upwards: whether it is the trunk's back, coordinates up and to the left; else its top,
             forward and to the left.
     """
@@ -62,17 +66,39 @@ class Drilling:
     trunk: str
     holes: tuple[Point, ...]
     screw: Screw
-    items: tuple[Item, ...]
+    reach: tuple[float, float]
+    marks: tuple[Item, ...]
+    around: tuple[Item, ...]
     upwards: bool = False
 
     @property
-    def title(self) -> str:
-        """What it is, in one line."""
-        return (
-            f"{self.robot}: drill {len(self.holes)} holes of {MILLIMETRES * self.drill:.3g} mm for "
-            f"{self.screw.name} at the crosses; coordinates in mm in the frame of {self.trunk}"
-            f"{', z and y: its back, seen from behind' if self.upwards else ''}"
+    def items(self) -> tuple[Item, ...]:
+        """The whole drawing [mm]."""
+        return *self.marks, *self.around
+
+    @property
+    def words(self) -> tuple[str, str, str]:
+        """What to do, line by line."""
+        ends = dict.fromkeys(f"{MILLIMETRES * each:.1f}" for each in self.reach)
+        thread = round_outwards(self.thread, upwards=True, digits=2)
+        deep, blind = (
+            format_quantity(each, "mm", digits=2) for each in (thread, thread + self.screw.diameter)
         )
+        return (
+            f"{self.robot}: drill {len(self.holes)} holes of {MILLIMETRES * self.drill:.3g} mm at "
+            f"the crosses, and tap {self.screw.name}; coordinates in mm in the frame of "
+            f"{self.trunk}{', z and y: its back, seen from behind' if self.upwards else ''}.",
+            f"The screws go {' to '.join(ends)} mm into the trunk: thread at least {deep} deep, "
+            f"the hole through the wall or {blind} deep. Look first what is behind the wall.",
+            f"In a wall thinner than {MILLIMETRES * self.screw.diameter:.3g} mm, a print or "
+            f"carbon: drill {MILLIMETRES * self.screw.clearance_hole:.3g} mm through, nuts and "
+            "washers behind, screws longer by both and by the wall.",
+        )
+
+    @property
+    def thread(self) -> float:
+        """Least depth of the threads: a pitch more than the screws go in [m]."""
+        return self.reach[1] + self.screw.pitch
 
     @property
     def drill(self) -> float:
@@ -110,23 +136,25 @@ def drilling_of(subject: Subject) -> Drilling | None:
         _, y, z = plate.position
         holes = _millimetres([(z + up, y + across) for across, up in plate.trunk])
     radius = MILLIMETRES * thread.tapping_drill / 2.0
-    items: list[Item] = []
+    marks: list[Item] = [*_cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
+    marks.append(Text((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
     for hole in holes:
         words = Text(
             (hole[0] + radius, hole[1] - radius - 1.0), f"{hole[0]:.1f}, {hole[1]:.1f}", 1.8
         )
-        items += [Circle(hole, radius), *_cross(hole, radius + CROSS), words]
+        marks += [Circle(hole, radius), *_cross(hole, radius + CROSS), words]
+    items: list[Item] = []
     for module in (each for each in device.modules if each.name in standing and mast is None):
         (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
         base = MILLIMETRES * foot.base_radius
         items += [Circle(middle, base, THIN), *_cross(middle, CROSS)]
-        items.append(Text((middle[0] + base / 2.0, middle[1]), f"{module.name} foot", 2.5))
+        items.append(Text((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5))
     for each in device.pedestals:
         side, near, far = each.width / 2.0, -FLANGE, each.length + FLANGE
         around = [(-side, near), (side, near), (side, far), (-side, far), (0.0, each.length / 2.0)]
         *rim, inside = _millimetres(each.in_base(around))
         items.append(Polyline((*rim, rim[0]), THIN))
-        items.append(Text(inside, f"{each.module} pedestal", 2.5))
+        items.append(Text(inside, part_name("pedestal", each.module), 2.5))
     if plate is not None and mast is not None:
         low, high = (MILLIMETRES * (plate.position[2] + end) for end in (mast.low, mast.high))
         half = MILLIMETRES * mast.side / 2.0
@@ -137,10 +165,15 @@ def drilling_of(subject: Subject) -> Drilling | None:
             corners = _millimetres((flat_outline(shape.outline()) + plate.position[:2]).tolist())
             items.append(Polyline((*corners, corners[0]), THIN))
         items += [Circle(each, radius, THIN) for each in _millimetres(feet)]
-    items += [*_cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
-    items.append(Text((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
     return Drilling(
-        subject.name, subject.seat.trunk, holes, thread, tuple(items), upwards=mast is not None
+        subject.name,
+        subject.seat.trunk,
+        holes,
+        thread,
+        trunk_reach(device),
+        tuple(marks),
+        tuple(items),
+        upwards=mast is not None,
     )
 
 
@@ -155,11 +188,18 @@ def _cross(place: Point, half: float) -> Iterator[Item]:
 
 
 def pages(drilling: Drilling) -> Iterator[list[Item]]:
-    """Sheets from the left to the right and from the front to the back."""
+    """Sheets from the left to the right and from the front to the back.
+
+    Where one has no room for all, of feet and plate only what is near the holes is shown.
+    """
     left, top, right, bottom = SHEET
     width, height = right - left, bottom - top
-    back, rightmost, front, leftmost = bounds(drilling.items)
-    across, along = math.ceil((leftmost - rightmost) / width), math.ceil((front - back) / height)
+    for shown in (drilling.items, drilling.marks):
+        back, rightmost, front, leftmost = bounds(shown)
+        across = math.ceil((leftmost - rightmost) / width)
+        along = math.ceil((front - back) / height)
+        if across * along == 1:
+            break
     middle = (back + front) / 2.0, (rightmost + leftmost) / 2.0
     for row in range(along):
         for column in range(across):
@@ -181,13 +221,13 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
 def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
     left, _, _, bottom = SHEET
     words = [
-        drilling.title,
+        *drilling.words,
         "Print at 100 %, without fitting it to the page, and measure the 50 mm.",
     ]
     if count > 1:
-        words[1] += f" Sheet {number} of {count}: cut along the frame and join edge to edge."
+        words[-1] += f" Sheet {number} of {count}: cut along the frame and join edge to edge."
     for line, text in enumerate(words):
-        yield Text((left + CHECK + 15.0, bottom + (line + 2) * LEADING), text)
+        yield Text((left + CHECK + 5.0, bottom + (line + 1) * LEADING), text, 2.2)
     y = bottom + 3.0 * LEADING
     yield from level_dimension("", left=left, right=left + CHECK, y=y, text_x=left + CHECK)
     yield Text((left + CHECK / 2.0 - 5.0, y - 1.0), f"{CHECK:.0f} mm")

@@ -92,8 +92,9 @@ def drilling_text(drilling: Drilling) -> str:
             case Text(place, text, height):
                 _add_text(space, text, place, height)
     _, low, _, _ = bounds(drilling.items)
-    _add_text(space, drilling.title, (-CHECK / 2.0, low - GAP / 2.0), 2.5)
-    y = low - GAP
+    for line, words in enumerate(drilling.words, start=1):
+        _add_text(space, words, (-CHECK / 2.0, low - line * GAP / 2.0), 2.5)
+    y = low - 3.0 * GAP
     for start, end in (
         ((-CHECK / 2.0, y), (CHECK / 2.0, y)),
         *(((x, y - 2.0), (x, y + 2.0)) for x in (-CHECK / 2.0, CHECK / 2.0)),

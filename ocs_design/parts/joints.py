@@ -489,20 +489,24 @@ class Correction:
         radius: that they are on [m].
         hole_radius, depth: of each [m]; 0: there is no room for any.
         mass: that a pair of them takes [kg].
-        most: largest unbalance that all that have room on one half take [kg m].
+        apart: distance of neighbours [m].
+        count: pairs that have room on one half of the rim.
+        most: largest unbalance that these take [kg m].
     """
 
     radius: float
     hole_radius: float
     depth: float
     mass: float
+    apart: float
+    count: int
     most: float
 
 
 def correction(
     rim: Ring, *, chamfer: float, ligament: float, hole_radius: float = 0.8e-3
 ) -> Correction:
-    """Largest correction that holes in a rim can make.
+    """Largest correction that holes in a rim can make, drilled to tenths of a millimetre.
 
     Args:
         rim: that is drilled.
@@ -512,14 +516,22 @@ def correction(
     """
     middle = (rim.inner + rim.outer) / 2.0
     beside = (rim.outer - rim.inner) / 2.0 - chamfer - ligament
-    hole, depth = max(min(hole_radius, beside), 0.0), max((rim.thickness - ligament) / 2.0, 0.0)
+    hole = _whole(max(min(hole_radius, beside), 0.0), 0.05e-3)
+    depth = _whole(max((rim.thickness - ligament) / 2.0, 0.0), 0.1e-3)
     if hole == 0.0 or depth == 0.0:
-        return Correction(middle, 0.0, 0.0, 0.0, 0.0)
+        return Correction(middle, 0.0, 0.0, 0.0, 0.0, 0, 0.0)
     mass = 2.0 * pi * hole**2 * depth * rim.density
-    step = (2.0 * hole + ligament) / middle
+    apart = 2.0 * hole + ligament
+    step = apart / middle
     count = max(floor(pi / step), 1)
     angles = step * (np.arange(count) - (count - 1) / 2.0)
-    return Correction(middle, hole, depth, mass, float(mass * middle * np.cos(angles).sum()))
+    most = float(mass * middle * np.cos(angles).sum())
+    return Correction(middle, hole, depth, mass, apart, count, most)
+
+
+def _whole(length: float, step: float) -> float:
+    """As many whole steps as are in a length [m]."""
+    return step * floor(length / step + 1e-6)
 
 
 # --- shrink fits ------------------------------------------------------------------------------

@@ -27,6 +27,11 @@ SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
 """Mass of the screws of lid and foot [kg]."""
 
 
+def part_name(part: str, module: str) -> str:
+    """Part of a module for people, as in "left foot"; with a number "foot 1" or "foot left_1"."""
+    return f"{part} {module}" if module[-1:].isdigit() else f"{module} {part}"
+
+
 class Shell(Protocol):
     """What stands around a wheel, whose mass grows with the rim's outer radius and height [m]."""
 

@@ -20,13 +20,13 @@ from ocs_design.report.quantities import (
 from ocs_design.report.table import Rows, Table, columns, listed
 from ocs_design.requirement.uncertainty import Entry, spreads, uncertainty_of_texts
 
-ROUNDING = 1e-9
-"""Products of inertia below this part of the largest moment are what rounding leaves of zero."""
+_NO_PRODUCT = 5e-5
+"""Products of inertia below this part of the largest moment, whose last digit they do not reach."""
 
 _NO_MASS = 1e-9
 """Mass below which a part of a module is not listed [kg]."""
 
-_COUNTS = ("no flywheels", "one flywheel", "two flywheels", "three flywheels", "four flywheels")
+_COUNTS = ("no", "one", "two", "three", "four", "five", "six")
 
 FIRST_FACTS = {
     "mass of a module": "module",
@@ -52,7 +52,7 @@ def robot_facts(robot: RobotRecord) -> Rows:
     com = ", ".join(map(tenths, robot.com))
     moments = [robot.inertia[i][i] for i in range(3)]
     products = [robot.inertia[i][j] for i, j in ((0, 1), (0, 2), (1, 2))]
-    least = ROUNDING * max(moments)
+    least = _NO_PRODUCT * max(moments)
     crossed = "  ".join(f"{value:.2g}" if abs(value) > least else "0" for value in products)
     return (
         ("mass", f"{robot.mass:.4g} kg"),
@@ -101,8 +101,8 @@ def heading_drift(drift: tuple[float, float]) -> str:
 def device_title(design: OcsDesign) -> str:
     """Number of its wheels, and whether motors were chosen."""
     modules = len(design.ocs.modules)
-    count = _COUNTS[modules] if modules < len(_COUNTS) else f"{modules} flywheels"
-    return f"Device: {count}{'' if has_motor(design) else ', no motors yet'}"
+    wheels = f"{_COUNTS[modules]} flywheel{'' if modules == 1 else 's'}"
+    return f"Device: {wheels}{'' if has_motor(design) else ', no motors yet'}"
 
 
 def has_motor(design: OcsDesign) -> bool:
@@ -198,17 +198,17 @@ def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
         loss = f"efficiency {motor.gear_efficiency:.0%}"
         yield "gear", f"{motor.gear}, ratio {motor.gear_ratio:.3g}, {loss}"
     limits = []
-    if motor.torque_limit is not None:
-        limits.append(f"{motor.torque_limit:.3g} N m")
     if motor.speed_max is not None:
         limits.append(rpm(motor.speed_max))
+    if motor.torque_limit is not None:
+        limits.append(f"{motor.torque_limit:.3g} N m")
     free = f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
-    yield "drive at the wheel", f"{free}, at most {listed(limits)}" if limits else free
+    yield "drive at the wheel", f"{free}; allowed {listed(limits)}" if limits else free
 
 
 def _place(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
-    at = (f"{each.name} {', '.join(map(tenths, each.position))}" for each in ocs.modules)
-    yield "wheels at", f"{'; '.join(at)} mm"
+    at = (f"{each.name} ({', '.join(map(tenths, each.position))})" for each in ocs.modules)
+    yield "wheels at", f"{', '.join(at)} mm"
     yield "nearest, standing", _nearest(ocs.clearance)
     if ocs.mounting is not None:
         if ocs.mounting.landing is not None:

@@ -84,7 +84,7 @@ def _flight_row(run: ValidationRecord) -> tuple[Cell, ...]:
         angle("touchdown_roll", known=flew),
         angle("final_pitch"),
         angle("final_roll"),
-        angle("turned_angle", known=flew),
+        angle("turned_angle", known=flew and not was_on_pivot(run)),
         "-" if speed is None else rpm_number(speed),
         "-" if torque is None else f"{torque:.3g}",
     )

@@ -79,8 +79,10 @@ def listed(texts: Sequence[str]) -> str:
     return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
 
 
-_UNITS = "mm|um|m|kg|g|N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"
-_TIED = re.compile(rf"(?<=\d) (?=(?:{_UNITS})\b)|(?<=\bN) (?=m\b)|(?<=\bkg) (?=m+2\b)")
+_UNITS = "mm|um|m|kg|g|[mu]?N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"
+_TIED = re.compile(
+    rf"(?<=\d) (?=(?:{_UNITS})\b)|(?<=N) (?=m\b)|(?<=N m) (?=s\b)|(?<=\bkg) (?=m+2\b)"
+)
 """Spaces between a number and its unit, and within a unit."""
 
 

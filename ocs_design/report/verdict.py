@@ -71,7 +71,7 @@ def _survives(found: SurvivalRecord | None) -> Iterator[Toned]:
     """How many landings with a stopped drive are within the allowance; nothing without such."""
     if found is not None:
         count = len(found.flights)
-        yield _share("a drive stopped", count - len(found.lost), count, Tone.FAIL)
+        yield _share("with a drive stopped", count - len(found.lost), count, Tone.FAIL)
 
 
 def _lost(found: SurvivalRecord | None) -> str:
@@ -98,8 +98,8 @@ def _buildable(design: OcsDesign) -> Toned:
     if design.ocs.motor.bus_voltage is None:
         return Toned("no motor chosen yet", Tone.OPEN)
     if not design.robot.sha256:
-        return Toned("buildable: not told of a robot without shapes", Tone.OPEN)
-    return Toned("buildable: not told", Tone.OPEN)
+        return Toned("buildable: not known, for the robot has no shapes", Tone.OPEN)
+    return Toned("buildable: not known", Tone.OPEN)
 
 
 def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:

@@ -43,6 +43,7 @@ from ocs_design.parts.carrier_plate import (
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.joints import pattern_use
+from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import FLANGE, Pedestal
 from ocs_design.parts.printed import AROUND_SLOT, SHOCK, TRUNK_SCREW
 from ocs_design.requirement.froude import Envelope
@@ -132,7 +133,7 @@ class FootContact:
     """How something stands on what is below it.
 
     Attributes:
-        name: what stands, as in "left foot" or "1 foot".
+        name: what stands, as in "left foot" or "foot 1".
         on: what it stands on, as in "trunk".
         area: of contact [m^2]; None: not known.
         share: of its underside that is in contact; None likewise.
@@ -361,11 +362,13 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     surface, plate, feet = trunk_surface(robot), device.plate, feet_of(device)
     height, found = foot_of(device).wheel_height, []
     for module, middle in zip(device.modules, feet.middles, strict=True):
-        name, underside = f"{module.name} foot", float(module.position[2]) - height
+        name, underside = part_name("foot", module.name), float(module.position[2]) - height
         under = [each for each in device.pedestals if each.module == module.name]
         if under and surface is None:
             found.append(
-                FootContact(f"{module.name} pedestal", "trunk", None, None, None, 0.0, held=None)
+                FootContact(
+                    part_name("pedestal", module.name), "trunk", None, None, None, 0.0, held=None
+                )
             )
         elif under and surface is not None:
             found += [_under_pedestal(surface, device, module, each) for each in under]
@@ -407,7 +410,7 @@ def _under_pedestal(
     )
     held = gap <= FLATNESS and proud <= PROUD and seated
     area = share * pedestal.width * (pedestal.length + 2.0 * FLANGE)
-    return FootContact(f"{module.name} pedestal", "trunk", area, share, gap, proud, held)
+    return FootContact(part_name("pedestal", module.name), "trunk", area, share, gap, proud, held)
 
 
 def _base(pedestal: Pedestal) -> FloatArray:

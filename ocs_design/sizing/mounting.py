@@ -34,6 +34,7 @@ from ocs_design.robot.clearance import (
     reaches,
 )
 from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
+from ocs_design.robot.links import listed
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
@@ -96,11 +97,11 @@ def _leaning(mounting: Mounting) -> Iterator[OpenPoint]:
     length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
     use = max(pedestal_use(each, mounting.module_mass) for each in mounting.pedestals)
     yield OpenPoint(
-        what=f"{' and '.join(leaning)}: the wheel's axis is not horizontal, and no place was found "
-        "where the trunk is flat enough under pedestals for the feet that lean, and under the "
-        f"other feet. They would weigh {mass} together, the largest {length} long, {width} wide "
-        f"and {height} high, and use {use:.0%} of their strength at 20 g; neither mass nor places "
-        "nor files count them",
+        what=f"{listed(leaning, len(leaning))} cannot stand on the trunk: under a wheel whose axis "
+        "is not horizontal goes a pedestal, and it is nowhere flat enough for all pedestals and "
+        f"other feet. Pedestals would weigh {mass} together, the largest {length} long, "
+        f"{width} wide and {height} high, and use {use:.0%} of their strength at 20 g; neither "
+        "mass nor places nor files count them",
         cure="take a layout whose axes are horizontal: --layout pair, triad or single",
     )
 
@@ -134,7 +135,7 @@ def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
     elif loose:
         gap = max(contact.gap or 0.0 for contact in loose)
         share = min(contact.share or 0.0 for contact in loose)
-        names = " and ".join(dict.fromkeys(contact.name for contact in loose))
+        names = listed(list(dict.fromkeys(contact.name for contact in loose)))
         off = format_quantity(gap, "mm", digits=2) + " off it" if isfinite(gap) else "over nothing"
         what = (
             f"{names}: {share:.0%} of what stands is on the {loose[0].on}, and screws are {off}"

@@ -436,7 +436,7 @@ def _ocs(
             / device.mass
         ),
         warnings=(*device_warnings(device, robot.mass_properties), *warnings),
-        fitting=(*device_notes(device), *trunk_notes(device)),
+        fitting=(*device_notes(device), *trunk_notes(device, robot)),
         mounting=None
         if mounting is None
         else MountingRecord(

@@ -149,7 +149,7 @@ def test_the_first_screen_shows_these_figures(sized):
     assert f"{math.degrees(ocs['incidence']):.2f} deg" in shown
     top = 24.0 / motor["torque_constant"] * 30.0 / math.pi
     assert f"{top:,.0f} rpm without load at 24 V" in shown
-    assert f"at most {motor['torque_limit']:.3g} N m" in shown
+    assert re.search(rf"; allowed [\d,]+ rpm and {motor['torque_limit']:.3g} N m", shown)
     demands, margins = flown.demands(), margins_of(flown)
     used = re.findall(r"(\d+)% (\D*)", re.search(r" used (.*?) Flights", shown)[1])
     assert [int(percent) for percent, _ in used] == sorted(

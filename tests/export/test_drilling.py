@@ -73,7 +73,7 @@ def test_on_paper_the_holes_are_in_full_size_with_forward_up(device, tmp_path):
     np.testing.assert_allclose(offset, offset[[0]].repeat(len(offset), axis=0), atol=1e-9)
     assert all(each.radius == pytest.approx(1.25) for each in thick)
     words = " ".join(each.text for each in page if isinstance(each, Text))
-    assert f"dog: drill {len(thick)} holes of 2.5 mm for M3" in words
+    assert f"dog: drill {len(thick)} holes of 2.5 mm at the crosses, and tap M3" in words
     levels = [each for each in page if isinstance(each, Line) and each.start[1] == each.end[1]]
     below = [each for each in levels if each.start[1] > bottom and each.start[0] == left]
     assert below[0].end[0] - below[0].start[0] == CHECK
@@ -102,6 +102,39 @@ def test_what_is_wider_than_a_sheet_goes_on_several():
     ]
     assert held == [2, 2]
     assert "Sheet 2 of 2" in " ".join(each.text for each in sheets[1] if isinstance(each, Text))
+
+
+def test_threads_are_as_deep_as_the_screws_go(device):
+    """The longest reach beyond plate and sleeve, and a pitch."""
+    plate, drilling = device.plate, drilling_of(subject(device))
+    screws = (
+        [(6.0, 3.0)]
+        if plate is None
+        else [
+            (1e3 * length, 1e3 * (plate.clamped + sleeve))
+            for length, sleeve in zip(plate.screw_lengths, plate.sleeves, strict=True)
+        ]
+    )
+    reach = [length - held for length, held in screws]
+    assert min(reach) >= 3.0
+    said = drilling.words[1]
+    assert (
+        f"go {' to '.join(dict.fromkeys(f'{x:.1f}' for x in (min(reach), max(reach))))} mm" in said
+    )
+    deep, blind = map(float, re.findall(r"([\d.]+) mm deep", said))
+    assert max(reach) + 0.5 <= deep + 1e-9 < max(reach) + 0.6 + 1e-9
+    assert blind == pytest.approx(deep + 3.0, abs=0.06)
+
+
+def test_one_sheet_is_enough_where_it_has_room_for_the_holes():
+    """Feet and plate of a triad are wider than a sheet."""
+    drilling = drilling_of(subject(TRIAD))
+    far = Circle((400.0, 0.0), 30.0)
+    (page,) = pages(replace(drilling, around=(*drilling.around, far)))
+    left, top, right, bottom = SHEET
+    holes = [each.center for each in page if isinstance(each, Circle) and each.pen.width > 0.25]
+    shown = [each for each in holes if left <= each[0] <= right and top <= each[1] <= bottom]
+    assert len(shown) == len(drilling.holes)
 
 
 def test_wheels_alone_have_none(tmp_path):

@@ -1,6 +1,9 @@
 """What is said of the holes that the trunk needs, and where the plate under the feet is written."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -18,6 +21,8 @@ from ocs_design.export.stl import write as write_stl
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.footing import stand_on_trunk
 
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "solo12.urdf"
+
 
 @pytest.fixture(scope="module")
 def robot():
@@ -29,8 +34,8 @@ def plated(robot):
     return stand_on_trunk(driven_device(), robot, stated=False)
 
 
-def test_the_holes_of_the_plate_are_told(plated):
-    (said,) = trunk_notes(plated)
+def test_the_holes_of_the_plate_are_told(robot, plated):
+    (said,) = trunk_notes(plated, robot)
     x, y = plated.plate.trunk[0]
     x += plated.plate.position[0]
     assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in said
@@ -43,13 +48,34 @@ def test_the_feet_are_screwed_where_the_plate_has_their_holes(plated):
     np.testing.assert_allclose(sorted(found), sorted(holes.tolist()), atol=1e-12)
 
 
-def test_feet_on_the_trunk_need_threads_in_it(plated):
-    (said,) = trunk_notes(replace(plated, plate=None))
+def test_feet_on_the_trunk_need_threads_in_it(robot, plated):
+    (said,) = trunk_notes(replace(plated, plate=None), robot)
     assert "threads M3" in said
 
 
-def test_wheels_without_feet_need_no_holes(plated):
-    assert trunk_notes(replace(plated, carrier=replace(plated.carrier, mass=0.0))) == ()
+def test_wheels_without_feet_need_no_holes(robot, plated):
+    bare = replace(plated, carrier=replace(plated.carrier, mass=0.0))
+    assert trunk_notes(bare, robot) == ()
+
+
+def test_the_frame_is_found_by_the_trunk_s_ends(plated):
+    """Boxes of its link that are not turned, and cylinders that lie forward."""
+    (said,) = trunk_notes(plated, read_robot(EXAMPLE))
+    lows, highs = [], []
+    for visual in ElementTree.parse(EXAMPLE).findall("link[@name='base_link']/visual"):
+        middle = np.array(visual.find("origin").get("xyz").split(), dtype=float)
+        (shape,) = visual.find("geometry")
+        if shape.tag == "box":
+            half = np.array(shape.get("size").split(), dtype=float) / 2.0
+        else:
+            along, radius = float(shape.get("length")) / 2.0, float(shape.get("radius"))
+            half = np.array([along, radius, radius])
+        lows.append(middle - half)
+        highs.append(middle + half)
+    low, high = 1e3 * np.min(lows, axis=0), 1e3 * np.max(highs, axis=0)
+    found = re.findall(r"(?:= | to )(-?[\d.]+)", said.split("reaches from")[1])
+    expected = [low[0], high[0], low[1], high[1], high[2]]
+    np.testing.assert_allclose(np.array(found, dtype=float), expected, atol=1.0)
 
 
 def test_the_bill_weighs_what_the_plate_does(plated):

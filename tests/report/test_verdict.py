@@ -92,8 +92,8 @@ def test_a_robot_without_legs_does_not_stand():
     ("changes", "words"),
     [
         ({"bus_voltage": None}, "no motor chosen yet"),
-        ({"sha256": ""}, "buildable: not told of a robot without shapes"),
-        ({}, "buildable: not told"),
+        ({"sha256": ""}, "buildable: not known, for the robot has no shapes"),
+        ({}, "buildable: not known"),
     ],
 )
 def test_where_it_cannot_be_told_it_says_so(changes, words):

@@ -10,9 +10,13 @@ from part_gaps import overlap_volume, turning_clearance
 
 from ocs_design.common.errors import SpecificationError, UsageError
 from ocs_design.device.joints import balance_of, joints_of
-from ocs_design.export.assembly.placed import placed_parts
+from ocs_design.device.solids import motor_mount
+from ocs_design.export.assembly.booklet import assembly_pages
+from ocs_design.export.assembly.content import Assembly
+from ocs_design.export.assembly.placed import bonding_pieces, placed_parts
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.parts.bell import GLUE_GAP
+from ocs_design.export.drawing.sheet import Text
+from ocs_design.parts.bell import FIXTURE_FLOOR, GLUE_GAP
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import CLEARANCE
@@ -192,3 +196,33 @@ def test_a_bore_below_the_least_is_no_ring():
     envelope = replace(designed.choice.problem.envelope, inner_radius_min=0.03)
     narrow = designed.choice.chosen.limits(envelope)
     assert np.isnan(float(lightest_module(1e-4, narrow, Printed(0.01)).mass))
+
+
+def test_in_their_fixture_ring_and_bell_stand_as_they_do_in_the_module():
+    """Both stand on it, in none of its walls, and as far from each other as in the housing."""
+    device = made()[1].device
+    pieces = {piece.name: piece.mesh.vertices for piece in bonding_pieces(device)}
+    assert list(pieces) == ["ring_fixture", "motor", "flywheel"]
+    fixture, motor, ring = (vertices * [1.0, -1.0, 1.0] for vertices in pieces.values())
+    # Of y up: the bell on the floor, the ring on the step; nothing of the fixture in the ring.
+    assert motor[:, 1].min() == pytest.approx(FIXTURE_FLOOR)
+    low, wheel = ring[:, 1].min(), device.flywheel
+    away = np.hypot(fixture[:, 0], fixture[:, 2])
+    within = (away > wheel.inner_radius) & (away < wheel.outer_radius)
+    assert fixture[within, 1].max() == pytest.approx(low)
+    middle = -motor_mount(device).bell.front
+    apart = ring[:, 1].mean() - motor[:, 1].min()
+    assert apart == pytest.approx(-middle, abs=1e-6)
+
+
+def test_the_booklet_has_the_fixture_in_table_picture_and_steps():
+    assembly = Assembly("solo12", made()[1].device)
+    row = next(row for row in assembly.piece_rows() if row.file == "ring_fixture.stl")
+    assert row.number == len(assembly.numbers)
+    steps = next(each for each in assembly.chapters() if each.title.startswith("Steps")).texts
+    assert any(f"Print the fixture ({row.number})" in text for text in steps)
+    page = assembly_pages(assembly)[1]
+    assert {str(row.number), "One module cut along its axis, 1:2"} <= {
+        item.text for item in page if isinstance(item, Text)
+    }
+    assert not Assembly("solo12", made("disc")[1].device).bonding

@@ -48,6 +48,9 @@ EXPLODED_BOX: Box = (LEFT + 2.0, TOP + 11.0, RIGHT - 2.0, TOP + 129.0)
 
 _SECTION_BOX: Box = (LEFT + 2.0, TOP + 14.0, LEFT + 124.0, BOTTOM - 14.0)
 
+_BONDING_BOX: Box = (_SECTION_BOX[0], BOTTOM - 74.0, *_SECTION_BOX[2:])
+"""Place of the section of ring, motor and fixture below that of the module [mm]."""
+
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `assembly.pdf`."""
@@ -84,10 +87,24 @@ def exploded_svg(assembly: Assembly) -> str:
     return svg_text(items, "Exploded view of one module", _around(items))
 
 
-def section_svg(assembly: Assembly) -> str:
-    """The section alone, for web pages."""
-    items, _ = section_view(assembly.pieces, assembly.numbers, _SECTION_BOX)
-    return svg_text(items, "Section along the axis of one module", _around(items))
+def section_svgs(assembly: Assembly) -> Iterator[str]:
+    """The sections alone, for web pages."""
+    for items, _, what, _ in _sections(assembly):
+        yield svg_text(items, what, _around(items))
+
+
+def _sections(assembly: Assembly) -> Iterator[tuple[list[Item], Scale, str, Box]]:
+    """Section of a module, and of a ring in its fixture: lines, scale, what it is, and its box."""
+    numbers, box = assembly.numbers, _SECTION_BOX
+    if assembly.bonding:
+        box = (*box[:3], _BONDING_BOX[1] - 6.0)
+        what = "Ring and bell of the motor in their fixture, cut along their axis"
+        yield (
+            *section_view(assembly.bonding, numbers, _BONDING_BOX, standing=True),
+            what,
+            _BONDING_BOX,
+        )
+    yield *section_view(assembly.pieces, numbers, box), "One module cut along its axis", box
 
 
 def _around(items: Iterable[Item]) -> Box:
@@ -129,8 +146,9 @@ def _first_page(assembly: Assembly) -> list[Item]:
 
 def _text_pages(assembly: Assembly, chapters: Sequence[Chapter]) -> list[list[Item]]:
     """Text in columns: beside the section, then below the table of screws, then alone."""
-    items, scale = section_view(assembly.pieces, assembly.numbers, _SECTION_BOX)
-    items += [*_scale("One module cut along its axis", scale, _SECTION_BOX)]
+    items: list[Item] = []
+    for drawn, scale, what, box in _sections(assembly):
+        items += [*drawn, *_scale(what, scale, box)]
     table, bottom = _screw_table(assembly)
     pages = [items, table]
     columns = [(0, (_SECTION_BOX[2] + _GUTTER, TOP + 15.0, RIGHT - _INSET, BOTTOM - 3.0))]

@@ -4,7 +4,7 @@ Pages and the report's section show the same text.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -28,7 +28,12 @@ from ocs_design.device.layout import PAIR
 from ocs_design.device.naming import joint_name
 from ocs_design.device.records import MarginRecord
 from ocs_design.device.solids import motor_mount
-from ocs_design.export.assembly.placed import Piece, holds_wheel, module_pieces
+from ocs_design.export.assembly.placed import (
+    Piece,
+    bonding_pieces,
+    holds_wheel,
+    module_pieces,
+)
 from ocs_design.export.assembly.tightening import Tightened, tightened
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
@@ -44,8 +49,10 @@ from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.electrics import demand_of, electrics
 from ocs_design.export.formats import Subject
 from ocs_design.parts.bell import GLUE_GAP
+from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import EPOXY
+from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import SEAT_SCREWS
 from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import stored_energy
@@ -76,6 +83,7 @@ _LABELS = {
     "plate": "plate under the feet",
     "mast": "mast behind the trunk",
     "sleeves": "sleeves around the trunk's screws",
+    "ring_fixture": "fixture to bond a ring in",
 }
 
 _SOFT = 68.0
@@ -149,9 +157,14 @@ class Assembly:
         return module_pieces(self.device)
 
     @cached_property
+    def bonding(self) -> tuple[Piece, ...]:
+        """Ring and motor in the fixture that they are bonded in; none without a ring."""
+        return bonding_pieces(self.device)
+
+    @cached_property
     def numbers(self) -> dict[str, int]:
-        """Numbers of the pieces by their names."""
-        names = dict.fromkeys(piece.name for piece in self.pieces)
+        """Numbers of the pieces by their names, the tool's last."""
+        names = dict.fromkeys(piece.name for piece in (*self.pieces, *self.bonding))
         return {name: number for number, name in enumerate(names, start=1)}
 
     @cached_property
@@ -184,13 +197,14 @@ class Assembly:
     def piece_rows(self) -> Iterator[PieceRow]:
         """Pieces and screws in the order of their numbers."""
         bill = bill_rows(self.device)
-        for piece in {piece.name: piece for piece in self.pieces}.values():
+        drawn = {piece.name: piece for piece in (*self.pieces, *self.bonding)}
+        for piece in drawn.values():
             number, count = self.numbers[piece.name], self._count(piece)
             if piece.fastening is not None:
                 what = piece.fastening.designation
                 yield PieceRow(number, f"screw, {_short(piece.name)}", count, f"bought: {what}", "")
             else:
-                label = _LABELS.get(piece.name, piece.name.replace("_", " of "))
+                label = _LABELS.get(piece.name, piece.name.replace("_", " "))
                 made, file = _made(self.device, piece.name, bill)
                 yield PieceRow(number, label, count, made, file)
 
@@ -306,8 +320,8 @@ class Assembly:
         gap, wide = 1e3 * GLUE_GAP, 2e3 * GLUE_GAP
         yield (
             "Measure the bell across its straight part before the ring is bored: the bore is "
-            f"{wide:g} mm wider. Print cad/ring_fixture.stl in PETG, one for each ring, floor "
-            "down; scrape it until bell and ring slide in, and wax it."
+            f"{wide:g} mm wider. Print the fixture{self._number('ring_fixture')} in PETG, one for "
+            "each ring, floor down; scrape it until bell and ring slide in, and wax it."
         )
         yield (
             "Take the bell with its shaft off the stator, as its maker's clip allows, so that no "
@@ -354,14 +368,17 @@ class Assembly:
 
     def _joint(self) -> Iterator[str]:
         """What the joints of the wheel rest on, and how a wheel is put on a shaft."""
-        if "drum" not in self.numbers:
+        if "drum" not in self.numbers or self.device.on_bell:
             return
         screwed = any(name.startswith("wheel") for name in self.screws)
         for joint in joints_of(self.device):
-            if self.device.on_bell and EPOXY in joint.note:
-                yield f"{joint.name.capitalize()}: {joint.note}."
-            elif joint.name == SHAFT_JOINT and not screwed:
-                yield f"Put the wheel on the motor's shaft: {joint.note}."
+            if joint.name == SHAFT_JOINT and not screwed:
+                room = printed_foot(self.device).housing.rim_height - self.device.flywheel.height
+                yield (
+                    f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
+                    f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its "
+                    "height; they come out when the compound is hard."
+                )
             elif joint.name == SHAFT_JOINT:
                 yield f"That joint carries the wheel by {joint.note}."
 
@@ -386,12 +403,12 @@ class Assembly:
             if name.startswith("foot on") and not (standing and name == SEAT_SCREWS.purpose)
         )
         places = [
-            f"{module} foot {' and '.join(f'({1e3 * x:.1f}, {1e3 * y:.1f})' for x, y in ends)}"
+            f"{part_name('foot', module)} {' and '.join(_places(ends))}"
             for module, ends in standing.items()
         ]
         holes = pedestal_holes(self.device)
         places += [
-            f"{module} pedestal {', '.join(f'({1e3 * x:.1f}, {1e3 * y:.1f})' for x, y in ends)}"
+            f"{part_name('pedestal', module)} {', '.join(_places(ends))}"
             for module, ends in holes.items()
         ]
         heights = [
@@ -431,20 +448,22 @@ class Assembly:
         if plate is None:
             under_feet = "trunk"
             yield (
-                f"Drill the trunk by cad/drilling.pdf, printed at 100 %, {frame} design.json): "
+                "Drill the trunk by cad/drilling.pdf, printed at 100 %; it says how deep. Places, "
+                f"{frame} design.json): "
                 f"{places_of}."
             )
         else:
             under_feet = "plate"
             cut = (
                 f"Cut the plate{self._number('plate')} (cad/plate.stl; `export --formats dxf` "
-                f"writes plate.dxf) and tap its holes {plate.foot_thread} for the feet, which are, "
+                f"writes plate.dxf), with holes of {1e3 * plate.screw.clearance_hole:g} mm for the "
+                f"trunk's screws, and tap those {plate.foot_thread} for the feet, which are, "
                 f"{frame} design.json), at {places_of}. Drill and tap the trunk"
             )
             if plate.mast is None:
                 yield (
                     f"{cut} {plate.thread} where its other {len(plate.trunk)} holes come to lie "
-                    "(cad/drilling.pdf, printed at 100 %)."
+                    "(cad/drilling.pdf, printed at 100 %, which says how deep)."
                 )
             else:
                 yield (
@@ -480,9 +499,24 @@ class Assembly:
         yield from self._on_pedestals()
         if not standing:
             return
+        # Away from its motor.
+        outward = {
+            module.name: float(np.arctan2(module.frame[1, 1], module.frame[0, 1]))
+            for module in self.device.modules
+            if module.name in standing
+        }
+        looks = ", ".join(
+            f"{format_quantity(abs(angle), 'deg')} to the {'left' if angle > 0.0 else 'right'} of "
+            f"forward ({name})"
+            for name, angle in outward.items()
+        )
+        long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.base_radius - WALL)
         yield (
-            "Scribe a line forward through the middle of each foot, turn the foot until it meets "
-            f"the scale at {scale}, and tighten {held.count} x "
+            f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} "
+            f"deg apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe "
+            "a line forward through the middle of each foot, turn the foot until it meets "
+            f"the scale at {scale}, its lid looking {looks}, and tighten "
+            f"{held.count} x "
             f"{held.designation}{self._number(name)} with {found.torque:.2g} N "
             f"m each, into {'the threads' if plate else 'threads, inserts or nuts'} of the "
             f"{under_feet}."
@@ -499,7 +533,7 @@ class Assembly:
                 f"Print {len(kind)} x {name}{self._number(name)} (cad/{name}.stl) in PETG on its "
                 "side, of solid layers, as strong as it is computed; tap the 2 holes of its seat "
                 f"{one.base_screws.screw.name}. Its seat's far end points, from forward to the "
-                f"left, to {turned}. Screw it to the trunk before the foot is on it: "
+                f"left, to {turned}. It goes on the trunk before the foot is on it. "
                 + self._screwed(f"{name.replace('_', ' ')} on trunk")
             )
         if self.device.pedestals:
@@ -514,7 +548,7 @@ class Assembly:
             )
 
     def _direction(self) -> str:
-        names = " and ".join(joint_name(module) for module in self.device.modules)
+        names = ", ".join(joint_name(module) for module in self.device.modules)
         axes = "; ".join(
             f"{module.name} ({', '.join(f'{value:.3f}' for value in np.round(module.axis, 3))})"
             for module in self.device.modules
@@ -550,12 +584,15 @@ class Assembly:
             )
         elif holes.hole_radius >= LEAST_DRILL / 2.0:
             yield (
-                f"Remove mass with a drill of {2e3 * holes.hole_radius:.2g} mm, "
-                f"{1e3 * holes.depth:.2g} mm deep, in both faces of the rim, one opposite the "
-                f"other, {1e3 * holes.radius:.1f} mm from the axis: each pair takes "
-                f"{_two(1e6 * holes.mass * holes.radius)} g mm, all that have room on one half "
-                f"{_two(1e6 * holes.most)} g mm."
-                f"{'' if wheel.web is None else ' Nothing is taken off the web.'}"
+                "Remove mass on the heavy side with a drill of "
+                f"{2e3 * holes.hole_radius:.2g} mm, at most {1e3 * holes.depth:.2g} mm deep, in "
+                "both faces of the rim, one hole opposite the other, "
+                f"{1e3 * holes.radius:.1f} mm from the axis and {1e3 * holes.apart:.2g} mm from "
+                f"the next: so deep a pair takes {_two(1e3 * holes.mass)} g, which are "
+                f"{_two(1e6 * holes.mass * holes.radius)} g mm; half as deep, half of it. One "
+                f"half of the rim has room for {holes.count} pairs, {_two(1e6 * holes.most)} g mm: "
+                "a wheel that is off by more is made anew."
+                f"{'' if wheel.web is None else ' Nothing is taken off web and hub.'}"
             )
         else:
             yield (
@@ -681,8 +718,9 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
         return f"bought: {motor.full_name}", ""
     if name == "gear":
         return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
-    if name in ("drum", "lid", "foot", "cage") or name.startswith("pedestal"):
-        return "printed, PETG", f"{'' if 'pedestal' in name else 'housing_'}{name}.stl"
+    of_housing = name in ("drum", "lid", "foot", "cage")
+    if of_housing or name.startswith(("pedestal", "ring_fixture")):
+        return "printed, PETG", f"{'housing_' if of_housing else ''}{name}.stl"
     starts = {"rim": "flywheel rim", "hub": "flywheel web", "sleeves": "sleeve"}
     start = starts.get(name, name)
     row = next((each for each in bill if each.part.startswith(start)), None)
@@ -694,6 +732,11 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
         return f"cut{cut}", "" if name == "sleeves" else f"{name}.stl"
     made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
     return made, "wheel.pdf"
+
+
+def _places(ends: Iterable[tuple[float, float]]) -> Iterator[str]:
+    """Places of screws [mm]."""
+    return (f"({1e3 * x:.1f}, {1e3 * y:.1f})" for x, y in ends)
 
 
 def _short(purpose: str) -> str:

@@ -5,6 +5,7 @@ The wheel's axis is z, the floor of its housing at -z, the motor behind it; y po
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from math import cos, pi, sin
 
 import numpy as np
@@ -20,11 +21,13 @@ from ocs_design.export.device_parts import (
     pedestal_screws,
     printed_foot,
     printed_parts,
+    ring_fixture,
     wheel_pieces,
 )
 from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
 from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import cage_placement
+from ocs_design.parts.bell import FIXTURE_FLOOR
 from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
@@ -52,6 +55,7 @@ class Piece:
         fastening: of screws; None: no screws.
         drop: how far down it is drawn from its place where pieces are pulled apart [m]; None: it
             is pulled off along the axis.
+        aside: how far along the axis besides [m]: pedestals of several shapes have one place.
         shared: whether the device has it once, for both modules.
         count: of equal ones in the mesh; screws have theirs in `fastening`.
         modules: how many modules have it; None: all.
@@ -61,6 +65,7 @@ class Piece:
     mesh: Mesh
     fastening: Fastening | None = None
     drop: float | None = None
+    aside: float = 0.0
     shared: bool = False
     count: int = 1
     modules: int | None = None
@@ -157,6 +162,24 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     )
 
 
+def bonding_pieces(device: Device) -> tuple[Piece, ...]:
+    """Ring, motor and the fixture that both stand in while the glue sets; none without a ring.
+
+    The motor's front is down, y points down.
+    """
+    fixture, bell = ring_fixture(device), motor_mount(device).bell
+    if fixture is None or bell is None:
+        return ()
+    front = Placement(np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, FIXTURE_FLOOR + bell.front]))
+    down = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
+    parts = placed_parts(device)
+    pieces = [Piece("ring_fixture", _placed(part_mesh(fixture, SECTIONS), down))]
+    for name in ("motor", "flywheel"):
+        part, place = parts[name]
+        pieces.append(Piece(name, _placed(part_mesh(part, SECTIONS), down @ front @ place)))
+    return tuple(pieces)
+
+
 def holds_wheel(screwed: Screwed) -> bool:
     """Whether screws hold the wheel, not the motor or what carries it."""
     return screwed.fastening.purpose.startswith("wheel")
@@ -201,15 +224,19 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
 def _pedestal_pieces(device: Device) -> Iterator[Piece]:
     """A pedestal of each kind under the foot, with the screws of its flanges."""
     foot, parts, screws = printed_foot(device), pedestal_pieces(device), pedestal_screws(device)
-    apart = _APART * foot.housing.radius
+    apart, beside = _APART * foot.housing.radius, np.inf
     for name, kind in pedestal_kinds(device).items():
         one, held = kind[0], screws[name]
         place = foot.placement @ one.seat.inverse()
         screw = solid_mesh(_screw(held.screw, held.length), 24)
         heads = merged([screw.moved(np.array([x, y, one.base])) for x, y in one.holes])
-        yield Piece(held.purpose, _placed(heads, place), held, drop=apart, modules=len(kind))
-        mesh = _placed(part_mesh(parts[name], SECTIONS), place)
-        yield Piece(name, mesh, drop=2.0 * apart, modules=len(kind))
+        heads, mesh = (_placed(each, place) for each in (heads, part_mesh(parts[name], SECTIONS)))
+        along = np.concatenate([heads.vertices[:, 2], mesh.vertices[:, 2]])
+        aside = min(0.0, beside - apart - float(along.max()))
+        beside = aside + float(along.min())
+        drawn = partial(Piece, aside=aside, modules=len(kind))
+        yield drawn(held.purpose, heads, held, drop=apart)
+        yield drawn(name, mesh, drop=2.0 * apart)
 
 
 def _plate_pieces(device: Device) -> Iterator[Piece]:

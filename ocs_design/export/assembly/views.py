@@ -58,7 +58,9 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
             lift = shift
     # What goes on or under the foot follows it.
     return tuple(
-        piece if piece.drop is None else piece.moved(np.array([0.0, piece.drop, lift]))
+        piece
+        if piece.drop is None
+        else piece.moved(np.array([0.0, piece.drop, lift + piece.aside]))
         for piece in moved
     )
 
@@ -109,10 +111,15 @@ def exploded_view(
 
 
 def section_view(
-    pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box
+    pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box, *, standing: bool = False
 ) -> tuple[list[Item], Scale]:
-    """Section along the axis, upright, in a box of the sheet [mm], with its scale."""
-    # The axis to the right, up at the top.
+    """Section along the axis, upright, in a box of the sheet [mm], with its scale.
+
+    Args:
+        pieces: in their places. numbers: of the pieces by their names. box: that it is centred in.
+        standing: whether their axis is y, and points up; else it is z, and points to the right.
+    """
+    # Up at the top.
     cut = [
         (piece, [chain[:, ::-1] * [1.0, -1.0] for chain in section_lines(piece.mesh)])
         for piece in pieces
@@ -137,8 +144,8 @@ def section_view(
         # The highest of the outermost corners.
         outer = corners[np.lexsort((-corners[:, 1], np.rint(1e6 * ends)))[0]]
         beside[behind].append((numbers[piece.name], place(outer)))
-    zero = np.array([low[0] - 0.004, 0.0]), np.array([high[0] + 0.004, 0.0])
-    items.append(Line(place(zero[0]), place(zero[1]), CENTRE))
+    along = np.array([0.0, 1.0] if standing else [1.0, 0.0])
+    items.append(Line(place(along * (low - 0.004)), place(along * (high + 0.004)), CENTRE))
     for behind, marks in beside.items():
         x = left + BALLOON if behind else right - BALLOON
         items += _balloons(marks, 1, x, (top, bottom))

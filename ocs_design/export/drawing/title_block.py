@@ -29,6 +29,7 @@ from ocs_design.export.drawing.wheel import (
     BROKEN_EDGE,
     Seat,
     WheelDrawing,
+    inside_corners,
     lost_by_breaking,
     plain,
     rim_inertia_error,
@@ -163,12 +164,19 @@ def parts_list(drawing: WheelDrawing) -> list[Item]:
 
 
 def notes(drawing: WheelDrawing) -> list[Item]:
-    """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde."""
+    """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde.
+
+    Those that end above the title block and the list of parts are as wide as the sheet.
+    """
     items: list[Item] = []
-    y, room = NOTES_TOP, BLOCK_LEFT - NOTES_LEFT - NUMBER_WIDTH - 2.0
+    y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
+    block = min([BLOCK_TOP, *(x.start[1] for x in parts_list(drawing) if isinstance(x, Line))])
     for number, sentence in enumerate(_sentences(drawing), start=1):
         items.append(Text((NOTES_LEFT, y), f"{number}"))
-        for line in wrapped(sentence, room, 2.5):
+        lines = wrapped(sentence, RIGHT - left - 2.0, 2.5)
+        if y + (len(lines) - 1) * LEADING + 2.0 > block:
+            lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, 2.5)
+        for line in lines:
             items.append(Text((NOTES_LEFT + NUMBER_WIDTH, y), line.replace("~", " ")))
             y += LEADING
     return items
@@ -185,7 +193,7 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
         unbalance = mass * eccentricity
         yield (
             f"{balance} at {rpm:.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
-            f"(e~=~{eccentricity:.3g}~µm), in one plane."
+            f"(e~=~{eccentricity:.3g}~µm), in one plane. Done on the motor: cad/assembly.pdf."
         )
     yield (
         f"Inertia of the rim within ±{_percent(rim_inertia_error(wheel))} over its tolerances; "
@@ -194,18 +202,28 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
     yield _edges(wheel)
     if drawing.bonded:
         gap = plain(2.0 * GLUE_GAP)
-        yield f"Bonded around the motor's bell: bore {gap} wider than the bell as measured."
+        size = plain(2.0 * (wheel.rim.inner_radius - GLUE_GAP))
+        yield (
+            f"Bonded around the motor's bell: bore it {gap} wider than the bell, which is measured "
+            f"first; the bore drawn is that for Ø{size}."
+        )
         yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
         return
     yield {
         Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
-        Seat.ONE_PIECE: "Rim, web and hub turned from one bar.",
+        Seat.ONE_PIECE: "Rim, web and hub turned from one bar, web and hub in the rim's middle.",
         Seat.FITTED: f"Rim shrunk on the web, {_interference(drawing)}.",
     }[seat(wheel)]
-    if wheel.hub is not None:
+    hub = wheel.hub
+    if hub is not None:
+        radius, share = inside_corners(wheel)
+        if radius > 0.0:
+            yield f"Inside corners at most R~{plain(radius)} (+{_percent(share)} of inertia)."
         yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
-        if wheel.hub.bolts is None:
-            yield "No bolt circle: bond it on the shaft, or drill it to the motor's threads."
+        if hub.bolts is None and drawing.on_shaft:
+            yield "No bolt circle: bonded on the motor's shaft."
+        elif not drawing.on_shaft:
+            yield "Bore: a pilot hole, to be opened to the motor."
 
 
 def _interference(drawing: WheelDrawing) -> str:
@@ -234,4 +252,4 @@ def _edges(wheel: Wheel) -> str:
 
 
 def _percent(part: float) -> str:
-    return f"{100.0 * part:.2g} %"
+    return f"{100.0 * part:.2g}~%"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
-from math import isinf
+from math import isinf, pi
 
 from ocs_design.parts.joints import Grade, tolerance_width
 from ocs_design.parts.part import total
@@ -16,6 +16,10 @@ from ocs_design.robot.mass import MassProperties
 
 BROKEN_EDGE = 0.2e-3
 """Width of edges without indication, at 45 degrees [m]."""
+
+INSIDE_CORNER = 0.4e-3
+"""Radius of a wheel's inside corners, at most [m]: the nose of the usual turning insert (ISO 1832,
+04)."""
 
 
 class Seat(Enum):
@@ -39,6 +43,7 @@ class WheelDrawing:
         interference: of a rim that is shrunk on, least and largest over the diameter [m]; None:
             there is none, or it is not known.
         bonded: whether it is a ring around the bell of its motor.
+        on_shaft: whether the motor's shaft is known, which the hub's bore fits.
     """
 
     wheel: Wheel
@@ -48,6 +53,7 @@ class WheelDrawing:
     speed: float | None
     interference: tuple[float, float] | None = None
     bonded: bool = False
+    on_shaft: bool = False
 
     @cached_property
     def masses(self) -> tuple[float, ...]:
@@ -85,6 +91,28 @@ def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:
     )
     whole = total(wheel_parts(wheel)).inertia[2, 2]
     return sharp.mass - broken.mass, float((sharp.inertia - broken.inertia)[2, 2] / whole)
+
+
+def inside_corners(wheel: Wheel) -> tuple[float, float]:
+    """Largest radius of the corners that web makes with rim and hub [m], and their inertia's share.
+
+    What a radius R leaves in a corner at r from the axis is (1 - pi / 4) R^2 across, with its
+    middle at 0.223 R from both sides (10 - 3 pi) / (12 - 3 pi): its inertia is that of a thin ring.
+    None where rim and hub are no higher than the web: 0 and 0.
+    """
+    hub, rim = wheel.hub, wheel.rim
+    if hub is None:
+        return 0.0, 0.0
+    # Inwards from the rim's bore, outwards from the hub.
+    sides = [(hub.height, hub.radius, 1.0)]
+    if wheel.one_piece:
+        sides.append((rim.height, rim.inner_radius, -1.0))
+    steps = [(high - hub.web_thickness) / 2.0 for high, _, _ in sides]
+    radius = min([INSIDE_CORNER, *(step for step in steps if step > 0.0)])
+    area, middle = (1.0 - pi / 4.0) * radius**2, (10.0 - 3.0 * pi) / (12.0 - 3.0 * pi) * radius
+    rings = [at + way * middle for (_, at, way), step in zip(sides, steps, strict=True) if step > 0]
+    added = sum(2.0 * hub.density * area * 2.0 * pi * at**3 for at in rings)
+    return (radius if rings else 0.0), added / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
 def rim_inertia_error(wheel: Wheel) -> float:

@@ -40,7 +40,7 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         device: that the wheel belongs to.
         robot: its name.
     """
-    speed, fit = device.motor.top_speed, rim_fit(device)
+    speed, fit, mounting = device.motor.top_speed, rim_fit(device), device.motor.mounting
     return WheelDrawing(
         wheel=wheel_geometry(device.flywheel),
         robot=robot,
@@ -49,6 +49,7 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         speed=speed if math.isfinite(speed) else None,
         interference=None if fit is None else (2.0 * fit.least, 2.0 * fit.most),
         bonded=device.on_bell,
+        on_shaft=mounting is not None and mounting.shaft_diameter is not None,
     )
 
 

@@ -8,6 +8,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import to_unit
 from ocs_design.device.answers import MonteCarloRecord, Spread
+from ocs_design.parts.module import part_name
 from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Rule
 from ocs_design.report.charts.scales import Axis
 from ocs_design.report.quantities import in_unit
@@ -112,7 +113,7 @@ def _of_wheels(
             flight.time,
             in_unit(series(wheel), unit),
             ink,
-            f"{wheel} {part}",
+            part_name(part, wheel),
             dashed=index % 2 == 1,
             thin=thin,
         )

@@ -9,6 +9,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.answers import PostureLine
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records import OcsDesign
+from ocs_design.parts.module import part_name
 from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Points, Rule
 from ocs_design.report.charts.scales import Axis
 from ocs_design.report.quantities import degrees, in_unit, rpm
@@ -90,11 +91,13 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
         Line(*_seen(_ellipse(total)), Ink.BLUE),
         Line(*_seen(_ellipse(alone)), Ink.FAINT, "robot alone", dashed=True),
     ]
-    inks = (Ink.VERMILION, Ink.PURPLE, Ink.GREEN, Ink.ORANGE)
+    inks = 2 * (Ink.VERMILION, Ink.PURPLE, Ink.GREEN, Ink.ORANGE)
     for index, (module, ink) in enumerate(zip(design.ocs.modules, inks, strict=False)):
         end = reach * np.array(module.axis[:2])
         line = _seen(np.stack([-end, end], axis=1))
-        marks.append(Line(*line, ink, f"axis of the {module.name} wheel", dashed=index % 2 == 1))
+        marks.append(
+            Line(*line, ink, f"axis of {part_name('wheel', module.name)}", dashed=index % 2 == 1)
+        )
     seen = f"of the layout {design.ocs.layout!r}"
     if design.ocs.axes == PAIR:
         # From the lateral direction to the axis at alpha*.
@@ -141,7 +144,7 @@ def momentum_chart(story: Story) -> Chart:
     marks: list[Mark] = []
     for incidence, dashed in zip(incidences, (False, True, True, True), strict=False):
         x, y = _zonotope(each_wheel * ocs.axes.axes(incidence)[:2])
-        name = f"reach at {degrees(incidence)}"
+        name = f"reach at {degrees(incidence)}" if incidence or ocs.axes == PAIR else "reach"
         marks += [Area(x, y, Ink.FAINT), Line(x, y, Ink.FAINT, name, dashed=dashed)]
     for each, ink in zip(found, SERIES * 2, strict=False):
         roll, pitch = each.path.T

@@ -9,7 +9,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import known_gears
 from ocs_design.catalogue.materials import materials
 from ocs_design.device.records import OcsDesign
-from ocs_design.export.assembly.booklet import exploded_svg, section_svg
+from ocs_design.export.assembly.booklet import exploded_svg, section_svgs
 from ocs_design.export.assembly.content import Assembly, Chapter
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
@@ -289,7 +289,7 @@ def assembly_section(story: Story) -> Markup:
             "Pieces of the whole device, by their numbers",
             Table(columns("No.", "quantity", "<piece", "<made", "<file in cad/"), pieces),
         ),
-        element("figure", Markup(section_svg(assembly)), class_="sheet"),
+        joined(element("figure", Markup(each), class_="sheet") for each in section_svgs(assembly)),
         table("Screws", Table(columns(*_SCREWS), screws)) if screws else "",
         joined(_chapter(chapter) for chapter in assembly.chapters()),
         element("p", "The same stands on paper in ", element("code", "cad/assembly.pdf"), "."),

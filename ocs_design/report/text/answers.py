@@ -24,10 +24,10 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
         ],
     )
     note(console, BOUND_NOTE)
-    heading(console, "Required over robot's inertia: wheel speed against rate change")
+    heading(console, "Required over robot's inertia in percent: wheel speed against rate change")
     rates = columns("<", *(f"{rate:.3g} [rad/s]" for rate in answer.rate_changes))
     rows = tuple(
-        (rpm(speed), *(f"{share:.2e}" if np.isfinite(share) else "-" for share in row))
+        (rpm(speed), *(f"{100.0 * share:.3g}" if np.isfinite(share) else "-" for share in row))
         for speed, row in zip(answer.wheel_speeds, answer.curve, strict=True)
     )
     show(console, Table(rates, rows))

@@ -137,7 +137,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
             motor.name,
             _figure(motor.mass, "g", ".0f"),
             _figure(motor.rated_voltage, "V", ".4g"),
-            _figure(speed_limit(motor), "rpm", ".0f"),
+            _figure(speed_limit(motor), "rpm", ",.0f"),
             _figure(motor.peak_torque, "N m", ".3g") + BASIS_MARK.get(motor.peak_basis, " "),
             _figure(motor.torque_constant, "mN m", ".3g"),
             _shortly(build_gaps(motor)),
@@ -211,8 +211,8 @@ def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
             _figure(gear.mass, "g", ".0f"),
             _figure(gear.inertia, "g cm2", ".4g"),
             _figure(gear.torque_max, "N m", ".3g"),
-            _figure(gear.motor_speed_max, "rpm", ".0f"),
-            _figure(gear.wheel_speed_max, "rpm", ".0f"),
+            _figure(gear.motor_speed_max, "rpm", ",.0f"),
+            _figure(gear.wheel_speed_max, "rpm", ",.0f"),
         )
         for sheet in found
         for gear in sheet.stages()

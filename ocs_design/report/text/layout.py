@@ -83,12 +83,13 @@ def show(console: Console, table: Table, *, fewest: int = 0) -> None:
     """A table, indented like everything under a heading; closer where it would break a line.
 
     Where the terminal is too narrow, words are broken into lines, and where that does not do, the
-    last columns are left out: a number is never broken.
+    last columns are left out, and named: a number is never broken.
 
     Args:
         console: to print on.
         table: to show.
-        fewest: columns down to which they are left out before words are broken. 0: none is.
+        fewest: columns down to which they are left out, without a word, before words are broken. 0:
+            none is.
     """
     room = console.width - INDENT[-1]
     for count in range(len(table.columns), 0, -1):
@@ -102,6 +103,9 @@ def show(console: Console, table: Table, *, fewest: int = 0) -> None:
         if _width(console, drawn) <= room:
             break
     console.print(Padding(drawn, INDENT))
+    gone = [column.name.replace("\n", " ") for column in table.columns[count:]]
+    if gone and not fewest:
+        note(console, f"The terminal is too narrow for {'; '.join(gone)}.")
 
 
 def _drawn(table: Table, console: Console) -> rich_table.Table:

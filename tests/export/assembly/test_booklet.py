@@ -22,9 +22,11 @@ from ocs_design.export.assembly.booklet import (
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import pulled_apart, spread
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.export.device_parts import printed_parts
+from ocs_design.export.device_parts import printed_foot, printed_parts
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Polyline, Text
 from ocs_design.export.meshes import part_mesh
+from ocs_design.export.module_bodies import carrier_placement, wheel_placement
+from ocs_design.parts.pedestal import Pedestal
 
 
 @pytest.fixture(params=DEVICES, ids=str)
@@ -154,8 +156,11 @@ def test_the_balance_says_how_much_is_left_and_what_holes_take():
     device = DEVICES["caged"]
     said, balance = texts(Assembly("solo12", device), "Balance"), balance_of(device)
     assert f"at most {1e6 * device.flywheel.mass * 6.3e-3 / 650.4:.2g} g mm" in said
-    pair = 1e6 * balance.correction.mass * balance.correction.radius
-    assert f"each pair takes {pair:.2g} g mm" in said
+    holes, rim = balance.correction, device.flywheel
+    pair = 2.0 * np.pi * holes.hole_radius**2 * holes.depth * rim.density
+    away = (rim.inner_radius + rim.outer_radius) / 2.0
+    assert f"a pair takes {1e3 * pair:.2g} g, which are {1e6 * pair * away:.2g} g mm" in said
+    assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in said
     assert balance.centred_by in said
 
 
@@ -251,3 +256,51 @@ def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
 def test_large_figures_are_written_out(assembly):
     said = " ".join(text for chapter in assembly.chapters() for text in chapter.texts)
     assert not re.search(r"\de[+]", said)
+
+
+def test_pedestals_of_two_shapes_stand_beside_each_other():
+    """Each with its screws, and told and numbered by what stands on it."""
+    caged = DEVICES["caged"]
+    foot = printed_foot(caged)
+    low, high = (
+        Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, lean, 0.04, module=module)
+        for lean, module in ((0.3, "left"), (0.9, "right"))
+    )
+    assembly = Assembly("solo12", replace(caged, plate=None, pedestals=(low, high)))
+    apart = {piece.name: piece.mesh.vertices for piece in pulled_apart(assembly.pieces, 0.01)}
+    along = [
+        np.concatenate([apart[f"pedestal_{side}"], apart[f"pedestal {side} on trunk"]])[:, 2]
+        for side in ("left", "right")
+    ]
+    assert along[1].max() < along[0].min()
+    assert {"pedestal left", "pedestal right"} <= {row.name for row in assembly.piece_rows()}
+    # In their places they have one seat.
+    placed = {piece.name: piece for piece in assembly.pieces}
+    assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside
+
+
+@pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.TRIAD])
+def test_lids_look_where_the_robot_files_have_them(name):
+    """The lid is at the end of the carrier's axis that its wheel's motor is not at."""
+    layout, caged = Layout(name), DEVICES["caged"]
+    angle = np.pi / 6.0 if name is LayoutName.PAIR else layout.angle
+    modules = tuple(map(Module, layout.names, layout.axes(angle).T, np.eye(3)))
+    device = replace(caged, modules=modules, layout=layout, incidence=angle)
+    said = texts(Assembly("solo12", device), "Steps")
+    for module in modules:
+        turn = wheel_placement(module).rotation @ carrier_placement(module).rotation
+        x, y, _ = turn[:, 2]
+        degrees = np.degrees(np.arctan2(abs(y), x))
+        side = "left" if y > 0.0 else "right"
+        assert f"{degrees:.4g} deg to the {side} of forward ({module.name})" in said
+
+
+def test_the_wheel_is_bonded_as_high_as_it_was_designed():
+    """What is between its rim and the drum's floor, by their meshes."""
+    device = DEVICES["by its face"]
+    assembly = Assembly("solo12", device)
+    meshes = {piece.name: piece.mesh.vertices for piece in assembly.pieces}
+    rim, drum = meshes["flywheel"], meshes["drum"]
+    below = drum[np.hypot(*drum[:, :2].T) < device.flywheel.inner_radius, 2].max()
+    low = rim[np.hypot(*rim[:, :2].T) > device.flywheel.inner_radius, 2].min()
+    assert f"Strips of {1e3 * (low - below):.1f} mm between" in texts(assembly, "Steps")

@@ -9,8 +9,10 @@ from xml.etree import ElementTree as ET
 import pytest
 from drawn_wheels import FLAT, HOLED, HUB, covers, drawings, overlap, texts
 from hypothesis import HealthCheck, given, settings
+from scipy.integrate import quad
 
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
+from ocs_design.export.drawing.wheel import inside_corners
 from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_sheet
 from ocs_design.parts.wheel import Wheel
 
@@ -153,3 +155,41 @@ def test_both_formats_show_the_same_texts():
     assert shown == [
         item.text for item in wheel_sheet(FLAT) if isinstance(item, Text) and item.text
     ]
+
+
+@pytest.mark.parametrize("drawing", [FLAT, HOLED], ids=["shrunk on", "one piece"])
+def test_radii_in_the_corners_add_the_inertia_that_is_told(drawing):
+    """A rounded corner of radius R, integrated over its width: 2 pi rho x^3 dz."""
+    wheel = drawing.wheel
+    hub, rim = wheel.hub, wheel.rim
+    radius, share = inside_corners(wheel)
+    corners = [(hub.radius, 1.0)] + [(rim.inner_radius, -1.0)] * wheel.one_piece
+
+    def ring(off, at, way):
+        left = radius - math.sqrt(radius**2 - (radius - off) ** 2)
+        return 2.0 * math.pi * hub.density * (at + way * off) ** 3 * left
+
+    added = [2.0 * quad(ring, 0.0, radius, args=corner)[0] for corner in corners]
+    whole = drawing.mass_properties.inertia[2, 2]
+    assert radius == pytest.approx(0.4e-3)
+    assert share == pytest.approx(sum(added) / whole, rel=1e-2)
+    assert f"(+{100.0 * share:.2g} % of inertia)" in " ".join(words(drawing))
+
+
+def test_corners_are_no_larger_than_the_step_that_they_are_in():
+    low = replace(FLAT.wheel.hub, height=FLAT.wheel.hub.web_thickness + 0.5e-3)
+    assert inside_corners(replace(FLAT.wheel, hub=low))[0] == pytest.approx(0.25e-3)
+    level = replace(low, height=low.web_thickness)
+    assert inside_corners(replace(FLAT.wheel, hub=level)) == (0.0, 0.0)
+
+
+def test_the_hub_says_what_holds_it():
+    bare = replace(FLAT, wheel=replace(FLAT.wheel, hub=replace(HUB, bolts=None)))
+    for drawing, said in (
+        (replace(bare, on_shaft=True), "bonded on the motor's shaft"),
+        (bare, "a pilot hole"),
+        (FLAT, "a pilot hole"),
+    ):
+        assert said in " ".join(text.text for text in texts(wheel_sheet(drawing)))
+    held = texts(wheel_sheet(replace(FLAT, on_shaft=True)))
+    assert not [text for text in held if "pilot" in text.text or "bolt circle" in text.text]
