@@ -17,7 +17,7 @@ import numpy as np
 
 SOLO12 = Path(__file__).parents[1] / "examples" / "solo12.urdf"
 LEVELS = (0.8, 0.95, 0.99)
-SEED = 20_000
+SEED = 30_000
 
 
 def specification(index: int) -> str:

@@ -32,10 +32,10 @@ name = "Antigravity MN5006 KV450, AT2820 KV1050, AS2820 KV1050"
 """
 WIDE = """
 [reality]
-mass_error = "normal(0, 4%)"
-inertia_error = "normal(0, 10%)"
+mass_error = "normal(0, 6%)"
+inertia_error = "normal(0, 15%)"
 torque_constant_error = "normal(0, 6%)"
-bus_voltage_error = "uniform(-15%, 20%)"
+bus_voltage_error = "uniform(-25%, 20%)"
 """
 MUCH = """
 [reality]
@@ -54,6 +54,14 @@ angle = "-360deg"
 duration = 2.0
 """
 
+ONLY_DROP = """
+[[maneuver]]
+kind = "drop"
+name = "drop"
+height = 1.0
+pitch = "30deg"
+"""
+
 
 def specified(more):
     stated = parse_specification(SOLO12, "test")
@@ -67,6 +75,20 @@ def solo12(more="", reliability=None, scale=1.0):
     resolved = resolve(stated, robot, size(robot.tree, robot.posture, robot.trunk))
     reserve = None if reliability is None else Reserve(reliability).raised(scale)
     return design_device(stated, robot, resolved, reserve=reserve)
+
+
+def flights(more):
+    """The nominal device, and the campaign that flies its only maneuver with seed 11."""
+    designed, robot, stated = solo12(more, 0.5), *specified(more)
+    (maneuver,) = designed.choice.problem.requirement.maneuvers
+    plans = plan(robot.mass_properties, designed.device, [maneuver], standing_height(robot))
+    campaign = make_campaign(
+        robot, designed.device, [maneuver], options=Options(),
+        references={name: each.trajectory for name, each in plans.items()}, jumps={},
+        can_stand=[True], uncertainty=Uncertainty.of(stated.reality, robot, designed.device),
+        seed=11,
+    )  # fmt: skip
+    return designed, campaign
 
 
 def needed(factors, **more):
@@ -164,6 +186,18 @@ def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
 
 
 @pytest.mark.slow
+def test_wheels_that_are_late_leave_a_third_of_what_they_miss():
+    """Drops with up to 70 % less k_t: as many land level as is predicted, three deviations off."""
+    more = f'{ONLY_DROP}[reality]\ntorque_constant_error = "uniform(-70%, 0%)"\n'
+    designed, campaign = flights(more)
+    (drop,) = designed.choice.problem.requirement.maneuvers
+    level = attitude_error(fly_samples(campaign, range(48)), drop, 0) <= LEVEL
+    expected = designed.kept.predicted
+    assert 0.2 < expected < 0.8
+    assert level.mean() == pytest.approx(expected, abs=3.0 * np.sqrt(expected * (1 - expected) / 48))
+
+
+@pytest.mark.slow
 def test_what_costs_the_most_reliability_rescues_the_most_flights_when_it_is_known():
     """Flights that fail, once more with one quantity at its mean and all else as it was drawn.
 
@@ -171,15 +205,8 @@ def test_what_costs_the_most_reliability_rescues_the_most_flights_when_it_is_kno
     rescues most of them; the less share, the farther off level they stay.
     """
     more = f"{ONLY_FLIP}[validation]\nballistic = true\n{MUCH}"
-    designed, robot, stated = solo12(more, 0.5), *specified(more)
+    designed, campaign = flights(more)
     (maneuver,) = designed.choice.problem.requirement.maneuvers
-    plans = plan(robot.mass_properties, designed.device, [maneuver], standing_height(robot))
-    campaign = make_campaign(
-        robot, designed.device, [maneuver], options=Options(),
-        references={name: each.trajectory for name, each in plans.items()}, jumps={},
-        can_stand=[True], uncertainty=Uncertainty.of(stated.reality, robot, designed.device),
-        seed=11,
-    )  # fmt: skip
     (flight,) = campaign.flights
     world = replace(flight.world, duration=FLIP.flight_time + 0.1)
     campaign = replace(campaign, flights=(replace(flight, world=world),))
