@@ -54,7 +54,7 @@ ARRIVES = 0.4
 """Tilt at touchdown over what robots miss that would land at rest: where wheels can less than they
 must, the law brakes them later, and the robot arrives nearer to level with up to 1 rad/s. Flown
 0.3 in drops that miss up to 9 deg (Solo12, Romeo), 0.45 in such that miss more, and 0.3 to 0.4 in
-back-flips of Solo12."""
+back-flips of Solo12; taken for those of four legs only."""
 
 RELIABILITIES = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
 """Reliabilities whose masses are told."""
@@ -351,7 +351,8 @@ class Reality:
             energy = 0.5 * device.spin_inertia * top**2
             whole = self.flight * maneuver.flight_time
             late = energy <= device.line.power_max * (whole - time)
-            arrives, time, share = (True, whole, 1.0) if late else (False, time, PLANNED)
+            arrives = late and self.flight > 1.0
+            time, share = (whole, 1.0) if late else (time, PLANNED)
         axes = _built_axes(device.layout, at, drawn["incidence_error"])
         if problem.requirement.detection is not None:
             # One robot after the other loses another wheel, at once.

@@ -194,7 +194,9 @@ def test_wheels_that_are_late_leave_a_third_of_what_they_miss():
     level = attitude_error(fly_samples(campaign, range(48)), drop, 0) <= LEVEL
     expected = designed.kept.predicted
     assert 0.2 < expected < 0.8
-    assert level.mean() == pytest.approx(expected, abs=3.0 * np.sqrt(expected * (1 - expected) / 48))
+    assert level.mean() == pytest.approx(
+        expected, abs=3.0 * np.sqrt(expected * (1 - expected) / 48)
+    )
 
 
 @pytest.mark.slow
