@@ -166,9 +166,7 @@ def demo(
     no_open: Annotated[
         bool, typer.Option("--no-open", help="Do not open the report in the browser.")
     ] = False,
-    out: Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="Output folder.")] = Path(
-        "solo12-ocs"
-    ),
+    out: Annotated[Path, opt.option("-o --out", "DIR", "Output folder.")] = Path("solo12-ocs"),
     force: opt.Force = False,
     quiet: opt.Quiet = False,
     no_color: opt.NoColor = False,
@@ -294,23 +292,15 @@ def inspect(
 @app.command(epilog=_examples("bound"))
 def bound(
     inertia: Annotated[
-        str,
-        typer.Option(metavar="INERTIA", help="Of the robot about the axis, e.g. '0.0515 kg m2'."),
+        str, opt.option("", "INERTIA", "Of the robot about the axis, e.g. '0.0515 kg m2'.")
     ],
-    rate_change: Annotated[
-        str, typer.Option(metavar="RATE", help="Change of the trunk's rate, e.g. 2rad/s.")
-    ],
+    rate_change: Annotated[str, opt.option("", "RATE", "Change of the trunk's rate, e.g. 2rad/s.")],
     wheel_speed_max: Annotated[
-        str, typer.Option(metavar="SPEED", help="Highest speed of a wheel, relative to the trunk.")
+        str, opt.option("", "SPEED", "Highest speed of a wheel, relative to the trunk.")
     ] = "7200rpm",
-    alpha: Annotated[
-        str, typer.Option(metavar="ANGLE", help="Incidence of the wheel axes.")
-    ] = "0deg",
+    alpha: Annotated[str, opt.option("", "ANGLE", "Incidence of the wheel axes.")] = "0deg",
     axis: Annotated[
-        str,
-        typer.Option(
-            autocompletion=completion.one_of("pitch", "roll"), metavar="AXIS", help="pitch or roll."
-        ),
+        str, opt.option("", "AXIS", "pitch or roll.", completion.one_of("pitch", "roll"))
     ] = "pitch",
     as_json: opt.AsJson = False,
     no_color: opt.NoColor = False,
@@ -337,11 +327,10 @@ def bound(
         print_bound(make_console(color=not no_color), answer)
 
 
-app.command(cls=_OnDesign, epilog=_examples("export"))(export)
-app.command(cls=_OnDesign, epilog=_examples("validate"))(validate)
-app.command(epilog=_examples("pareto"))(pareto)
-app.command(epilog=_examples("init"))(init)
-app.command(epilog=_examples("doctor"))(doctor)
+for command in (export, validate):
+    app.command(cls=_OnDesign, epilog=_examples(command.__name__))(command)
+for command in (pareto, init, doctor):
+    app.command(epilog=_examples(command.__name__))(command)
 
 
 @app.command(epilog=_examples("catalogue"))

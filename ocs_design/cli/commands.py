@@ -48,8 +48,7 @@ def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
 Answer = TypeVar("Answer")
 
 SpecificationFile: TypeAlias = Annotated[
-    Path | None,
-    typer.Option("-o", "--out", metavar="FILE", help="File to write. Default: <name>.toml."),
+    Path | None, opt.option("-o --out", "FILE", "File to write. Default: <name>.toml.")
 ]
 Yes: TypeAlias = Annotated[
     bool, typer.Option("-y", "--yes", help="Ask nothing; as where no terminal is.")
@@ -190,27 +189,26 @@ DesignFile: TypeAlias = Annotated[
     ),
 ]
 ExportFolder: TypeAlias = Annotated[
-    Path | None,
-    typer.Option("-o", "--out", metavar="DIR", help="Output folder. Default: <name>-ocs-export."),
+    Path | None, opt.option("-o --out", "DIR", "Output folder. Default: <name>-ocs-export.")
 ]
 Formats: TypeAlias = Annotated[
     list[str] | None,
-    typer.Option(
+    opt.option(
         "--formats",
-        autocompletion=completion.listed(completion.any_of(completion.formats)),
-        metavar="NAMES",
-        help=f"{', '.join(each.name for each in USUAL_FORMATS)} (these are the default), "
+        "NAMES",
+        f"{', '.join(each.name for each in USUAL_FORMATS)} (these are the default), "
         f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, "
         "controller, with commas between them; or all.",
+        completion.listed(completion.any_of(completion.formats)),
     ),
 ]
 OtherRobot: TypeAlias = Annotated[
     Path | None,
-    typer.Option(
+    opt.option(
         "--robot",
-        autocompletion=completion.files(*completion.ROBOTS),
-        metavar="FILE",
-        help="The robot's file, where it has moved or is to be another than was sized for.",
+        "FILE",
+        "The robot's file, where it has moved or is to be another than was sized for.",
+        completion.files(*completion.ROBOTS),
     ),
 ]
 
@@ -266,41 +264,32 @@ def export(
 
 Against: TypeAlias = Annotated[
     str,
-    typer.Option(
+    opt.option(
         "--against",
-        autocompletion=completion.one_of("time", "angle", "radius", "height", "voltage"),
-        metavar="NAME",
-        help="time, angle, radius, height or voltage is varied.",
+        "NAME",
+        "time, angle, radius, height or voltage is varied.",
+        completion.one_of("time", "angle", "radius", "height", "voltage"),
     ),
 ]
-Low: TypeAlias = Annotated[
-    str | None, typer.Option("--from", metavar="VALUE", help="Lowest value, e.g. 300ms.")
-]
+Low: TypeAlias = Annotated[str | None, opt.option("--from", "VALUE", "Lowest value, e.g. 300ms.")]
 High: TypeAlias = Annotated[
     str | None,
-    typer.Option(
-        "--to",
-        metavar="VALUE",
-        help="Highest value. Default of both: around the specification's own.",
-    ),
+    opt.option("--to", "VALUE", "Highest value. Default of both: around the specification's own."),
 ]
-Points: TypeAlias = Annotated[int, typer.Option("--points", metavar="N", help="How many values.")]
+Points: TypeAlias = Annotated[int, opt.option("--points", "N", "How many values.")]
 ManeuverName: TypeAlias = Annotated[
     str,
-    typer.Option(
+    opt.option(
         "--maneuver",
-        autocompletion=completion.maneuvers,
-        metavar="NAME",
-        help="Vary the time or angle of this one alone. Default: of all, in one ratio.",
+        "NAME",
+        "Vary the time or angle of this one alone. Default: of all, in one ratio.",
+        completion.maneuvers,
     ),
 ]
 FrontFolder: TypeAlias = Annotated[
     Path | None,
-    typer.Option(
-        "-o",
-        "--out",
-        metavar="DIR",
-        help="Write the front and the specification of each point into this folder.",
+    opt.option(
+        "-o --out", "DIR", "Write the front and the specification of each point into this folder."
     ),
 ]
 
@@ -357,40 +346,34 @@ def pareto(
 
 FlightsFolder: TypeAlias = Annotated[
     Path | None,
-    typer.Option(
-        "-o",
-        "--out",
-        metavar="DIR",
-        help="Write time series into this folder; with --samples, every sample. There a run that "
+    opt.option(
+        "-o --out",
+        "DIR",
+        "Write time series into this folder; with --samples, every sample. There a run that "
         "was interrupted goes on.",
     ),
 ]
 Samples: TypeAlias = Annotated[
-    int | None,
-    typer.Option("--samples", metavar="N", help="Fly N robots as they might be built."),
+    int | None, opt.option("--samples", "N", "Fly N robots as they might be built.")
 ]
 UntilWidth: TypeAlias = Annotated[
     str | None,
-    typer.Option(
+    opt.option(
         "--until-width",
-        metavar="SHARE",
-        help="Stop earlier: as soon as each success rate is known to within this, e.g. 5%.",
+        "SHARE",
+        "Stop earlier: as soon as each success rate is known to within this, e.g. 5%.",
     ),
 ]
 Scheduler: TypeAlias = Annotated[
-    str | None,
-    typer.Option("--scheduler", metavar="ADDRESS", help="Fly the samples on this Dask cluster."),
+    str | None, opt.option("--scheduler", "ADDRESS", "Fly the samples on this Dask cluster.")
 ]
 OneSample: TypeAlias = Annotated[
-    int | None, typer.Option("--sample", metavar="K", help="Fly sample K of --seed alone.")
+    int | None, opt.option("--sample", "K", "Fly sample K of --seed alone.")
 ]
 CaseFile: TypeAlias = Annotated[
     Path | None,
-    typer.Option(
-        "--replay",
-        autocompletion=completion.files(".json"),
-        metavar="FILE",
-        help="Fly a case from the folder worst/ again.",
+    opt.option(
+        "--replay", "FILE", "Fly a case from the folder worst/ again.", completion.files(".json")
     ),
 ]
 View: TypeAlias = Annotated[

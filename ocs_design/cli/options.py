@@ -59,14 +59,21 @@ Text: TypeAlias = str | None
 Texts: TypeAlias = list[str] | None
 
 
+def option(
+    names: str, metavar: str, says: str, complete: Callable[..., list[str]] | None = None
+) -> object:
+    """An option with a value; without names it is named as its parameter, with dashes."""
+    return typer.Option(*names.split(), metavar=metavar, help=says, autocompletion=complete)
+
+
 def _text(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
-    """An option with one text, named as its parameter with dashes."""
-    return Annotated[Text, typer.Option(metavar=metavar, help=says, autocompletion=complete)]
+    """An option with one text."""
+    return Annotated[Text, option("", metavar, says, complete)]
 
 
 def _texts(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
     """The same, repeatable."""
-    return Annotated[Texts, typer.Option(metavar=metavar, help=says, autocompletion=complete)]
+    return Annotated[Texts, option("", metavar, says, complete)]
 
 
 def _flag(name: str, says: str) -> object:
@@ -84,61 +91,45 @@ RobotFile: TypeAlias = Annotated[
     ),
 ]
 Spec: TypeAlias = Annotated[
-    Path | None,
-    typer.Option(
-        "--spec",
-        autocompletion=completion.files(".toml"),
-        metavar="FILE",
-        help="Specification file (TOML).",
-    ),
+    Path | None, option("--spec", "FILE", "Specification file (TOML).", completion.files(".toml"))
 ]
 PackagePaths: TypeAlias = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--package-path", metavar="NAME=DIR", help="Where package://NAME lies; repeatable."
-    ),
+    list[str] | None, option("--package-path", "NAME=DIR", "Where package://NAME lies; repeatable.")
 ]
 Survives: TypeAlias = Annotated[
     Text,
-    typer.Option(
+    option(
         "--survives",
-        autocompletion=completion.one_of("one", "none"),
-        metavar="one",
-        help="Land within the allowance though any one of the drives stops in flight.",
+        "one",
+        "Land within the allowance though any one of the drives stops in flight.",
+        completion.one_of("one", "none"),
     ),
 ]
 Detection: TypeAlias = Annotated[
     Text,
-    typer.Option(
-        "--detection",
-        metavar="TIME",
-        help="Until a drive that stops is known to have stopped; 20ms by default.",
+    option(
+        "--detection", "TIME", "Until a drive that stops is known to have stopped; 20ms by default."
     ),
 ]
 MotorsFile: TypeAlias = Annotated[
     Text,
-    typer.Option(
+    option(
         "--motors",
-        autocompletion=completion.files(".csv", ".toml"),
-        metavar="FILE",
-        help="Choose among these motors instead, CSV or TOML.",
+        "FILE",
+        "Choose among these motors instead, CSV or TOML.",
+        completion.files(".csv", ".toml"),
     ),
 ]
 GearsFile: TypeAlias = Annotated[
     Text,
-    typer.Option(
-        "--gears",
-        autocompletion=completion.files(".csv", ".toml"),
-        metavar="FILE",
-        help="Gears of your own, CSV or TOML.",
-    ),
+    option("--gears", "FILE", "Gears of your own, CSV or TOML.", completion.files(".csv", ".toml")),
 ]
 LighterBy: TypeAlias = Annotated[
     Text,
-    typer.Option(
+    option(
         "--lighter-by",
-        metavar="MASS",
-        help="Also tell what would have to give for a device so much lighter, e.g. 90g.",
+        "MASS",
+        "Also tell what would have to give for a device so much lighter, e.g. 90g.",
     ),
 ]
 CoDesign: TypeAlias = Annotated[
@@ -159,11 +150,11 @@ Open: TypeAlias = Annotated[
 ]
 Reality: TypeAlias = Annotated[
     Text,
-    typer.Option(
+    option(
         "--reality",
-        autocompletion=completion.files(".toml"),
-        metavar="FILE",
-        help="Draw samples from these distributions instead, TOML.",
+        "FILE",
+        "Draw samples from these distributions instead, TOML.",
+        completion.files(".toml"),
     ),
 ]
 Certify: TypeAlias = Annotated[
@@ -173,12 +164,9 @@ Certify: TypeAlias = Annotated[
         help="Fly robots as they might be built, until it is sure whether enough of them pass.",
     ),
 ]
-Seed: TypeAlias = Annotated[
-    int | None, typer.Option("--seed", metavar="N", help="Seed of all random numbers.")
-]
+Seed: TypeAlias = Annotated[int | None, option("--seed", "N", "Seed of all random numbers.")]
 Out: TypeAlias = Annotated[
-    Path | None,
-    typer.Option("-o", "--out", metavar="DIR", help="Output folder. Default: <name>-ocs."),
+    Path | None, option("-o --out", "DIR", "Output folder. Default: <name>-ocs.")
 ]
 Force: TypeAlias = Annotated[
     bool, typer.Option("--force", help="Replace an output folder that exists, once complete.")
@@ -188,15 +176,11 @@ AsJson: TypeAlias = Annotated[
 ]
 Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
 Picture: TypeAlias = Annotated[
-    Path | None,
-    typer.Option(
-        "--picture", metavar="FILE", help="Draw trunk, legs and feet from three sides (.svg)."
-    ),
+    Path | None, option("--picture", "FILE", "Draw trunk, legs and feet from three sides (.svg).")
 ]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 Verbose: TypeAlias = Annotated[
-    bool,
-    typer.Option("-v", "--verbose", help="Print all figures, not the story on one screen."),
+    bool, typer.Option("-v", "--verbose", help="Print all figures, not the story on one screen.")
 ]
 NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]
 
