@@ -469,7 +469,17 @@ class OcsRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class SizingRecord:
-    """How the optimum was found. Shadow prices: kg of one rim per SI unit of the limit."""
+    """How the optimum was found.
+
+    Attributes:
+        status, method: of the optimum. objective: what was minimised [kg]: the mass of the whole
+            device, or of one rim.
+        binding: limits that hold the mass up.
+        shadow_prices: change of the mass of one module per change of each binding limit [kg per SI
+            unit of the limit].
+        gap: relative, of the optimum.
+        residual: of the fixed point, relative. iterations: to it.
+    """
 
     status: str
     method: str

@@ -11,7 +11,7 @@ from ocs_design.actuation.wheel_load import held
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Criterion, incidence_by_criterion
-from ocs_design.device.records import ReserveRecord
+from ocs_design.device.records import ReserveRecord, SizingRecord, recorded
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
@@ -56,13 +56,7 @@ class Sized:
         incidence_by_criterion_robot: the same for the robot alone.
         demands: what each part of the requirement asks of a wheel.
         total: robot and device, braked, in B.
-        status, method: of the optimum. objective: what was minimised [kg]: the
-            mass of the whole device, or of one rim.
-        binding: limits that hold the mass up.
-        shadow_prices: change of the mass of one module per change of each binding limit [kg per SI
-            unit of the limit].
-        gap: relative, of the optimum.
-        residual: of the fixed point, relative. iterations: to it.
+        optimum: how it was found.
     """
 
     wheel_speed_max: float
@@ -70,14 +64,7 @@ class Sized:
     incidence_by_criterion_robot: Mapping[Criterion, float]
     demands: tuple[SpinDemand, ...]
     total: MassProperties
-    status: str
-    method: str
-    objective: float
-    binding: tuple[str, ...]
-    shadow_prices: Mapping[str, float]
-    gap: float
-    residual: float
-    iterations: int
+    optimum: SizingRecord
 
 
 def sized_by_bound(sizing: DeviceSizing, wheel_speed_max: float) -> Sized:
@@ -94,14 +81,13 @@ def sized_by_bound(sizing: DeviceSizing, wheel_speed_max: float) -> Sized:
         incidence_by_criterion_robot=sizing.incidence_by_criterion_robot,
         demands=sizing.demands,
         total=sizing.total,
-        status=rim.status,
-        method=rim.method,
-        objective=rim.mass,
-        binding=rim.binding,
-        shadow_prices=rim.shadow_prices,
-        gap=rim.gap,
-        residual=sizing.residual,
-        iterations=sizing.iterations,
+        optimum=recorded(
+            SizingRecord,
+            rim,
+            objective=rim.mass,
+            residual=sizing.residual,
+            iterations=sizing.iterations,
+        ),
     )
 
 
@@ -121,14 +107,15 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
         incidence_by_criterion_robot=by_criterion(robot),
         demands=tuple(_spin_demands(problem, chosen)),
         total=chosen.total,
-        status="optimal",
-        method=METHOD,
-        objective=chosen.mass,
-        binding=chosen.binding,
-        shadow_prices=_shadow_prices(problem, chosen),
-        gap=0.0,
-        residual=chosen.residual,
-        iterations=chosen.iterations,
+        optimum=recorded(
+            SizingRecord,
+            chosen,
+            status="optimal",
+            method=METHOD,
+            objective=chosen.mass,
+            shadow_prices=_shadow_prices(problem, chosen),
+            gap=0.0,
+        ),
     )
 
 

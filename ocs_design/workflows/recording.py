@@ -38,7 +38,6 @@ from ocs_design.device.records import (
     ReserveRecord,
     RobotRecord,
     SelectionRecord,
-    SizingRecord,
     SurvivalRecord,
     Tool,
     ValidationRecord,
@@ -334,9 +333,7 @@ def record_design(
         robot=RobotRecord.of(robot, package_paths),
         requirement=_requirement(resolved, designed.sized),
         ocs=_ocs(robot, designed, mounting, warnings),
-        sizing=recorded(
-            SizingRecord, designed.sized, shadow_prices=dict(designed.sized.shadow_prices)
-        ),
+        sizing=designed.sized.optimum,
         selection=None
         if designed.choice is None
         else record_selection(designed.choice, designed.kept),
@@ -402,8 +399,9 @@ def _ocs(
 ) -> OcsRecord:
     device, sized = designed.device, designed.sized
     drift = heading_drift(sized.total.inertia)
-    return OcsRecord(
-        incidence=device.incidence,
+    return recorded(
+        OcsRecord,
+        device,
         incidence_criterion=designed.criterion,
         incidence_by_criterion={
             str(name): angle for name, angle in sized.incidence_by_criterion.items()
@@ -423,14 +421,6 @@ def _ocs(
         ),
         layout=device.layout.name.value,
         clearance=None if mounting is None else mounting.nearest,
-        flywheel=device.flywheel,
-        motor=device.motor,
-        carrier=device.carrier,
-        plate=device.plate,
-        pedestals=device.pedestals,
-        guard_wall=device.guard_wall,
-        foot_plate=device.foot_plate,
-        on_bell=device.on_bell,
         center_of_mass=vector(
             (sized.total.mass * sized.total.com - robot.mass_properties.mass * robot.com)
             / device.mass

@@ -123,8 +123,8 @@ def masses_around(problem, device, name):
 
 def test_prices_are_what_one_more_of_a_limit_is_worth(answer):
     problem, device, sized = answer
-    assert sized.shadow_prices
-    for name, price in sized.shadow_prices.items():
+    assert sized.optimum.shadow_prices
+    for name, price in sized.optimum.shadow_prices.items():
         (less, more), value = masses_around(problem, device, name)
         expected = (more - less) / (2.0 * STEP * value)
         assert price == pytest.approx(expected, rel=1e-4), name
@@ -132,7 +132,7 @@ def test_prices_are_what_one_more_of_a_limit_is_worth(answer):
 
 def test_what_binds_has_a_price_if_it_is_a_limit(answer):
     _, device, sized = answer
-    assert set(sized.shadow_prices) == set(device.binding) - {"housing"}
+    assert set(sized.optimum.shadow_prices) == set(device.binding) - {"housing"}
 
 
 def test_the_wheel_may_turn_as_fast_as_reserve_and_mechanics_allow(answer):
