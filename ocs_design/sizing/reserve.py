@@ -351,7 +351,7 @@ class Reality:
             energy = 0.5 * device.spin_inertia * top**2
             whole = self.flight * maneuver.flight_time
             late = energy <= device.line.power_max * (whole - time)
-            arrives = late and self.flight > 1.0
+            arrives = bool(late) and self.flight > 1.0
             time, share = (whole, 1.0) if late else (time, PLANNED)
         axes = _built_axes(device.layout, at, drawn["incidence_error"])
         if problem.requirement.detection is not None:
