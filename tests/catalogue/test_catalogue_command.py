@@ -39,10 +39,10 @@ def test_json_is_in_si_and_says_what_is_missing():
 
 def test_people_read_figures_marks_and_what_is_missing():
     said = run("catalogue", "motors").said
-    assert "U8 Lite KV100 238 50.4 5040 2.8+ 95.5 - " in said
-    assert "R80 KV110 354 48 5250 4 86.8 stator" in said
+    assert "U8 Lite KV100 238 50.4 5,040 2.8+ 95.5 - " in said
+    assert "R80 KV110 354 48 5,250 4 86.8 stator" in said
     assert "1.22* 37.7 stator +2" in said
-    assert "ILM85x26 670 48 1560 9.4 292 bearings +2" in said
+    assert "ILM85x26 670 48 1,560 9.4 292 bearings +2" in said
     assert "4221 G 024 BXTH" in said.split("Cannot be built with")[1]
     assert "SwRI/SymBench" in said
     assert re.search(r"1 to 2 14 \d+ 2 to 5 16 \d+ 5 to 20 6 \d+", said)
@@ -60,7 +60,7 @@ def test_a_row_of_motors_is_found_with_its_gaps():
 
 def test_gears_in_words():
     said = run("catalogue", "gears").said
-    assert "GP 32 C 166936 23.04:1 23.040 160 424.7 3.75 8000 -" in said
+    assert "GP 32 C 166936 23.04:1 23.040 160 424.7 3.75 8,000 -" in said
     assert "GP 42 C 203115: no inertia_kg_m2" in said
 
 
@@ -86,7 +86,7 @@ def test_a_users_file_joins_the_table(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(MINE)
     result = run("catalogue", "motors", "--motors", path)
-    assert "my motor 20 16.8 16800 0.115+ 9.55 kind +6" in result.said
+    assert "my motor 20 16.8 16,800 0.115+ 9.55 kind +6" in result.said
     assert "my motor: my bench" in result.said
     assert "wound by hand" not in result.said
     assert "wound by hand" in run("catalogue", "motors", "--motors", path, "-v").said

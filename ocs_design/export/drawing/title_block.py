@@ -166,20 +166,25 @@ def parts_list(drawing: WheelDrawing) -> list[Item]:
 def notes(drawing: WheelDrawing) -> list[Item]:
     """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde.
 
-    Those that end above the title block and the list of parts are as wide as the sheet.
+    Those that end above the title block and the list of parts are as wide as the sheet. Where
+    they would run out of the frame, lines are nearer to each other.
     """
-    items: list[Item] = []
-    y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
+    sentences, leading = list(_sentences(drawing)), LEADING
     block = min([BLOCK_TOP, *(x.start[1] for x in parts_list(drawing) if isinstance(x, Line))])
-    for number, sentence in enumerate(_sentences(drawing), start=1):
-        items.append(Text((NOTES_LEFT, y), f"{number}"))
-        lines = wrapped(sentence, RIGHT - left - 2.0, 2.5)
-        if y + (len(lines) - 1) * LEADING + 2.0 > block:
-            lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, 2.5)
-        for line in lines:
-            items.append(Text((NOTES_LEFT + NUMBER_WIDTH, y), line.replace("~", " ")))
-            y += LEADING
-    return items
+    while True:
+        items: list[Item] = []
+        y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
+        for number, sentence in enumerate(sentences, start=1):
+            items.append(Text((NOTES_LEFT, y), f"{number}"))
+            lines = wrapped(sentence, RIGHT - left - 2.0, 2.5)
+            if y + (len(lines) - 1) * leading + 2.0 > block:
+                lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, 2.5)
+            for line in lines:
+                items.append(Text((left, y), line.replace("~", " ")))
+                y += leading
+        if y - leading + 2.0 < FRAME_BOX[3]:
+            return items
+        leading *= 0.95
 
 
 def _sentences(drawing: WheelDrawing) -> Iterator[str]:
