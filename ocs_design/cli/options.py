@@ -72,7 +72,7 @@ def _text(metavar: str, says: str, complete: Callable[..., list[str]] | None = N
 
 
 def _texts(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
-    """The same, repeatable."""
+    """An option with a text each time that it is given."""
     return Annotated[Texts, option("", metavar, says, complete)]
 
 

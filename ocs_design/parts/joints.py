@@ -530,7 +530,7 @@ def correction(
 
 
 def _whole(length: float, step: float) -> float:
-    """As many whole steps as are in a length [m]."""
+    """A length cut to whole steps [m]."""
     return step * floor(length / step + 1e-6)
 
 

@@ -167,7 +167,7 @@ Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Rotation of a mesh whose y is upwards to z upwards."""
 
 _Y_UP_BODIES = 3
-"""Least number of bodies with such meshes: those of one or two may be round, and tell nothing."""
+"""Bodies that must have such meshes: one or two may be round, and tell nothing."""
 
 _NEARER = 2.0 / 3.0
 """Largest ratio of distances from the centres of mass by which meshes are said to lie better."""

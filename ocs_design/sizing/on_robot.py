@@ -154,11 +154,7 @@ def on_its_footing(
         own, device = settled(best)
         if own is problem:
             break
-        try:
-            again = select_by(of_parts(own, device), criterion, advise=False)
-        except Infeasible:
-            # Of a drive at its limit a search may miss what is left.
-            again = replace(selection, ranking=(device,))
+        again = select_by(of_parts(own, device), criterion, advise=False, winner=device)
         again, problem = with_plates(again, own, criterion, robot), own
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
         selection = replace(selection, ranking=(again.best, *others))

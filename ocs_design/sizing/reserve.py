@@ -51,10 +51,10 @@ faster and higher than they land. Solo12 1.058 as designed and 1.042 in the mean
 1.038, Go1 1.039, Go2 1.031; the least is taken."""
 
 ARRIVES = 0.4
-"""Tilt at touchdown over what robots miss that would land at rest: where wheels can less than they
-must, the law brakes them later, and the robot arrives nearer to level with up to 1 rad/s. Flown
-0.3 in drops that miss up to 9 deg (Solo12, Romeo), 0.45 in such that miss more, and 0.3 to 0.4 in
-back-flips of Solo12; taken for those of four legs only."""
+"""Tilt at touchdown of a robot whose wheels are too weak, over the tilt if it stopped turning in
+time. The law lets it turn on, at up to 1 rad/s, so it lands nearer to level. Flown: 0.3 in drops
+that would be up to 9 deg off (Solo12, Romeo), 0.45 beyond, 0.3 to 0.4 in back-flips of Solo12. For
+back-flips it is taken on four legs only."""
 
 RELIABILITIES = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
 """Reliabilities whose masses are told."""
@@ -451,7 +451,7 @@ class _Flown:
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
         duration: in which it must be done [s], shape (robots, 1).
         share: of the drives that does it.
-        tilted: part of what is missing that is left at touchdown, see `ARRIVES`.
+        tilted: share of what wheels miss that is left as tilt at touchdown, see `ARRIVES`.
         axes: of the wheels as built, shape (robots, 2, n).
         bias: of measured roll and pitch [rad], shape (robots, 2).
     """

@@ -417,19 +417,22 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
     assert meet == {}
 
 
-ARM = """<robot name="armed">
+def jointed(base, limb, mass, height, axis, inertia):
+    """A box of 20 kg with another one on a joint above it; sizes as in URDF."""
+    yy, zz = inertia
+    return f"""<robot name="jointed">
   <link name="base">
-    <inertial><mass value="20"/><inertia ixx="0.3" iyy="0.6" izz="0.6" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-    <collision><geometry><box size="0.6 {width} 0.1"/></geometry></collision>
+    <inertial><mass value="20"/>
+      <inertia ixx="0.3" iyy="{yy}" izz="{zz}" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="{base}"/></geometry></collision>
   </link>
-  <link name="arm">
-    <inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-    <collision><geometry><box size="0.6 0.06 0.06"/></geometry></collision>
+  <link name="limb">
+    <inertial><mass value="{mass}"/>
+      <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="{limb}"/></geometry></collision>
   </link>
-  <joint name="shoulder" type="revolute">
-    <parent link="base"/><child link="arm"/><origin xyz="0 0 0.13"/><axis xyz="0 1 0"/>
+  <joint name="joint" type="revolute">
+    <parent link="base"/><child link="limb"/><origin xyz="0 0 {height}"/><axis xyz="{axis}"/>
     <limit lower="-1" upper="1" effort="1" velocity="1"/>
   </joint>
 </robot>"""
@@ -439,7 +442,8 @@ ARM = """<robot name="armed">
 @pytest.mark.parametrize("width", [0.12, 0.5])
 def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
     """No part of any module, nor a plate under the arm, has any volume in common with it."""
-    (tmp_path / "armed.urdf").write_text(ARM.format(width=width))
+    armed = jointed(f"0.6 {width} 0.1", "0.6 0.06 0.06", 1, 0.13, "0 1 0", (0.6, 0.6))
+    (tmp_path / "armed.urdf").write_text(armed)
     robot, layout = read_robot(tmp_path / "armed.urdf", trunk="base"), Layout(name)
     _, sized = designed("Antigravity MN5006 KV450")
     axes = layout.axes(0.5).T
@@ -513,31 +517,14 @@ def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed, name):
     assert meet == []
 
 
-COLUMN = """<robot name="column">
-  <link name="base">
-    <inertial><mass value="20"/><inertia ixx="0.3" iyy="0.3" izz="0.1" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-    <collision><geometry><box size="0.12 {width} 0.3"/></geometry></collision>
-  </link>
-  <link name="head">
-    <inertial><mass value="2"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-    <collision><geometry><box size="0.2 0.3 0.2"/></geometry></collision>
-  </link>
-  <joint name="neck" type="revolute">
-    <parent link="base"/><child link="head"/><origin xyz="0 0 0.3"/><axis xyz="0 0 1"/>
-    <limit lower="-1" upper="1" effort="1" velocity="1"/>
-  </joint>
-</robot>"""
-
-
 @pytest.fixture
 def column(tmp_path):
     """A trunk with a head on top, where nothing else has room."""
 
     def read(width=0.14):
         path = tmp_path / "column.urdf"
-        path.write_text(COLUMN.format(width=width))
+        box = f"0.12 {width} 0.3"
+        path.write_text(jointed(box, "0.2 0.3 0.2", 2, 0.3, "0 0 1", (0.3, 0.1)))
         return read_robot(path, trunk="base")
 
     return read
