@@ -397,11 +397,6 @@ class Assembly:
     def _on_the_trunk(self) -> Iterator[str]:
         foot = printed_foot(self.device)
         standing = foot_holes(self.device)
-        name, found = next(
-            (name, found)
-            for name, found in self.screws.items()
-            if name.startswith("foot on") and not (standing and name == SEAT_SCREWS.purpose)
-        )
         places = [
             f"{part_name('foot', module)} {' and '.join(_places(ends))}"
             for module, ends in standing.items()
@@ -420,16 +415,7 @@ class Assembly:
             *(each.position[2] for each in self.device.pedestals),
         ]
         stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
-        # Each axis's own, from the lateral direction: those of a ring's modules differ.
-        angles = {
-            module.name: format_quantity(float(np.arctan2(*np.abs(module.axis[:2]))), "deg")
-            for module in self.device.modules
-            if module.name in standing
-        }
-        alike = len(set(angles.values())) == 1
-        each_own = (f"{value} ({name})" for name, value in angles.items())
-        scale = next(iter(angles.values())) if alike else ", ".join(each_own)
-        held, motor, plate = found.fastening, self.device.motor, self.device.plate
+        motor, plate = self.device.motor, self.device.plate
         mass = self.device.flywheel.mass + self.device.carrier.mass - motor.controller_mass
         yield (
             f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
@@ -446,14 +432,12 @@ class Assembly:
         what = "feet and pedestals" if standing and holes else "pedestals" if holes else "the feet"
         places_of = f"{'; '.join(places)}; {what} stand at z = {stand} mm"
         if plate is None:
-            under_feet = "trunk"
             yield (
                 "Drill the trunk by cad/drilling.pdf, printed at 100 %; it says how deep. Places, "
                 f"{frame} design.json): "
                 f"{places_of}."
             )
         else:
-            under_feet = "plate"
             cut = (
                 f"Cut the plate{self._number('plate')} (cad/plate.stl; `export --formats dxf` "
                 f"writes plate.dxf), with holes of {1e3 * plate.screw.clearance_hole:g} mm for the "
@@ -497,13 +481,30 @@ class Assembly:
                 if each.startswith(("plate on", "mast on"))
             )
         yield from self._on_pedestals()
-        if not standing:
-            return
+        if standing:
+            yield self._turned(list(standing))
+
+    def _turned(self, standing: Sequence[str]) -> str:
+        """How the feet of these modules are turned to the incidence by their scales."""
+        foot = printed_foot(self.device)
+        screws, found = next(
+            each
+            for each in self.screws.items()
+            if each[0].startswith("foot on") and each[0] != SEAT_SCREWS.purpose
+        )
+        modules = [each for each in self.device.modules if each.name in standing]
+        # Each axis's own, from the lateral direction: those of a ring's modules differ.
+        angles = {
+            module.name: format_quantity(float(np.arctan2(*np.abs(module.axis[:2]))), "deg")
+            for module in modules
+        }
+        alike = len(set(angles.values())) == 1
+        each_own = (f"{value} ({name})" for name, value in angles.items())
+        scale = next(iter(angles.values())) if alike else ", ".join(each_own)
         # Away from its motor.
         outward = {
             module.name: float(np.arctan2(module.frame[1, 1], module.frame[0, 1]))
-            for module in self.device.modules
-            if module.name in standing
+            for module in modules
         }
         looks = ", ".join(
             f"{format_quantity(abs(angle), 'deg')} to the {'left' if angle > 0.0 else 'right'} of "
@@ -511,15 +512,15 @@ class Assembly:
             for name, angle in outward.items()
         )
         long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.base_radius - WALL)
-        yield (
+        held, plate = found.fastening, self.device.plate
+        into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
+        return (
             f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} "
             f"deg apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe "
             "a line forward through the middle of each foot, turn the foot until it meets "
-            f"the scale at {scale}, its lid looking {looks}, and tighten "
-            f"{held.count} x "
-            f"{held.designation}{self._number(name)} with {found.torque:.2g} N "
-            f"m each, into {'the threads' if plate else 'threads, inserts or nuts'} of the "
-            f"{under_feet}."
+            f"the scale at {scale}, its lid looking {looks}, and tighten {held.count} x "
+            f"{held.designation}{self._number(screws)} with {found.torque:.2g} N m each, into "
+            f"{into}."
         )
 
     def _on_pedestals(self) -> Iterator[str]:
