@@ -8,7 +8,7 @@ import pytest
 from designed import MOTOR
 from stories import design
 
-from ocs_design.device.records import MarginRecord, read_design
+from ocs_design.device.records import KeptRecord, MarginRecord, ReserveRecord, read_design
 from ocs_design.report.warnings import all_warnings, coupling_notes
 
 DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
@@ -116,3 +116,25 @@ def test_a_warning_under_that_heading_does_not_say_so_again():
     found = design(MOTOR)
     odd = replace(found, robot=replace(found.robot, warnings=("odd link",)))
     assert "odd link" in all_warnings(odd)
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.09, 0), (0.11, 1)])
+def test_a_flip_is_unsure_where_a_roll_at_lift_off_takes_much_of_the_wheels(share, told):
+    """Two wheels of momentum h at the angle a hold 2 h sin a about roll."""
+    found = design(MOTOR)
+    ocs, flips = found.ocs, [each for each in found.requirement.maneuvers if each.kind == "flip"]
+    held = 2.0 * ocs.spin_inertia * ocs.motor.top_speed * np.sin(ocs.incidence)
+    rate = share * held / ocs.total_inertia[0][0]
+    kept = ReserveRecord(
+        reliability=0.99, predicted=0.993, scale=1.0, nominal=0.5, costs=(), curve=(),
+        maneuvers=(
+            KeptRecord(
+                maneuver=flips[0].name, demand=1.0, needed=0.9, roll_rate=rate, pitch_rate=0.0,
+                lost=0.0,
+            ),
+        ),
+    )  # fmt: skip
+    found = replace(found, selection=replace(found.selection, kept=kept))
+    warned = said(found, "at lift-off")
+    assert len(warned) == told
+    assert not told or "takes 11% of the wheels' momentum" in warned[0]
