@@ -104,8 +104,11 @@ def _rolling(design: OcsDesign) -> Iterator[str]:
     kept, ocs = None if design.selection is None else design.selection.kept, design.ocs
     if kept is None:
         return
+    reach = sum(abs(each.axis[0]) for each in ocs.modules)
+    if reach < OUT_OF_REACH:
+        return  # nothing holds a roll: _drifting says how often that matters
+    most = ocs.spin_inertia * ocs.motor.top_speed * reach
     flips = {each.name for each in design.requirement.maneuvers if each.kind == "flip"}
-    most = ocs.spin_inertia * ocs.motor.top_speed * sum(abs(each.axis[0]) for each in ocs.modules)
     for each in kept.maneuvers:
         share = float(ocs.total_inertia[0][0]) * each.roll_rate / most
         if each.maneuver in flips and share > ROLLING:
