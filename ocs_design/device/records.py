@@ -209,6 +209,7 @@ class KeptRecord:
         needed: factor that the asked share of robots needs of this device; below 1, one that is
             designed for the mean has enough to spare.
         roll_rate, pitch_rate: that the trunk may begin with [rad/s].
+        undone: rate of roll at lift-off that a flip undoes [rad/s]; 0: no flip.
         lost: share of robots that drift off level about an axis out of the wheels' reach.
     """
 
@@ -218,6 +219,7 @@ class KeptRecord:
     roll_rate: float
     pitch_rate: float
     lost: float
+    undone: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)

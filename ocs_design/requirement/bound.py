@@ -113,6 +113,23 @@ def spin_bound(
     )
 
 
+def turned_roll(roll: ArrayLike, upright: ArrayLike) -> FloatArray:
+    """Momentum about roll for each rate of roll at the start of a flip, `I_xx (1 + I_xx / I_zz)`.
+
+    The momentum `I_xx p` stands still in space. After a quarter turn it lies along the trunk's z
+    axis, which wheels across it do not reach, and turns it by `p I_xx / I_zz` (docs/theory.md, A
+    roll at lift-off).
+
+    Args:
+        roll, upright: I_xx and I_zz of robot and device [kg m^2].
+
+    Returns:
+        [kg m^2], of the arguments' shape.
+    """
+    about_roll = np.asarray(roll)
+    return np.asarray(about_roll * (1.0 + about_roll / np.asarray(upright)))
+
+
 def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
     """Required over robot's inertia, I_f / I_r, one row per wheel speed (paper, figure 3).
 

@@ -968,11 +968,15 @@ class ManeuverReserve:
         demand: factor on what is asked of the wheels, at least 1.
         rate: of roll and pitch that the trunk may begin with [rad/s].
         begun: factor on what is asked with that rate; below 1 where there is enough to spare.
+        roll: rate of roll at lift-off that a flip undoes [rad/s], see `turned_roll`.
+        short: whether a device that keeps nothing lacks any of this.
     """
 
     demand: float = 1.0
     rate: tuple[float, float] = (0.0, 0.0)
     begun: float = 1.0
+    roll: float = 0.0
+    short: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,6 +34,9 @@ _FOOTINGS_MAX, _RINGS_MAX = 6, 16
 _SETTLED = 1e-3
 """Change of a plate's mass over its device's that is none: a device's follows by a hundredth."""
 
+_HELD = 0.05
+"""Change of that mass from which a device is held in another way each time it is sized anew."""
+
 _TOO_THICK = 0.2e-3
 """Excess thickness of feet that are left as they are [m]: 0.5 g each."""
 
@@ -126,6 +129,9 @@ def on_its_footing(
                 error.message = f"With the {held} that hold it on the trunk: {error.message}"
                 raise
             at = own
+        else:
+            if change > _HELD * best.mass:
+                raise _never_held(change, best)
         return at, best
 
     first, widest = lightest_by(problem, criterion), problem
@@ -134,7 +140,7 @@ def on_its_footing(
     nominal = select_by(problem, criterion, advise=advise).best if first is None else first
     reality, reserve = kept
     reserve = reserve.settled(reality, problem, nominal)
-    if any(each.demand > 1.0 for each in reserve.maneuvers.values()):
+    if any(each.short for each in reserve.maneuvers.values()):
         # What the reserve costs is told against a device that is refined as well.
         nominal = select_by(of_parts(problem, nominal), criterion, advise=False).best
     free = problem.incidence is None and criterion is None
@@ -159,6 +165,24 @@ def on_its_footing(
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
         selection = replace(selection, ranking=(again.best, *others))
     return problem, selection, reserve, nominal
+
+
+class NeverHeld(Infeasible):
+    """What would hold a device on the trunk asks for a larger device, which nothing holds."""
+
+
+def _never_held(mass: float, best: Candidate) -> NeverHeld:
+    """That error for a device and the mass of what holds it [kg]."""
+    held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
+    return NeverHeld(
+        f"A device of {device} can be held on the trunk by a mast of {held}, but to turn robot and "
+        "mast takes a larger device, and nothing holds that one.",
+        binding=["ocs.place"],
+        required_spin_inertia=None,
+        largest_spin_inertia=best.spin_inertia,
+        relaxations={},
+        hint="Another incidence, more time or a higher voltage makes the device smaller.",
+    )
 
 
 def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> SelectionProblem:

@@ -20,6 +20,7 @@ from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Layout
 from ocs_design.device.records import KeptRecord, ReserveRecord, UncertaintyCost
+from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.maneuver import (
     Disturbance,
     Drop,
@@ -33,7 +34,7 @@ from ocs_design.requirement.maneuver import (
 from ocs_design.requirement.specification import RELIABILITY
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.selection.demand import wheel_task
+from ocs_design.sizing.selection.demand import held_in_roll, wheel_task
 from ocs_design.sizing.selection.device import inertia_at
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
@@ -110,13 +111,16 @@ class Reserve:
 
     def of(self, needed: "Needed") -> "Reserve":
         """The reserve with which enough of these robots pass."""
-        factors = needed.for_all(self.reliability)
+        factors, rolls = needed.for_all(self.reliability)
+        short = (factors > 1.0) | (rolls > needed.room)
         kept = {
-            name: ManeuverReserve(max(factor, 1.0), rate, begun)
-            for (name, rate), factor, begun in zip(
+            name: ManeuverReserve(max(factor, 1.0), rate, begun, roll, lacks)
+            for (name, rate), factor, begun, roll, lacks in zip(
                 needed.rates.items(),
                 factors.tolist(),
                 (factors * needed.left).tolist(),
+                rolls.tolist(),
+                short.tolist(),
                 strict=True,
             )
         }
@@ -134,6 +138,8 @@ class Needed:
         left: part of that which it has with these rates, shape (maneuvers,).
         blind: whether a robot ends off level about an axis out of the wheels' reach, whatever they
             do, shape (robots, maneuvers).
+        rolls: rates of roll at lift-off that flips undo [rad/s], shape (robots, maneuvers).
+        room: the largest that the device undoes [rad/s], shape (maneuvers,); inf: none is asked.
     """
 
     factors: FloatArray
@@ -141,30 +147,36 @@ class Needed:
     has: FloatArray
     left: FloatArray
     blind: NDArray[np.bool_]
+    rolls: FloatArray
+    room: FloatArray
 
     @property
     def reliability(self) -> float:
         """Share of the robots that pass every maneuver."""
-        passes = (self.factors <= self.has) & ~self.blind
+        passes = (self.factors <= self.has) & (self.rolls <= self.room) & ~self.blind
         return float(passes.all(axis=1).mean())
 
-    def for_all(self, reliability: float) -> FloatArray:
-        """Factors with which this share passes every maneuver, (maneuvers,), all as sure alone.
+    def for_all(self, reliability: float) -> tuple[FloatArray, FloatArray]:
+        """Factors and rolls with which this share passes every maneuver, all as sure alone.
 
-        Where less than 1 would do, the nominal demand is met all the same.
+        Where a factor less than 1 would do, the nominal demand is met all the same. Both have the
+        shape (maneuvers,).
         """
+        both = np.hstack([self.factors, self.rolls])
+        met = np.hstack([np.maximum(self.factors, 1.0), self.rolls])
         low, high = reliability, 1.0
         for _ in range(20):
             chance = (low + high) / 2.0
-            asked = np.quantile(self.factors, chance, axis=0, method="higher")
-            passes = self.factors <= np.maximum(asked, 1.0)
+            passes = met <= np.quantile(met, chance, axis=0, method="higher")
             enough = passes.all(axis=1).mean() >= reliability
             low, high = (low, chance) if enough else (chance, high)
-        return np.asarray(np.quantile(self.factors, high, axis=0, method="higher"))
+        factors, rolls = np.split(np.quantile(both, high, axis=0, method="higher"), 2)
+        return factors, rolls
 
     def worst(self, reliability: float) -> float:
         """Factor over what the device has that this share of robots needs at most, log."""
-        return float(np.quantile(np.log(self.factors / self.has).max(axis=1), reliability))
+        most = np.maximum(self.factors / self.has, self.rolls / self.room)
+        return float(np.quantile(np.log(most.max(axis=1)), reliability))
 
 
 def account(
@@ -206,7 +218,7 @@ def account(
         lighter = resized(reserve.of(known[key]))
         return 0.0 if lighter is None else max(before - lighter, 0.0)
 
-    spends = any(kept.demand > 1.0 for kept in reserve.maneuvers.values())
+    spends = any(kept.short for kept in reserve.maneuvers.values())
     costs = [
         UncertaintyCost(key=key, share=fall / whole, mass=saved(key)) for key, fall in falls.items()
     ]
@@ -222,11 +234,12 @@ def account(
                 needed=factor,
                 roll_rate=roll,
                 pitch_rate=pitch,
+                undone=undone,
                 lost=lost,
             )
-            for (name, (roll, pitch)), factor, lost in zip(
+            for (name, (roll, pitch)), factor, undone, lost in zip(
                 needed.rates.items(),
-                needed.for_all(reserve.reliability).tolist(),
+                *(each.tolist() for each in needed.for_all(reserve.reliability)),
                 needed.blind.mean(axis=0).tolist(),
                 strict=True,
             )
@@ -310,13 +323,15 @@ class Reality:
         if reserve.scale > 1.0:
             # Flights fell short of what is worked out here: nothing is to spare any more.
             once = self.needed(problem, device, replace(reserve, scale=1.0))
-            asked = asked / np.minimum(once.for_all(reserve.reliability), 1.0)
+            asked = asked / np.minimum(once.for_all(reserve.reliability)[0], 1.0)
         return Needed(
             factors=asked,
             rates=dict(zip((maneuver.name for maneuver in maneuvers), rates, strict=True)),
             has=has,
             left=np.where(np.array(begun) > 0.0, begun / has, 1.0),
             blind=np.stack([one.lost for one in flown], axis=1),
+            rolls=np.stack([one.rolls for one in flown], axis=1),
+            room=np.array([one.room(device) for one in flown]),
         )
 
     def _flown(
@@ -540,6 +555,22 @@ class _Flown:
             level = (np.abs(off) <= LEVEL).all(axis=1)
             low, high = np.where(level, low, factor), np.where(level, factor, high)
         return high
+
+    @property
+    def rolls(self) -> FloatArray:
+        """Rates of roll at lift-off that a flip undoes [rad/s], shape (robots,)."""
+        undone = np.abs(self.rates[:, 0]) * turned_roll(self.inertia[:, 0], self.upright)
+        alike = turned_roll(self.nominal.diagonal[..., 0], self.upright)
+        return undone / alike if isinstance(self.maneuver, Flip) else np.zeros(len(undone))
+
+    def room(self, device: Candidate) -> float:
+        """The largest rate of roll at lift-off that the device undoes in a flip [rad/s]."""
+        one_stops = self.requirement.detection is not None
+        per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, one_stops=one_stops)
+        line = device.line.reserved()
+        most = device.spin_inertia * min(float(line.no_load_speed), float(line.speed_max))
+        asked = isinstance(self.maneuver, Flip) and per_rate > 0.0
+        return most / float(per_rate) if asked else np.inf
 
     @property
     def lost(self) -> NDArray[np.bool_]:

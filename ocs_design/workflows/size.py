@@ -83,6 +83,7 @@ from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import CannotSurvive, design_device
 from ocs_design.sizing.lighter import lighter_by
 from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
+from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.advice import NO_ROOM, Refused, unasked
 from ocs_design.sizing.sized import Designed
@@ -263,7 +264,7 @@ def _sized_or_advised(
     Returns:
         Specification with the layout and the incidence that were taken, and what it came to.
     """
-    tried: list[Refused] = []
+    tried: list[Refused | NeverHeld] = []
     for asked in (specification, *_more(specification)):
         more = asked.ocs.layout if tried else None
         lightest = asked.ocs.alpha_criterion != specification.ocs.alpha_criterion
@@ -271,7 +272,7 @@ def _sized_or_advised(
         with steps.step(f"size {what}{' at its lightest incidence' * lightest}") as step:
             try:
                 sized = _size(asked, robot, strict=strict)
-            except Refused as error:
+            except (Refused, NeverHeld) as error:
                 tried.append(error)
                 step.note = "nothing meets the specification"
                 continue
@@ -296,16 +297,19 @@ def _sized_or_advised(
         return asked, replace(sized, resolved=resolved, remarks=(*few, *sized.remarks))
     # What lacks room is told of what was asked for, what is too weak of what came closest. What got
     # as far as to what holds it on the trunk came closer than what no motor drives without.
-    closest = tried[0]
+    refused = [each for each in tried if isinstance(each, Refused)]
+    if not refused:
+        raise tried[0]
+    closest = refused[0]
     if closest.nearest.reason not in NO_ROOM:
-        held = [each for each in tried if each.problem.robot.mass > robot.mass]
-        at_angle = [each for each in tried if each.problem.incidence is not None]
+        held = [each for each in refused if each.problem.robot.mass > robot.mass]
+        at_angle = [each for each in refused if each.problem.incidence is not None]
         closest = min(held or at_angle, key=lambda each: each.nearest.shortfall, default=closest)
     with steps.step("look for the smallest changes that would do") as step:
         advised = closest.advised(
             step.update,
             default=specification.asks_nothing,
-            lightest=all(each.problem.incidence is not None for each in tried),
+            lightest=all(each.problem.incidence is not None for each in refused),
         )
     advised.assumptions, advised.warnings = closest.assumptions, closest.warnings
     raise advised
@@ -395,7 +399,7 @@ def _large_enough(
         with steps.step("size the device anew for its turns") as step:
             try:
                 sized = _size(specification, sized.robot, strict=strict, estimates=estimates)
-            except Refused:
+            except (Refused, NeverHeld):
                 step.note = "nothing makes them in time"
                 break
     return sized
@@ -592,7 +596,7 @@ def _certify(
                     reserve=reserve.raised(learnt.factor),
                     estimates=sized.estimates,
                 )
-            except Refused:
+            except (Refused, NeverHeld):
                 step.note = "nothing has that reserve"
                 break
             step.note = _what_was_sized(again.designed)

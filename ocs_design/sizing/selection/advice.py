@@ -96,7 +96,7 @@ class Refused(Infeasible):
             ]
             if default:
                 hints = [_default_hint(field), *hints]
-        if any(kept.demand > 1.0 for kept in self.problem.requirement.reserves.values()):
+        if any(kept.short for kept in self.problem.requirement.reserves.values()):
             hints = [*hints, "A lower --reliability keeps less in reserve."]
         return Infeasible(
             self.message,

@@ -4,16 +4,21 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.spin_root import capability, newton_step
-from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, held, spin_demand, without_each
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.bound import rate_momenta
+from ocs_design.requirement.bound import rate_momenta, turned_roll
 from ocs_design.requirement.maneuver import Maneuver, Requirement
 from ocs_design.sizing.selection.candidates import Drives
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
+
+UNDOES = 0.4
+"""Share of the momentum about roll of all wheels at top speed that undoes a roll at lift-off while
+they turn a flip. Flown: 0.40 and 0.43 on Romeo's two and four wheels, 0.42 on TALOS's four."""
 
 
 class Margins(NamedTuple):
@@ -79,6 +84,7 @@ def margins_of(
         by_design.append(Margins(spin / needed, needed))
     turned: list[Margins] = []
     for maneuver in requirement.maneuvers:
+        own = angle
         if maneuver.incidence is not None:
             own = np.full((len(drives), 1), maneuver.incidence)
             turned += _tried(
@@ -90,6 +96,17 @@ def margins_of(
                 axes=whole.layout.axes(own)[..., :2, :],
                 begun=bool(requirement.reserves),
             )
+        kept = requirement.reserves.get(maneuver.name)
+        if kept is not None and kept.roll > 0.0:
+            inertia, upright = whole.at(own), whole.upright(own)
+            one_stops = requirement.detection is not None
+            most = held_in_roll(
+                kept.roll, inertia, upright, whole.layout.axes(own), one_stops=one_stops
+            )
+            needed = most / drives.top_speed[:, None]
+            with np.errstate(divide="ignore"):
+                part = Margins(spin / needed, needed)
+            (by_design if maneuver.incidence is None else turned).append(part)
     return by_design, turned
 
 
@@ -211,6 +228,34 @@ def held_by_rate(
     left = without_each(axes) if one_stops else (axes,)
     most = [held(each[..., None, None, :, :], both).most.max(axis=-1) for each in left]
     return np.asarray(np.max(most, axis=0))
+
+
+def held_in_roll(
+    rate: float,
+    inertia: TiltInertia,
+    upright: ArrayLike,
+    axes: FloatArray,
+    *,
+    one_stops: bool = False,
+) -> FloatArray:
+    """Momentum that wheels must be able to hold to undo a roll at lift-off in a flip, of each.
+
+    None where they leave roll to itself, or reach yaw and hold what comes there as well.
+
+    Args:
+        rate: of roll at lift-off [rad/s].
+        inertia, upright: of what they turn, and its I_zz [kg m^2], shapes (..., 2) and (...).
+        axes: of the wheels, shape (..., 3, n).
+        one_stops: see `held_by_rate`.
+
+    Returns:
+        [N m s], shape (...).
+    """
+    rolled = turned_roll(inertia.diagonal[..., 0], upright) * rate / UNDOES
+    left = without_each(axes) if one_stops else (axes,)
+    reach = np.min([np.abs(each).sum(axis=-1) for each in left], axis=0)
+    undone = (reach[..., 0] > OUT_OF_REACH) & (reach[..., 2] <= OUT_OF_REACH)
+    return np.where(undone, rolled / np.where(undone, reach[..., 0], 1.0), 0.0)
 
 
 def column(inertia: TiltInertia) -> TiltInertia:

@@ -25,7 +25,7 @@ from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.bound.rim_problem import RimLimits
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.placement import motor_size
-from ocs_design.sizing.selection.demand import held_by_rate, wheel_task
+from ocs_design.sizing.selection.demand import held_by_rate, held_in_roll, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
@@ -168,10 +168,18 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
 def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[TaskDemand]:
     """Demands of each part of the requirement, with the inertia at its own incidence."""
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
+    top_speed = min(float(line.no_load_speed), float(line.speed_max))
+    one_stops = requirement.detection is not None
     for maneuver in requirement.maneuvers:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         inertia = inertia_at(problem, device, at)
         task = _task_of(maneuver, requirement, device, inertia, at)
+        least = smallest_spin_inertia(task, line, device.armature).item()
+        kept = requirement.reserves.get(maneuver.name)
+        if kept is not None:
+            upright, axes = device.total.inertia[2, 2], device.layout.axes(at)
+            held = held_in_roll(kept.roll, inertia, upright, axes, one_stops=one_stops)
+            least = max(least, float(held) / top_speed)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.armature)
         own, begins = line.begun(load.begins), load.begins.item()
@@ -182,16 +190,15 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
         yield TaskDemand(
             source=maneuver.name,
             incidence=at,
-            spin_inertia=smallest_spin_inertia(task, line, device.armature).item(),
+            spin_inertia=least,
             time_needed=profile.end.item(),
             time_given=np.asarray(task.duration).item(),
             peak_speed=max(abs(begins), profile.peak_speed.item() + begins),
             peak_torque=float(torque.max()),
         )
     if requirement.rate_change is not None:
-        at, top_speed = device.incidence, min(float(line.no_load_speed), float(line.speed_max))
+        at = device.incidence
         inertia, axes = inertia_at(problem, device, at), device.layout.axes(at)[:2]
-        one_stops = requirement.detection is not None
         momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
         for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
             least, peak = momentum / top_speed, momentum / spin

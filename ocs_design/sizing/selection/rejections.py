@@ -32,6 +32,7 @@ from ocs_design.sizing.selection.candidates import Drives, drives_of, rim_limits
 from ocs_design.sizing.selection.demand import (
     column,
     columns,
+    held_in_roll,
     needed_by_rate,
     wheel_task,
 )
@@ -209,6 +210,14 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
             # turn there and back.
             time = maneuver.duration
         yield Part(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
+        kept = requirement.reserves.get(maneuver.name)
+        if kept is not None and kept.roll > 0.0:
+            axes, upright = problem.layout.axes(at), problem.robot.inertia[2:, 2]
+            one_stops = requirement.detection is not None
+            most = held_in_roll(kept.roll, inertia, upright, axes, one_stops=one_stops)
+            needed = most / drives.top_speed[:, None]
+            late, reason = needed / largest[:, None], np.full(shape, SlewReason.SPEED)
+            yield Part(f"a roll at lift-off in {maneuver.name}", at, np.inf, needed, late, reason)
     if requirement.rate_change is not None:
         axes = problem.layout.axes(angles)[..., :2, :]
         one_stops = requirement.detection is not None
