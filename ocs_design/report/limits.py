@@ -5,7 +5,14 @@ from collections.abc import Iterator, Sequence
 from ocs_design.common.units import ceiled, floored, significant
 from ocs_design.device.records import SAVES_NOTHING, OcsDesign, PriceRecord, ReserveRecord
 from ocs_design.parts.joints import Margin
-from ocs_design.report.quantities import degrees_number, grams, inertia_number, quantity, rpm
+from ocs_design.report.quantities import (
+    degrees,
+    degrees_number,
+    grams,
+    inertia_number,
+    quantity,
+    rpm,
+)
 from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, listed
 from ocs_design.sizing.limits import LIMITS, TIME
@@ -310,7 +317,11 @@ def reserve_table(kept: ReserveRecord) -> Table:
 
 def reserve_note(kept: ReserveRecord, mass: float) -> str:
     """What the reserve is, what it costs, and how the mass goes with the reliability."""
-    factors = ", ".join(f"{each.maneuver} {each.needed:.2f}" for each in kept.maneuvers)
+    factors = ", ".join(
+        f"{each.maneuver} {each.needed:.2f}"
+        + (f" with a roll of {degrees(each.undone)}/s at lift-off" if each.undone else "")
+        for each in kept.maneuvers
+    )
     return (
         f"{100.0 * kept.reliability:g} % of robots need these factors on what maneuvers ask: "
         f"{factors}; up to 1 the nominal device has it to spare. By the closed forms "

@@ -26,13 +26,6 @@ WORTH_TELLING = 0.02
 much only at small incidences.
 """
 
-ROLLING = 0.1
-"""Share of all wheels' roll momentum from which a roll at lift-off makes a flip unsure.
-
-Flown 256 times each, devices with 0.03 to 0.06 passed all or failed for another reason; of seven
-with 0.11 to 0.14 none passed all, and five came to 79 to 93 % (docs/robots.md, What fails).
-"""
-
 _SHOWN_LINKS = 2
 """Links whose joints are spelt out where they can hit a module."""
 
@@ -44,7 +37,6 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     """Everything to mind, what matters most first: the device, its flights, the robot's file."""
     ocs = design.ocs
     yield from shortfalls(design)
-    yield from _rolling(design)
     # A robot by hand has no shape, and nobody thinks that it was looked at.
     if ocs.clearance is None and design.robot.sha256:
         yield (
@@ -82,7 +74,6 @@ def device_warnings(design: OcsDesign) -> tuple[str, ...]:
         *_overvoltage(ocs.motor),
         *_motor_notes(design),
         *_drifting(design),
-        *_rolling(design),
     )
 
 
@@ -96,27 +87,6 @@ def _drifting(design: OcsDesign) -> Iterator[str]:
             yield (
                 f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
                 "axis that the wheels do not reach at its incidence: state a larger one, or none"
-            )
-
-
-def _rolling(design: OcsDesign) -> Iterator[str]:
-    """Flips that a roll at lift-off makes less sure than the closed forms foresee."""
-    kept, ocs = None if design.selection is None else design.selection.kept, design.ocs
-    if kept is None:
-        return
-    reach = sum(abs(each.axis[0]) for each in ocs.modules)
-    if reach < OUT_OF_REACH:
-        return  # nothing holds a roll: _drifting says how often that matters
-    most = ocs.spin_inertia * ocs.motor.top_speed * reach
-    flips = {each.name for each in design.requirement.maneuvers if each.kind == "flip"}
-    for each in kept.maneuvers:
-        share = float(ocs.total_inertia[0][0]) * each.roll_rate / most
-        if each.maneuver in flips and share > ROLLING:
-            yield (
-                f"{each.maneuver}: the robot may roll at {each.roll_rate:.2g} rad/s at lift-off, "
-                f"and to hold that takes {share:.0%} of the wheels' momentum. From {ROLLING:.0%} "
-                f"on a flip is less sure than the {kept.predicted:.1%} that are predicted: fly it "
-                "with --certify, or leave it out"
             )
 
 

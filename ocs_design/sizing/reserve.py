@@ -159,11 +159,11 @@ class Needed:
     def for_all(self, reliability: float) -> tuple[FloatArray, FloatArray]:
         """Factors and rolls with which this share passes every maneuver, all as sure alone.
 
-        Where a factor less than 1 would do, the nominal demand is met all the same. Both have the
-        shape (maneuvers,).
+        Where a factor less than 1 would do, the nominal demand is met all the same, and where the
+        device has room for more roll, it has. Both have the shape (maneuvers,).
         """
         both = np.hstack([self.factors, self.rolls])
-        met = np.hstack([np.maximum(self.factors, 1.0), self.rolls])
+        met = np.hstack([np.maximum(self.factors, 1.0), np.maximum(self.rolls, self.room)])
         low, high = reliability, 1.0
         for _ in range(20):
             chance = (low + high) / 2.0
@@ -369,6 +369,7 @@ class Reality:
             arrives = bool(late) and self.flight > 1.0
             time, share = (whole, 1.0) if late else (time, PLANNED)
         axes = _built_axes(device.layout, at, drawn["incidence_error"])
+        held = rates * [not _turns_over(maneuver, device.layout.axes(at)), True]
         if problem.requirement.detection is not None:
             # One robot after the other loses another wheel, at once.
             lost = np.arange(len(axes)) % len(device.layout)
@@ -384,7 +385,7 @@ class Reality:
             inertia=diagonal,
             # A turn undoes a tilt of the other sense.
             swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
-            momentum=slew.momentum + diagonal * rates,
+            momentum=slew.momentum + diagonal * held,
             rates=rates,
             duration=time - drawn["torque_delay"],
             share=share,
@@ -442,6 +443,11 @@ def _built_axes(layout: Layout, angle: float, errors: FloatArray) -> FloatArray:
     return (np.cos(errors)[:, None] * axes + np.sin(errors)[:, None] * across)[:, :2]
 
 
+def _turns_over(maneuver: Maneuver, axes: FloatArray) -> bool:
+    """Whether a roll at lift-off turns with the trunk, and its wheels do not reach yaw."""
+    return isinstance(maneuver, Flip) and bool((np.abs(axes[2]) <= OUT_OF_REACH).all())
+
+
 def _lift_off(maneuver: Maneuver) -> float:
     """Upward speed at the end of a push-off [m/s]; 0 where there is none."""
     match maneuver:
@@ -462,7 +468,8 @@ class _Flown:
         designed: axes of the wheels, shape (3, n).
         nominal: inertia of robot and device as designed. upright: its I_zz [kg m^2].
         inertia: as built [kg m^2], (robots, 2).
-        swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2).
+        swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2); without
+            what a flip undoes.
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
         duration: in which it must be done [s], shape (robots, 1).
         share: of the drives that does it.
@@ -487,6 +494,10 @@ class _Flown:
     bias: FloatArray
 
     @property
+    def _turns_over(self) -> bool:
+        return _turns_over(self.maneuver, self.designed)
+
+    @property
     def _reached(self) -> NDArray[np.bool_]:
         """Whether the wheels reach roll and pitch, shape (2,)."""
         return np.asarray(np.abs(self.designed[:2]).max(axis=1) > OUT_OF_REACH)
@@ -494,6 +505,7 @@ class _Flown:
     def rate_kept(self, sure: float) -> tuple[float, float]:
         """Rates of so many deviations [rad/s]; none about an axis that its own incidence blinds."""
         kept = self._reached | (self.maneuver.incidence is None)
+        kept[0] &= not self._turns_over
         roll, pitch = np.where(kept, sure * self.rates.std(axis=0), 0.0).tolist()
         return roll, pitch
 
@@ -561,16 +573,14 @@ class _Flown:
         """Rates of roll at lift-off that a flip undoes [rad/s], shape (robots,)."""
         undone = np.abs(self.rates[:, 0]) * turned_roll(self.inertia[:, 0], self.upright)
         alike = turned_roll(self.nominal.diagonal[..., 0], self.upright)
-        return undone / alike if isinstance(self.maneuver, Flip) else np.zeros(len(undone))
+        return undone / alike if self._turns_over else np.zeros(len(undone))
 
     def room(self, device: Candidate) -> float:
         """The largest rate of roll at lift-off that the device undoes in a flip [rad/s]."""
-        one_stops = self.requirement.detection is not None
-        per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, one_stops=one_stops)
+        per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, self.requirement)
         line = device.line.reserved()
         most = device.spin_inertia * min(float(line.no_load_speed), float(line.speed_max))
-        asked = isinstance(self.maneuver, Flip) and per_rate > 0.0
-        return most / float(per_rate) if asked else np.inf
+        return most / float(per_rate) if self._turns_over and per_rate > 0.0 else np.inf
 
     @property
     def lost(self) -> NDArray[np.bool_]:

@@ -8,7 +8,7 @@ import pytest
 from designed import MOTOR
 from stories import design
 
-from ocs_design.device.records import KeptRecord, MarginRecord, ReserveRecord, read_design
+from ocs_design.device.records import MarginRecord, read_design
 from ocs_design.report.warnings import all_warnings, coupling_notes
 
 DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
@@ -116,37 +116,3 @@ def test_a_warning_under_that_heading_does_not_say_so_again():
     found = design(MOTOR)
     odd = replace(found, robot=replace(found.robot, warnings=("odd link",)))
     assert "odd link" in all_warnings(odd)
-
-
-def rolling(found, rate):
-    """The design with a reserve for a robot that rolls at this rate [rad/s] as it lifts off."""
-    flips = [each for each in found.requirement.maneuvers if each.kind == "flip"]
-    kept = ReserveRecord(
-        reliability=0.99, predicted=0.993, scale=1.0, nominal=0.5, costs=(), curve=(),
-        maneuvers=(
-            KeptRecord(
-                maneuver=flips[0].name, demand=1.0, needed=0.9, roll_rate=rate, pitch_rate=0.0,
-                lost=0.0,
-            ),
-        ),
-    )  # fmt: skip
-    return replace(found, selection=replace(found.selection, kept=kept))
-
-
-@pytest.mark.parametrize(("share", "told"), [(0.09, 0), (0.11, 1)])
-def test_a_flip_is_unsure_where_a_roll_at_lift_off_takes_much_of_the_wheels(share, told):
-    """Two wheels of momentum h at the angle a hold 2 h sin a about roll."""
-    found = design(MOTOR)
-    ocs = found.ocs
-    held = 2.0 * ocs.spin_inertia * ocs.motor.top_speed * np.sin(ocs.incidence)
-    warned = said(rolling(found, share * held / ocs.total_inertia[0][0]), "at lift-off")
-    assert len(warned) == told
-    assert not told or "takes 11% of the wheels' momentum" in warned[0]
-
-
-def test_wheels_that_do_not_reach_roll_are_not_asked_to_hold_it():
-    """A wheel along pitch, as on one-axis machines: cos 90 deg is 6e-17."""
-    found = design(MOTOR)
-    along = tuple(replace(each, axis=(6e-17, 1.0, 0.0)) for each in found.ocs.modules)
-    found = replace(found, ocs=replace(found.ocs, modules=along))
-    assert not said(rolling(found, 0.1), "at lift-off")

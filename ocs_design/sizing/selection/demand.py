@@ -99,10 +99,8 @@ def margins_of(
         kept = requirement.reserves.get(maneuver.name)
         if kept is not None and kept.roll > 0.0:
             inertia, upright = whole.at(own), whole.upright(own)
-            one_stops = requirement.detection is not None
-            most = held_in_roll(
-                kept.roll, inertia, upright, whole.layout.axes(own), one_stops=one_stops
-            )
+            at = whole.layout.axes(own)
+            most = held_in_roll(kept.roll, inertia, upright, at, requirement)
             needed = most / drives.top_speed[:, None]
             with np.errstate(divide="ignore"):
                 part = Margins(spin / needed, needed)
@@ -235,27 +233,28 @@ def held_in_roll(
     inertia: TiltInertia,
     upright: ArrayLike,
     axes: FloatArray,
-    *,
-    one_stops: bool = False,
+    requirement: Requirement,
 ) -> FloatArray:
     """Momentum that wheels must be able to hold to undo a roll at lift-off in a flip, of each.
 
-    None where they leave roll to itself, or reach yaw and hold what comes there as well.
+    None where they reach yaw and hold what comes there as well. Where they leave roll to itself it
+    is inf while the incidence is still to be chosen, and none where that is as stated.
 
     Args:
         rate: of roll at lift-off [rad/s].
         inertia, upright: of what they turn, and its I_zz [kg m^2], shapes (..., 2) and (...).
         axes: of the wheels, shape (..., 3, n).
-        one_stops: see `held_by_rate`.
+        requirement: of which the flip is a part.
 
     Returns:
         [N m s], shape (...).
     """
     rolled = turned_roll(inertia.diagonal[..., 0], upright) * rate / UNDOES
-    left = without_each(axes) if one_stops else (axes,)
-    reach = np.min([np.abs(each).sum(axis=-1) for each in left], axis=0)
-    undone = (reach[..., 0] > OUT_OF_REACH) & (reach[..., 2] <= OUT_OF_REACH)
-    return np.where(undone, rolled / np.where(undone, reach[..., 0], 1.0), 0.0)
+    left = (axes,) if requirement.detection is None else without_each(axes)
+    roll, _, yaw = np.moveaxis(np.min([np.abs(each).sum(axis=-1) for each in left], axis=0), -1, 0)
+    reached = roll > OUT_OF_REACH
+    most = np.where(reached, rolled / np.where(reached, roll, 1.0), np.inf)
+    return np.where((yaw > OUT_OF_REACH) | ~(reached | requirement.free), 0.0, most)
 
 
 def column(inertia: TiltInertia) -> TiltInertia:

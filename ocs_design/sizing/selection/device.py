@@ -178,7 +178,7 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
         kept = requirement.reserves.get(maneuver.name)
         if kept is not None:
             upright, axes = device.total.inertia[2, 2], device.layout.axes(at)
-            held = held_in_roll(kept.roll, inertia, upright, axes, one_stops=one_stops)
+            held = held_in_roll(kept.roll, inertia, upright, axes, requirement)
             least = max(least, float(held) / top_speed)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.armature)

@@ -213,8 +213,7 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
         kept = requirement.reserves.get(maneuver.name)
         if kept is not None and kept.roll > 0.0:
             axes, upright = problem.layout.axes(at), problem.robot.inertia[2:, 2]
-            one_stops = requirement.detection is not None
-            most = held_in_roll(kept.roll, inertia, upright, axes, one_stops=one_stops)
+            most = held_in_roll(kept.roll, inertia, upright, axes, requirement)
             needed = most / drives.top_speed[:, None]
             late, reason = needed / largest[:, None], np.full(shape, SlewReason.SPEED)
             yield Part(f"a roll at lift-off in {maneuver.name}", at, np.inf, needed, late, reason)

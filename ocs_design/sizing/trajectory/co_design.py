@@ -25,7 +25,7 @@ from ocs_design.requirement.maneuver import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import lightest_module_at
 from ocs_design.sizing.placement import motor_size
-from ocs_design.sizing.selection.demand import held_by_rate
+from ocs_design.sizing.selection.demand import UNDOES, held_by_rate
 from ocs_design.sizing.selection.device import binding_limits, braked
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
@@ -221,18 +221,41 @@ class FreeDevice:
 
     def dimensions(self) -> Dimensions:
         """The limits of all three, and the mass to be minimised."""
-        incidence, change = self.selected.incidence, self.problem.requirement.rate_change
+        incidence, requirement = self.selected.incidence, self.problem.requirement
         nearest, farthest = _NEAREST, np.pi / 2.0 - _NEAREST
         # A device for one axis alone stays one: else the other axis would ask for being stopped.
         if self.problem.incidence is not None or not nearest < incidence < farthest:
             nearest = farthest = incidence
+        # At an incidence of its own a flip asks nothing of the design's.
+        rolls = (
+            requirement.reserves[each.name].roll
+            for each in requirement.maneuvers
+            if each.incidence is None and each.name in requirement.reserves
+        )
+        change, roll = requirement.rate_change or 0.0, max(rolls, default=0.0)
         return Dimensions(
             start=np.append(np.clip(1.0, self.lower, self.upper), incidence),
             lower=np.append(self.lower, nearest),
             upper=np.append(self.upper, farthest),
             objective=lambda dimensions: self.figures(dimensions[:2])[0],
-            excess=None if change is None else partial(self._rate_excess, change=change),
+            excess=partial(self._excess, change=change, roll=roll) if change or roll else None,
         )
+
+    def _excess(self, dimensions: ca.MX, change: float, roll: float) -> ca.MX:
+        """Momentum that the wheels lack, relative: for a change of rate, and for flips that roll.
+
+        Args:
+            dimensions: of the device. change: of rate [rad/s]; 0: none is asked.
+            roll: rate at lift-off that flips undo [rad/s], see `held_in_roll`; 0: none.
+        """
+        parts = [self._rate_excess(dimensions, change)] if change else []
+        if roll:
+            plant = self.plant(dimensions)
+            whole, sine = plant.inertia, plant.axes[0, 0]
+            held = 2.0 * _top_speed(self.selected) * plant.spin_inertia * sine
+            asked = whole[0, 0] * (1.0 + whole[0, 0] / whole[2, 2]) * roll / UNDOES
+            parts.append((asked - held) / float(self.problem.robot.inertia[0, 0] * roll))
+        return ca.vertcat(*parts)
 
     def _rate_excess(self, dimensions: ca.MX, change: float) -> ca.MX:
         """Momentum that the wheels lack for a change of rate, relative, (2, 1)."""
