@@ -258,22 +258,24 @@ def _sized_or_advised(
 ) -> tuple[Specification, _Sized]:
     """Size the device; if nothing meets the specification, search for what would.
 
-    Where neither layout nor incidence is stated, the lightest incidence and more pairs are tried
-    first.
-
     Returns:
-        Specification with the layout and the incidence that were taken, and what it came to.
+        Specification with what was taken of all that is tried, see `_attempts`, and what it came
+        to.
     """
-    tried: list[Refused | NeverHeld] = []
-    for asked in (specification, *_more(specification)):
+    tried: list[tuple[Specification, Refused | NeverHeld]] = []
+    for asked in _attempts(specification, tried):
         more = asked.ocs.layout if tried else None
         lightest = asked.ocs.alpha_criterion != specification.ocs.alpha_criterion
+        less = asked.requirement.reliability if tried else None
+        less = None if less == specification.requirement.reliability else less
         what = "the device" if more is None else f"a device of {WHEELS[more]} wheels"
-        with steps.step(f"size {what}{' at its lightest incidence' * lightest}") as step:
+        what = f"{what}{' at its lightest incidence' * lightest}"
+        what = what if less is None else f"{what} for {less:.0%} of robots"
+        with steps.step(f"size {what}") as step:
             try:
                 sized = _size(asked, robot, strict=strict)
             except (Refused, NeverHeld) as error:
-                tried.append(error)
+                tried.append((asked, error))
                 step.note = "nothing meets the specification"
                 continue
             except CannotSurvive as error:
@@ -285,21 +287,15 @@ def _sized_or_advised(
             step.note = _what_was_sized(sized.designed)
         if not tried:
             return specification, sized
-        told, few = [], []
-        if more is not None:
-            told.append(f"Layout: {more}, {WHEELS[more]} wheels. With two: {tried[0].message}")
-            if specification.motor.name not in {None, AUTO}:
-                few.append(f"{WHEELS[more]} wheels are needed. With two: {tried[0].message}")
-        if lightest:
-            told.append(f"Incidence: the lightest. At alpha*: {tried[-1].message}")
+        told, few = _instead(specification, asked, tried)
         resolved = sized.resolved
         resolved = replace(resolved, assumptions=(*told, *resolved.assumptions))
         return asked, replace(sized, resolved=resolved, remarks=(*few, *sized.remarks))
     # What lacks room is told of what was asked for, what is too weak of what came closest. What got
     # as far as to what holds it on the trunk came closer than what no motor drives without.
-    refused = [each for each in tried if isinstance(each, Refused)]
+    refused = [error for _, error in tried if isinstance(error, Refused)]
     if not refused:
-        raise tried[0]
+        raise tried[0][1]
     closest = refused[0]
     if closest.nearest.reason not in NO_ROOM:
         held = [each for each in refused if each.problem.robot.mass > robot.mass]
@@ -313,6 +309,58 @@ def _sized_or_advised(
         )
     advised.assumptions, advised.warnings = closest.assumptions, closest.warnings
     raise advised
+
+
+def _instead(
+    specification: Specification,
+    asked: Specification,
+    tried: Sequence[tuple[Specification, Infeasible]],
+) -> tuple[list[str], list[str]]:
+    """What was taken in place of what was stated, as assumptions and as remarks, and why."""
+    told: list[str] = []
+    few: list[str] = []
+    more, less = asked.ocs.layout, asked.requirement.reliability
+    if more is not None and more != specification.ocs.layout:
+        with_two = f"With two: {tried[0][1].message}"
+        told.append(f"Layout: {more}, {WHEELS[more]} wheels. {with_two}")
+        if specification.motor.name not in {None, AUTO}:
+            few.append(f"{WHEELS[more]} wheels are needed. {with_two}")
+    criterion = specification.ocs.alpha_criterion
+    if asked.ocs.alpha_criterion != criterion:
+        at_alpha = replace(asked.ocs, alpha_criterion=criterion)
+        why = next(error.message for each, error in tried if each.ocs == at_alpha)
+        told.append(f"Incidence: the lightest. At alpha*: {why}")
+    if less is not None and less != specification.requirement.reliability:
+        why = next(error.message for each, error in tried if each.ocs == asked.ocs)
+        told.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
+        few.append(f"sized for {less:.0%} of robots: for {RELIABILITY:.0%} there is no device")
+    return told, few
+
+
+LESS_SURE = (0.9, 0.8)
+"""Reliabilities that are tried in turn where no device has the default one."""
+
+
+def _attempts(
+    specification: Specification, tried: Sequence[tuple[Specification, Infeasible]]
+) -> Iterator[Specification]:
+    """What was asked for, and what is tried in turn where that was refused.
+
+    Where neither layout nor incidence is stated, the lightest incidence and more pairs. Where no
+    reliability is, a smaller one for all that its reserve alone stood in the way of.
+
+    Args:
+        specification: what was stated.
+        tried: what has been refused so far, and how.
+    """
+    yield specification
+    yield from _more(specification)
+    if specification.requirement.reliability is not None:
+        return
+    short = [asked for asked, error in tried if isinstance(error, Refused) and error.for_reserve]
+    for level in LESS_SURE:
+        for asked in short:
+            yield replace(asked, requirement=replace(asked.requirement, reliability=level))
 
 
 def _more(specification: Specification) -> Iterator[Specification]:

@@ -71,6 +71,11 @@ class Refused(Infeasible):
         )
         self.problem, self.nearest = problem, nearest
 
+    @property
+    def for_reserve(self) -> bool:
+        """Whether a device that keeps nothing does it."""
+        return any(kept.short for kept in self.problem.requirement.reserves.values())
+
     def advised(
         self, progress: Progress = unseen, *, default: bool = False, lightest: bool = True
     ) -> Infeasible:
@@ -96,7 +101,7 @@ class Refused(Infeasible):
             ]
             if default:
                 hints = [_default_hint(field), *hints]
-        if any(kept.short for kept in self.problem.requirement.reserves.values()):
+        if self.for_reserve:
             hints = [*hints, "A lower --reliability keeps less in reserve."]
         return Infeasible(
             self.message,

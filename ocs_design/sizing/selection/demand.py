@@ -16,9 +16,10 @@ from ocs_design.requirement.maneuver import Maneuver, Requirement
 from ocs_design.sizing.selection.candidates import Drives
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 
-UNDOES = 0.4
+UNDOES = 0.35
 """Share of the momentum about roll of all wheels at top speed that undoes a roll at lift-off while
-they turn a flip. Flown: 0.40 and 0.43 on Romeo's two and four wheels, 0.42 on TALOS's four."""
+they turn a flip. Flown (docs/theory.md, A roll at lift-off): robots fail from 0.36 on with Solo12's
+lightest device, 0.40 and 0.45 with Romeo's of two and four wheels, 0.47 with TALOS's of four."""
 
 
 class Margins(NamedTuple):
