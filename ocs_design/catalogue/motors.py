@@ -263,8 +263,8 @@ def _contradictions(sheet: MotorSheet) -> Iterator[str]:
         expected = (voltage - drop) / k_t
         if not _close(rad_s(no_load), expected, NO_LOAD_TOLERANCE):
             yield (
-                f"no-load speed is {no_load:.0f} rpm, but V, R and k_t make it "
-                f"{expected / rad_s(1.0):.0f} rpm"
+                f"no-load speed is {no_load:,.0f} rpm, but V, R and k_t make it "
+                f"{expected / rad_s(1.0):,.0f} rpm"
             )
 
     # Stall current is V / R, stall torque k_t times it.

@@ -172,7 +172,8 @@ def _changes(specification: Specification, choice: Choice) -> Iterator[_Change]:
         for flip in turned:
             if isinstance(flip, Flip) and flip.incidence == 0.0 and flip.name in kept:
                 # At 0 deg no wheel takes up a rate of roll.
-                kept[flip.name] = replace(kept[flip.name], rate=(0.0, kept[flip.name].rate[1]))
+                own = kept[flip.name]
+                kept[flip.name] = replace(own, rate=(0.0, own.rate[1]), roll=0.0)
         by_hand = replace(asked, maneuvers=turned, reserves=kept)
         yield _Change(
             "modules turned to 0 deg by hand for each flip", replace(problem, requirement=by_hand)

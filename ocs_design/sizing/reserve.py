@@ -498,6 +498,11 @@ class _Flown:
         return _turns_over(self.maneuver, self.designed)
 
     @property
+    def _undoes_roll(self) -> bool:
+        """Whether wheels undo a roll at lift-off; at an incidence of its own a flip may let it."""
+        return self._turns_over and bool(self._reached[0] or self.maneuver.incidence is None)
+
+    @property
     def _reached(self) -> NDArray[np.bool_]:
         """Whether the wheels reach roll and pitch, shape (2,)."""
         return np.asarray(np.abs(self.designed[:2]).max(axis=1) > OUT_OF_REACH)
@@ -573,14 +578,14 @@ class _Flown:
         """Rates of roll at lift-off that a flip undoes [rad/s], shape (robots,)."""
         undone = np.abs(self.rates[:, 0]) * turned_roll(self.inertia[:, 0], self.upright)
         alike = turned_roll(self.nominal.diagonal[..., 0], self.upright)
-        return undone / alike if self._turns_over else np.zeros(len(undone))
+        return undone / alike if self._undoes_roll else np.zeros(len(undone))
 
     def room(self, device: Candidate) -> float:
         """The largest rate of roll at lift-off that the device undoes in a flip [rad/s]."""
         per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, self.requirement)
         line = device.line.reserved()
         most = device.spin_inertia * min(float(line.no_load_speed), float(line.speed_max))
-        return most / float(per_rate) if self._turns_over and per_rate > 0.0 else np.inf
+        return most / float(per_rate) if self._undoes_roll and per_rate > 0.0 else np.inf
 
     @property
     def lost(self) -> NDArray[np.bool_]:

@@ -267,7 +267,9 @@ def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
     (flip,) = solo12(more).kept.maneuvers
     expected = 2.0 * NormalDist().cdf(-LEVEL / (0.05 * FLIP.flight_time))
     assert flip.lost == pytest.approx(expected, abs=0.02)
-    assert flip.roll_rate == 0.0
+    assert flip.roll_rate == flip.undone == 0.0
+    free = f'{more}[ocs]\nalpha_criterion = "lightest"\n{ONLY_DROP}'
+    assert [each.undone for each in solo12(free).kept.maneuvers] == [0.0, 0.0]
 
 
 @pytest.mark.slow

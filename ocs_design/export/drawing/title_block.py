@@ -197,7 +197,7 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
         eccentricity = 1e6 * joints.permissible_eccentricity(drawing.speed)
         unbalance = mass * eccentricity
         yield (
-            f"{balance} at {rpm:.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
+            f"{balance} at {rpm:,.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
             f"(e~=~{eccentricity:.3g}~µm), in one plane. Done on the motor: cad/assembly.pdf."
         )
     yield (

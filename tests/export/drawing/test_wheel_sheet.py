@@ -98,7 +98,7 @@ def cylinders(wheel):
 def test_the_balance_note_has_the_residual_unbalance():
     # 6.3 mm/s / 750 rad/s = 8.4 um.
     said = " ".join(words(FLAT)).replace("\N{NO-BREAK SPACE}", " ")
-    assert "G 6.3 (ISO 21940-11) at 7162 rpm" in said
+    assert "G 6.3 (ISO 21940-11) at 7,162 rpm" in said
     assert f"{8.4 * sum(FLAT.masses):.3g} g mm (e = 8.4 µm)" in said
 
 
