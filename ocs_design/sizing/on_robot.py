@@ -29,7 +29,7 @@ from ocs_design.sizing.selection.select import (
     select_by,
 )
 
-_FOOTINGS_MAX, _RINGS_MAX = 6, 16
+_FOOTINGS_MAX, _RINGS_MAX, _RESERVES_MAX = 6, 16, 3
 
 _SETTLED = 1e-3
 """Change of a plate's mass over its device's that is none: a device's follows by a hundredth."""
@@ -143,7 +143,7 @@ def on_its_footing(
     if any(each.short for each in reserve.maneuvers.values()):
         # What the reserve costs is told against a device that is refined as well.
         nominal = select_by(of_parts(problem, nominal), criterion, advise=False).best
-    free = problem.incidence is None and criterion is None
+    free, plain = problem.incidence is None and criterion is None, problem
     problem, widest = (
         replace(each, requirement=reserve.kept(each.requirement, free=free))
         for each in (problem, widest)
@@ -154,6 +154,8 @@ def on_its_footing(
     except Infeasible:
         problem = widest
         selection = select_by(problem, criterion, advise=advise)
+    if free:
+        problem, selection, reserve = _surer(problem, selection, reserve, (reality, plain))
     selection = with_plates(selection, problem, criterion, robot, ranked=ranked)
     for _ in range(_FOOTINGS_MAX):
         best = selection.best
@@ -165,6 +167,36 @@ def on_its_footing(
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
         selection = replace(selection, ranking=(again.best, *others))
     return problem, selection, reserve, nominal
+
+
+def _surer(
+    problem: SelectionProblem,
+    selection: Selection,
+    reserve: Reserve,
+    told: tuple[Reality, SelectionProblem],
+) -> tuple[SelectionProblem, Selection, Reserve]:
+    """The selection with the reserve that its own device tells, where that is not sure enough.
+
+    The one that it was made with was told by a device that keeps nothing, at an incidence of its
+    own.
+
+    Args:
+        problem: that was solved, its incidence free. selection, reserve: what came of it.
+        told: what is drawn, and the problem without a reserve.
+    """
+    reality, plain = told
+    for _ in range(_RESERVES_MAX):
+        needed = reality.needed(plain, selection.best, reserve)
+        if needed.reliability >= reserve.reliability:
+            break
+        own = reserve.of(needed)
+        surer = replace(problem, requirement=own.kept(plain.requirement, free=True))
+        try:
+            selection = select_by(surer, None, advise=False)
+        except Infeasible:
+            break
+        problem, reserve = surer, own
+    return problem, selection, reserve
 
 
 class NeverHeld(Infeasible):

@@ -317,7 +317,8 @@ class Reality:
         has = np.array([one.has(device, (0.0, 0.0)) for one in flown])
         begun = [one.has(device, rate) for one, rate in zip(flown, rates, strict=True)]
         factors = [
-            one.factors(one.wheels(device, line), own) for one, own in zip(flown, has, strict=True)
+            one.factors(one.wheels(device, line, reserve.reliability), own)
+            for one, own in zip(flown, has, strict=True)
         ]
         asked = np.stack(factors, axis=1)
         if reserve.scale > 1.0:
@@ -369,7 +370,6 @@ class Reality:
             arrives = bool(late) and self.flight > 1.0
             time, share = (whole, 1.0) if late else (time, PLANNED)
         axes = _built_axes(device.layout, at, drawn["incidence_error"])
-        held = rates * [not _turns_over(maneuver, device.layout.axes(at)), True]
         if problem.requirement.detection is not None:
             # One robot after the other loses another wheel, at once.
             lost = np.arange(len(axes)) % len(device.layout)
@@ -385,7 +385,7 @@ class Reality:
             inertia=diagonal,
             # A turn undoes a tilt of the other sense.
             swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
-            momentum=slew.momentum + diagonal * held,
+            momentum=slew.momentum + diagonal * rates,
             rates=rates,
             duration=time - drawn["torque_delay"],
             share=share,
@@ -468,8 +468,7 @@ class _Flown:
         designed: axes of the wheels, shape (3, n).
         nominal: inertia of robot and device as designed. upright: its I_zz [kg m^2].
         inertia: as built [kg m^2], (robots, 2).
-        swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2); without
-            what a flip undoes.
+        swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2).
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
         duration: in which it must be done [s], shape (robots, 1).
         share: of the drives that does it.
@@ -539,10 +538,16 @@ class _Flown:
         reached = self._reached
         return held_by_each(self.axes * reached[:, None], asked * reached)
 
-    def wheels(self, device: Candidate, line: DriveLine) -> tuple[FloatArray, FloatArray]:
+    def wheels(
+        self, device: Candidate, line: DriveLine, reliability: float
+    ) -> tuple[FloatArray, FloatArray]:
         """What each wheel must sweep and what it can [N m s^2], with its sense, (robots, n)."""
-        held, load = self._each(self.momentum), self._task((0.0, 0.0)).load()
-        asked = self._each(self.swept + self.momentum * self.duration)
+        momentum = self.momentum
+        if np.quantile(self.rolls, reliability) > self.room(device):
+            # Other wheels or another incidence undo the roll: larger ones here would not.
+            momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
+        held, load = self._each(momentum), self._task((0.0, 0.0)).load()
+        asked = self._each(self.swept + momentum * self.duration)
         demand = SpinDemand(
             sweep=np.abs(asked),
             momentum=np.abs(held),
