@@ -328,7 +328,8 @@ def _instead(
     criterion = specification.ocs.alpha_criterion
     if asked.ocs.alpha_criterion != criterion:
         at_alpha = replace(asked.ocs, alpha_criterion=criterion)
-        why = next(error.message for each, error in tried if each.ocs == at_alpha)
+        refused = (error.message for each, error in tried if each.ocs == at_alpha)
+        why = next(refused, tried[-1][1].message)
         told.append(f"Incidence: the lightest. At alpha*: {why}")
     if less is not None and less != specification.requirement.reliability:
         why = next(error.message for each, error in tried if each.ocs == asked.ocs)

@@ -271,7 +271,9 @@ def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
     assert flip.lost == pytest.approx(expected, abs=0.02)
     assert flip.roll_rate == flip.undone == 0.0
     free = f'{more}[ocs]\nalpha_criterion = "lightest"\n{ONLY_DROP}'
-    assert [each.undone for each in solo12(free).kept.maneuvers] == [0.0, 0.0]
+    found = solo12(free)
+    assert [each.undone for each in found.kept.maneuvers] == [0.0, 0.0]
+    assert all(np.isfinite(each.spin_inertia) for each in found.choice.chosen.demands)
 
 
 @pytest.mark.slow

@@ -255,7 +255,8 @@ def held_in_roll(
     roll, _, yaw = np.moveaxis(np.min([np.abs(each).sum(axis=-1) for each in left], axis=0), -1, 0)
     reached = roll > OUT_OF_REACH
     most = np.where(reached, rolled / np.where(reached, roll, 1.0), np.inf)
-    return np.where((yaw > OUT_OF_REACH) | ~(reached | requirement.free), 0.0, most)
+    left_alone = (yaw > OUT_OF_REACH) | ~(reached | requirement.free)
+    return np.where(left_alone | (rolled == 0.0), 0.0, most)
 
 
 def column(inertia: TiltInertia) -> TiltInertia:
