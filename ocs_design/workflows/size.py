@@ -264,7 +264,7 @@ def _sized_or_advised(
     """
     tried: list[tuple[Specification, Refused | NeverHeld]] = []
     for asked in _attempts(specification, tried):
-        more = asked.ocs.layout if tried else None
+        more = asked.ocs.layout if asked.ocs.layout != specification.ocs.layout else None
         lightest = asked.ocs.alpha_criterion != specification.ocs.alpha_criterion
         less = asked.requirement.reliability if tried else None
         less = None if less == specification.requirement.reliability else less

@@ -8,11 +8,12 @@ from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout, LayoutName
 from ocs_design.device.records import read_design
 from ocs_design.requirement.checks import contradictions
-from ocs_design.requirement.reading import specification_of
+from ocs_design.requirement.reading import parse_specification, specification_of
 from ocs_design.requirement.specification import (
     LAYOUTS,
     OcsSection,
     Specification,
+    merge,
     specification_from_options,
 )
 from ocs_design.sizing.design import CannotSurvive, design_device
@@ -108,6 +109,44 @@ def test_four_wheels_where_no_motor_is_strong_enough_for_two(tmp_path):
     again = read_design(outcome.folder).ocs
     assert again.axes == device.layout
     assert [each.name for each in again.modules] == ["left_1", "right_1", "left_2", "right_2"]
+
+
+ROLLING = """
+[reality]
+takeoff_rate = "normal(0, 1.3rad/s)"
+[[maneuver]]
+kind = "flip"
+name = "flip"
+gravity = 1.62
+jump_height = 1.0
+angle = "-360deg"
+duration = 2.0
+"""
+
+
+@pytest.mark.slow
+def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
+    """A pair that has no room for the roll of 99 % has it for 90 %, and only where none is stated.
+
+    Of a normal rate 90 % stay below 1.645 deviations, 99 % below 2.576.
+    """
+    asked = {
+        "robot.file": str(SOLO12),
+        "motor.name": "Antigravity MN5006 KV450",
+        "ocs.layout": "pair",
+        "ocs.alpha": "33deg",
+        "validation.enabled": False,
+    }
+    stated = merge(specification_from_options(asked), parse_specification(ROLLING, "test"))
+    sure = merge(stated, specification_from_options({"requirement.reliability": "0.99"}))
+    with pytest.raises(Infeasible, match="MN5006"):
+        design_ocs(sure, out=tmp_path / "a")
+    design = design_ocs(stated, out=tmp_path / "b").design
+    assert design.requirement.reliability == 0.9
+    assert any(each.startswith("Reliability: 90%") for each in design.requirement.assumptions)
+    assert any("for 99% there is no device" in each for each in design.ocs.warnings)
+    (kept,) = design.selection.kept.maneuvers
+    assert 1.6 < kept.undone / 1.3 < 2.1
 
 
 @pytest.mark.slow
