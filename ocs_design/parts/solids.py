@@ -14,6 +14,9 @@ from ocs_design.robot.tree import Placement
 
 HERE = Placement.identity()
 
+THREE_POINTS = tuple(map(frozen, np.polynomial.legendre.leggauss(3)))
+"""Nodes and weights of Gauss's rule of three points on [-1, 1]."""
+
 
 class Shape(Protocol[Real]):
     """A region of a plane."""
@@ -61,7 +64,7 @@ class Revolution:
         polynomials of degree 4 at most, which three points of Gauss integrate exactly.
         """
         start, end = self.profile, np.roll(self.profile, -1, axis=0)
-        nodes, weights = np.polynomial.legendre.leggauss(3)
+        nodes, weights = THREE_POINTS
         r, z = (start + (1.0 + nodes[:, None, None]) / 2.0 * (end - start)).transpose(2, 0, 1)
         dz = weights[:, None] / 2.0 * (end - start)[:, 1]
         volume, first, along, across = (

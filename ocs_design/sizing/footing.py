@@ -7,7 +7,7 @@ its base. A plate is held by four screws, where the trunk is as flat under each 
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import product
 from math import ceil, copysign, cos, inf, isfinite, log, pi, sin, sqrt
 
@@ -35,6 +35,7 @@ from ocs_design.parts.carrier_plate import (
     TUBES,
     YIELD_STRENGTH,
     CarrierPlate,
+    DogBone,
     Mast,
     Point,
     directions,
@@ -189,7 +190,7 @@ class Feet:
         """How far left the first base stands [m]."""
         return self.bases[0][1]
 
-    @property
+    @cached_property
     def rows(self) -> tuple[float, ...]:
         """How far before x the middle of each plate is [m]; none where no plate carries them.
 
@@ -202,7 +203,7 @@ class Feet:
         in_pairs = 2 * len(pairs) == len(self.bases) == len(self.slopes) and mirrored
         return tuple(x for (x, _), _ in pairs) if in_pairs else ()
 
-    @property
+    @cached_property
     def arms(self) -> int:
         """How many feet stand on each plate: all where they are evenly around, else pairs."""
         count = len(self.bases)
@@ -1006,13 +1007,16 @@ def _plate(
         arms=feet.arms,
         sleeve_wall=SLEEVE_WALL if held_by is PLATE_SCREW else POST_WALL,
     )
+    beneath = [_disc(middle, feet.reach) for middle in feet.middles]
+    # Beside the plate the trunk may be as high as the plate's top: modules begin above that.
+    beside = _highest(surface, np.concatenate(beneath)) - STOCK[0]
     best: CarrierPlate | None = None
     for neck in (least + wider for wider in WIDER):
         radius = max(ring, neck)
         # A rounding this flat is none.
         wide = neck if neck < radius - _PATTERN_STEP else radius
         plate = replace(blank, radius=radius, half_length=feet.y + radius, neck=wide)
-        borne = _borne(surface, feet, plate, underside) if plate.shape.fits else None
+        borne = _borne(surface, feet, plate, underside, beside) if plate.shape.fits else None
         if borne is not None and (best is None or borne.mass < best.mass):
             best = borne
         # What is wider and as thick is heavier.
@@ -1022,12 +1026,15 @@ def _plate(
 
 
 def _borne(
-    surface: Surface, feet: Feet, blank: CarrierPlate, underside: float | None
+    surface: Surface, feet: Feet, blank: CarrierPlate, underside: float | None, beside: float
 ) -> CarrierPlate | None:
-    """The thinnest plate of this outline that the trunk holds and that bears the modules."""
-    beneath = [_disc(middle, feet.reach) for middle in feet.middles]
-    # Beside the plate the trunk may be as high as the plate's top: modules begin above that.
-    beside = _highest(surface, np.concatenate(beneath)) - STOCK[0]
+    """The thinnest plate of this outline that the trunk holds and that bears the modules.
+
+    Args:
+        surface: of the trunk. feet: on it. blank: the plate without screws.
+        underside: height of the feet in B, where it is stated [m].
+        beside: least height of the plate, for what is beside it [m].
+    """
     highest = max(_highest(surface, _all_over(blank)), beside)
     if not np.isfinite(highest):
         return None
@@ -1056,13 +1063,14 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
     Patterns without sleeves come first.
     """
     if len(plate.rows) > 1:
-        rows = [_screwed(surface, feet, each) for each in plate.each]
-        held = [row for row in rows if row is not None]
-        if len(held) < len(rows):
-            return None
-        each = zip(plate.rows, held, strict=True)
-        trunk = [(ahead + x, y) for ahead, row in each for x, y in row.trunk]
-        sleeves = [sleeve for row in held for sleeve in row.sleeves]
+        trunk: list[Point] = []
+        sleeves: list[float] = []
+        for ahead, each in zip(plate.rows, plate.each, strict=True):
+            row = _screwed(surface, feet, each)
+            if row is None:
+                return None
+            trunk += [(ahead + x, y) for x, y in row.trunk]
+            sleeves += row.sleeves
         return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
     radius = plate.sleeve_radius
     x, _, z = plate.position
@@ -1093,13 +1101,19 @@ def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate 
         ],
         axis=1,
     )
-    lands = _ring((0.0, 0.0), 0.0, radius)
-    points = places[:, :, None] + lands + np.array([x, 0.0])
-    heights = surface.height(points[..., 0], points[..., 1])
-    top, low = heights.max(axis=2), heights.min(axis=2)
-    with np.errstate(invalid="ignore"):
-        good = (top - low <= FLATNESS) & (z - top <= longest) & (top <= z + PROUD)
-    ok = good.all(axis=1)
+    lands = _disc((0.0, 0.0), radius)
+    # Most patterns fail at a few points already.
+    for some in (lands[:: max(1, len(lands) // 8)], lands):
+        points = places[:, :, None] + some + np.array([x, 0.0])
+        heights = surface.height(points[..., 0], points[..., 1])
+        top, low = heights.max(axis=2), heights.min(axis=2)
+        with np.errstate(invalid="ignore"):
+            flat = ((top - low <= FLATNESS) & (top <= z + PROUD)).all(axis=1)
+        along, across, shared, places = (each[flat] for each in (along, across, shared, places))
+        top, low = top[flat], low[flat]
+        if not len(along):
+            return None
+    ok = (z - top <= longest).all(axis=1)
     if not ok.any():
         return None
     direct = (z - low <= FLATNESS).all(axis=1)
@@ -1138,7 +1152,12 @@ def _disc(middle: Sequence[float], radius: float) -> FloatArray:
 
 def _ring(middle: Sequence[float], inner: float, outer: float) -> FloatArray:
     """Points that stand for equal shares of a ring [m], shape (n, 2)."""
-    inner = max(inner, 0.0)
+    return frozen(_around_middle(max(inner, 0.0), outer) + np.asarray(middle))
+
+
+@lru_cache(maxsize=64)
+def _around_middle(inner: float, outer: float) -> FloatArray:
+    """Points of a ring around the origin [m], shape (n, 2)."""
     count = max(4, min(48, round((outer - inner) / 1e-3)))
     around = max(16, min(180, round(2.0 * pi * outer / 1e-3)))
     share = (np.arange(count) + 0.5) / count
@@ -1146,16 +1165,22 @@ def _ring(middle: Sequence[float], inner: float, outer: float) -> FloatArray:
     # The rim itself, where lands end first.
     angles = (np.arange(around) + 0.5) * 2.0 * pi / around
     rings = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    return frozen((radii[:, None, None] * rings).reshape(-1, 2) + np.asarray(middle))
+    return frozen((radii[:, None, None] * rings).reshape(-1, 2))
 
 
 def _all_over(plate: CarrierPlate) -> FloatArray:
-    """Points all over a plate [m], shape (n, 2)."""
-    wide = plate.half_length if plate.arms > 2 else plate.radius
+    """Points all over a plate in B [m], shape (n, 2)."""
+    places = _within(plate.shape) + np.array(plate.position[:2])
+    return np.concatenate([places + np.array([row, 0.0]) for row in plate.rows])
+
+
+@lru_cache(maxsize=64)
+def _within(shape: DogBone) -> FloatArray:
+    """Points all over an outline [m], shape (n, 2)."""
+    wide = shape.half_length if shape.arms > 2 else shape.radius
     xs, ys = (
-        np.linspace(-half, half, 1 + int(np.ceil(2.0 * half / max(1e-3, plate.radius / 40.0))))
-        for half in (wide, plate.half_length)
+        np.linspace(-half, half, 1 + int(np.ceil(2.0 * half / max(1e-3, shape.radius / 40.0))))
+        for half in (wide, shape.half_length)
     )
     places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
-    places = places[plate.shape.holds(places)] + np.array(plate.position[:2])
-    return np.concatenate([places + np.array([row, 0.0]) for row in plate.rows])
+    return frozen(places[shape.holds(places)])

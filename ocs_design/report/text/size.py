@@ -101,7 +101,7 @@ def print_solution(console: Console, design: OcsDesign) -> None:
         [
             ("status", sizing.status),
             ("method", sizing.method),
-            ("objective", f"{sizing.objective!r} kg, {'the device' if chosen else 'one rim'}"),
+            ("objective", f"{sizing.objective:.6g} kg, {'the device' if chosen else 'one rim'}"),
             *(() if chosen else (("relative duality gap", f"{sizing.gap:.1e}"),)),
             ("fixed point", f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"),
             *((f"price of {name}", f"{price!r}") for name, price in sizing.shadow_prices.items()),
