@@ -1,5 +1,9 @@
 """Which way a device is designed, and by which criterion its incidence goes."""
 
+import re
+from itertools import cycle
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from designed import MOTOR, designed
@@ -18,7 +22,10 @@ from ocs_design.requirement.specification import (
     Specification,
 )
 from ocs_design.requirement.words import Kick
+from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing import on_robot
 from ocs_design.sizing.design import design_device
+from ocs_design.sizing.footing import Footing
 from ocs_design.workflows.pareto import read_task
 
 
@@ -134,3 +141,28 @@ def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
     assert own == pytest.approx(task.resolved.requirement.on(found.sized.total).kicks)
     assert found.choice.problem.requirement.kicks == pytest.approx(own, rel=0.01, abs=1e-9)
     assert abs(own[0, 0]) < 0.9 * abs(alone[0, 0])
+
+
+@pytest.mark.parametrize(("kilograms", "stays"), [(0.05, False), (0.01, True)])
+def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kilograms, stays):
+    """Unless what changes is a twentieth of it at the most; 0.49 kg weighs this one."""
+    task, found = designed()
+    place, device = found.choice.problem.place, found.device.mass
+    assert (kilograms > 0.05 * device) is not stays
+    mast = SimpleNamespace(
+        mass_properties=lambda: MassProperties(kilograms, task.robot.com, np.zeros((3, 3)))
+    )
+    held = cycle([Footing(place, mast), Footing(place, None)])
+    monkeypatch.setattr(on_robot, "footing_under", lambda *_, **__: next(held))
+    refused = None
+    try:
+        design_device(task.specification, task.robot, task.resolved)
+    except on_robot.NeverHeld as error:
+        refused = error
+    assert (refused is None) is stays
+    if refused is not None:
+        mass = re.search(
+            r"A device of ([\d.]+) kg can be held .* a mast of 0.05 kg", refused.message
+        )
+        assert float(mass[1]) == pytest.approx(device, rel=0.2)
+        assert refused.binding == ("ocs.place",)
