@@ -98,7 +98,7 @@ CASES = {
         ("housing", "foot", "cage", "plate"),
     ),
     "no motor": Case(
-        ("--motor", "none", "--ballistic"), 4, ("7200 rpm", "stainless"), 1e-9, ("flywheel",)
+        ("--motor", "none", "--ballistic"), 4, ("7,200 rpm", "stainless"), 1e-9, ("flywheel",)
     ),
 }
 

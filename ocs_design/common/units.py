@@ -178,6 +178,16 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     return f"{significant(to_unit(value, unit), digits)}{space}{unit}"
 
 
+def rpm_number(speed: float) -> str:
+    """Angular speed [rad/s] in rpm with thousands apart, without its unit."""
+    return f"{speed * 30.0 / math.pi:,.0f}"
+
+
+def rpm(speed: float) -> str:
+    """Angular speed [rad/s] in rpm, for people only: no number is read with commas."""
+    return f"{rpm_number(speed)} rpm"
+
+
 def significant(value: float, digits: int) -> str:
     """A number with so many digits as people write it: 1610, and not 1.61e+03."""
     text = f"{value:.{digits}g}"

@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.units import format_quantity, significant
+from ocs_design.common.units import format_quantity, rpm, significant
 from ocs_design.device.naming import IMU, joint_names
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, largest_torque
@@ -136,7 +136,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "motor": motor.full_name + ("" if motor.gear == DIRECT.name else f" with {motor.gear}"),
         "highest speed of a wheel": "not limited"
         if np.isinf(speed)
-        else f"{format_quantity(speed, 'rpm')} ({format_quantity(speed, 'rad/s')})",
+        else f"{rpm(speed)} ({format_quantity(speed, 'rad/s')})",
         "largest torque of a motor": "not limited"
         if torque is None
         else format_quantity(torque, "N m"),

@@ -236,7 +236,7 @@ def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
         sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")
     if not sentences and not found.solved:
         return "no push-off was found within the legs' reach"
-    return " and ".join(sentences)
+    return "; ".join(sentences)
 
 
 @dataclass(frozen=True, eq=False)

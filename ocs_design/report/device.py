@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.common.units import rpm
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records import Clearance, OcsDesign, OcsRecord, RobotRecord
 from ocs_design.parts.bell import GLUE_GAP
@@ -13,7 +14,6 @@ from ocs_design.report.quantities import (
     grams,
     inertia,
     millimetres,
-    rpm,
     signed,
     tenths,
 )

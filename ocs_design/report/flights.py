@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import rpm, rpm_number
 from ocs_design.device.records import OcsDesign, SurvivalRecord, ValidationRecord
-from ocs_design.report.quantities import degrees, degrees_number, grams, rpm, rpm_number
+from ocs_design.report.quantities import degrees, degrees_number, grams
 from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air, was_on_pivot
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
 from ocs_design.simulation.metrics import UPRIGHT_TILT

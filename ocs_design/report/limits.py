@@ -2,17 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 
-from ocs_design.common.units import ceiled, floored, significant
+from ocs_design.common.units import ceiled, floored, rpm, significant
 from ocs_design.device.records import SAVES_NOTHING, OcsDesign, PriceRecord, ReserveRecord
 from ocs_design.parts.joints import Margin
-from ocs_design.report.quantities import (
-    degrees,
-    degrees_number,
-    grams,
-    inertia_number,
-    quantity,
-    rpm,
-)
+from ocs_design.report.quantities import degrees, degrees_number, grams, inertia_number, quantity
 from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, listed
 from ocs_design.sizing.limits import LIMITS, TIME

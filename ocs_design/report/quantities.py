@@ -5,7 +5,7 @@ from typing import TypeVar
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.units import significant, to_unit
+from ocs_design.common.units import rpm, significant, to_unit
 
 BOUND_NOTE = (
     "The paper prints I_r d / (d + gamma); from its own momentum follows I_r d / (gamma - d). "
@@ -39,16 +39,6 @@ def tenths(length: float) -> str:
 def grams(mass: float) -> str:
     """Mass [kg] in g below 1 kg, else in kg."""
     return f"{mass * 1e3:.1f} g" if mass < 1.0 else f"{mass:.3f} kg"
-
-
-def rpm_number(speed: float) -> str:
-    """Angular speed [rad/s] in rpm with thousands apart, without its unit."""
-    return f"{speed * 30.0 / np.pi:,.0f}"
-
-
-def rpm(speed: float) -> str:
-    """Angular speed [rad/s] in rpm."""
-    return f"{rpm_number(speed)} rpm"
 
 
 def degrees_number(angle: float, digits: int = 1) -> str:

@@ -27,7 +27,7 @@ import numpy as np
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
-from ocs_design.common.units import Dimension, format_quantity
+from ocs_design.common.units import Dimension, format_quantity, rpm
 from ocs_design.requirement.values import (
     HEIGHT,
     INCIDENCE,
@@ -569,7 +569,7 @@ class TurnTo(Reorientation):
         if any(self.rate):
             told += f" from rates of {_row(tuple(np.degrees(self.rate).tolist()))} deg/s"
         if self.wheel_speed:
-            told += f" with wheels at {format_quantity(self.wheel_speed, 'rpm')}"
+            told += f" with wheels at {rpm(self.wheel_speed)}"
         where = "in orbit"
         if self.gravity:
             where = f"in a jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
@@ -831,7 +831,7 @@ class Pivoted(Maneuver):
             on = f"stands on an edge at {point} mm along {_row(tuple(self.axis.tolist()))}"
         angles = {"roll": self.roll, "pitch": self.pitch}
         tilted = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
-        spun = f" with wheels at {format_quantity(self.wheel_speed, 'rpm')}"
+        spun = f" with wheels at {rpm(self.wheel_speed)}"
         return f"{on}, {' and '.join(tilted) or 'upright'}{spun if self.wheel_speed else ''}"
 
 
@@ -879,7 +879,7 @@ class Balance(Pivoted):
             told.append(f"a rate of {_row(tuple(np.degrees(self.rate).tolist()))} deg/s")
         if any(self.impulse):
             told.append(f"an impulse of {_row(self.impulse)} N s")
-        return " and ".join(told)
+        return " and ".join(filter(None, (", ".join(told[:-1]), *told[-1:])))
 
     @property
     def summary(self) -> str:

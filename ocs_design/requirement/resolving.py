@@ -10,7 +10,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
-from ocs_design.common.units import format_quantity, to_unit
+from ocs_design.common.units import format_quantity, rpm, to_unit
 from ocs_design.requirement.checks import contradictions, unfit_for_robot
 from ocs_design.requirement.choices import MotorChoice, motor_choice
 from ocs_design.requirement.froude import (
@@ -272,7 +272,7 @@ def _assumptions(
         yield from (text for text, holds in assumed.items() if holds)
         return
     if specification.requirement.wheel_speed_max is None:
-        speed = format_quantity(requirement.wheel_speed_max, "rpm")
+        speed = rpm(requirement.wheel_speed_max)
         yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
     if motor.torque_max is None:
         yield "Motor torque: not limited."

@@ -11,7 +11,7 @@ import numpy as np
 from ocs_design import __version__
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common.arrays import matrix, vector
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import format_quantity, rpm
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.device import Device
 from ocs_design.device.joints import SHAFT_JOINT, joints_of
@@ -174,7 +174,7 @@ def _braked(
         if not isinstance(maneuver, StandUp) or plan is None or not plan.spun:
             continue
         slowed = plan.spun / maneuver.stop
-        where = f"from {format_quantity(plan.spun, 'rpm')} in {1e3 * maneuver.stop:.2g} ms"
+        where = f"from {rpm(plan.spun)} in {1e3 * maneuver.stop:.2g} ms"
         wheel = device.flywheel.spin_inertia * slowed
         rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * slowed
         rows = [

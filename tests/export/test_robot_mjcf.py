@@ -293,7 +293,7 @@ def test_the_readme_has_the_designs_figures_and_a_picture(tmp_path):
     for figure in (
         f"{robot.mass + device.mass:.4g} kg",
         f"{1e3 * device.mass:.4g} g",
-        "6211 rpm (650.4 rad/s)",
+        "6,211 rpm (650.4 rad/s)",
         "| 1 N m |",
         "(0.6428, 0.766, 0), (-0.6428, 0.766, 0)",
         "0.272 m",

@@ -72,7 +72,7 @@ def test_nothing_stated_but_that_there_is_no_motor(solo12):
         "the paper's three",
         "lengths x 1)",
         "falls from 1 m at roll 0 deg and pitch 30 deg",
-        "7200 rpm",
+        "7,200 rpm",
         "r_max 50, r_min 5, h_max 10, h_min 2, wall_min 2 mm",
         "at most 250 g, 10% of the robot's",
         "stainless-304, 8000 kg/m3",

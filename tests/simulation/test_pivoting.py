@@ -73,7 +73,7 @@ def test_a_brake_stands_a_robot_up_whose_motors_cannot():
 def test_a_brake_cannot_stop_wheels_that_no_motor_spins_that_fast():
     found, _ = _flown(driven_device(), BRAKED)
     assert found["braked"].trajectory is None
-    assert "rpm and 6211 rpm" in found["braked"].note
+    assert "rpm and 6,211 rpm" in found["braked"].note
 
 
 @pytest.mark.parametrize("maneuver", [TILTED, ON_POINT])

@@ -131,5 +131,5 @@ def test_a_brake_is_asked_of_the_wheel_and_of_what_holds_its_rotor():
     held = rows["shaft joint, braked"]
     assert held.demand == pytest.approx(1.5 * drive.rotor_inertia * 400.0 / up.stop)
     assert held.capacity == rows["shaft joint"].capacity
-    assert "from 3820 rpm in 3.8 ms" in held.note
+    assert "from 3,820 rpm in 3.8 ms" in held.note
     assert held.scenario == "up"

@@ -13,7 +13,7 @@ import numpy as np
 from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import materials
-from ocs_design.common.units import format_quantity, significant
+from ocs_design.common.units import format_quantity, rpm, significant
 from ocs_design.device.device import Device
 from ocs_design.device.joints import (
     DAMPING,
@@ -566,7 +566,7 @@ class Assembly:
             return
         balance = balance_of(self.device)
         yield (
-            f"Grade G {balance.grade:g} (ISO 21940-11) at {_rpm(speed)}: at most "
+            f"Grade G {balance.grade:g} (ISO 21940-11) at {rpm(speed)}: at most "
             f"{_two(1e6 * balance.unbalance)} g mm are left in one plane, the wheel's own; its "
             f"centre of mass is then {_two(1e6 * balance.eccentricity)} µm off the axis."
         )
@@ -624,12 +624,12 @@ class Assembly:
             "Safety) on all sides of the wheel's plane. Nobody stands in that plane. Drive it "
             "from behind the wall; a switch there cuts the supply."
         )
-        steps = ", ".join(f"{share:.0%} ({_rpm(share * speed)})" for share in SPIN_STEPS)
+        steps = ", ".join(f"{share:.0%} ({rpm(share * speed)})" for share in SPIN_STEPS)
         yield f"One minute each at {steps}; stop, and feel the motor and look at all screws."
         motor = self.device.motor
         allowed = math.inf if motor.speed_max is None else motor.speed_max
         share = min(OVERSPEED, allowed / speed)
-        over = _rpm(share * speed)
+        over = rpm(share * speed)
         if share < OVERSPEED:
             over += ", the most that motor and wheel are allowed"
         supply = (
@@ -666,7 +666,7 @@ class Assembly:
         if both is not None:
             flown = f"; the planned maneuvers reach {significant(both, 3)} J in all wheels"
         yield (
-            f"Each wheel stores {significant(energy, 3)} J at {_rpm(speed)}, {count} of them "
+            f"Each wheel stores {significant(energy, 3)} J at {rpm(speed)}, {count} of them "
             f"{significant(count * energy, 3)} J{flown}. That is "
             f"{_two(count * energy / 9.81)} kg dropped from 1 m."
         )
@@ -748,7 +748,3 @@ def _short(purpose: str) -> str:
 def _two(value: float) -> str:
     """Two digits: most of these figures are estimates."""
     return significant(value, 2)
-
-
-def _rpm(speed: float) -> str:
-    return f"{speed * 30.0 / math.pi:,.0f} rpm"

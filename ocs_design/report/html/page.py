@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.files import to_json
+from ocs_design.common.units import rpm
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records import OcsDesign
 from ocs_design.export.folder import REPORT_FILE
@@ -17,7 +18,7 @@ from ocs_design.report.html import sections
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.view import view, view_data
 from ocs_design.report.limits import recorded_margins
-from ocs_design.report.quantities import degrees, grams, inertia, rpm, tenths
+from ocs_design.report.quantities import degrees, grams, inertia, tenths
 from ocs_design.report.story import Story
 from ocs_design.report.verdict import headline
 from ocs_design.report.viewer.decimation import decimated

@@ -3,8 +3,9 @@
 import numpy as np
 from rich.console import Console
 
+from ocs_design.common.units import rpm
 from ocs_design.device.answers import BoundAnswer, Exported, Initialized, LayoutsAnswer
-from ocs_design.report.quantities import BOUND_NOTE, degrees, inertia, rpm
+from ocs_design.report.quantities import BOUND_NOTE, degrees, inertia
 from ocs_design.report.table import Table, columns
 from ocs_design.report.text.layout import facts, files_written, heading, note, show
 

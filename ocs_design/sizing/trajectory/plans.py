@@ -9,7 +9,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import format_quantity, rpm
 from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.maneuver import (
     Balance,
@@ -77,7 +77,11 @@ class Planned:
     def failure(self) -> str:
         """What is wrong with it, in a few words; empty if nothing is."""
         solution = self.solution
-        return self.fine.failure if solution.solved else f"IPOPT: {solution.status}"
+        if solution.solved:
+            return self.fine.failure
+        # Whether it gives up or proves that there is none depends on the processor.
+        status = solution.status.replace("_", " ").lower()
+        return f"nothing within the limits in {solution.iterations} iterations, IPOPT: {status}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +179,7 @@ def reference(
         spun = _braked_from(gyrostat, asked.rate)
         most = min(float(line.no_load_speed), float(line.speed_max))
         if spun > most:
-            told = " and ".join(format_quantity(each, "rpm") for each in (spun, most))
+            told = " and ".join(map(rpm, (spun, most)))
             note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
             return Reference(None, note, None, part=most / spun, spun=spun)
     first = GENTLE if asked.end != End.LEVEL else ()
@@ -196,7 +200,7 @@ def reference(
         trajectory = _balanced(gyrostat, line, maneuver, trajectory)
         if spun:
             told = (
-                f"the wheels are stopped from {format_quantity(spun, 'rpm')}, by brakes that are "
+                f"the wheels are stopped from {rpm(spun)}, by brakes that are "
                 "not designed and not in the mass"
             )
             note = "; ".join(filter(None, (told, note)))
