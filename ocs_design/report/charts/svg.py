@@ -194,7 +194,7 @@ class _Drawing:
                     for whole in wholes
                     if len(whole) > 1
                 ]
-                self._curves += curves
+                self._curves += map(_traced, curves)
                 paths = "".join(map(_path, curves))
                 return f'<path class="{_line_look(mark)}" d="{paths}"/>' if paths else ""
             case Area():
@@ -223,29 +223,28 @@ class _Drawing:
         """A word at an upright rule: below, above or in between, where no curve is in the way."""
         low, high = self._bottom - 9.0, self._top + 9.0
         heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
-        for y in heights:
-            box = self._box(x, y, text)
-            # The curves are drawn by now.
-            between = (
-                curve[(curve[:, 0] >= box.left) & (curve[:, 0] <= box.right), 1]
-                for curve in self._curves
-            )
-            curves = (
-                _Box(box.left, float(part.min()), box.right, float(part.max()))
-                for part in between
-                if part.size
-            )
-            if not any(map(box.meets, (*self._taken, *curves))):
-                return self._beside(x, y, text)
-        return self._beside(x, low, text)
+        free = (y for y in heights if self._free(self._box(x, y, text)))
+        return self._beside(x, next(free, low), text)
 
     def _beside(self, x: float, y: float, text: str) -> str:
-        """A word right of a place, or left of it where there is no room, clear of all others."""
+        """A word right of a place, or left of it where there is no room.
+
+        It is clear of all others, and of the curves where it can be.
+        """
         tried = [self._box(x, y + rise, text) for rise in _RISES]
-        box = next((each for each in tried if not any(map(each.meets, self._taken))), tried[0])
+        apart = [each for each in tried if not any(map(each.meets, self._taken))]
+        box = next(filter(self._free, apart), (apart or tried)[0])
         self._taken.append(box)
         far, anchor = (x - _GAP, "end") if box.left < x else (x + _GAP, "start")
         return _word("note", far, box.top + 9.5, text, anchor)
+
+    def _free(self, box: _Box) -> bool:
+        """Whether neither words and discs nor curves, all of them drawn by now, are in a box."""
+        if any(map(box.meets, self._taken)):
+            return False
+        corner, opposite = box[:2], box[2:]
+        inside = (((curve >= corner) & (curve <= opposite)).all(axis=1) for curve in self._curves)
+        return not any(map(np.any, inside))
 
     def _box(self, x: float, y: float, text: str) -> _Box:
         """Box of a word beside a place."""
@@ -308,6 +307,14 @@ def _disc_look(mark: Points) -> str:
 def _stretched(axis: Axis, span: float) -> Axis:
     middle = (axis.low + axis.high) / 2.0
     return replace(axis, low=middle - span / 2.0, high=middle + span / 2.0)
+
+
+def _traced(curve: FloatArray) -> FloatArray:
+    """Points along a curve, a pixel apart or less across and down, shape (n, 2)."""
+    steps = np.ceil(np.abs(np.diff(curve, axis=0)).max(axis=1)).astype(int).clip(1)
+    nodes = np.concatenate([[0], np.cumsum(steps)])
+    along = np.arange(nodes[-1] + 1)
+    return np.stack([np.interp(along, nodes, each) for each in curve.T], axis=-1)
 
 
 def _path(places: FloatArray, *, closed: bool = False) -> str:

@@ -95,6 +95,21 @@ def test_words_that_would_lie_on_each_other_or_on_a_disc_give_way():
     assert not -4.0 < rule - disc[1] < 13.5, "clear of the disc"
 
 
+@pytest.mark.parametrize("rise", [0.0, 2.0])
+def test_no_curve_strikes_the_words_of_its_points_through(rise):
+    """Not a straight one either, of which only the ends are drawn."""
+    x, y = np.array([0.5, 6.0]), np.array([5.0, 5.0 + rise])
+    svg = inline_svg(chart(Line(x, y, Ink.BLUE), Points(x, y, Ink.BLUE, labels=("50 %", "99 %"))))
+    slope = np.polyfit(*places(svg).T, 1)
+    words = [each for each in ET.fromstring(svg).iter(f"{SVG}text") if each.get("class") == "note"]
+    assert [each.text for each in words] == ["50 %", "99 %"]
+    first = words[0]
+    ends = float(first.get("x")) + np.array([0.0, 25.0])
+    baseline = float(first.get("y"))
+    line = np.polyval(slope, ends)
+    assert (line > baseline).all() or (line < baseline - 8.0).all()
+
+
 def test_the_word_at_a_rule_stands_where_no_curve_is():
     x = np.linspace(0.0, 10.0, 200)
     low = Line(x, np.where(x > 8.0, 4.0, 0.3), Ink.BLUE)
