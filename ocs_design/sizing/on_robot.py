@@ -20,7 +20,7 @@ from ocs_design.sizing.selection.device import of_parts
 from ocs_design.sizing.selection.problem import (
     SelectionProblem,
 )
-from ocs_design.sizing.selection.result import Candidate, Selection
+from ocs_design.sizing.selection.result import Candidate, Selection, devices_by_mass
 from ocs_design.sizing.selection.select import (
     at_own_incidence,
     device_at,
@@ -73,13 +73,12 @@ def with_plates(
     for entry in selection.ranking:
         if ranked or all(entry.modules_mass < other.mass for other in plated):
             plated.append(with_plate(entry, problem, robot))
-    first, lightest = plated[0], min(plated, key=lambda entry: entry.mass)
+    first, lightest = plated[0], devices_by_mass(plated)[0]
     if lightest is not first and criterion is not None and problem.incidence is None:
         _, own = at_own_incidence(problem, lightest, criterion)
         lightest = first if own is None else with_plate(own, problem, robot)
     others = [entry for entry in plated if not same_parts(entry, lightest)]
-    others.sort(key=lambda entry: entry.mass)
-    return replace(selection, ranking=(lightest, *others))
+    return replace(selection, ranking=(lightest, *devices_by_mass(others)))
 
 
 def on_its_footing(
@@ -286,7 +285,7 @@ def in_rings(
             selection = replace(selection, ranking=tuple(others))
             continue
         again, at = with_plates(again, alone, criterion, robot), own
-        ranking = sorted((*again.ranking, *others), key=lambda entry: entry.mass)
+        ranking = devices_by_mass((*again.ranking, *others))
         selection = replace(selection, ranking=tuple(ranking))
     return at, selection
 

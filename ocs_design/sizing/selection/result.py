@@ -1,7 +1,9 @@
 """What a selection comes to: the lightest devices, and why the other motors fell out."""
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -170,6 +172,42 @@ class Candidate:
         if most is None or most.spin_inertia < self.spin_inertia * (1.0 - 1e-6):
             return ""
         return most.source
+
+
+SAME_MASS = 1e-5
+"""Relative difference of two masses that is none: materials of one density make devices of one mass
+but for rounding, which differs from processor to processor."""
+
+Entry = TypeVar("Entry")
+
+
+def lightest_first(
+    entries: Iterable[Entry], mass: Callable[[Entry], float], preference: Callable[[Entry], Any]
+) -> list[Entry]:
+    """Entries by mass; of those that are equally heavy, the preferred ones first.
+
+    Args:
+        entries: any.
+        mass: of an entry [kg].
+        preference: sorts entries whose masses differ by less than `SAME_MASS`, smallest first.
+    """
+    alike, ordered = list[Entry](), list[Entry]()
+    for entry in sorted(entries, key=mass):
+        if alike and mass(entry) > mass(alike[0]) * (1.0 + SAME_MASS):
+            ordered += sorted(alike, key=preference)
+            alike = []
+        alike.append(entry)
+    return ordered + sorted(alike, key=preference)
+
+
+def devices_by_mass(devices: Iterable[Candidate]) -> list[Candidate]:
+    """Devices, lightest first; of equally heavy ones, that of the strongest material."""
+
+    def preference(device: Candidate) -> tuple[float, str, str, str]:
+        names = (device.motor.name, device.gear.name, device.material.name)
+        return -(device.material.yield_strength or 0.0), *names
+
+    return lightest_first(devices, lambda device: device.mass, preference)
 
 
 class Reason(StrEnum):

@@ -8,9 +8,12 @@ first. A candidate is left out once its bound exceeds the tenth lightest device 
 is none of a motor that may be among the five with the lightest devices: so the ten lightest and the
 lightest of the five best motors are found whatever the order. What may be the lightest of all is
 refined in the end.
+
+Materials of one density make devices of one mass, but for the last digits. Of such devices the one
+of the stronger material is the lighter one (`lightest_first`).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -32,6 +35,7 @@ from ocs_design.sizing.selection.candidates import Candidates, Drives, drives_of
 from ocs_design.sizing.selection.fixed_point import Guess, Solved, solve
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
+from ocs_design.sizing.selection.result import lightest_first
 
 RANKED = 10
 """Devices that a selection lists at least."""
@@ -52,18 +56,20 @@ _FALL, _FALL_STATED = 0.03, 0.003
 saved at most 1e-4 on the robots tried."""
 
 
-@dataclass(frozen=True, order=True)
+@dataclass(frozen=True)
 class Rank:
     """Place of one of the lightest devices: mass [kg], batch and row where it is, and its parts.
 
     Attributes:
         parts: indices of motor, gear and material.
+        strength: of the material [Pa]; 0: not known.
     """
 
     mass: float
     batch: int
     row: int
     parts: tuple[int, int, int]
+    strength: float
 
     @property
     def motor(self) -> int:
@@ -165,10 +171,10 @@ class Found:
     def _list(self, ranks: Sequence[Rank]) -> None:
         """The lightest of these, and the lightest of each of the best motors."""
         lightest: dict[tuple[int, int, int], Rank] = {}
-        for rank in sorted(ranks):
+        for rank in _ordered(ranks):
             lightest.setdefault(rank.parts, rank)
         ordered = list(lightest.values())
-        self.places = sorted({*ordered[:RANKED], *_best_of_motors(ordered)})
+        self.places = _ordered({*ordered[:RANKED], *_best_of_motors(ordered)})
 
 
 def _ranks(batch: int, solved: Solved) -> Iterator[Rank]:
@@ -177,7 +183,17 @@ def _ranks(batch: int, solved: Solved) -> Iterator[Rank]:
     parts = np.stack([drives.motor, drives.gear, candidates.material], axis=1).tolist()
     for row in np.flatnonzero(solved.point.feasible).tolist():
         motor, gear, material = parts[row]
-        yield Rank(float(mass[row]), batch, row, (motor, gear, material))
+        strength = candidates.problem.materials[material].yield_strength or 0.0
+        yield Rank(float(mass[row]), batch, row, (motor, gear, material), strength)
+
+
+def _ordered(ranks: Iterable[Rank]) -> list[Rank]:
+    """The lightest first, and of equally heavy ones the strongest."""
+
+    def preference(rank: Rank) -> tuple[float, tuple[int, int, int], float, int, int]:
+        return -rank.strength, rank.parts, rank.mass, rank.batch, rank.row
+
+    return lightest_first(ranks, lambda rank: rank.mass, preference)
 
 
 def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:

@@ -16,7 +16,13 @@ from ocs_design.sizing.selection.fixed_point import FINE, Design, Guess, Solved,
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.rejections import rejections
-from ocs_design.sizing.selection.result import Candidate, Reason, Rejection, Selection
+from ocs_design.sizing.selection.result import (
+    Candidate,
+    Reason,
+    Rejection,
+    Selection,
+    devices_by_mass,
+)
 from ocs_design.sizing.selection.search import Found, search, search_lightest
 
 _CONVERGED = 1e-10
@@ -112,7 +118,7 @@ def select_by(
         winner = selection.best
     if not own:
         return selection
-    lightest = min(own, key=lambda candidate: candidate.mass)
+    lightest = devices_by_mass(own)[0]
     there = select(replace(problem, incidence=lightest.incidence), advise=advise)
     return _led_by(with_demands(problem, lightest), there)
 
@@ -212,7 +218,7 @@ def _with_best(problem: SelectionProblem, exact: Candidate, selection: Selection
     near = [entry for entry in selection.ranking[1:] if entry.mass < exact.mass * (1.0 + _ABOUT)]
     there = _devices_at(problem, near, exact.incidence) if near else ()
     moved = [found or entry for found, entry in zip(there, near, strict=True)]
-    best, *others = sorted((exact, *moved), key=lambda entry: entry.mass)
+    best, *others = devices_by_mass((exact, *moved))
     later = selection.ranking[1 + len(near) :]
     return replace(selection, ranking=(with_demands(problem, best), *others, *later))
 

@@ -1,0 +1,68 @@
+"""Steels of one density make devices of one mass: no rounding decides which of them is named."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+from selections import ALUMINIUM, random_problem
+
+from ocs_design.catalogue.materials import Material
+from ocs_design.device.layout import Criterion
+from ocs_design.sizing.selection.result import SAME_MASS, devices_by_mass, lightest_first
+from ocs_design.sizing.selection.search import search_lightest
+from ocs_design.sizing.selection.select import select, select_by
+
+STRONG = Material("strong", 7833.0, 621e6, 827e6, 0.32, "for tests")
+WEAK = Material("weak", 7833.0, 552e6, 621e6, 0.32, "for tests")
+ROUNDING = 1e-9
+"""Relative, of a mass: more than processors differ by."""
+SEED, MOTORS = 1, 1
+
+
+@pytest.fixture(params=(-ROUNDING, 0.0, ROUNDING), ids=("lighter", "equal", "heavier"))
+def steels(request):
+    """The weaker steel first, and lighter than the other one, as heavy or heavier."""
+    return replace(WEAK, density=WEAK.density * (1.0 + request.param)), ALUMINIUM, STRONG
+
+
+def problem_of(steels, **changes):
+    return replace(random_problem(SEED, MOTORS), materials=steels, **changes)
+
+
+@pytest.mark.parametrize("incidence", [0.6, None])
+def test_the_stronger_steel_leads_the_ranking(steels, incidence):
+    found = select(problem_of(steels, incidence=incidence))
+    assert found.best.material.name == "strong"
+    twins = [
+        (one.material.name, other.material.name)
+        for one, other in zip(found.ranking, found.ranking[1:], strict=False)
+        if other.mass == pytest.approx(one.mass, rel=10.0 * ROUNDING)
+    ]
+    assert twins
+    assert set(twins) == {("strong", "weak")}
+
+
+def test_it_leads_at_the_incidence_of_a_criterion(steels):
+    problem = problem_of(steels, incidence=None)
+    assert select_by(problem, Criterion.EQUAL_RATE).best.material.name == "strong"
+
+
+def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
+    found = search_lightest(problem_of(steels, incidence=0.6))
+    assert steels[found.places[0].parts[2]].name == "strong"
+
+
+def test_a_device_that_is_lighter_leads_whatever_its_strength(steels):
+    problem = problem_of(steels, incidence=0.6)
+    twin = select(problem).best
+    lighter = replace(twin, material=WEAK, rim_mass=twin.rim_mass * (1.0 - 1e-3))
+    assert devices_by_mass([twin, lighter]) == [lighter, twin]
+
+
+def test_equal_masses_are_those_next_to_the_lightest_of_them():
+    """No chain of small differences makes a heavy entry equal to a light one."""
+    step = 0.6 * SAME_MASS
+    masses = [1.0, 1.0 + step, 1.0 + 2.0 * step]
+    entries = [SimpleNamespace(mass=mass, rank=-mass) for mass in masses]
+    found = lightest_first(entries, lambda each: each.mass, lambda each: each.rank)
+    assert [each.mass for each in found] == [masses[1], masses[0], masses[2]]
