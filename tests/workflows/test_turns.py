@@ -15,7 +15,7 @@ from ocs_design.requirement.specification import (
     ValidationSection,
 )
 from ocs_design.requirement.words import About
-from ocs_design.workflows import size
+from ocs_design.workflows import placed, size
 
 QUARTER = Specification(
     robot=RobotSection(file=str(SOLO12)),
@@ -29,11 +29,11 @@ QUARTER = Specification(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rounds", [size.TURN_ROUNDS, 0])
+@pytest.mark.parametrize("rounds", [placed.TURN_ROUNDS, 0])
 def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(rounds, tmp_path, monkeypatch):
     full = maneuver.loop_length
     monkeypatch.setattr(maneuver, "loop_length", lambda heading: 0.6 * full(heading))
-    monkeypatch.setattr(size, "TURN_ROUNDS", rounds)
+    monkeypatch.setattr(placed, "TURN_ROUNDS", rounds)
     # What else could be built is not asked, nor any part.
     monkeypatch.setattr(size, "alternatives", lambda *_: ())
     monkeypatch.setattr(size, "USUAL_FORMATS", ())

@@ -46,6 +46,9 @@ GENTLE = (0.8, 0.9)
 """Shares of voltage, current and power that a turn to an attitude is first tried with: a heading is
 put right by tilting more, which takes more torque than holding the trunk level."""
 
+LEAST_SPARE, SPARE = 0.9, 1.1
+"""Share of the drives that the plan of a heading may take, and factor where it takes more."""
+
 TIME_STEP, LONGEST = 0.05, 8.0
 """How closely a time is looked for, and how long at most, over the one asked for."""
 
@@ -107,6 +110,21 @@ class Reference:
     share: float = 1.0
     part: float | None = None
     spun: float = 0.0
+
+    def lacking(self, end: str) -> float | None:
+        """Factor on what the closed forms ask for a device that makes it; None: this one does.
+
+        Momentum goes with the inverse of the time, torque with its square. What falls over from
+        most tilts tells little.
+
+        Args:
+            end: of the turn, see `End`.
+        """
+        if self.trajectory is not None and (end == End.LEVEL or self.share <= LEAST_SPARE):
+            return None
+        if self.part is not None:
+            return SPARE / max(self.part, 0.5)
+        return SPARE if self.needed is None else SPARE * self.needed**1.5
 
 
 def plan(

@@ -1,0 +1,137 @@
+"""What is tried in turn where nothing meets the specification, and how it is told.
+
+Only what is not stated changes, and only as far as all that is stated allows it.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from ocs_design.common.errors import Infeasible
+from ocs_design.requirement.checks import contradictions
+from ocs_design.requirement.specification import (
+    AUTO,
+    LIGHTEST,
+    MORE_PAIRS,
+    RELIABILITY,
+    WHEELS,
+    Specification,
+)
+from ocs_design.sizing.changes import Progress
+from ocs_design.sizing.on_robot import NeverHeld
+from ocs_design.sizing.selection.advice import NO_ROOM, Refused
+
+LESS_SURE = (0.9, 0.8)
+"""Reliabilities that are tried in turn where no device has the default one."""
+
+Tried = tuple[Specification, Refused | NeverHeld]
+"""A specification, and how it was refused."""
+
+
+def attempts(specification: Specification, tried: Sequence[Tried]) -> Iterator[Specification]:
+    """What was asked for, and what is tried in turn where that was refused.
+
+    Where neither layout nor incidence is stated, the lightest incidence and more pairs. Where no
+    reliability is, a smaller one for all that its reserve alone stood in the way of.
+
+    Args:
+        specification: what was stated.
+        tried: what has been refused so far, which grows between one attempt and the next.
+    """
+    yield specification
+    stated = specification.ocs
+    if stated.layout is None and stated.axes is None:
+        free = stated.alpha is None and stated.alpha_criterion is None
+        for layout in (None, *MORE_PAIRS):
+            for criterion in (stated.alpha_criterion, LIGHTEST)[: 1 + free]:
+                ocs = replace(stated, layout=layout, alpha_criterion=criterion)
+                asked = replace(specification, ocs=ocs)
+                if ocs != stated and not any(contradictions(asked)):
+                    yield asked
+    if specification.requirement.reliability is not None:
+        return
+    short = [asked for asked, error in tried if isinstance(error, Refused) and error.for_reserve]
+    for level in LESS_SURE:
+        for asked in short:
+            yield replace(asked, requirement=replace(asked.requirement, reliability=level))
+
+
+def attempt_text(specification: Specification, asked: Specification) -> str:
+    """What an attempt sizes, as in `a device of 4 wheels at its lightest incidence`."""
+    layout, reliability = asked.ocs.layout, asked.requirement.reliability
+    what = "the device"
+    if layout is not None and layout != specification.ocs.layout:
+        what = f"a device of {WHEELS[layout]} wheels"
+    if asked.ocs.alpha_criterion != specification.ocs.alpha_criterion:
+        what += " at its lightest incidence"
+    if reliability is not None and reliability != specification.requirement.reliability:
+        what += f" for {reliability:.0%} of robots"
+    return what
+
+
+def substitutions(
+    specification: Specification, asked: Specification, tried: Sequence[Tried]
+) -> tuple[list[str], list[str]]:
+    """What was taken in place of what is not stated, and why: as assumptions, and as warnings."""
+    told: list[str] = []
+    few: list[str] = []
+    more, less = asked.ocs.layout, asked.requirement.reliability
+    if more is not None and more != specification.ocs.layout:
+        with_two = f"With two: {tried[0][1].message}"
+        told.append(f"Layout: {more}, {WHEELS[more]} wheels. {with_two}")
+        if specification.motor.name not in {None, AUTO}:
+            few.append(f"{WHEELS[more]} wheels are needed. {with_two}")
+    criterion = specification.ocs.alpha_criterion
+    if asked.ocs.alpha_criterion != criterion:
+        at_alpha = replace(asked.ocs, alpha_criterion=criterion)
+        refused = (error.message for each, error in tried if each.ocs == at_alpha)
+        why = next(refused, tried[-1][1].message)
+        told.append(f"Incidence: the lightest. At alpha*: {why}")
+    if less is not None and less != specification.requirement.reliability:
+        why = next(error.message for each, error in tried if each.ocs == asked.ocs)
+        told.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
+        few.append(f"sized for {less:.0%} of robots: for {RELIABILITY:.0%} there is no device")
+    return told, few
+
+
+def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
+    """The refusal that advice is given on.
+
+    Where a wheel lacks room, it is that of what was asked for; where the motors are too weak, that
+    of what came closest. An attempt that got as far as to what holds it on the trunk came closer
+    than one that no motor drives without.
+
+    Args:
+        tried: all attempts, in their order.
+        robot_mass: of the robot alone [kg].
+
+    Raises:
+        NeverHeld: of what was asked for, where every attempt failed at what holds it on the trunk.
+    """
+    refused = [error for _, error in tried if isinstance(error, Refused)]
+    if not refused:
+        raise tried[0][1]
+    if refused[0].nearest.reason in NO_ROOM:
+        return refused[0]
+    held = [each for each in refused if each.problem.robot.mass > robot_mass]
+    at_angle = [each for each in refused if each.problem.incidence is not None]
+    return min(held or at_angle, key=lambda each: each.nearest.shortfall, default=refused[0])
+
+
+def advised(
+    refusal: Refused, specification: Specification, tried: Sequence[Tried], progress: Progress
+) -> Infeasible:
+    """The error with the single changes that would do, where every attempt was refused.
+
+    Args:
+        refusal: that advice is given on (`closest`).
+        specification: what was stated. tried: all attempts.
+        progress: is told the share that is done.
+    """
+    incidences = [error.problem.incidence for _, error in tried if isinstance(error, Refused)]
+    found = refusal.advised(
+        progress,
+        default=specification.asks_nothing,
+        lightest=all(incidence is not None for incidence in incidences),
+    )
+    found.assumptions, found.warnings = refusal.assumptions, refusal.warnings
+    return found

@@ -1,0 +1,251 @@
+"""From a specification to a device in its place on the robot, large enough for its turns."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ocs_design.common.errors import Infeasible
+from ocs_design.device.checks import device_warnings
+from ocs_design.report.text.console import Steps
+from ocs_design.requirement.maneuver import (
+    Disturbance,
+    Maneuver,
+    Pivoted,
+    Requirement,
+    StandUp,
+    TurnTo,
+)
+from ocs_design.requirement.resolving import Resolved, resolve
+from ocs_design.requirement.specification import Specification, ValidationSection
+from ocs_design.robot.collision import forget_collision_model
+from ocs_design.robot.meshes import size
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.trotting import require_trot
+from ocs_design.sizing.design import CannotSurvive, design_device
+from ocs_design.sizing.fallbacks import (
+    Tried,
+    advised,
+    attempt_text,
+    attempts,
+    closest,
+    substitutions,
+)
+from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
+from ocs_design.sizing.on_robot import NeverHeld
+from ocs_design.sizing.reserve import Reserve
+from ocs_design.sizing.selection.advice import Refused, unasked
+from ocs_design.sizing.sized import Designed
+from ocs_design.sizing.survival import survivors
+from ocs_design.workflows.flying import control_of
+
+if TYPE_CHECKING:
+    from ocs_design.jumping.planning import JumpPlanning
+    from ocs_design.sizing.trajectory.plans import Reference
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A device in its place on its robot.
+
+    Attributes:
+        specification: that it was sized for, with what was taken in place of what is not stated.
+        robot, resolved, designed, mounting: the live values.
+        warnings: about what was taken, and about its place.
+        jumping: its jumps, as far as they are planned; None: none will be flown.
+        estimates: factor on what a turn is estimated to ask for, by its name.
+    """
+
+    specification: Specification
+    robot: Robot
+    resolved: Resolved
+    designed: Designed
+    mounting: Mounting
+    warnings: tuple[str, ...]
+    jumping: "JumpPlanning | None"
+    estimates: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def combinations(self) -> str:
+        """How many combinations of parts were looked at; empty without a motor."""
+        choice = self.designed.choice
+        return "" if choice is None else f"{choice.selection.candidates:,} combinations"
+
+
+def size_on_robot(
+    specification: Specification,
+    robot: Robot,
+    *,
+    strict: bool,
+    reserve: Reserve | None = None,
+    estimates: Mapping[str, float] | None = None,
+) -> Placed:
+    """Size the device of a specification and find its place; its jumps are planned meanwhile.
+
+    Args:
+        specification: what is asked for. robot: that carries the device.
+        strict: warnings are errors.
+        reserve: to keep for what is drawn; None: for the reliability that is specified.
+        estimates: factor on what a turn is estimated to ask for, by its name; 1 for all others.
+
+    Raises:
+        Infeasible: there is none.
+        OcsError: the maneuvers do not suit the robot, or with `strict` there is a warning.
+    """
+    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    factors = estimates or {}
+    maneuvers = tuple(
+        replace(each, estimate=factors.get(each.name, 1.0))
+        if isinstance(each, TurnTo | Pivoted)
+        else each
+        for each in resolved.requirement.maneuvers
+    )
+    resolved = replace(resolved, requirement=replace(resolved.requirement, maneuvers=maneuvers))
+    require_trot(resolved.requirement.maneuvers, robot)
+    jumping = _begin_jumps(specification.validation, robot, resolved)
+    try:
+        designed = design_device(specification, robot, resolved, advise=False, reserve=reserve)
+        device = designed.device
+        if designed.requirement is not None:
+            own = designed.requirement
+            told = tuple(_kicked(each, own) for each in resolved.assumptions)
+            resolved = replace(resolved, requirement=own, assumptions=told)
+        if jumping is not None:
+            jumping.carry(device)
+        device_warnings(device, robot.mass_properties, strict=strict)
+        mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
+        warnings = placement_warnings(
+            mounting,
+            robot,
+            device,
+            resolved.envelope,
+            stated=specification.ocs.position is not None,
+            strict=strict,
+        )
+    except BaseException as error:
+        if jumping is not None:
+            jumping.cancel()
+        if isinstance(error, Infeasible):
+            error.assumptions, error.warnings = resolved.assumptions, robot.warnings
+            if specification.asks_nothing and not isinstance(error, Refused):
+                error.hint = f"{unasked(resolved.requirement.maneuvers)} {error.hint}"
+        raise
+    forget_collision_model()
+    return Placed(specification, robot, resolved, designed, mounting, warnings, jumping, factors)
+
+
+def size_or_advise(
+    specification: Specification, robot: Robot, steps: Steps, *, strict: bool
+) -> Placed:
+    """Size the device, with what is tried in turn where nothing meets the specification.
+
+    Raises:
+        Infeasible: no attempt has a device; with the smallest changes that would do.
+    """
+    tried: list[Tried] = []
+    for asked in attempts(specification, tried):
+        with steps.step(f"size {attempt_text(specification, asked)}") as step:
+            try:
+                placed = size_on_robot(asked, robot, strict=strict)
+            except (Refused, NeverHeld) as error:
+                tried.append((asked, error))
+                step.note = "nothing meets the specification"
+                continue
+            except CannotSurvive as error:
+                step.note = "nothing meets the specification"
+                if tried:
+                    continue
+                error.hint = f"{survivors(specification, robot, step.update)} {error.hint}"
+                raise
+            step.note = placed.combinations
+        if not tried:
+            return placed
+        told, few = substitutions(specification, asked, tried)
+        resolved = placed.resolved
+        resolved = replace(resolved, assumptions=(*told, *resolved.assumptions))
+        return replace(placed, resolved=resolved, warnings=(*few, *placed.warnings))
+    refusal = closest(tried, robot.mass)
+    with steps.step("look for the smallest changes that would do") as step:
+        found = advised(refusal, specification, tried, step.update)
+    raise found
+
+
+TURN_ROUNDS = 3
+"""How often a device is sized anew for turns that it cannot make."""
+
+
+def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
+    """The device, sized anew with more for each turn that takes too much of it, or too long."""
+    for _ in range(TURN_ROUNDS):
+        asked = placed.resolved.requirement.maneuvers
+        estimates = dict(placed.estimates)
+        turns = {each.name: each for each in asked if isinstance(each, TurnTo | StandUp)}
+        for name, reference in references_of(placed, list(turns.values())).items():
+            factor = reference.lacking(turns[name].end)
+            if factor is not None:
+                estimates[name] = factor * estimates.get(name, 1.0)
+        if estimates == placed.estimates:
+            break
+        with steps.step("size the device anew for its turns") as step:
+            try:
+                placed = size_on_robot(
+                    placed.specification, placed.robot, strict=strict, estimates=estimates
+                )
+            except (Refused, NeverHeld):
+                step.note = "nothing makes them in time"
+                break
+    return placed
+
+
+def references_of(placed: Placed, maneuvers: Sequence[Maneuver]) -> Mapping[str, "Reference"]:
+    """Turns that the flights track, by name; none without a motor's figures to plan for."""
+    if placed.designed.choice is None or not maneuvers:
+        return {}
+    # CasADi takes a third of a second to import, and wheels without a motor do without.
+    from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
+
+    requirement, kept = placed.resolved.requirement, placed.designed.kept
+    return plan(
+        placed.robot.mass_properties,
+        placed.designed.device,
+        maneuvers,
+        requirement.standing_height,
+        None if kept is None else kept.demands,
+        one_stops=requirement.detection is not None,
+    )
+
+
+def turns_not_made(placed: Placed, references: Mapping[str, "Reference"]) -> Iterator[str]:
+    """Turns that the device does not make, with the time that they would take."""
+    for maneuver in placed.resolved.requirement.maneuvers:
+        reference = references.get(maneuver.name)
+        if reference is None or reference.trajectory is not None:
+            continue
+        if isinstance(maneuver, TurnTo | StandUp):
+            yield f"{maneuver.name}: {reference.note}"
+
+
+def _kicked(assumption: str, requirement: Requirement) -> str:
+    """An assumption; if it is about a kick, with what the kick is on robot and device."""
+    for kick in requirement.maneuvers:
+        if not isinstance(kick, Disturbance) or not any(kick.impulse):
+            continue
+        if assumption.startswith(f"{kick.name}: "):
+            turned = ", ".join(f"{each * kick.duration:.3g}" for each in kick.torque)
+            moved = np.linalg.norm(kick.velocity_change)
+            told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
+            return f"{assumption.removesuffix('.')}; {told}."
+    return assumption
+
+
+def _begin_jumps(
+    stated: ValidationSection, robot: Robot, resolved: Resolved
+) -> "JumpPlanning | None":
+    """Jumps, which are planned while the device is sized; None where none will be flown."""
+    if stated.enabled is False or control_of(stated, robot).ballistic:
+        return None
+    # CasADi takes a third of a second to import, and what starts at lift-off does without.
+    from ocs_design.jumping.planning import JumpPlanning  # noqa: PLC0415
+
+    return JumpPlanning(robot, resolved.requirement.maneuvers)
