@@ -14,7 +14,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.requirement.maneuver import TurnTo
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import gentlest

@@ -10,7 +10,8 @@ from ocs_design.actuation.motor import DIRECT, Gear, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.placement import Place
 from ocs_design.sizing.selection.problem import SelectionProblem

@@ -3,16 +3,8 @@
 from dataclasses import replace
 from math import pi, radians
 
-from ocs_design.requirement.maneuver import (
-    Balance,
-    Catch,
-    Disturbance,
-    Drop,
-    Flip,
-    Shove,
-    StandUp,
-    TurnTo,
-)
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
+from ocs_design.requirement.pivoted import Balance, StandUp
 from ocs_design.requirement.specification import (
     FlywheelSection,
     MotorSection,
@@ -23,6 +15,7 @@ from ocs_design.requirement.specification import (
     SupplySection,
     ValidationSection,
 )
+from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.uncertainty import UncertaintySection, Uniform, spreads
 from ocs_design.requirement.words import About, Climb, Kick, Pivot, Tilt
 

@@ -116,6 +116,20 @@ def without_each(axes: FloatArray) -> tuple[FloatArray, ...]:
     return tuple(axes * row for row in 1.0 - np.eye(axes.shape[-1]))
 
 
+def reach(axes: FloatArray) -> FloatArray:
+    """Momentum about roll, pitch and yaw, each alone, over a wheel's largest, shape (3,).
+
+    Args:
+        axes: of the wheels as columns, shape (3, n).
+    """
+    return np.asarray(1.0 / held(axes, np.eye(3)).most)
+
+
+def reach_without_one(axes: FloatArray) -> FloatArray:
+    """Reach with any one of the wheels lost; see `reach`."""
+    return np.asarray(np.min([reach(left) for left in without_each(axes)], axis=0))
+
+
 def held_by_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
     """Momentum of each wheel with the least for the busiest, about roll and pitch, (..., n).
 

@@ -18,6 +18,9 @@ LARGEST = 1e15
 CELL_NOMINAL, CELL_FULL = 3.7, 4.2
 """Voltages of one cell of lithium polymer [V], as makers of packs state them."""
 
+STANDARD_GRAVITY = 9.81
+"""[m/s^2], as the paper takes it."""
+
 LONGEST_QUANTITY = 64
 """Characters; more is not a number, and long exponents would cost time."""
 

@@ -6,7 +6,7 @@ from math import sqrt
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.joints import DAMPING, resonances_of
 from ocs_design.device.solids import drive_solids, motor_mount
@@ -20,7 +20,6 @@ from ocs_design.parts.foot import Foot, foot_part, stem_shock
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH_ACROSS, TRUNK_SCREW
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
 

@@ -21,7 +21,7 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Joint

@@ -19,8 +19,9 @@ from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath
 from ocs_design.export.film import Take, film_model, render_takes
 from ocs_design.report.text.console import Steps
-from ocs_design.requirement.maneuver import End, Maneuver, Shove, TurnTo
+from ocs_design.requirement.maneuver import End, Maneuver, Shove
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation.metrics import Metrics, measure
 from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.verdict import landing_attitude

@@ -5,7 +5,8 @@ from math import sqrt
 from typing import NamedTuple
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver, TurnTo
+from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
+from ocs_design.requirement.turns import TurnTo
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.device import Device
 from ocs_design.jumping.flight import FreeRobot, LegFlight, LegReturn
 from ocs_design.jumping.floating_base import POSE, FloatingBase, Load
@@ -14,7 +15,7 @@ from ocs_design.jumping.jump import Jump, JumpPlan, JumpPlans, LegTrajectory, ju
 from ocs_design.jumping.legged_body import LeggedBody, obstacle_to_jumping
 from ocs_design.jumping.push_off import PushOff, PushOffs
 from ocs_design.parts.moments import Carrier
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.selection.device import braked

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.common.arrays import FloatArray, frozen
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.requirement import Requirement
 
 AXES = ("roll", "pitch")
 """The axes that the wheels can turn the trunk about, in the order of all (2,) arrays."""

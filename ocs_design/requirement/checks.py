@@ -13,18 +13,9 @@ from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.choices import highest_rated_voltage, unknown_names
 from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
-from ocs_design.requirement.maneuver import (
-    Balance,
-    Disturbance,
-    Drop,
-    Flip,
-    Maneuver,
-    Pivoted,
-    Requirement,
-    StandUp,
-    TurnTo,
-    Unforeseen,
-)
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
+from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.specification import (
     ALL_LAYOUTS,
     ALUMINIUM_WEB,
@@ -45,6 +36,7 @@ from ocs_design.requirement.specification import (
     OcsSection,
     Specification,
 )
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.robot import Robot
 
 OF_WEBS = (

@@ -1,9 +1,10 @@
 """What the selection may choose from, as a specification states it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
+from types import MappingProxyType
 
 from ocs_design.actuation.controllers import controller_mass_of
 from ocs_design.actuation.motor import DIRECT, Gear, Motor, build_gaps
@@ -12,7 +13,6 @@ from ocs_design.catalogue.gears import known_gears, named_stages, stages
 from ocs_design.catalogue.materials import Material, material, strong_materials
 from ocs_design.catalogue.motors import known_motors, load_motors, motor
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.froude import default_supply
 from ocs_design.requirement.specification import (
     AUTO,
     NO_CONTROLLERS,
@@ -23,6 +23,17 @@ from ocs_design.requirement.specification import (
 )
 from ocs_design.requirement.values import names_in
 from ocs_design.robot.robot import Robot
+
+BUS_VOLTAGES: Mapping[float, float] = MappingProxyType({20.0: 24.0, 60.0: 48.0, inf: 72.0})
+"""[V] by the mass of the heaviest robot that has it [kg].
+
+24 V, six cells of lithium polymer: Solo12, A1, Go2. 48 V: ANYmal; Unitree's B2, 60 kg, has 50.4 V
+(docs.westonrobot.com/robot_user_guide/unitree/b2.html). 72 V, twenty cells, for what is heavier:
+an assumption."""
+
+POWER_PER_MASS = 400.0
+"""Power of the supply over the robot's mass [W/kg]: a pack of 4 kW/kg, as lithium polymer is sold
+for, that takes a tenth of the robot's mass."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +77,18 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
     )
 
 
+def default_bus_voltage(robot: Robot) -> float:
+    """Supply voltage that robots of this mass usually have [V]."""
+    return next(voltage for most, voltage in BUS_VOLTAGES.items() if robot.mass <= most)
+
+
+def default_supply(robot: Robot) -> Supply:
+    """What a robot of this mass can feed its wheels with: `BUS_VOLTAGES`, `POWER_PER_MASS`."""
+    return Supply(default_bus_voltage(robot), power_max=POWER_PER_MASS * robot.mass)
+
+
 def specified_supply(specification: Specification, robot: Robot) -> Supply:
-    """The supply, with the defaults of `froude` where nothing is specified."""
+    """The supply, with the defaults where nothing is specified."""
     stated, default = specification.supply, default_supply(robot)
     return Supply(
         stated.voltage or default.voltage,

@@ -8,30 +8,18 @@ and a torque that turns both alike with I / T^2.
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
-from math import inf, pi, radians, sqrt
+from math import pi, radians, sqrt
 from types import MappingProxyType
 
 import numpy as np
 
-from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
-from ocs_design.common.units import format_quantity
-from ocs_design.requirement.maneuver import (
-    STANDARD_GRAVITY,
-    Actuation,
-    Balance,
-    Catch,
-    Disturbance,
-    Drop,
-    Flip,
-    Maneuver,
-    Pivoted,
-    Shove,
-    StandUp,
-    TurnTo,
-)
+from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.pivoted import Actuation, Balance, Pivoted, StandUp
 from ocs_design.requirement.specification import RequirementSection
+from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.values import Vector3, did_you_mean
 from ocs_design.requirement.words import Kick, Tilt
 from ocs_design.robot.robot import Robot
@@ -77,17 +65,6 @@ LUNAR_GRAVITY = 1.62
 
 WHEEL_SPEED_MAX = 7200.0 * pi / 30.0
 """[rad/s], where no motor is named: Solo12's own, an Antigravity 4004 KV300, at 24 V."""
-
-BUS_VOLTAGES: Mapping[float, float] = MappingProxyType({20.0: 24.0, 60.0: 48.0, inf: 72.0})
-"""[V] by the mass of the heaviest robot that has it [kg].
-
-24 V, six cells of lithium polymer: Solo12, A1, Go2. 48 V: ANYmal; Unitree's B2, 60 kg, has 50.4 V
-(docs.westonrobot.com/robot_user_guide/unitree/b2.html). 72 V, twenty cells, for what is heavier:
-an assumption."""
-
-POWER_PER_MASS = 400.0
-"""Power of the supply over the robot's mass [W/kg]: a pack of 4 kW/kg, as lithium polymer is sold
-for, that takes a tenth of the robot's mass."""
 
 RIM_MASS_SHARE = 0.1
 """Largest mass of one rim over the robot's."""
@@ -180,16 +157,6 @@ def standing_height(robot: Robot) -> float:
     if robot.standing_height is not None:
         return robot.standing_height
     return SOLO12.standing_height * Scale.of(robot).length
-
-
-def default_bus_voltage(robot: Robot) -> float:
-    """Supply voltage that robots of this mass usually have [V]."""
-    return next(voltage for most, voltage in BUS_VOLTAGES.items() if robot.mass <= most)
-
-
-def default_supply(robot: Robot) -> Supply:
-    """What a robot of this mass can feed its wheels with: `BUS_VOLTAGES`, `POWER_PER_MASS`."""
-    return Supply(default_bus_voltage(robot), power_max=POWER_PER_MASS * robot.mass)
 
 
 def default_maneuvers(

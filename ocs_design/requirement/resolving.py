@@ -10,12 +10,11 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
-from ocs_design.common.units import format_quantity, rpm, to_unit
+from ocs_design.common.units import STANDARD_GRAVITY, format_quantity, rpm, to_unit
 from ocs_design.requirement.checks import contradictions, unfit_for_robot
-from ocs_design.requirement.choices import MotorChoice, motor_choice
+from ocs_design.requirement.choices import POWER_PER_MASS, MotorChoice, default_supply, motor_choice
 from ocs_design.requirement.froude import (
     LIMIT_OF_KEY,
-    POWER_PER_MASS,
     RIM_MASS_SHARE,
     SOLO12,
     WHEEL_SPEED_MAX,
@@ -24,11 +23,11 @@ from ocs_design.requirement.froude import (
     Worded,
     default_envelope,
     default_maneuvers,
-    default_supply,
     standing_height,
     worded_maneuvers,
 )
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Pivoted, Requirement
+from ocs_design.requirement.pivoted import Pivoted
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.specification import (
     ALUMINIUM_WEB,
     AUTO,

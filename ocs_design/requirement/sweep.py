@@ -8,75 +8,13 @@ from types import MappingProxyType
 from typing import Any
 
 from ocs_design.common.errors import UsageError
-from ocs_design.common.units import Dimension, round_outwards, si_unit
-from ocs_design.requirement.froude import default_bus_voltage
-from ocs_design.requirement.maneuver import (
-    Disturbance,
-    Drop,
-    Flip,
-    Maneuver,
-    Pivoted,
-    Shove,
-    TurnTo,
-    kind_of,
-)
+from ocs_design.common.units import Dimension
+from ocs_design.requirement.choices import default_bus_voltage
+from ocs_design.requirement.kinds import slower
+from ocs_design.requirement.maneuver import Drop, Flip, Maneuver
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.values import Quantities, Quantity
 from ocs_design.robot.robot import Robot
-
-_LONGER_THAN_ITS_TURN = 1.02
-"""Flight over turn, where a longer turn needs a longer flight."""
-
-
-def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuver:
-    """Maneuver with `factor` times the time for its turn: a higher fall or jump, a longer turn.
-
-    Args:
-        maneuver: as it is. factor: positive; below 1: less time.
-        standing_height: of the trunk over the ground [m].
-    """
-    match maneuver:
-        case Drop():
-            fall = (maneuver.height - standing_height) * factor**2
-            return replace(maneuver, height=standing_height + fall)
-        case Flip() | TurnTo():
-            duration = maneuver.duration * factor
-            higher = max(_LONGER_THAN_ITS_TURN * duration / maneuver.flight_time, 1.0) ** 2
-            return replace(maneuver, duration=duration, jump_height=maneuver.jump_height * higher)
-        case Disturbance():
-            longer = maneuver.flight_time + (factor - 1.0) * maneuver.time_left
-            forward, _ = maneuver.takeoff_velocity
-            # The lift-off speed of `flight_time`, solved for.
-            left = longer - maneuver.onset - 0.5 * maneuver.duration
-            gained = maneuver.velocity_change[2] * left / longer
-            upward = longer * maneuver.gravity / 2.0 - gained
-            return replace(maneuver, takeoff_velocity=(forward, upward))
-        case Shove():
-            return replace(maneuver, settling=maneuver.settling * factor)
-        case Pivoted():
-            return replace(maneuver, duration=maneuver.duration * factor)
-        case _:
-            return maneuver
-
-
-def change_text(before: Maneuver, after: Maneuver) -> str:
-    """The keys of `after` that are other than those of `before`, rounded up, as in `height 2 m`."""
-    changes = []
-    for name, how in kind_of(after)[1].items():
-        old, new = getattr(before, name), getattr(after, name)
-        match how:
-            case Quantity(dimension=dimension) if old != new:
-                changes.append(f"{name} {_up(new)} {si_unit(dimension)}")
-            case Quantities(dimension=dimension) if old != new:
-                kept = zip(old, new, strict=True)
-                figures = [f"{a:.6g}" if a == b else _up(b) for a, b in kept]
-                changes.append(f"{name} [{', '.join(figures)}] {si_unit(dimension)}")
-    return f"{after.name} {' and '.join(changes)}"
-
-
-def _up(value: float) -> str:
-    return f"{round_outwards(value, upwards=True):.6g}"
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,8 +20,7 @@ from typing import Any
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.errors import QuantityError, SpecificationError
 from ocs_design.common.files import TextKind
-from ocs_design.common.units import Dimension, format_quantity, parse_quantity
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY
+from ocs_design.common.units import STANDARD_GRAVITY, Dimension, format_quantity, parse_quantity
 from ocs_design.requirement.values import Faults, Quantity, Text, Value, keyed, keys_of
 
 CUT = 3.0

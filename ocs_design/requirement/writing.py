@@ -21,7 +21,8 @@ from ocs_design.common.units import (
     parse_quantity,
     si_unit,
 )
-from ocs_design.requirement.maneuver import Maneuver, kind_of
+from ocs_design.requirement.kinds import kind_of
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys
 from ocs_design.requirement.uncertainty import Distribution, Spread
 from ocs_design.requirement.values import (

@@ -8,15 +8,9 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.export.physics import set_trunk
-from ocs_design.requirement.maneuver import (
-    Disturbance,
-    Drop,
-    Flip,
-    Maneuver,
-    Pivoted,
-    Shove,
-    TurnTo,
-)
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.pivoted import Pivoted
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.rotations import rotation_about
 from ocs_design.simulation import quaternions

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field, replace
 from ocs_design.device.device import Device
 from ocs_design.device.records import StoppedRecord, SurvivalRecord
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
-from ocs_design.requirement.maneuver import Maneuver, Pivoted
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.batch import Recording

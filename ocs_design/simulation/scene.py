@@ -18,7 +18,7 @@ from ocs_design.export.physics import (
     meet_no_link,
 )
 from ocs_design.parts.moments import Carrier
-from ocs_design.requirement.maneuver import Pivoted
+from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.mujoco_model import build_spec, trunk_body

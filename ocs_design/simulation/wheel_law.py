@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ocs_design.actuation.drive import RESERVE, Drive, power_less_friction
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.requirement.froude import Scale
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation import quaternions
 from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat

@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.device import Device
 from ocs_design.device.naming import flywheel_names, joint_names
 from ocs_design.export.physics import (
@@ -22,7 +23,8 @@ from ocs_design.export.physics import (
 )
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan, LegTrajectory
 from ocs_design.requirement.froude import Scale
-from ocs_design.requirement.maneuver import STANDARD_GRAVITY, Maneuver, Pivoted, Unforeseen
+from ocs_design.requirement.maneuver import Maneuver, Unforeseen
+from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Body, JointKind

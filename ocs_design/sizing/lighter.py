@@ -14,9 +14,11 @@ from typing import Any
 from ocs_design.common.errors import Infeasible, OcsError
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.records import Alternative
-from ocs_design.requirement.maneuver import Disturbance, Drop, Maneuver, Shove, StandUp
+from ocs_design.requirement.kinds import change_text, slower
+from ocs_design.requirement.maneuver import Disturbance, Drop, Maneuver, Shove
+from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.specification import AUTO, LIGHTEST, Specification
-from ocs_design.requirement.sweep import Task, change_text, slower
+from ocs_design.requirement.sweep import Task
 from ocs_design.sizing.changes import Progress, unseen
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.on_robot import with_plate

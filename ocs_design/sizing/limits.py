@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from ocs_design.common.units import round_outwards
 from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.requirement import Requirement
 
 Owner = TypeVar("Owner", Envelope, Requirement)
 

@@ -4,8 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from ocs_design.catalogue.materials import strong_materials
-from ocs_design.requirement.choices import any_motors
-from ocs_design.requirement.froude import BUS_VOLTAGES
+from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors
 from ocs_design.requirement.specification import AUTO, LIGHTEST, STEEL, Specification
 from ocs_design.sizing.limits import BUS_VOLTAGE
 from ocs_design.sizing.selection.problem import SelectionProblem, with_limit

@@ -21,17 +21,10 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Layout
 from ocs_design.device.records import KeptRecord, ReserveRecord, UncertaintyCost
 from ocs_design.requirement.bound import turned_roll
-from ocs_design.requirement.maneuver import (
-    Disturbance,
-    Drop,
-    Flip,
-    Maneuver,
-    ManeuverReserve,
-    Requirement,
-    TurnTo,
-    Unforeseen,
-)
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
+from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.specification import RELIABILITY
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.selection.demand import held_in_roll, wheel_task

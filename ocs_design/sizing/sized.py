@@ -15,7 +15,7 @@ from ocs_design.device.records import ReserveRecord, SizingRecord, recorded
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.bound.device_sizing import DeviceSizing

@@ -4,10 +4,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from ocs_design.actuation.wheel_load import held, without_each
-from ocs_design.common.arrays import FloatArray, vector
+from ocs_design.actuation.wheel_load import reach, reach_without_one
+from ocs_design.common.arrays import vector
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.files import AnyPath
 from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
@@ -83,17 +81,3 @@ def _answer(layout: str, task: Task, designed: Designed) -> LayoutAnswer:
         if designed.choice is None
         else survived(designed.choice.problem, designed.choice.chosen, DETECTION),
     )
-
-
-def reach(axes: FloatArray) -> FloatArray:
-    """Momentum about roll, pitch and yaw, each alone, over a wheel's largest, shape (3,).
-
-    Args:
-        axes: of the wheels as columns, shape (3, n).
-    """
-    return np.asarray(1.0 / held(axes, np.eye(3)).most)
-
-
-def reach_without_one(axes: FloatArray) -> FloatArray:
-    """Reach with any one of the wheels lost; see `reach`."""
-    return np.asarray(np.min([reach(left) for left in without_each(axes)], axis=0))

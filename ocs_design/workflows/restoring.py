@@ -15,7 +15,8 @@ from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
 from ocs_design.device.records import ManeuverRecord, OcsRecord, RobotRecord
 from ocs_design.export.formats import Seat
-from ocs_design.requirement.maneuver import MANEUVER_KINDS, Maneuver
+from ocs_design.requirement.kinds import MANEUVER_KINDS
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.values import Choice, Quantities
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.manual import robot_by_hand

@@ -32,13 +32,20 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.alternatives import alternatives, owed_to
 from ocs_design.sizing.bound.rim_program import load_solver
+from ocs_design.sizing.design import mass_without_survival
 from ocs_design.sizing.lighter import lighter_by
-from ocs_design.sizing.survival import mass_without_survival
 from ocs_design.workflows.flying import control_of, flown_hash
 from ocs_design.workflows.inspect import posture_lines
-from ocs_design.workflows.placed import Placed, size_for_turns, size_or_advise, turns_not_made
-from ocs_design.workflows.proof import Proof, certify, prove
 from ocs_design.workflows.recording import record_design, write_runs
+from ocs_design.workflows.rounds import (
+    Placed,
+    Proof,
+    certify,
+    prove,
+    size_for_turns,
+    size_or_advise,
+    turns_not_made,
+)
 
 
 @dataclass(frozen=True, eq=False)

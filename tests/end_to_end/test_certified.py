@@ -8,7 +8,7 @@ import pytest
 from commands import BOUND, BY_HAND, run
 from robots import SOLO12
 
-import ocs_design.workflows.proof
+import ocs_design.workflows.rounds
 from ocs_design.monte_carlo.certificate import ROUND, Lesson, certificate
 
 DROP = """[[maneuver]]
@@ -46,11 +46,13 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
 )
 def test_what_falls_short_is_sized_anew_and_sees_other_samples(folder, monkeypatch, factor, rounds):
     """At most twice more, and not at all where no reserve helps."""
-    proof = ocs_design.workflows.proof
+    rounds_of = ocs_design.workflows.rounds
     monkeypatch.setattr(
-        proof, "certificate", lambda *a, **k: replace(certificate(*a, **k), verdict="falls short")
+        rounds_of,
+        "certificate",
+        lambda *a, **k: replace(certificate(*a, **k), verdict="falls short"),
     )
-    monkeypatch.setattr(proof, "lesson", lambda *_: Lesson(factor, "off level in roll"))
+    monkeypatch.setattr(rounds_of, "lesson", lambda *_: Lesson(factor, "off level in roll"))
     motor = ("--motor", "AT2814 KV1200")
     result = certified(DROP, SOLO12, "--ballistic", *motor, "--reliability", "0.5")
     assert result.code == 1

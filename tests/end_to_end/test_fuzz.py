@@ -9,7 +9,7 @@ from commands import everything_in, run
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from ocs_design.requirement.maneuver import MANEUVER_KINDS
+from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.specification import all_keys
 
 FUZZ = settings(

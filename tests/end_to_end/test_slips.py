@@ -47,7 +47,7 @@ def bench(tmp_path, monkeypatch):
         raise AssertionError("a slip is recognised before anything is computed")
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("ocs_design.workflows.placed.design_device", computed)
+    monkeypatch.setattr("ocs_design.workflows.rounds.design_device", computed)
     for name, content in FILES.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(content)

@@ -14,7 +14,8 @@ from ocs_design.requirement.bound import (
     spin_demands,
     spin_inertia_for,
 )
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.requirement import Requirement
 
 INERTIA, RATE_CHANGE, WHEEL_SPEED = 0.0515, 2.0, 750.0
 TOTAL = np.diag([0.03, 0.0535, 0.068])

@@ -9,7 +9,7 @@ import pytest
 from specifications import FULL
 
 from ocs_design.requirement.froude import example_pivots, example_shove, example_turns
-from ocs_design.requirement.maneuver import MANEUVER_KINDS
+from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import default_specification
 from ocs_design.requirement.specification import (

@@ -1,6 +1,6 @@
 """Every key that there is has its note, and no other."""
 
-from ocs_design.requirement.maneuver import MANEUVER_KINDS
+from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.specification import all_keys
 from ocs_design.requirement.writing import FIELD_NOTES, KEY_NOTES, MANEUVER_NOTES, field_note
 

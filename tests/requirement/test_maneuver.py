@@ -7,7 +7,8 @@ from scipy.spatial.transform import Rotation
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import per_wheel
-from ocs_design.requirement.maneuver import Catch, Disturbance, Drop, Flip, TurnTo, loop_length
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.turns import Catch, TurnTo, loop_length
 
 INERTIA = TiltInertia.uncoupled([0.03, 0.0515])
 

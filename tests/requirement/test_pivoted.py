@@ -11,8 +11,9 @@ from scipy.integrate import solve_ivp
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import spin_demands
-from ocs_design.requirement.maneuver import Balance, Requirement, StandUp, swing
+from ocs_design.requirement.pivoted import Balance, StandUp, swing
 from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import resolve
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mass import MassProperties

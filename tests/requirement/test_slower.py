@@ -5,8 +5,9 @@ import pytest
 from specifications import MANEUVERS
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.requirement.maneuver import Flip, Pivoted
-from ocs_design.requirement.sweep import change_text, slower
+from ocs_design.requirement.kinds import change_text, slower
+from ocs_design.requirement.maneuver import Flip
+from ocs_design.requirement.pivoted import Pivoted
 
 HEIGHT = 0.25
 INERTIA = TiltInertia(np.array([0.03, 0.05]), np.array(0.004))

@@ -5,7 +5,8 @@ from dataclasses import MISSING, fields
 import pytest
 
 from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
-from ocs_design.requirement.maneuver import MANEUVER_KINDS, Flip
+from ocs_design.requirement.kinds import MANEUVER_KINDS
+from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.specification import (
     SECTIONS,
     FlywheelSection,

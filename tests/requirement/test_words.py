@@ -14,6 +14,7 @@ from wheels import braked_inertia, paper_device
 
 from ocs_design.common.errors import OcsError, SpecificationError, UsageError
 from ocs_design.requirement.froude import default_maneuvers, worded_maneuvers
+from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import resolve
@@ -23,7 +24,7 @@ from ocs_design.requirement.specification import (
     merge,
     specification_from_options,
 )
-from ocs_design.requirement.sweep import SWEEPS, Task, slower
+from ocs_design.requirement.sweep import SWEEPS, Task
 from ocs_design.requirement.words import (
     FLIP,
     GRAVITY,

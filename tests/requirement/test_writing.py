@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from specifications import FULL, same
 
-from ocs_design.requirement.maneuver import MANEUVER_KINDS
+from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.reading import parse_specification, read_specification
 from ocs_design.requirement.specification import (
     SECTIONS,

@@ -7,7 +7,7 @@ import pytest
 from wheels import driven_device, layout_device
 
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.requirement.maneuver import Balance, StandUp
+from ocs_design.requirement.pivoted import Balance, StandUp
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import run_scenarios

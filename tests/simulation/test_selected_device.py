@@ -9,7 +9,7 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motor
 from ocs_design.requirement.froude import default_envelope, standing_height
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder

@@ -8,7 +8,7 @@ import pytest
 from wheels import driven_device
 
 from ocs_design.requirement.froude import standing_height
-from ocs_design.requirement.maneuver import Catch, TurnTo
+from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels, locked_inertia
 from ocs_design.simulation.verdict import landing_attitude

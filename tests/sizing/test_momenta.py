@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.bound.device_problem import design_momenta
 
 STANDING = 0.3

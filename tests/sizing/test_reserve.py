@@ -15,8 +15,9 @@ from ocs_design.monte_carlo.summary import attitude_error
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.froude import standing_height
-from ocs_design.requirement.maneuver import Flip, ManeuverReserve, Requirement
+from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.requirement.specification import merge
 from ocs_design.requirement.uncertainty import Constant

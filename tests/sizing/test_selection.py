@@ -17,7 +17,8 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, wheel_slew_time
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import module_axes
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Requirement
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import FlywheelSection, MotorSection, Specification
 from ocs_design.robot.reader import read_robot

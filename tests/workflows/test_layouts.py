@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from robots import SOLO12
 
+from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout, LayoutName
 from ocs_design.device.records import read_design
@@ -19,7 +20,7 @@ from ocs_design.requirement.specification import (
 from ocs_design.sizing.design import CannotSurvive, design_device
 from ocs_design.sizing.selection.problem import selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
-from ocs_design.workflows.layouts import compare_layouts, reach, reach_without_one
+from ocs_design.workflows.layouts import compare_layouts
 from ocs_design.workflows.pareto import read_task
 from ocs_design.workflows.size import design_ocs
 

@@ -5,7 +5,7 @@ from math import pi
 import pytest
 from robots import SOLO12
 
-from ocs_design.requirement import maneuver
+from ocs_design.requirement import turns
 from ocs_design.requirement.specification import (
     FlywheelSection,
     MotorSection,
@@ -15,7 +15,8 @@ from ocs_design.requirement.specification import (
     ValidationSection,
 )
 from ocs_design.requirement.words import About
-from ocs_design.workflows import placed, size
+from ocs_design.workflows import rounds as rounds_of
+from ocs_design.workflows import size
 
 QUARTER = Specification(
     robot=RobotSection(file=str(SOLO12)),
@@ -29,11 +30,11 @@ QUARTER = Specification(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rounds", [placed.TURN_ROUNDS, 0])
+@pytest.mark.parametrize("rounds", [rounds_of.TURN_ROUNDS, 0])
 def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(rounds, tmp_path, monkeypatch):
-    full = maneuver.loop_length
-    monkeypatch.setattr(maneuver, "loop_length", lambda heading: 0.6 * full(heading))
-    monkeypatch.setattr(placed, "TURN_ROUNDS", rounds)
+    full = turns.loop_length
+    monkeypatch.setattr(turns, "loop_length", lambda heading: 0.6 * full(heading))
+    monkeypatch.setattr(rounds_of, "TURN_ROUNDS", rounds)
     # What else could be built is not asked, nor any part.
     monkeypatch.setattr(size, "alternatives", lambda *_: ())
     monkeypatch.setattr(size, "USUAL_FORMATS", ())

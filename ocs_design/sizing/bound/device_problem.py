@@ -21,7 +21,7 @@ from ocs_design.device.layout import Criterion, incidence_by_criterion, module_a
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.bound import SpinDemand, spin_demands
 from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.bound.rim_problem import (
     RimProblem,

@@ -7,7 +7,7 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Criterion
 from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.maneuver import Requirement
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import (
     DeadEnd,

@@ -10,8 +10,9 @@ from ocs_design.actuation.motor import DIRECT, Motor
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import round_outwards
 from ocs_design.requirement.bound import per_wheel, spin_demands
-from ocs_design.requirement.maneuver import Balance, Maneuver
-from ocs_design.requirement.sweep import change_text
+from ocs_design.requirement.kinds import change_text
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.pivoted import Balance
 from ocs_design.robot.links import listed
 from ocs_design.sizing.changes import Progress, advice, smallest_changes, unseen
 from ocs_design.sizing.limits import TIME, Limit

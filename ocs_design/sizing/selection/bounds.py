@@ -36,7 +36,8 @@ from ocs_design.parts.housing import PlainDrum, half_height
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.rim import LIGHTENED, hub_of
-from ocs_design.requirement.maneuver import Maneuver, Requirement
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import (
     BORE_SHARE,

@@ -12,7 +12,8 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, held, spin_demand, without_each
 from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.bound import rate_momenta, turned_roll
-from ocs_design.requirement.maneuver import Maneuver, Requirement
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.selection.candidates import Drives
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 

@@ -20,7 +20,8 @@ from ocs_design.requirement.bound import (
     AXES,
 )
 from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.maneuver import Maneuver, Requirement
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.bound.rim_problem import RimLimits
 from ocs_design.sizing.lightest_module import ModuleShape

@@ -29,7 +29,8 @@ from ocs_design.parts.rim import (
 )
 from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.maneuver import Requirement, TurnTo
+from ocs_design.requirement.kinds import slower
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import (
     ALL_LAYOUTS,
@@ -47,7 +48,7 @@ from ocs_design.requirement.specification import (
     FlywheelSection,
     Specification,
 )
-from ocs_design.requirement.sweep import slower
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.bound.rim_problem import check_limits

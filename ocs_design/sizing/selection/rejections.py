@@ -19,7 +19,8 @@ from ocs_design.actuation.wheel_load import (
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
-from ocs_design.requirement.maneuver import Balance, Pivoted, TurnTo
+from ocs_design.requirement.pivoted import Balance, Pivoted
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
 )

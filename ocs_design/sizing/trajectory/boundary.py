@@ -10,15 +10,9 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.maneuver import (
-    Drop,
-    End,
-    Flip,
-    Maneuver,
-    Pivoted,
-    TurnTo,
-    Unforeseen,
-)
+from ocs_design.requirement.maneuver import Drop, End, Flip, Maneuver, Unforeseen
+from ocs_design.requirement.pivoted import Pivoted
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 LEVEL = np.array([1.0, 0.0, 0.0, 0.0])

@@ -21,7 +21,7 @@ from ocs_design.device.records import TaskDemand
 from ocs_design.parts.module import Printed, standing
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES
-from ocs_design.requirement.maneuver import Pivoted
+from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import lightest_module_at
 from ocs_design.sizing.placement import motor_size

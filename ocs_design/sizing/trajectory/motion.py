@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import loop_length
+from ocs_design.requirement.turns import loop_length
 from ocs_design.sizing.trajectory.boundary import (
     Boundary,
     about,

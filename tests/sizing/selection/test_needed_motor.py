@@ -9,7 +9,7 @@ from selections import random_problem
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.requirement.bound import spin_demands
-from ocs_design.requirement.maneuver import Balance
+from ocs_design.requirement.pivoted import Balance
 from ocs_design.sizing.selection.advice import NeededMotor, Refused, needed_motor
 from ocs_design.sizing.selection.select import select
 

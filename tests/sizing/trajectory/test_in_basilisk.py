@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, asked, body, drop
 
-from ocs_design.requirement.maneuver import Catch, TurnTo
+from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.sizing.trajectory.collocation import TORQUE_DEGREE
 from ocs_design.sizing.trajectory.flight import FINER
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat

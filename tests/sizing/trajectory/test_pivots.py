@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from ocs_design.actuation.drive import PLANNED, DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia
-from ocs_design.requirement.maneuver import Balance, StandUp
+from ocs_design.requirement.pivoted import Balance, StandUp
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import reference

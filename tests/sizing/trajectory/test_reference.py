@@ -5,7 +5,7 @@ import pytest
 from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, PUSH, STANDING, body, drop
 
 from ocs_design.device.layout import ISOTROPIC, Layout, LayoutName
-from ocs_design.requirement.maneuver import TurnTo
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import PLANNED, reference

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from designed import designed
 
-from ocs_design.requirement.maneuver import StandUp
+from ocs_design.requirement.pivoted import StandUp
+from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.metrics import Metrics, Series
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.plans import Reference
-from ocs_design.workflows.recording import record_margins
 
 TIME = np.linspace(0.0, 0.4, 41)
 LANDED = 0.3

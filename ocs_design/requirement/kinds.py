@@ -1,0 +1,116 @@
+"""Kinds of maneuvers: their words and keys in a specification, and more time for any of them."""
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields, replace
+from functools import cached_property
+from types import MappingProxyType
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+from ocs_design.common.units import round_outwards, si_unit
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
+from ocs_design.requirement.turns import Catch, TurnTo
+from ocs_design.requirement.values import Quantities, Quantity, Value
+
+
+@dataclass(frozen=True)
+class ManeuverKind:
+    """A kind of maneuver as the file sees it.
+
+    Attributes:
+        maneuver: the class; a field whose annotation has a `Value` is a key of the file.
+    """
+
+    maneuver: type[Maneuver]
+
+    @cached_property
+    def values(self) -> Mapping[str, Value[Any]]:
+        """How each key is read, by its name."""
+        hints = get_type_hints(self.maneuver, include_extras=True)
+        read = {item.name: hints[item.name] for item in fields(self.maneuver)}
+        return {
+            name: get_args(hint)[1] for name, hint in read.items() if get_origin(hint) is Annotated
+        }
+
+    @property
+    def required(self) -> tuple[str, ...]:
+        """Fields that have no default."""
+        return tuple(item.name for item in fields(self.maneuver) if item.default is MISSING)
+
+
+MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
+    {
+        "disturbance": ManeuverKind(Disturbance),
+        "shove": ManeuverKind(Shove),
+        "drop": ManeuverKind(Drop),
+        "flip": ManeuverKind(Flip),
+        "turn": ManeuverKind(TurnTo),
+        "catch": ManeuverKind(Catch),
+        "balance": ManeuverKind(Balance),
+        "stand-up": ManeuverKind(StandUp),
+    }
+)
+"""Every kind by the word that `kind` takes."""
+
+
+def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
+    """The word that `kind` takes for a maneuver, and how its fields are read."""
+    return next(
+        (word, kind.values)
+        for word, kind in MANEUVER_KINDS.items()
+        if kind.maneuver is type(maneuver)
+    )
+
+
+_LONGER_THAN_ITS_TURN = 1.02
+"""Flight over turn, where a longer turn needs a longer flight."""
+
+
+def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuver:
+    """Maneuver with `factor` times the time for its turn: a higher fall or jump, a longer turn.
+
+    Args:
+        maneuver: as it is. factor: positive; below 1: less time.
+        standing_height: of the trunk over the ground [m].
+    """
+    match maneuver:
+        case Drop():
+            fall = (maneuver.height - standing_height) * factor**2
+            return replace(maneuver, height=standing_height + fall)
+        case Flip() | TurnTo():
+            duration = maneuver.duration * factor
+            higher = max(_LONGER_THAN_ITS_TURN * duration / maneuver.flight_time, 1.0) ** 2
+            return replace(maneuver, duration=duration, jump_height=maneuver.jump_height * higher)
+        case Disturbance():
+            longer = maneuver.flight_time + (factor - 1.0) * maneuver.time_left
+            forward, _ = maneuver.takeoff_velocity
+            # The lift-off speed of `flight_time`, solved for.
+            left = longer - maneuver.onset - 0.5 * maneuver.duration
+            gained = maneuver.velocity_change[2] * left / longer
+            upward = longer * maneuver.gravity / 2.0 - gained
+            return replace(maneuver, takeoff_velocity=(forward, upward))
+        case Shove():
+            return replace(maneuver, settling=maneuver.settling * factor)
+        case Pivoted():
+            return replace(maneuver, duration=maneuver.duration * factor)
+        case _:
+            return maneuver
+
+
+def change_text(before: Maneuver, after: Maneuver) -> str:
+    """The keys of `after` that are other than those of `before`, rounded up, as in `height 2 m`."""
+    changes = []
+    for name, how in kind_of(after)[1].items():
+        old, new = getattr(before, name), getattr(after, name)
+        match how:
+            case Quantity(dimension=dimension) if old != new:
+                changes.append(f"{name} {_up(new)} {si_unit(dimension)}")
+            case Quantities(dimension=dimension) if old != new:
+                kept = zip(old, new, strict=True)
+                figures = [f"{a:.6g}" if a == b else _up(b) for a, b in kept]
+                changes.append(f"{name} [{', '.join(figures)}] {si_unit(dimension)}")
+    return f"{after.name} {' and '.join(changes)}"
+
+
+def _up(value: float) -> str:
+    return f"{round_outwards(value, upwards=True):.6g}"

@@ -1,0 +1,408 @@
+"""Maneuvers about a pivot: to balance on a point or an edge, and to stand up on it."""
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from math import cos, exp, hypot, log, sqrt
+from typing import Annotated, ClassVar, NamedTuple, Self
+
+import numpy as np
+
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.units import Dimension, format_quantity, rpm
+from ocs_design.requirement.maneuver import (
+    End,
+    Impulse,
+    Maneuver,
+    Point,
+    Rate,
+    Slew,
+    Spin,
+    Tilt,
+    Time,
+    row_text,
+)
+from ocs_design.requirement.values import Choice, Quantities, Vector3
+from ocs_design.robot.mass import MassProperties
+
+
+class Actuation(StrEnum):
+    """What gives a wheel's momentum to a robot that stands up.
+
+    Attributes:
+        MOTOR: the motor, from the start.
+        BRAKE: a brake that stops, in an instant, wheels which the motor has spun up slowly before;
+            the motor holds the robot at the top.
+    """
+
+    MOTOR = "motor"
+    BRAKE = "brake"
+
+
+SPIN_UP = 60.0
+"""Time in which wheels get to the speed that a brake stops them from [s]."""
+
+
+_INSTANT = 0.02
+"""Share of the momentum of a climb that gravity takes at the most while a brake stops its wheels in
+what counts as an instant."""
+
+
+class Swing(NamedTuple):
+    """Least torque that takes a pendulum from a tilt and a rate to rest at the top in a time.
+
+    Attributes:
+        torque: on the way there, and then the other way round [N m].
+        switch: when it changes its sign [s].
+    """
+
+    torque: float
+    switch: float
+
+
+def swing(stiffness: float, inertia: float, tilt: float, rate: float, time: float) -> Swing:
+    """Swing of an inverted pendulum `I theta'' = K theta - tau`, full torque either way.
+
+    With `w = sqrt(K / I)` the diverging part of the motion is `x = theta + theta' / w`, the
+    converging one `y = theta - theta' / w`. With E = exp(w T) and a = exp(w T_1), a torque tau up
+    to T_1 and -tau from there to T ends both where
+
+        K x = tau (1 - 2 / a + 1 / E),        K y = tau (1 - 2 a + E)
+
+    so that `2 x a^2 + (y (1 + 1/E) - x (1 + E)) a - 2 y = 0` (docs/theory.md, About a pivot).
+
+    Args:
+        stiffness: K, weight times lever [N m]. inertia: I about the pivot [kg m^2].
+        tilt: theta at the start [rad]. rate: theta' then [rad/s]. time: T [s].
+    """
+    quickness = sqrt(stiffness / inertia)
+    x, y = tilt + rate / quickness, tilt - rate / quickness
+    if x < 0.0:
+        x, y = -x, -y
+    if x == 0.0:
+        return Swing(0.0, 0.0)
+    end = exp(quickness * time)
+    middle = y * (1.0 + 1.0 / end) - x * (1.0 + end)
+    turned = (sqrt(max(middle**2 + 16.0 * x * y, 0.0)) - middle) / (4.0 * x)
+    turned = min(max(turned, 1.0), end)
+    asked = hypot(1.0 - 2.0 / turned + 1.0 / end, 1.0 - 2.0 * turned + end)
+    return Swing(stiffness * hypot(x, y) / asked, log(turned) / quickness)
+
+
+def _millimetres(point: Vector3) -> str:
+    x, y, z = point
+    return row_text((1e3 * x, 1e3 * y, 1e3 * z))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Pivoted(Maneuver):
+    """A robot that stands on a point or on an edge and is to be upright and at rest again.
+
+    Upright is where the centre of mass is above the pivot. All joints of the robot are held.
+
+    Attributes:
+        pivot: in B [m], shape (3,).
+        edge: direction of the edge that it turns about, level in B, of any length; zeros: a point.
+        roll, pitch: tilt at the start from upright, one rotation about the axis (roll, pitch, 0) of
+            a B that stands upright [rad].
+        duration: until it is upright and at rest [s].
+        wheel_speed: of all wheels at the start [rad/s].
+        end: see `End`; at rest but not upright is nowhere that a robot can stay.
+        estimate: factor on what closed forms ask for; above 1 where a plan was found to need more.
+        slower: factor on the longest time of the estimate; more of it takes less torque and more
+            momentum (`Pivoted.calmer`).
+        body: that stands, in B; None: not known yet (`on`).
+    """
+
+    pivot: Point
+    edge: Annotated[Vector3, Quantities(Dimension.RATIO, (3,))] = (0.0, 0.0, 0.0)
+    roll: Tilt = 0.0
+    pitch: Tilt = 0.0
+    duration: Time
+    wheel_speed: Spin = 0.0
+    end: Annotated[str, Choice((End.LEVEL, End.ATTITUDE))] = End.LEVEL
+    estimate: float = 1.0
+    slower: float = 1.0
+    body: MassProperties | None = None
+
+    def calmer(self) -> Self:
+        """The same by nearly the least torque, for motors that have no more."""
+        return replace(self, slower=4.0 / self._longest)
+
+    def on(self, body: MassProperties) -> Self:
+        """The same of a body that stands.
+
+        Raises:
+            SpecificationError: its centre of mass is not above the pivot.
+        """
+        own = replace(self, body=body)
+        if any(self.edge) and not any(self.edge[:2]):
+            raise SpecificationError(
+                f"maneuver {self.name!r}: its edge is vertical, and nothing stands up about it",
+                hint="Write an edge in the level plane, as 'along left' or 'along forward'.",
+            )
+        height = float(own.lever[2])
+        if height <= 0.0:
+            raise SpecificationError(
+                f"maneuver {self.name!r}: the pivot is {format_quantity(-height, 'mm')} above the "
+                f"centre of mass, where the robot hangs and does not stand",
+                hint=f"The centre of mass is at z = {format_quantity(body.com[2], 'mm')} in the "
+                f"trunk's frame: put the pivot below it.",
+            )
+        return own
+
+    @property
+    def lever(self) -> FloatArray:
+        """Centre of mass from the pivot in B, across the edge [m], shape (3,)."""
+        assert self.body is not None, "no body stands yet"
+        lever, axis = self.body.com - np.array(self.pivot), self.axis
+        return np.asarray(lever if axis is None else lever - axis * (axis @ lever))
+
+    @property
+    def axis(self) -> FloatArray | None:
+        """Unit vector along the edge in B, shape (3,); None: it stands on a point."""
+        length = float(np.linalg.norm(self.edge))
+        return np.array(self.edge) / length if length > 0.0 else None
+
+    @property
+    def inertia(self) -> FloatArray:
+        """Inertia about the pivot in B, wheels braked [kg m^2], shape (3, 3): parallel axes."""
+        assert self.body is not None, "no body stands yet"
+        lever = self.body.com - np.array(self.pivot)
+        return np.asarray(
+            self.body.inertia
+            + self.body.mass * (lever @ lever * np.eye(3) - np.outer(lever, lever))
+        )
+
+    def turned(self, inertia: TiltInertia) -> TiltInertia:
+        """Inertia about the pivot, of that about the centre of mass: parallel axes."""
+        assert self.body is not None, "no body stands yet"
+        x, y, z = self.body.com - np.array(self.pivot)
+        further = self.body.mass * np.array([y * y + z * z, x * x + z * z])
+        return TiltInertia(inertia.diagonal + further, inertia.product - self.body.mass * x * y)
+
+    @property
+    def pull(self) -> FloatArray:
+        """Weight times lever, m g l in B [N m], shape (3,)."""
+        assert self.body is not None, "no body stands yet"
+        return np.asarray(self.body.mass * self.gravity * self.lever)
+
+    @property
+    def struck(self) -> FloatArray:
+        """Rate that a disturbance leaves, in B [rad/s], shape (3,)."""
+        return np.zeros(3)
+
+    @property
+    def begun(self) -> FloatArray:
+        """Rate at the start, in B [rad/s], shape (3,)."""
+        return self.struck
+
+    @property
+    def tilt(self) -> FloatArray:
+        """Rotation vector of the tilt at the start [rad], shape (3,)."""
+        return np.array([self.roll, self.pitch, 0.0])
+
+    @property
+    def mobility(self) -> FloatArray:
+        """Rate per momentum about the pivot, in B [1/(kg m^2)], shape (3, 3)."""
+        axis = self.axis
+        if axis is None:
+            return np.asarray(np.linalg.inv(self.inertia))
+        return np.outer(axis, axis) / float(axis @ self.inertia @ axis)
+
+    @property
+    def _pendulum(self) -> tuple[FloatArray, float, float, float, float]:
+        """Axis of the tilt, and about it inertia, stiffness, tilt and rate.
+
+        The stiffness K is that of the linear pendulum with the energy of the true one at the tilt:
+        `K theta^2 / 2 = m g l (1 - cos theta)`.
+        """
+        weight, rate = float(np.linalg.norm(self.pull)), self.struck
+        about = self.axis
+        if about is None:
+            most = float(np.linalg.eigvalsh(self.inertia)[-1])
+            about = (self.tilt + rate * sqrt(most / weight)) * np.array([1.0, 1.0, 0.0])
+            length = float(np.linalg.norm(about))
+            about = about / length if length > 0.0 else np.array([0.0, 1.0, 0.0])
+        inertia, tilt = float(about @ self.inertia @ about), float(about @ self.tilt)
+        softer = 2.0 * (1.0 - cos(tilt)) / tilt**2 if abs(tilt) > _STRAIGHT else 1.0
+        return about, inertia, softer * weight, tilt, float(about @ rate)
+
+    @property
+    def quickness(self) -> float:
+        """Rate at which a small tilt grows, sqrt(m g l / I) [1/s]."""
+        _, inertia, _, _, _ = self._pendulum
+        return sqrt(float(np.linalg.norm(self.pull)) / inertia)
+
+    def _swing(self) -> tuple[FloatArray, Swing]:
+        """Axis about which the wheels speed up first, on roll and pitch, and how."""
+        axis, inertia, stiffness, tilt, rate = self._pendulum
+        axis = np.copysign(1.0, tilt + rate * sqrt(inertia / stiffness)) * axis
+        longest = self.slower * self._longest / sqrt(stiffness / inertia)
+        time = min(self.duration, longest)
+        found = swing(stiffness, inertia, tilt, rate, time)
+        return axis[:2], Swing(self.estimate * found.torque, found.switch)
+
+    _longest: ClassVar[float] = 3.0
+    """Time that the wheels are estimated with at most, over that in which a tilt grows e-fold."""
+
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """What the wheels hold where the torque changes its sign."""
+        del inertia, standing_height
+        axis, found = self._swing()
+        return np.abs(axis) * found.torque * found.switch
+
+    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """Least torque that does it in the time, of the linear pendulum [N m], shape (2,)."""
+        del inertia, standing_height
+        axis, found = self._swing()
+        return np.abs(axis) * found.torque
+
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+        """A turn from rest to rest without gravity, with the same torque and largest momentum.
+
+        A torque tau up and down again in T_1 each turns an inertia by tau T_1^2 over it.
+        """
+        del standing_height
+        axis, found = self._swing()
+        shape = np.shape(inertia.diagonal)
+        swept = np.broadcast_to(axis * found.torque * found.switch**2, shape)
+        return Slew(swept, np.zeros(shape), 2.0 * found.switch, self.wheel_speed)
+
+    @property
+    def _place(self) -> str:
+        """Pivot and tilt, for people."""
+        point = _millimetres(self.pivot)
+        on = f"stands on a point at {point} mm"
+        if self.axis is not None:
+            on = f"stands on an edge at {point} mm along {row_text(tuple(self.axis.tolist()))}"
+        angles = {"roll": self.roll, "pitch": self.pitch}
+        tilted = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
+        spun = f" with wheels at {rpm(self.wheel_speed)}"
+        return f"{on}, {' and '.join(tilted) or 'upright'}{spun if self.wheel_speed else ''}"
+
+
+_STRAIGHT = 1e-6
+"""Tilt below which a pendulum counts as linear [rad]."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Balance(Pivoted):
+    """A tilt, a rate or an impulse that nobody knows beforehand, and that feedback alone undoes.
+
+    Attributes:
+        rate: at the start, in B [rad/s], shape (3,).
+        impulse: of a force right then, in B [N s], shape (3,). point: where it hits, in B [m].
+    """
+
+    rate: Rate = (0.0, 0.0, 0.0)
+    impulse: Impulse = (0.0, 0.0, 0.0)
+    point: Point = (0.0, 0.0, 0.0)
+
+    _longest: ClassVar[float] = 2.0
+
+    @property
+    def struck(self) -> FloatArray:
+        """The rate that is stated and that of the impulse, in B [rad/s], shape (3,)."""
+        turned = np.cross(np.subtract(self.point, self.pivot), self.impulse)
+        return np.asarray(np.array(self.rate) + self.mobility @ turned)
+
+    def times(self, factor: float) -> Self:
+        """The same of so many times the tilt, the rate and the impulse."""
+        return replace(
+            self,
+            roll=factor * self.roll,
+            pitch=factor * self.pitch,
+            rate=tuple((factor * np.array(self.rate)).tolist()),
+            impulse=tuple((factor * np.array(self.impulse)).tolist()),
+        )
+
+    @property
+    def upset(self) -> str:
+        """Tilt, rate and impulse, as in `pitch 2.1 deg and an impulse of (0, 0.2, 0) N s`."""
+        angles = {"roll": self.roll, "pitch": self.pitch}
+        told = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
+        if any(self.rate):
+            told.append(f"a rate of {row_text(tuple(np.degrees(self.rate).tolist()))} deg/s")
+        if any(self.impulse):
+            told.append(f"an impulse of {row_text(self.impulse)} N s")
+        return " and ".join(filter(None, (", ".join(told[:-1]), *told[-1:])))
+
+    @property
+    def summary(self) -> str:
+        """Pivot, tilt, rate and impulse."""
+        hit = ""
+        if any(self.rate):
+            hit += f", turning at {row_text(tuple(np.degrees(self.rate).tolist()))} deg/s"
+        if any(self.impulse):
+            at = _millimetres(self.point)
+            hit += f", hit by {row_text(self.impulse)} N s at {at} mm"
+        return f"{self._place}{hit}; upright and at rest after {self.duration:.3g} s"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StandUp(Pivoted):
+    """A climb from a tilt at rest to upright, as planned.
+
+    Attributes:
+        actuation: see `Actuation`.
+    """
+
+    actuation: Annotated[str, Choice(tuple(Actuation))] = Actuation.MOTOR
+
+    @property
+    def braked(self) -> bool:
+        """Whether a brake gives the wheels' momentum to the robot."""
+        return self.actuation == Actuation.BRAKE
+
+    @property
+    def _climb(self) -> FloatArray:
+        """Momentum about the pivot with which it climbs to the top and stops there [N m s], (3,).
+
+        `L^2 / (2 I) = m g l (1 - cos theta)`, energy: with one wheel of spin inertia I_w, L = I_w W
+        gives the speed of Gajamohan, Merz, Thommen and D'Andrea (The Cubli, IROS 2012), from 45
+        deg `W^2 = (2 - sqrt 2) I m g l / I_w^2`.
+        """
+        axis, inertia, stiffness, tilt, _ = self._pendulum
+        return np.asarray(-axis * sqrt(stiffness * inertia) * tilt)
+
+    @property
+    def begun(self) -> FloatArray:
+        """Rate right after the brake, which leaves the momentum as it is; zero without one."""
+        return np.asarray(self.mobility @ self._climb) if self.braked else np.zeros(3)
+
+    @property
+    def stop(self) -> float:
+        """Time in which a brake stops the wheels [s].
+
+        Gravity takes m g l t sin theta of sqrt(m g l I) theta: kappa t of it, with `quickness`.
+        The Cubli's wheels (`_climb`) stop in 2.1 ms by that.
+        """
+        return _INSTANT / self.quickness
+
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """What the wheels hold before the brake, or where the torque changes its sign."""
+        if self.braked:
+            return self.estimate * np.abs(self._climb[:2])
+        return super().momentum(inertia, standing_height)
+
+    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """None with a brake, of the motor."""
+        if self.braked:
+            return np.zeros(2)
+        return super().least_torque(inertia, standing_height)
+
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+        """Slew that the wheels make; before a brake stops them, the slow one up to their speed."""
+        if not self.braked:
+            return super().slew(inertia, standing_height)
+        shape = np.shape(inertia.diagonal)
+        held = np.broadcast_to(self.estimate * self._climb[:2], shape)
+        return Slew(np.zeros(shape), held, SPIN_UP)
+
+    @property
+    def summary(self) -> str:
+        """Pivot, tilt, time and what drives it."""
+        by = ", by braking its wheels in an instant" if self.braked else ""
+        return f"{self._place}; stands up in {self.duration:.3g} s{by}"

@@ -1,0 +1,162 @@
+"""Turns to an attitude, heading included, and stops of a trunk that turns as it takes off."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import pi, remainder, sqrt
+from typing import Annotated
+
+import numpy as np
+
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import format_quantity, rpm
+from ocs_design.requirement.maneuver import (
+    End,
+    Height,
+    Rate,
+    Reorientation,
+    Slew,
+    Spin,
+    Time,
+    Turn,
+    row_text,
+)
+from ocs_design.requirement.values import YAW, Choice
+
+LOOP_SHARE = 0.75
+"""Share of a loop of the tilt that wheels and motors are asked for, in that share of its time."""
+
+_ENDS: Mapping[str, str] = {
+    End.LEVEL: ", any heading,",
+    End.ATTITUDE: "",
+    End.AT_REST: " or any attitude",
+}
+
+
+def loop_length(heading: float) -> float:
+    """Shortest way of a trunk's vertical that changes the heading [rad], `sqrt(h (4 pi - h))`.
+
+    A trunk whose wheels do not reach the vertical turns its heading h by the solid angle that its
+    z axis goes round, and of all ways round a circle is the shortest: the isoperimetric inequality
+    of the sphere (docs/theory.md, Yaw by two wheels).
+
+    Args:
+        heading: within a turn [rad].
+    """
+    return sqrt(abs(heading) * (4.0 * pi - abs(heading)))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TurnTo(Reorientation):
+    """A turn of the trunk in a vertical jump, from level to any attitude, heading included.
+
+    Attributes:
+        jump_height: of the centre of mass over its height at lift-off [m]; 0 in orbit.
+        roll, pitch, yaw: of the attitude at the end, reached from level by yaw, then pitch, then
+            roll [rad].
+        duration: from lift-off [s].
+        rate: of the trunk at lift-off, in B [rad/s], shape (3,).
+        wheel_speed: of all wheels at lift-off [rad/s].
+        end: see `End`.
+        estimate: factor on what closed forms ask for; above 1 where a plan was found to need more.
+        direct: whether the wheels reach the vertical, and no loop of the tilt is needed.
+    """
+
+    jump_height: Height = 0.0
+    roll: Turn = 0.0
+    pitch: Turn = 0.0
+    yaw: Annotated[float, YAW] = 0.0
+    duration: Time
+    rate: Rate = (0.0, 0.0, 0.0)
+    wheel_speed: Spin = 0.0
+    end: Annotated[str, Choice(tuple(End))] = End.ATTITUDE
+    estimate: float = 1.0
+    direct: bool = False
+
+    @property
+    def headed(self) -> bool:
+        """Whether they reach it, and it is asked for."""
+        return self.direct and (bool(self.yaw) or bool(self.rate[2]))
+
+    def heading(self, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The turn about the vertical and the rate at lift-off; see `Maneuver.heading`."""
+        asked = self.estimate * inertia
+        turned = self.yaw if self.end == End.ATTITUDE else 0.0
+        return asked * turned, asked * self.rate[2]
+
+    @property
+    def turn(self) -> FloatArray:
+        """Roll and pitch [rad], shape (2,), with what a change of heading asks of two wheels.
+
+        On a circle of `loop_length` each axis turns by 2 / pi of it, at a rate that is steady but
+        for its start and end. It goes round, too, which takes torque: `LOOP_SHARE` of it, in that
+        share of the time, asks for 1.15 to 1.25 of the wheels that planned turns need, unless they
+        are at the limit of their torque (docs/theory.md, Yaw by two wheels).
+        """
+        tilt = self._tilt
+        return np.asarray(self.estimate * self._share * (tilt + np.copysign(self._loop, tilt)))
+
+    @property
+    def _share(self) -> float:
+        return LOOP_SHARE if self._loop else 1.0
+
+    @property
+    def _tilt(self) -> FloatArray:
+        return np.array([self.roll, self.pitch])
+
+    @property
+    def _loop(self) -> float:
+        """Share of a change of heading on roll and on pitch [rad]."""
+        return 0.0 if self.direct else loop_length(remainder(self.yaw, 2.0 * pi)) * 2.0 / pi
+
+    @property
+    def flight_time(self) -> float:
+        """Time until a rigid robot lands where it took off; in orbit, until the turn ends [s]."""
+        return sqrt(8.0 * self.jump_height / self.gravity) if self.gravity else self.duration
+
+    def time(self, standing_height: float) -> float:
+        """Time as specified [s]."""
+        del standing_height
+        return self.duration
+
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """That of the tilt, half the time up and half down, of the loop and of the rate."""
+        del standing_height
+        peak = 2.0 * self._tilt + np.copysign(self._loop, self._tilt)
+        turning = self.estimate * np.abs(inertia.momentum(peak)) / self.duration
+        return np.asarray(turning + np.abs(self._begun(inertia)))
+
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+        """The turn, and the momentum at lift-off, which the wheels hold till touchdown."""
+        turned, time = super().slew(inertia, standing_height), self._share * self.duration
+        # Wheels turn against the trunk, and with the rate that they take from it. A loop, and a
+        # turn with a rate, ask for both.
+        sense = any(self.rate) - any((self.roll, self.pitch, self.yaw))
+        begins = 0.0 if self._loop else sense * self.wheel_speed
+        return Slew(turned.swept, self._begun(inertia), time, begins)
+
+    def _begun(self, inertia: TiltInertia) -> FloatArray:
+        return self.estimate * inertia.momentum(np.array(self.rate[:2]))
+
+    @property
+    def summary(self) -> str:
+        """Attitude, rate, time, jump and gravity."""
+        angles = {"roll": self.roll, "pitch": self.pitch, "yaw": self.yaw}
+        asked = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
+        told = f"turns to {' and '.join(asked) or 'level'}"
+        if any(self.rate):
+            told += f" from rates of {row_text(tuple(np.degrees(self.rate).tolist()))} deg/s"
+        if self.wheel_speed:
+            told += f" with wheels at {rpm(self.wheel_speed)}"
+        where = "in orbit"
+        if self.gravity:
+            where = f"in a jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
+        return f"{told}{_ENDS[self.end]} in {self.duration:.3g} s, {where}"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Catch(TurnTo):
+    """A stop of a trunk that turns as it leaves the ground."""
+
+    rate: Rate
+    end: Annotated[str, Choice(tuple(End))] = End.LEVEL

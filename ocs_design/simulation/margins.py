@@ -1,0 +1,175 @@
+"""Margins of a device: what its maneuvers ask of it, planned and flown, over what it can do."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ocs_design.common.units import rpm
+from ocs_design.device.device import Device
+from ocs_design.device.joints import SHAFT_JOINT, joints_of
+from ocs_design.device.records import MarginRecord, recorded
+from ocs_design.parts.joints import SERVICE, Margin
+from ocs_design.requirement.pivoted import StandUp
+from ocs_design.requirement.resolving import Resolved
+from ocs_design.simulation.scenario import Run
+from ocs_design.sizing.margins import (
+    BRAKE_TORQUE,
+    BRAKED_SHAFT,
+    HOOP_STRESS,
+    MOTOR_TORQUE,
+    WHEEL_SPEED,
+    margins,
+    worst,
+)
+from ocs_design.sizing.motion import DrivenWheel, Motion
+from ocs_design.sizing.sized import Choice, Designed
+
+if TYPE_CHECKING:
+    from ocs_design.sizing.trajectory.plans import Reference
+
+
+def record_margins(
+    resolved: Resolved,
+    designed: Designed,
+    runs: Sequence[Run],
+    plans: Mapping[str, "Reference"],
+) -> tuple[MarginRecord, ...]:
+    """Worst of each margin over all maneuvers, as planned and as flown until the run ends.
+
+    Args:
+        resolved: what was asked for. designed: the device.
+        runs: flights, of which those without the device say nothing; a run begins at push-off.
+        plans: references of the maneuvers, by name.
+    """
+    if designed.choice is None:
+        found = tuple(_without_motor(resolved, designed, runs))
+    else:
+        motions = (*_planned(plans), *_flown(runs))
+        braked = tuple(_braked(resolved, designed, plans))
+        found = (
+            *_of_drive(designed.choice, designed.device, resolved, motions, braked),
+            *joints_of(designed.device),
+        )
+    wheel, envelope = designed.device.flywheel, resolved.envelope
+    room = (
+        Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"),
+        Margin("height", wheel.height, envelope.height_max, "m"),
+        Margin("rim mass", wheel.rim_mass, envelope.mass_max, "kg"),
+    )
+    return tuple(recorded(MarginRecord, each, margin=each.factor) for each in (*found, *room))
+
+
+def _planned(plans: Mapping[str, "Reference"]) -> Iterator[tuple[str, Motion]]:
+    for name, reference in plans.items():
+        if reference.trajectory is None:
+            continue
+        motion = Motion.along(reference.trajectory)
+        yield name, motion
+        if reference.spun:
+            # Before the brake stops them in an instant all wheels run at up to this speed.
+            wheels = np.full((2, motion.wheel_speed.shape[1]), reference.spun)
+            still = np.zeros((2, 3))
+            yield name, Motion(np.array([0.0, 1e-3]), wheels, 0.0 * wheels, still, still)
+
+
+def _flown(runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
+    """Each run from its start to its end, and from lift-off to touchdown once more.
+
+    What the wheels do as the robot lands and while they are damped is asked of the drive too. Means
+    over time are of the maneuver alone: on the ground a motor has time to cool.
+    """
+    for run in runs:
+        if not run.ocs or run.metrics is None:
+            continue
+        series, left, landed = run.series, run.metrics.lift_off_time, run.metrics.touchdown_time
+        begun = np.inf if left is None else left
+        ended = np.inf if landed is None else landed
+        in_the_air = (series.time >= begun) & (series.time <= ended)
+        for part in (np.full(series.time.shape, True), in_the_air):
+            if np.count_nonzero(part) > 1:
+                yield (
+                    run.scenario,
+                    Motion.flown(
+                        series.time[part],
+                        series.wheel_speed[part],
+                        series.wheel_torque[part],
+                        series.rate[part],
+                    ),
+                )
+
+
+def _of_drive(
+    choice: Choice,
+    device: Device,
+    resolved: Resolved,
+    motions: Sequence[tuple[str, Motion]],
+    braked: Sequence[tuple[str, Sequence[Margin]]],
+) -> tuple[Margin, ...]:
+    chosen, stated = choice.chosen, choice.problem.wheel_speed_max
+    wheel = DrivenWheel(
+        chosen.inner_radius,
+        chosen.outer_radius,
+        chosen.height,
+        chosen.material,
+        chosen.motor,
+        chosen.gear,
+        choice.problem.bus_voltage,
+        float("inf") if stated is None else stated,
+        chosen.hub,
+        chosen.cuts,
+        chosen.web_material,
+        device.supply,
+    )
+    maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
+    driven = (
+        (name, margins(motion, device.as_flown(maneuvers[name]).axes, wheel))
+        for name, motion in motions
+    )
+    return worst((*driven, *braked))
+
+
+def _braked(
+    resolved: Resolved, designed: Designed, plans: Mapping[str, "Reference"]
+) -> Iterator[tuple[str, tuple[Margin, ...]]]:
+    """What a brake that grips the wheels, as the Cubli's does, asks of them and their joints."""
+    device, drive = designed.device, designed.device.motor
+    shaft = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
+    for maneuver in resolved.requirement.maneuvers:
+        plan = plans.get(maneuver.name)
+        if not isinstance(maneuver, StandUp) or plan is None or not plan.spun:
+            continue
+        slowed = plan.spun / maneuver.stop
+        where = f"from {rpm(plan.spun)} in {1e3 * maneuver.stop:.2g} ms"
+        wheel = device.flywheel.spin_inertia * slowed
+        rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * slowed
+        rows = [
+            Margin(BRAKE_TORQUE, wheel, None, "N m", f"on each wheel and what holds it, {where}"),
+        ]
+        if shaft is not None:
+            note = f"{SERVICE:g} x what stops the rotor, {where}, by a brake that grips the wheel"
+            rows.append(Margin(BRAKED_SHAFT, rotor, shaft.capacity, "N m", note))
+        yield maneuver.name, tuple(rows)
+
+
+def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) -> Iterator[Margin]:
+    """What can be said without a motor's figures."""
+    device, wheel = designed.device, designed.device.flywheel
+    driven = [run for run in runs if run.ocs and run.metrics is not None]
+    limit = device.motor.torque_limit
+    least = max((demand.torque for demand in designed.sized.demands), default=0.0)
+    if driven:
+        speeds, torques = (
+            [float(np.abs(getattr(run.series, name)).max()) for run in driven]
+            for name in ("wheel_speed", "wheel_torque")
+        )
+        speed, torque = int(np.argmax(speeds)), int(np.argmax(torques))
+        capacity, at = resolved.requirement.wheel_speed_max, "at the wheel"
+        names = [run.scenario for run in driven]
+        yield Margin(WHEEL_SPEED, speeds[speed], capacity, "rad/s", "", names[speed])
+        yield Margin(MOTOR_TORQUE, torques[torque], limit, "N m", at, names[torque])
+    elif least > 0.0:
+        yield Margin(MOTOR_TORQUE, least, limit, "N m", "the least that does the maneuvers in time")
+    if wheel.hoop_stress is not None:
+        strength = resolved.material.yield_strength
+        yield Margin(HOOP_STRESS, wheel.hoop_stress, strength, "Pa")
