@@ -24,7 +24,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from commands import PROGRAM, SOLO12, run
 
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 from ocs_design.export.folder import file_hashes, recorded_hashes
 
 QUICK = ("--motor", "none", "--ballistic", "-q")

@@ -14,7 +14,7 @@ import numpy as np
 from legged_robots import LEGGED, ROBOTS
 
 from ocs_design.common.errors import OcsError
-from ocs_design.device.records import Clearance
+from ocs_design.device.records.device import Clearance
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import (
     NO_MOTOR,

@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image
 
 from ocs_design import design_ocs
-from ocs_design.device.records import OcsDesign
+from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.export.drawing.wheel_sheet import draw_wheel
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel

@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 from PIL import Image
 
-from ocs_design.device.records import OcsDesign, read_design
+from ocs_design.device.records.design import OcsDesign, read_design
 from ocs_design.export.offscreen import shown_box
 from ocs_design.report.quantities import grams
 

@@ -17,7 +17,7 @@ from blocks import table
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.answers import LayoutAnswer
-from ocs_design.device.records import SurvivalRecord
+from ocs_design.device.records.flights import SurvivalRecord
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.specification import Specification
 from ocs_design.workflows.layouts import compare_layouts

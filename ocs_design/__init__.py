@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from ocs_design.common.errors import Infeasible, OcsError
     from ocs_design.device.answers import Exported, Front
     from ocs_design.device.device import Device
-    from ocs_design.device.records import OcsDesign, read_design
+    from ocs_design.device.records.design import OcsDesign, read_design
     from ocs_design.report.html.notebook import as_html as as_html
     from ocs_design.requirement.reading import read_specification, specify
     from ocs_design.requirement.specification import Specification
@@ -53,7 +53,7 @@ _MODULES = {
     "Exported": "device.answers",
     "Front": "device.answers",
     "Infeasible": "common.errors",
-    "OcsDesign": "device.records",
+    "OcsDesign": "device.records.design",
     "OcsError": "common.errors",
     "Outcome": "workflows.size",
     "Robot": "robot.robot",
@@ -65,7 +65,7 @@ _MODULES = {
     "design_ocs": "workflows.size",
     "export_design": "workflows.export",
     "pareto_front": "workflows.pareto",
-    "read_design": "device.records",
+    "read_design": "device.records.design",
     "read_robot": "robot.reader",
     "read_specification": "requirement.reading",
     "robot_by_hand": "robot.manual",

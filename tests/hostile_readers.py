@@ -14,7 +14,7 @@ from ocs_design.catalogue.gears import load_gears
 from ocs_design.catalogue.motors import load_motors
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name, to_json
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 from ocs_design.export.folder import recorded_hashes
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 from designed import MOTOR, designed
 
-from ocs_design.device.records import ValidationRecord
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.story import Flight, Story
 from ocs_design.workflows.recording import record_design
 

@@ -15,7 +15,7 @@ from types import MappingProxyType
 
 from ocs_design import Infeasible, OcsDesign, design_ocs, read_specification
 from ocs_design.device.layout import LayoutName
-from ocs_design.device.records import ValidationRecord
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.requirement.specification import AUTO, MotorSection, Specification
 
 HERE = Path(__file__).parent

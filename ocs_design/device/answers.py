@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.device.records import (
+from ocs_design.device.records.flights import (
     ReliabilityRecord,
-    RobotRecord,
     SurvivalRecord,
     ValidationRecord,
     falls_short,
 )
+from ocs_design.device.records.requirement import RobotRecord
 
 
 @dataclass(frozen=True, kw_only=True)

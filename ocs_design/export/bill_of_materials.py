@@ -10,7 +10,7 @@ from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
 from ocs_design.device.joints import joints_of
-from ocs_design.device.records import MarginRecord
+from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import (

@@ -8,7 +8,7 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import TorqueConstantConvention, six_step_current
 from ocs_design.common.units import significant
 from ocs_design.device.device import Device
-from ocs_design.device.records import MarginRecord
+from ocs_design.device.records.device import MarginRecord
 
 VOLTAGE_RESERVE = 1.2
 """Rated voltage of controllers over the bus voltage: a full battery has 5 % more than its nominal

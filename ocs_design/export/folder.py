@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ocs_design.common.errors import OutputError
-from ocs_design.device.records import DESIGN_FILE
+from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export.staging import NEW, OLD, clear_leftovers, staging_beside
 
 FRONT_FILE = "front.json"

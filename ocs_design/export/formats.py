@@ -15,7 +15,8 @@ from ocs_design.common.errors import MissingToolError, UsageError, extra_command
 
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
-    from ocs_design.device.records import MarginRecord, OcsDesign
+    from ocs_design.device.records.design import OcsDesign
+    from ocs_design.device.records.device import MarginRecord
     from ocs_design.robot.robot import Mount, Robot
 
 Notes: TypeAlias = tuple[str, ...]

@@ -12,7 +12,7 @@ from statistics import NormalDist
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.device.records import ReliabilityRecord
+from ocs_design.device.records.flights import ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes
 from ocs_design.monte_carlo.summary import share

@@ -6,7 +6,9 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.units import rpm
 from ocs_design.device.layout import PAIR
-from ocs_design.device.records import Clearance, OcsDesign, OcsRecord, RobotRecord
+from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.records.device import Clearance, OcsRecord
+from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.report.quantities import (
     degrees,

@@ -3,7 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 from ocs_design.common.units import ceiled, floored, rpm, significant
-from ocs_design.device.records import SAVES_NOTHING, OcsDesign, PriceRecord, ReserveRecord
+from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.records.selection import SAVES_NOTHING, PriceRecord, ReserveRecord
 from ocs_design.parts.joints import Margin
 from ocs_design.report.quantities import degrees, degrees_number, grams, inertia_number, quantity
 from ocs_design.report.selection import best_drives, drive_name

@@ -6,7 +6,7 @@ import numpy as np
 
 from ocs_design.common.units import ceiled, floored
 from ocs_design.device.answers import MonteCarloRecord, Share, Spread
-from ocs_design.device.records import ReliabilityRecord
+from ocs_design.device.records.flights import ReliabilityRecord
 from ocs_design.report.table import Table, columns
 
 _BARS = " ▁▂▃▄▅▆▇█"

@@ -13,7 +13,8 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name
 from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord, PostureLine
-from ocs_design.device.records import OcsDesign, ValidationRecord
+from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.time_series import series_file
 from ocs_design.report.bodies import ShownBody, read_bodies

@@ -3,13 +3,9 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ocs_design.device.records import (
-    Buildable,
-    OcsDesign,
-    ReliabilityRecord,
-    SurvivalRecord,
-    ValidationRecord,
-)
+from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.records.device import Buildable
+from ocs_design.device.records.flights import ReliabilityRecord, SurvivalRecord, ValidationRecord
 from ocs_design.report.flights import falls, survival_sentence
 from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned

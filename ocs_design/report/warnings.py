@@ -8,7 +8,9 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import BY_CONVENTION, DIRECT
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.device.layout import PAIR
-from ocs_design.device.records import DemandRecord, ManeuverRecord, OcsDesign, OcsRecord
+from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.records.device import OcsRecord
+from ocs_design.device.records.requirement import DemandRecord, ManeuverRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.flights import flight_remarks
 from ocs_design.report.quantities import degrees, inertia

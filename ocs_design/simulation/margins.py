@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ocs_design.common.records import recorded
 from ocs_design.common.units import rpm
 from ocs_design.device.device import Device
 from ocs_design.device.joints import SHAFT_JOINT, joints_of
-from ocs_design.device.records import MarginRecord, recorded
+from ocs_design.device.records.device import MarginRecord
 from ocs_design.parts.joints import SERVICE, Margin
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved

@@ -10,7 +10,7 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 
 from ocs_design.device.device import Device
-from ocs_design.device.records import StoppedRecord, SurvivalRecord
+from ocs_design.device.records.flights import StoppedRecord, SurvivalRecord
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Pivoted

@@ -14,7 +14,7 @@ from ocs_design.actuation.motor import build_gaps
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
-from ocs_design.device.records import SAVES_NOTHING, Alternative, Owed
+from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import LIGHTEST, Specification

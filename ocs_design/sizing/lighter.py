@@ -13,7 +13,7 @@ from typing import Any
 
 from ocs_design.common.errors import Infeasible, OcsError
 from ocs_design.common.units import format_quantity, round_outwards
-from ocs_design.device.records import Alternative
+from ocs_design.device.records.selection import Alternative
 from ocs_design.requirement.kinds import change_text, slower
 from ocs_design.requirement.maneuver import Disturbance, Drop, Maneuver, Shove
 from ocs_design.requirement.pivoted import StandUp

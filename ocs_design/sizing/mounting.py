@@ -13,7 +13,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.naming import flywheel_name
-from ocs_design.device.records import Clearance, OpenPoint
+from ocs_design.device.records.device import Clearance, OpenPoint
 from ocs_design.device.solids import (
     ModuleSolids,
     mast_solids,

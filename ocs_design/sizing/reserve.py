@@ -19,7 +19,7 @@ from ocs_design.actuation.unit_drive import UnitDrive
 from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Layout
-from ocs_design.device.records import KeptRecord, ReserveRecord, UncertaintyCost
+from ocs_design.device.records.selection import KeptRecord, ReserveRecord, UncertaintyCost
 from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement

@@ -9,9 +9,10 @@ import numpy as np
 
 from ocs_design.actuation.wheel_load import held
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.records import recorded
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Criterion, incidence_by_criterion
-from ocs_design.device.records import ReserveRecord, SizingRecord, recorded
+from ocs_design.device.records.selection import ReserveRecord, SizingRecord
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta

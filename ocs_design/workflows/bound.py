@@ -5,7 +5,7 @@ import numpy as np
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension
 from ocs_design.device.answers import BoundAnswer
-from ocs_design.device.records import SCHEMA_VERSION
+from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
 from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_SPEED, Quantity
 

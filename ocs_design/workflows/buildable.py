@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ocs_design.actuation.motor import Motor, build_gaps
 from ocs_design.device.joints import RIM_JOINT, SHAFT_JOINT
-from ocs_design.device.records import Buildable, MarginRecord, OpenPoint
+from ocs_design.device.records.device import Buildable, MarginRecord, OpenPoint
 from ocs_design.parts.joints import EPOXY, Margin
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import listed

@@ -12,14 +12,8 @@ import msgspec
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.files import AnyPath
 from ocs_design.device.device import Device
-from ocs_design.device.records import (
-    ControlRecord,
-    OcsDesign,
-    SurvivalRecord,
-    ValidationRecord,
-    design_file,
-    read_design,
-)
+from ocs_design.device.records.design import OcsDesign, design_file, read_design
+from ocs_design.device.records.flights import ControlRecord, SurvivalRecord, ValidationRecord
 from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, make_campaign

@@ -15,7 +15,8 @@ from ocs_design.device.answers import (
     RecognitionRecord,
 )
 from ocs_design.device.layout import Criterion, heading_drift, incidence_by_criterion
-from ocs_design.device.records import SCHEMA_VERSION, RobotRecord
+from ocs_design.device.records.design import SCHEMA_VERSION
+from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.report.stick_figure import stick_figure
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification

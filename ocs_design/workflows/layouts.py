@@ -9,7 +9,7 @@ from ocs_design.common.arrays import vector
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.files import AnyPath
 from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
-from ocs_design.device.records import SCHEMA_VERSION
+from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.report.text.console import Steps, Tell
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.specification import DETECTION, LAYOUTS, Specification

@@ -12,9 +12,10 @@ import numpy as np
 
 from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
 from ocs_design.common.files import AnyPath
+from ocs_design.common.records import recorded
 from ocs_design.common.units import format_quantity, parse_positive, si_unit
 from ocs_design.device.answers import Front, FrontDevice, FrontPoint
-from ocs_design.device.records import SCHEMA_VERSION, recorded
+from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.export.folder import check_target
 from ocs_design.report.charts.front import write_front
 from ocs_design.report.text.console import Steps, Tell

@@ -11,35 +11,30 @@ import numpy as np
 from ocs_design import __version__
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common.arrays import matrix, vector
+from ocs_design.common.records import recorded
 from ocs_design.common.units import format_quantity
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.joints import joints_of
 from ocs_design.device.layout import heading_drift
-from ocs_design.device.records import (
-    SCHEMA_VERSION,
-    Alternative,
+from ocs_design.device.records.design import SCHEMA_VERSION, OcsDesign, Tool
+from ocs_design.device.records.device import ModuleRecord, MountingRecord, OcsRecord, ReachRecord
+from ocs_design.device.records.flights import ControlRecord, SurvivalRecord, ValidationRecord
+from ocs_design.device.records.requirement import (
     AxisInertia,
-    CoDesignRecord,
-    ControlRecord,
     DemandRecord,
-    Lighter,
     ManeuverRecord,
-    ModuleRecord,
-    MountingRecord,
-    OcsDesign,
-    OcsRecord,
+    RequirementRecord,
+    RobotRecord,
+)
+from ocs_design.device.records.selection import (
+    Alternative,
+    CoDesignRecord,
+    Lighter,
     Owed,
     RankedRecord,
-    ReachRecord,
     RejectionRecord,
-    RequirementRecord,
     ReserveRecord,
-    RobotRecord,
     SelectionRecord,
-    SurvivalRecord,
-    Tool,
-    ValidationRecord,
-    recorded,
 )
 from ocs_design.export.assembly_notes import device_notes, trunk_notes
 from ocs_design.export.time_series import export_time_series, series_file

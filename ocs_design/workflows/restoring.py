@@ -13,7 +13,8 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
-from ocs_design.device.records import ManeuverRecord, OcsRecord, RobotRecord
+from ocs_design.device.records.device import OcsRecord
+from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.export.formats import Seat
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.maneuver import Maneuver

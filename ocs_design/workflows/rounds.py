@@ -14,7 +14,7 @@ import numpy as np
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.device.checks import device_warnings
-from ocs_design.device.records import SurvivalRecord
+from ocs_design.device.records.flights import SurvivalRecord
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, write_results
 from ocs_design.monte_carlo.certificate import (

@@ -9,7 +9,9 @@ from ocs_design.common.errors import UsageError
 from ocs_design.common.files import AnyPath, safe_name, to_json
 from ocs_design.device.device import Device
 from ocs_design.device.naming import require_no_device
-from ocs_design.device.records import DESIGN_FILE, Lighter, OcsDesign, Owed, falls_short
+from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
+from ocs_design.device.records.flights import falls_short
+from ocs_design.device.records.selection import Lighter, Owed
 from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats

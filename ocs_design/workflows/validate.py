@@ -10,7 +10,8 @@ from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath, to_json
 from ocs_design.device.answers import SampleRecord, Validated
-from ocs_design.device.records import DESIGN_FILE, SCHEMA_VERSION, OcsDesign, ValidationRecord
+from ocs_design.device.records.design import DESIGN_FILE, SCHEMA_VERSION, OcsDesign
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes

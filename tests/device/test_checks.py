@@ -8,7 +8,7 @@ import pytest
 
 from ocs_design.common.errors import OcsError
 from ocs_design.device.checks import check_device, device_warnings
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 from ocs_design.robot.mass import MassProperties
 from ocs_design.workflows.restoring import device_of
 

@@ -13,7 +13,9 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import to_json
 from ocs_design.device.device import NO_CARRIER
-from ocs_design.device.records import LARGEST, Alternative, Buildable, OpenPoint, read_design
+from ocs_design.device.records.design import LARGEST, read_design
+from ocs_design.device.records.device import Buildable, OpenPoint
+from ocs_design.device.records.selection import Alternative
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 """By `size examples/solo12.urdf --no-validate` of version 0.1.0, which knew no motors."""

@@ -3,7 +3,7 @@
 import pytest
 from commands import BOUND, BY_HAND, environment, run, run_process
 
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ from exported import check_moments, check_wheels_in_pinocchio
 from products import FILES, composite, with_modules
 
 from ocs_design.common.files import to_json
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 
 # INTERFACE: the fields that scripts and other programs rely on.
 SCHEMA = {

@@ -11,7 +11,7 @@ from commands import run
 from renewed import files_in
 
 from ocs_design.common.errors import OcsError
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 from ocs_design.report.story import read_campaign, story_in
 
 DOC = (Path(__file__).parents[2] / "docs" / "report.md").read_text()

@@ -10,7 +10,7 @@ from commands import BOUND, PROGRAM, SOLO12, Result, environment, run
 from products import FILES, Product
 from rich.console import Console
 
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 from ocs_design.report.text.size import print_design, print_outcome, print_solution
 
 SGR = re.compile(r"\x1b\[[0-9;]*m")

@@ -9,7 +9,7 @@ from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_de
 
 from ocs_design.actuation.motor import GearRoom
 from ocs_design.device.device import Web
-from ocs_design.device.records import MarginRecord
+from ocs_design.device.records.device import MarginRecord
 from ocs_design.export.bill_of_materials import COLUMNS, bill_rows, export_bill_of_materials, plain
 from ocs_design.parts.module import Printed
 from ocs_design.parts.moments import Carrier

@@ -5,7 +5,7 @@ import errno
 import pytest
 
 from ocs_design.common.errors import OutputError
-from ocs_design.device.records import DESIGN_FILE
+from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export.folder import check_target, staged_folder
 
 

@@ -11,7 +11,7 @@ from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Mounting
 from ocs_design.catalogue.motors import motor
 from ocs_design.common.files import to_json
 from ocs_design.device.device import Web
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_rows, export_bill_of_materials
 from ocs_design.export.device_parts import printed_parts, wheel_geometry

@@ -8,7 +8,7 @@ import pytest
 from commands import everything_in
 
 from ocs_design.common.errors import OutputError
-from ocs_design.device.records import DESIGN_FILE
+from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export import folder as folders
 from ocs_design.export import staging as stagings
 from ocs_design.export.folder import staged_folder

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from stories import design
 
-from ocs_design.device.records import ValidationRecord
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.flights import (
     device_table,
     flight_remarks,

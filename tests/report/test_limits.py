@@ -7,7 +7,8 @@ import pytest
 from rich.console import Console
 from stories import design
 
-from ocs_design.device.records import Alternative, MarginRecord
+from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.selection import Alternative
 from ocs_design.parts.joints import Margin
 from ocs_design.report.limits import (
     alternatives_note,

@@ -8,9 +8,9 @@ import pytest
 from rich.console import Console
 from stories import design
 
-from ocs_design.device.records import (
+from ocs_design.device.records.requirement import ManeuverRecord
+from ocs_design.device.records.selection import (
     CoDesignRecord,
-    ManeuverRecord,
     PriceRecord,
     RankedRecord,
     RejectionRecord,

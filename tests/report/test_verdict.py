@@ -9,7 +9,8 @@ from designed import MOTOR
 from rich.console import Console
 from stories import design
 
-from ocs_design.device.records import Buildable, OpenPoint, ValidationRecord
+from ocs_design.device.records.device import Buildable, OpenPoint
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import items, note, wrapped
 from ocs_design.report.verdict import flights_headline, headline

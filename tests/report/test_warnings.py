@@ -8,7 +8,8 @@ import pytest
 from designed import MOTOR
 from stories import design
 
-from ocs_design.device.records import MarginRecord, read_design
+from ocs_design.device.records.design import read_design
+from ocs_design.device.records.device import MarginRecord
 from ocs_design.report.warnings import all_warnings, coupling_notes
 
 DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"

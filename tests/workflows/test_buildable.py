@@ -7,7 +7,7 @@ import pytest
 
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
-from ocs_design.device.records import Clearance, MarginRecord
+from ocs_design.device.records.device import Clearance, MarginRecord
 from ocs_design.parts.joints import Margin
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.mounting import Mounting

@@ -7,7 +7,7 @@ from robots import SOLO12
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout, LayoutName
-from ocs_design.device.records import read_design
+from ocs_design.device.records.design import read_design
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.reading import parse_specification, specification_of
 from ocs_design.requirement.specification import (

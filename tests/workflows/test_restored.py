@@ -11,7 +11,8 @@ from robots import ROBOTS
 
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import to_json
-from ocs_design.device.records import ManeuverRecord, RobotRecord, read_design
+from ocs_design.device.records.design import read_design
+from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot

@@ -26,7 +26,7 @@ from ocs_design.device.joints import (
 )
 from ocs_design.device.layout import PAIR
 from ocs_design.device.naming import joint_name
-from ocs_design.device.records import MarginRecord
+from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import (
     Piece,

@@ -11,7 +11,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import to_json
 from ocs_design.device.answers import Front, FrontPoint
-from ocs_design.device.records import ReserveRecord
+from ocs_design.device.records.selection import ReserveRecord
 from ocs_design.export.folder import FRONT_FILE, staged_folder
 from ocs_design.report.charts.chart import SERIES, Chart, Ink, Line, Mark, Points, Rule
 from ocs_design.report.charts.files import write_charts

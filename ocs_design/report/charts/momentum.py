@@ -9,7 +9,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm
 from ocs_design.device.answers import PostureLine
 from ocs_design.device.layout import PAIR
-from ocs_design.device.records import OcsDesign
+from ocs_design.device.records.design import OcsDesign
 from ocs_design.parts.module import part_name
 from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Points, Rule
 from ocs_design.report.charts.scales import Axis

@@ -9,7 +9,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.files import to_json
 from ocs_design.common.units import rpm
 from ocs_design.device.layout import PAIR
-from ocs_design.device.records import OcsDesign
+from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.export.templates import template_text
 from ocs_design.report.charts.figures import scenario_charts

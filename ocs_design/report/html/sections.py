@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import known_gears
 from ocs_design.catalogue.materials import materials
-from ocs_design.device.records import OcsDesign
+from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.assembly.booklet import exploded_svg, section_svgs
 from ocs_design.export.assembly.content import Assembly, Chapter
 from ocs_design.export.device_parts import wheel_geometry

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
-from ocs_design.device.records import DESIGN_FILE
+from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.report.table import Cell, Table, Tone, Toned, tied
 from ocs_design.report.text.console import breaks_lines

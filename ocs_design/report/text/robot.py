@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from rich.console import Console
 
 from ocs_design.device.answers import Inspection, RecognitionRecord
-from ocs_design.device.records import RobotRecord
+from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.report.device import heading_drift, joint_table, robot_facts
 from ocs_design.report.quantities import degrees_number
 from ocs_design.report.table import Table, columns

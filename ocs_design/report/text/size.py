@@ -5,7 +5,9 @@ from pathlib import Path
 
 from rich.console import Console
 
-from ocs_design.device.records import ManeuverRecord, OcsDesign, SelectionRecord
+from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.records.requirement import ManeuverRecord
+from ocs_design.device.records.selection import SelectionRecord
 from ocs_design.report import limits, selection, warnings
 from ocs_design.report.device import criterion_table, device_facts, device_title, drawn_facts
 from ocs_design.report.flights import landing_remarks

@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.common.units import format_quantity
-from ocs_design.device.records import DESIGN_FILE, OcsDesign
+from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
 from ocs_design.report.flights import (

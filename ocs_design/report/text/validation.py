@@ -8,7 +8,7 @@ from rich.text import Text
 
 from ocs_design.common.units import format_quantity
 from ocs_design.device.answers import Validated
-from ocs_design.device.records import SurvivalRecord, ValidationRecord
+from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
 from ocs_design.monte_carlo.uncertainty import STOPS, key_of
 from ocs_design.report.flights import (
     SURVIVAL_TITLE,

@@ -12,7 +12,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, spin_demand
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.layout import PAIR, Layout
-from ocs_design.device.records import TaskDemand
+from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import hoop_weights, wheel_body

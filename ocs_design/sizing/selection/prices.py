@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ocs_design.device.records import PriceRecord
+from ocs_design.device.records.selection import PriceRecord
 from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.device import of_parts

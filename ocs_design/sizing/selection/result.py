@@ -12,7 +12,7 @@ from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import PAIR, Layout
-from ocs_design.device.records import TaskDemand
+from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import mount_of

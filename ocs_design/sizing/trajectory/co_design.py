@@ -17,7 +17,7 @@ from ocs_design.actuation.drive import RESERVE, DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
-from ocs_design.device.records import TaskDemand
+from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.module import Printed, standing
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES

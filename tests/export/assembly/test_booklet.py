@@ -15,7 +15,7 @@ from ocs_design.catalogue.materials import materials
 from ocs_design.device.device import Module
 from ocs_design.device.joints import balance_of, burst_of, rim_fit
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.device.records import MarginRecord
+from ocs_design.device.records.device import MarginRecord
 from ocs_design.export.assembly.booklet import (
     assembly_pages,
 )

@@ -5,7 +5,7 @@ import io
 import pytest
 from rich.console import Console
 
-from ocs_design.device.records import ValidationRecord
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air
 from ocs_design.report.text.validation import print_runs
 

@@ -1,0 +1,165 @@
+"""`design.json`: the one artefact that other commands and programs read.
+
+Field names and units are the contract of `docs/output.md`: SI, radians, the base frame B, full
+double precision. The dataclasses are the schema; a change of meaning needs a new `SCHEMA_VERSION`,
+and a step in `_renewed` that reads what older versions wrote.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from ocs_design.actuation.supply import Supply
+from ocs_design.common.errors import OcsError
+from ocs_design.common.files import AnyPath, read_plain_file
+from ocs_design.common.units import format_quantity
+from ocs_design.device.records.device import Buildable, MarginRecord, OcsRecord
+from ocs_design.device.records.flights import (
+    ControlRecord,
+    ReliabilityRecord,
+    SurvivalRecord,
+    ValidationRecord,
+)
+from ocs_design.device.records.requirement import RequirementRecord, RobotRecord
+from ocs_design.device.records.selection import (
+    Alternative,
+    Lighter,
+    Owed,
+    SelectionRecord,
+    SizingRecord,
+)
+
+DESIGN_FILE = "design.json"
+
+
+SCHEMA_VERSION = 2
+
+
+OLDEST_VERSION = 1
+"""Version of the oldest documents that are still read."""
+
+
+LARGEST = 16 << 20
+"""Largest `design.json` [bytes]; that of a humanoid takes a fiftieth."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tool:
+    """Who wrote the file."""
+
+    name: str
+    version: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsDesign:
+    """A designed, exported and simulated orientation control system."""
+
+    schema_version: int
+    tool: Tool
+    seed: int
+    robot: RobotRecord
+    requirement: RequirementRecord
+    ocs: OcsRecord
+    sizing: SizingRecord
+    selection: SelectionRecord | None = None
+    margins: tuple[MarginRecord, ...]
+    supply: Supply | None = None
+    alternatives: tuple[Alternative, ...] = ()
+    owed: Owed | None = None
+    lighter: Lighter | None = None
+    buildable: Buildable = field(default_factory=lambda: Buildable(yes=None))
+    validation: tuple[ValidationRecord, ...]
+    survival: SurvivalRecord | None = None
+    reliability: ReliabilityRecord | None = None
+    control: ControlRecord | None = None
+    reality: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, str]
+
+    def __repr__(self) -> str:
+        ocs, flown = self.ocs, [run for run in self.validation if run.ocs]
+        motor = "no motor" if self.selection is None else ocs.motor.name
+        passed = [run.passed for run in flown].count(True)
+        return (
+            f"<OcsDesign for {self.robot.name}: {len(ocs.modules)} wheels, "
+            f"{format_quantity(ocs.mass_total, 'g')}, {motor}, "
+            f"{passed} of {len(flown)} flights pass>"
+        )
+
+    def _repr_html_(self) -> str:
+        from ocs_design import as_html  # noqa: PLC0415 - the report stands above
+
+        return as_html(self)
+
+
+def design_file(path: AnyPath) -> Path:
+    """The `design.json` at a path, or in the folder there."""
+    path = Path(path)
+    return path / DESIGN_FILE if path.is_dir() else path
+
+
+def read_design(path: AnyPath) -> OcsDesign:
+    """Read a `design.json`.
+
+    Args:
+        path: of the file, or of the folder that it lies in.
+
+    Raises:
+        OcsError: the file cannot be read, or is not a design of this schema version.
+    """
+    path = design_file(path)
+    try:
+        content = read_plain_file(path, LARGEST)
+        version = msgspec.json.decode(content, type=_Version).schema_version
+    except OSError as error:
+        raise OcsError(
+            f"{path}: {error.strerror}", hint="give the path of a design.json"
+        ) from error
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        hint = "give a design.json, which `ocs-design size` writes"
+        if content.lstrip().startswith(b"<"):
+            raise OcsError(f"{path}: is a robot or other XML, not a design", hint=hint) from error
+        if path.suffix == ".toml":
+            raise OcsError(f"{path}: is a specification, not a design", hint=hint) from error
+        raise OcsError(f"{path}: not a design.json: {error}", hint=hint) from error
+    if not OLDEST_VERSION <= version <= SCHEMA_VERSION:
+        raise OcsError(
+            f"{path}: schema_version {version}, but this version reads {OLDEST_VERSION} to "
+            f"{SCHEMA_VERSION}",
+            hint="run `ocs-design size` again to write it anew",
+        )
+    try:
+        if version == SCHEMA_VERSION:
+            return msgspec.json.decode(content, type=OcsDesign)
+        return msgspec.convert(_renewed(msgspec.json.decode(content)), OcsDesign)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise OcsError(f"{path}: {error}", hint="run `ocs-design size` again") from error
+
+
+def _renewed(document: dict[str, Any]) -> dict[str, Any]:
+    """Document of version 1 in the names of version 2; what it lacks takes its default.
+
+    Version 1 said of a run only whether it passed, which takes a level touchdown, and an upright
+    end where the legs bear one.
+    """
+    margins, runs = (document.get(name) for name in ("margins", "validation"))
+    for margin in _objects(margins):
+        margin["scenario"] = margin.pop("maneuver", "")
+    for run in _objects(runs):
+        if run.get("passed") is True:
+            run["level"] = True
+            run["stands"] = True if run.get("can_stand") is True else None
+    return {**document, "schema_version": SCHEMA_VERSION}
+
+
+def _objects(entries: object) -> list[dict[str, Any]]:
+    """Objects in a list of any document; what is none of them is refused when it is converted."""
+    found = entries if isinstance(entries, list) else []
+    return [each for each in found if isinstance(each, dict)]
+
+
+class _Version(msgspec.Struct):
+    schema_version: int

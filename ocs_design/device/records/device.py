@@ -1,0 +1,161 @@
+"""The device in its place, its margins and what keeps it from being built."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ocs_design.actuation.drive import Drive
+from ocs_design.actuation.supply import Supply
+from ocs_design.common.arrays import Matrix, Vector
+from ocs_design.device.device import NO_CARRIER, Device, Flywheel, Module
+from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.moments import Carrier
+from ocs_design.parts.pedestal import Pedestal
+from ocs_design.parts.printed import PLATE_THICKNESS
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModuleRecord:
+    """One module in B."""
+
+    name: str
+    axis: Vector
+    position: Vector
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """The part that a module is nearest to.
+
+    Attributes:
+        part: name of a body of the robot, or of the other wheel.
+        distance: between the surfaces, negative if they overlap [m].
+    """
+
+    part: str
+    distance: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReachRecord:
+    """Limb that could hit the device (`robot.clearance.Reach`)."""
+
+    part: str
+    joints: Mapping[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MountingRecord:
+    """How the device sits on its robot (`sizing.mounting.Mounting`)."""
+
+    landing: Clearance | None
+    reachable: tuple[ReachRecord, ...]
+    com_shift: Vector
+    inertia_change: Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsRecord:
+    """The device. `mass_total` is of all modules; `total_...` of robot and braked device.
+
+    `center_of_mass` is of the device alone, in B; None in files of older versions.
+    `fitting` is what is left to do by hand: see `export.fitting`. `layout` is how the axes lie, and
+    `incidence` its angle: of a pair the axes are at plus and minus that.
+    """
+
+    incidence: float
+    incidence_criterion: str
+    incidence_by_criterion: Mapping[str, float]
+    incidence_by_criterion_robot_alone: Mapping[str, float]
+    heading_drift: tuple[float, float]
+    spin_inertia: float
+    mass_total: float
+    total_mass: float
+    total_inertia: Matrix
+    total_com: Vector
+    modules: tuple[ModuleRecord, ...]
+    clearance: Clearance | None
+    flywheel: Flywheel
+    motor: Drive
+    carrier: Carrier = NO_CARRIER
+    plate: CarrierPlate | None = None
+    pedestals: tuple[Pedestal, ...] = ()
+    guard_wall: float = 0.0
+    foot_plate: float = PLATE_THICKNESS
+    on_bell: bool = False
+    center_of_mass: Vector | None = None
+    warnings: tuple[str, ...] = ()
+    fitting: tuple[str, ...] = ()
+    mounting: MountingRecord | None = None
+    layout: Literal[
+        "single",
+        "pair",
+        "double-pair",
+        "triple-pair",
+        "triad",
+        "orthogonal",
+        "pyramid",
+        "by-hand",
+    ] = "pair"
+
+    def device(self, supply: Supply | None = None) -> Device:
+        """The device that was designed, to the last digit; `supply` is what feeds it."""
+        modules = (
+            Module(each.name, np.array(each.axis), np.array(each.position)) for each in self.modules
+        )
+        return Device(
+            self.incidence,
+            tuple(modules),
+            self.flywheel,
+            self.motor,
+            self.carrier,
+            supply,
+            plate=self.plate,
+            guard_wall=self.guard_wall,
+            foot_plate=self.foot_plate,
+            layout=self.axes,
+            pedestals=self.pedestals,
+            on_bell=self.on_bell,
+        )
+
+    @property
+    def axes(self) -> Layout:
+        """Layout of the modules' axes."""
+        name = LayoutName(self.layout)
+        axes = (each.axis for each in self.modules)
+        return Layout(name, tuple(axes) if name is LayoutName.BY_HAND else ())
+
+
+@dataclass(frozen=True, kw_only=True)
+class MarginRecord:
+    """Demand against capacity; `margin` is capacity over demand, None where there is no limit.
+
+    `scenario` is the one that sets it, empty if none does; `note` is what the figures rest on.
+    """
+
+    name: str
+    demand: float
+    capacity: float | None
+    unit: str
+    margin: float | None
+    scenario: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenPoint:
+    """What keeps a device from being built, and the cure."""
+
+    what: str
+    cure: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Buildable:
+    """Whether the device can be built as it stands; None where that cannot be told."""
+
+    yes: bool | None
+    open: tuple[OpenPoint, ...] = ()
