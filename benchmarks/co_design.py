@@ -19,7 +19,8 @@ from legged_robots import ROBOTS
 from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Drop, Flip
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.selection.problem import SelectionProblem, selection_problem

@@ -15,13 +15,11 @@ from legged_robots import LEGGED, ROBOTS
 
 from ocs_design.common.errors import OcsError
 from ocs_design.device.records.device import Clearance
+from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import (
-    NO_MOTOR,
-    MotorSection,
-    RobotSection,
-    Specification,
-)
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot

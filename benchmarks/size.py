@@ -17,8 +17,10 @@ import mujoco
 import numpy as np
 from paired import alternate, print_pairs, run_process
 
+from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.specification import MotorSection, RobotSection, Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import World, WorldBuilder
 from ocs_design.workflows.size import design_ocs

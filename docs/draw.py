@@ -15,11 +15,8 @@ from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.export.drawing.wheel_sheet import draw_wheel
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
-from ocs_design.requirement.specification import (
-    RobotSection,
-    Specification,
-    ValidationSection,
-)
+from ocs_design.requirement.sections import RobotSection, ValidationSection
+from ocs_design.requirement.specification import Specification
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs" / "_static" / "solo12-ocs.png"

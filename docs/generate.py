@@ -36,10 +36,11 @@ from blocks import table
 from typer.core import TyperCommand, TyperGroup
 
 from ocs_design.cli.app import app
+from ocs_design.requirement.keys import keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.specification import SECTIONS
 from ocs_design.requirement.uncertainty import entries, spreads
-from ocs_design.requirement.values import Choice, Value, keys_of
+from ocs_design.requirement.values import Choice, Value
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))

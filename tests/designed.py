@@ -7,12 +7,8 @@ from functools import cache
 
 from fronts import by_hand
 
-from ocs_design.requirement.specification import (
-    FlywheelSection,
-    MotorSection,
-    OcsSection,
-    Specification,
-)
+from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.design import design_device
 
 MOTOR = "EC 45 flat 70 W 411812"

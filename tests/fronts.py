@@ -3,7 +3,8 @@
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.answers import FrontDevice
 from ocs_design.requirement.froude import SOLO12
-from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import sweep_of
 from ocs_design.workflows.pareto import draw_front, front_values, read_task
 

@@ -18,7 +18,8 @@ from ocs_design.device.records.design import read_design
 from ocs_design.export.folder import recorded_hashes
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.meshes import mesh_bounds, size
 from ocs_design.robot.mujoco_model import build_spec

@@ -9,13 +9,11 @@ from robots import ROBOTS
 
 from ocs_design.device.naming import flywheel_names
 from ocs_design.export.attach import attach_device
+from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import (
-    NO_MOTOR,
-    MotorSection,
-    RobotSection,
-    Specification,
-)
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.meshes import size
 from ocs_design.robot.mujoco_model import build_spec, posture_qpos
 from ocs_design.robot.reader import read_robot

@@ -16,7 +16,9 @@ from types import MappingProxyType
 from ocs_design import Infeasible, OcsDesign, design_ocs, read_specification
 from ocs_design.device.layout import LayoutName
 from ocs_design.device.records.flights import ValidationRecord
-from ocs_design.requirement.specification import AUTO, MotorSection, Specification
+from ocs_design.requirement.device_sections import MotorSection
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.vocabulary import AUTO
 
 HERE = Path(__file__).parent
 WIDTH = 23

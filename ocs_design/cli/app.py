@@ -201,7 +201,7 @@ def _design(
 ) -> None:
     """Size, print and end with the outcome's exit code."""
     from ocs_design.report.text.console import Steps, make_console, open_page
-    from ocs_design.requirement.specification import ALL_LAYOUTS
+    from ocs_design.requirement.vocabulary import ALL_LAYOUTS
 
     console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
     steps = Steps(aside, quiet=output.quiet or output.as_json)

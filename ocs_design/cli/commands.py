@@ -127,7 +127,7 @@ def _ask_robot(
 
 def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
     """The start with what was answered, and the maneuvers that were chosen."""
-    from ocs_design.requirement.specification import NO_MOTOR
+    from ocs_design.requirement.vocabulary import NO_MOTOR
     from ocs_design.requirement.writing import rounded_text
 
     chosen: tuple[str, ...] = ()

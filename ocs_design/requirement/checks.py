@@ -12,11 +12,15 @@ from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.choices import highest_rated_voltage, unknown_names
+from ocs_design.requirement.device_sections import FlywheelSection, OcsSection
 from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import (
+from ocs_design.requirement.sections import TURNS, WORDS
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
     ALUMINIUM_WEB,
     AUTO,
@@ -29,14 +33,8 @@ from ocs_design.requirement.specification import (
     PYRAMID,
     RING,
     STEEL,
-    TURNS,
     WHEELS,
-    WORDS,
-    FlywheelSection,
-    OcsSection,
-    Specification,
 )
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.robot import Robot
 
 OF_WEBS = (

@@ -13,15 +13,10 @@ from ocs_design.catalogue.gears import known_gears, named_stages, stages
 from ocs_design.catalogue.materials import Material, material, strong_materials
 from ocs_design.catalogue.motors import known_motors, load_motors, motor
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.specification import (
-    AUTO,
-    NO_CONTROLLERS,
-    NO_MOTOR,
-    STEEL,
-    MotorSection,
-    Specification,
-)
+from ocs_design.requirement.device_sections import MotorSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.values import names_in
+from ocs_design.requirement.vocabulary import AUTO, NO_CONTROLLERS, NO_MOTOR, STEEL
 from ocs_design.robot.robot import Robot
 
 BUS_VOLTAGES: Mapping[float, float] = MappingProxyType({20.0: 24.0, 60.0: 48.0, inf: 72.0})

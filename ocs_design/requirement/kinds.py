@@ -19,9 +19,11 @@ class ManeuverKind:
 
     Attributes:
         maneuver: the class; a field whose annotation has a `Value` is a key of the file.
+        note: what it is, a sentence for the file.
     """
 
     maneuver: type[Maneuver]
+    note: str
 
     @cached_property
     def values(self) -> Mapping[str, Value[Any]]:
@@ -40,14 +42,28 @@ class ManeuverKind:
 
 MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     {
-        "disturbance": ManeuverKind(Disturbance),
-        "shove": ManeuverKind(Shove),
-        "drop": ManeuverKind(Drop),
-        "flip": ManeuverKind(Flip),
-        "turn": ManeuverKind(TurnTo),
-        "catch": ManeuverKind(Catch),
-        "balance": ManeuverKind(Balance),
-        "stand-up": ManeuverKind(StandUp),
+        "disturbance": ManeuverKind(
+            Disturbance, "A jump in which something hits the trunk; to stay level until touchdown."
+        ),
+        "shove": ManeuverKind(
+            Shove, "A torque on the trunk of a robot that stands or trots; to be at rest soon."
+        ),
+        "drop": ManeuverKind(
+            Drop, "A fall from rest with the trunk tilted; to be level before touchdown."
+        ),
+        "flip": ManeuverKind(
+            Flip, "A turn in pitch during a vertical jump; a back-flip is negative."
+        ),
+        "turn": ManeuverKind(
+            TurnTo, "A turn to any attitude during a vertical jump, heading included."
+        ),
+        "catch": ManeuverKind(Catch, "A stop of a trunk that turns as it leaves the ground."),
+        "balance": ManeuverKind(
+            Balance, "A tilt, rate or impulse of a robot on a pivot, which feedback alone undoes."
+        ),
+        "stand-up": ManeuverKind(
+            StandUp, "A climb from a tilt to upright about a pivot, by motors or by a brake."
+        ),
     }
 )
 """Every kind by the word that `kind` takes."""
@@ -60,6 +76,62 @@ def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
         for word, kind in MANEUVER_KINDS.items()
         if kind.maneuver is type(maneuver)
     )
+
+
+FIELD_NOTES: Mapping[str, str] = MappingProxyType(
+    {
+        "name": "yours, of each maneuver another",
+        "gravity": "if not that of [requirement]",
+        "incidence": "if the modules are turned by hand for it",
+        "takeoff_velocity": "forward, up",
+        "torque": "on the trunk, about its x (forward), y (left) and z",
+        "onset": "after lift-off",
+        "duration": "of the torque",
+        "flip.duration": "of the turn, from lift-off",
+        "turn.duration": "of the turn, from lift-off",
+        "catch.duration": "from lift-off until it is stopped",
+        "turn.roll": "at the end, reached by yaw, then pitch, then roll",
+        "turn.pitch": "at the end",
+        "catch.roll": "at the end, where end is attitude",
+        "catch.pitch": "at the end",
+        "yaw": "at the end",
+        "rate": "of the trunk at lift-off, about its x, y and z",
+        "wheel_speed": "of all wheels at lift-off",
+        "end": "level, attitude (with its heading) or at rest",
+        "settling": "from the end of the torque to rest",
+        "velocity_change": "of the centre of mass, by a force beside the torque",
+        "impulse": "of a force, from which torque and velocity_change follow",
+        "point": "of the trunk that the force hits",
+        "stride": "of a trot on the spot; 0: the robot stands",
+        "height": "of the trunk over the ground",
+        "roll": "at release",
+        "pitch": "at release",
+        "jump_height": "of the centre of mass",
+        "angle": "of pitch",
+        "pivot": "that it stands on, in the trunk's frame",
+        "edge": "direction of the edge that it stands on; zeros: a point",
+        "actuation": "motor, or brake: wheels spun up before are stopped in an instant",
+        **{
+            f"{kind}.{name}": note
+            for kind in ("balance", "stand-up")
+            for name, note in (
+                ("roll", "at the start, from where it balances"),
+                ("pitch", "at the start"),
+                ("duration", "until it is upright and at rest"),
+                ("wheel_speed", "of all wheels at the start"),
+                ("end", "level, or attitude: with its heading too"),
+            )
+        },
+        "balance.rate": "of the trunk at the start, about its x, y and z",
+        "balance.impulse": "of a force at the start",
+    }
+)
+"""What each field of a `[[maneuver]]` is; by `kind.field`, of that kind alone."""
+
+
+def field_note(kind: str, field: str) -> str:
+    """Note on a field of a kind of maneuver."""
+    return FIELD_NOTES.get(f"{kind}.{field}") or FIELD_NOTES[field]
 
 
 _LONGER_THAN_ITS_TURN = 1.02

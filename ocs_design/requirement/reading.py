@@ -11,10 +11,11 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.common.files import AnyPath, TextKind, safe_name
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.requirement.checks import contradictions
+from ocs_design.requirement.keys import Faults, keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import SECTIONS, Specification
-from ocs_design.requirement.values import Faults, Text, Value, keys_of
+from ocs_design.requirement.values import Text, Value
 
 # A specification takes a few thousand bytes.
 _FILE = TextKind(

@@ -13,6 +13,12 @@ from ocs_design.common.errors import RobotError, SpecificationError, UsageError
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity, rpm, to_unit
 from ocs_design.requirement.checks import contradictions, unfit_for_robot
 from ocs_design.requirement.choices import POWER_PER_MASS, MotorChoice, default_supply, motor_choice
+from ocs_design.requirement.device_sections import (
+    FlywheelSection,
+    MotorSection,
+    OcsSection,
+    SupplySection,
+)
 from ocs_design.requirement.froude import (
     LIMIT_OF_KEY,
     RIM_MASS_SHARE,
@@ -28,7 +34,10 @@ from ocs_design.requirement.froude import (
 )
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.specification import (
+from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.uncertainty import default_uncertainty
+from ocs_design.requirement.vocabulary import (
     ALUMINIUM_WEB,
     AUTO,
     BALANCING_DEPTH,
@@ -48,16 +57,7 @@ from ocs_design.requirement.specification import (
     RELIABILITY,
     RING,
     STEEL,
-    FlywheelSection,
-    MotorSection,
-    OcsSection,
-    RequirementSection,
-    RobotSection,
-    Specification,
-    SupplySection,
-    ValidationSection,
 )
-from ocs_design.requirement.uncertainty import default_uncertainty
 from ocs_design.robot.manual import person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot

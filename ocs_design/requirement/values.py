@@ -7,15 +7,14 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from enum import Enum
-from functools import cache
 from math import pi
 from reprlib import repr as shortened
 from typing import Any, Generic, TypeAlias, TypeVar
 
-from ocs_design.common.errors import OcsError, QuantityError, SpecificationError
+from ocs_design.common.errors import QuantityError, SpecificationError
 from ocs_design.common.units import (
     UNITS,
     Dimension,
@@ -466,53 +465,3 @@ TILT = angle(Sign.ANY, pi, pi / 2)
 
 YAW = angle(Sign.ANY, 2.0 * pi, ONE_TURN)
 SPIN = Quantity(Dimension.ANGULAR_SPEED, Sign.ANY, most_bare=FASTEST_BARE, likely="rpm")
-
-
-@dataclass(frozen=True)
-class Key:
-    """What a field of a section means outside the program.
-
-    Attributes:
-        value: how it is read.
-        summary: what it is, for help and for messages.
-        option: its name on the command line; empty: the key's own, with dashes.
-    """
-
-    value: Value[Any]
-    summary: str
-    option: str = ""
-
-
-def keyed(value: Value[T], summary: str, option: str = "") -> T | None:
-    """A field of a section that is a key, None where it is not stated (`Key`)."""
-    return field(default=None, metadata={"key": Key(value, summary, option)})
-
-
-@cache
-def keys_of(section: type) -> Mapping[str, Key]:
-    """Every key of a section by name, in order."""
-    return {item.name: item.metadata["key"] for item in fields(section)}
-
-
-class Faults(list[str]):
-    """One line per fault, each with the path of its key."""
-
-    def read(self, value: Value[T], raw: object, where: str) -> T | None:
-        """The value, or None with the fault kept."""
-        try:
-            return value.read(raw, where)
-        except OcsError as error:
-            self.append(f"{error.message}. {error.hint}" if error.hint else error.message)
-            return None
-
-    def table(self, raw: object, where: str) -> Mapping[str, object]:
-        """A table as it is; an empty one, with the fault kept, for anything else."""
-        if isinstance(raw, Mapping):
-            return raw
-        self.append(f"{where}: must be a table")
-        return {}
-
-    def unknown(self, where: str, key: str, known: Sequence[str]) -> None:
-        """Keeps that `key` is none of `known`."""
-        hint = did_you_mean(key, tuple(known)) or f"Known: {', '.join(known)}."
-        self.append(f"{where}: unknown key. {hint}")

@@ -17,7 +17,8 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.resolving import Resolved
-from ocs_design.requirement.specification import LIGHTEST, Specification
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.vocabulary import LIGHTEST
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import LIMITS, TIME

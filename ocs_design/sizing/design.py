@@ -15,13 +15,8 @@ from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved, resolve
-from ocs_design.requirement.specification import (
-    CONTAINING,
-    LIGHTEST,
-    MORE_PAIRS,
-    PYRAMID,
-    Specification,
-)
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
 from ocs_design.robot.links import listed
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot

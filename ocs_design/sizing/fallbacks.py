@@ -8,14 +8,8 @@ from dataclasses import replace
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.checks import contradictions
-from ocs_design.requirement.specification import (
-    AUTO,
-    LIGHTEST,
-    MORE_PAIRS,
-    RELIABILITY,
-    WHEELS,
-    Specification,
-)
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, MORE_PAIRS, RELIABILITY, WHEELS
 from ocs_design.sizing.changes import Progress
 from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.sizing.selection.advice import NO_ROOM, Refused

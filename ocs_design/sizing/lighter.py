@@ -17,8 +17,9 @@ from ocs_design.device.records.selection import Alternative
 from ocs_design.requirement.kinds import change_text, slower
 from ocs_design.requirement.maneuver import Disturbance, Drop, Maneuver, Shove
 from ocs_design.requirement.pivoted import StandUp
-from ocs_design.requirement.specification import AUTO, LIGHTEST, Specification
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
+from ocs_design.requirement.vocabulary import AUTO, LIGHTEST
 from ocs_design.sizing.changes import Progress, unseen
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.on_robot import with_plate

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 from ocs_design.catalogue.materials import strong_materials
 from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors
-from ocs_design.requirement.specification import AUTO, LIGHTEST, STEEL, Specification
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, STEEL
 from ocs_design.sizing.limits import BUS_VOLTAGE
 from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
 

@@ -23,9 +23,9 @@ from ocs_design.device.records.selection import KeptRecord, ReserveRecord, Uncer
 from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
-from ocs_design.requirement.specification import RELIABILITY
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
+from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.selection.demand import held_in_roll, wheel_task
 from ocs_design.sizing.selection.device import inertia_at

@@ -252,7 +252,8 @@ def _controller(order: Order, folder: Path) -> None:
         OcsError: the robot cannot be had, or there is nothing to fly.
     """
     # They fly it, which parts and snippets do without.
-    from ocs_design.requirement.specification import Specification, ValidationSection  # noqa: PLC0415
+    from ocs_design.requirement.sections import ValidationSection  # noqa: PLC0415
+    from ocs_design.requirement.specification import Specification  # noqa: PLC0415
     from ocs_design.simulation.firmware import write_controller  # noqa: PLC0415
     from ocs_design.simulation.scenario import world_builder  # noqa: PLC0415
     from ocs_design.simulation.scene import Wheels  # noqa: PLC0415

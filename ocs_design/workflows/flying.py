@@ -21,13 +21,10 @@ from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.specification import (
-    CONTROL_PERIOD,
-    Specification,
-    ValidationSection,
-    merge_section,
-)
+from ocs_design.requirement.sections import ValidationSection
+from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.uncertainty import UncertaintySection, uncertainty_of_texts
+from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scenario import Options, Run, fly_stopped, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation, Gains

@@ -12,8 +12,9 @@ from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
 from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.report.text.console import Steps, Tell
 from ocs_design.requirement.reading import specification_of
-from ocs_design.requirement.specification import DETECTION, LAYOUTS, Specification
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
+from ocs_design.requirement.vocabulary import DETECTION, LAYOUTS
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 from ocs_design.sizing.selection.device import survived

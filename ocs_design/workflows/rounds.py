@@ -32,8 +32,10 @@ from ocs_design.requirement.maneuver import Disturbance, Maneuver
 from ocs_design.requirement.pivoted import Pivoted, StandUp
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved, resolve
-from ocs_design.requirement.specification import RELIABILITY, Specification, ValidationSection
+from ocs_design.requirement.sections import ValidationSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot

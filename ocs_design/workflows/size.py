@@ -25,9 +25,10 @@ from ocs_design.report.video.film import film_or_tell
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
-from ocs_design.requirement.specification import NO_MOTOR, Specification
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.uncertainty import complete_uncertainty, uncertainty_texts
+from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot

@@ -22,12 +22,9 @@ from ocs_design.monte_carlo.running import AT_ONCE, Cluster, ThisMachine, narrow
 from ocs_design.monte_carlo.summary import summarised
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import Steps, Tell
-from ocs_design.requirement.specification import (
-    RELIABILITY,
-    Specification,
-    ValidationSection,
-    merge_section,
-)
+from ocs_design.requirement.sections import ValidationSection
+from ocs_design.requirement.specification import Specification, merge_section
+from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.scenario import Run, refusal
 from ocs_design.workflows.flying import Task, flown_hash, read_task

@@ -12,8 +12,8 @@ from loading import modules_loaded_by
 
 from ocs_design.cli.completion import PAPERS
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.specification import CRITERIA, GUARDS
 from ocs_design.requirement.sweep import sweep_of
+from ocs_design.requirement.vocabulary import CRITERIA, GUARDS
 from ocs_design.robot.manual import robot_by_hand
 
 

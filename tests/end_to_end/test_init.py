@@ -12,7 +12,8 @@ from commands import BY_HAND, PROGRAM, SOLO12, environment, run
 
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.workflows.init import read_start
 
 SOLO12_SPECIFICATION = Specification(robot=RobotSection(file=SOLO12))

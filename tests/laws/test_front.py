@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from commands import SOLO12
 
-from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import SWEEPS
 from ocs_design.workflows.pareto import draw_front, lightest_device, read_task
 

@@ -29,7 +29,7 @@ from ocs_design.parts.rim import (
 )
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, wheel_parts
 from ocs_design.parts.wheel import Hub as MadeHub
-from ocs_design.requirement.specification import LIGHTENINGS
+from ocs_design.requirement.vocabulary import LIGHTENINGS
 from ocs_design.sizing.bound.rim_problem import (
     RimProblem,
     limits_with_web,

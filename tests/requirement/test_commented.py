@@ -8,19 +8,15 @@ import numpy as np
 import pytest
 from specifications import FULL
 
+from ocs_design.requirement.device_sections import FlywheelSection
 from ocs_design.requirement.froude import example_pivots, example_shove, example_turns
+from ocs_design.requirement.keys import keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import default_specification
-from ocs_design.requirement.specification import (
-    SECTIONS,
-    FlywheelSection,
-    RequirementSection,
-    Specification,
-    all_keys,
-)
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import SECTIONS, Specification, all_keys
 from ocs_design.requirement.uncertainty import Distribution
-from ocs_design.requirement.values import keys_of
 from ocs_design.requirement.writing import commented_toml, rounded_text
 from ocs_design.robot.manual import robot_by_hand
 

@@ -12,15 +12,15 @@ from ocs_design.catalogue.materials import materials
 from ocs_design.catalogue.motors import motor, motors
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.choices import motor_choice
-from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import (
+from ocs_design.requirement.device_sections import (
     FlywheelSection,
     MotorSection,
     OcsSection,
-    RequirementSection,
-    Specification,
     SupplySection,
 )
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.values import Names, names_in
 from ocs_design.robot.manual import robot_by_hand
 

@@ -7,14 +7,11 @@ import pytest
 
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import spin_demands
+from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
 from ocs_design.requirement.reading import parse_specification, read_specification
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import (
-    MotorSection,
-    Specification,
-    specification_from_options,
-)
+from ocs_design.requirement.specification import Specification, specification_from_options
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SIZE = 0.45

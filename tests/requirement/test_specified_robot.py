@@ -5,7 +5,8 @@ from commands import SOLO12, run
 
 from ocs_design.common.errors import RobotError
 from ocs_design.requirement.resolving import read_specified_robot
-from ocs_design.requirement.specification import RobotSection, Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 
 TOLD = "the parts' masses add up to 2.5"
 

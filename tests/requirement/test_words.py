@@ -18,12 +18,8 @@ from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import (
-    RequirementSection,
-    Specification,
-    merge,
-    specification_from_options,
-)
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.sweep import SWEEPS, Task
 from ocs_design.requirement.words import (
     FLIP,

@@ -6,15 +6,15 @@ from functools import cache
 import pytest
 from fronts import by_hand
 
-from ocs_design.requirement.maneuver import Flip
-from ocs_design.requirement.specification import (
+from ocs_design.requirement.device_sections import (
     FlywheelSection,
     MotorSection,
     OcsSection,
-    RequirementSection,
-    Specification,
     SupplySection,
 )
+from ocs_design.requirement.maneuver import Flip
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.alternatives import alternatives
 from ocs_design.sizing.design import design_device
 

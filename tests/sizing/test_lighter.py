@@ -6,8 +6,10 @@ from functools import cache
 import pytest
 from fronts import by_hand
 
+from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.kinds import slower
-from ocs_design.requirement.specification import MotorSection, RequirementSection, Specification
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.alternatives import owed_to
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.lighter import lighter_by

@@ -20,12 +20,8 @@ from ocs_design.parts.bell import FIXTURE_FLOOR, GLUE_GAP
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import CLEARANCE
-from ocs_design.requirement.specification import (
-    FlywheelSection,
-    MotorSection,
-    OcsSection,
-    Specification,
-)
+from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.alternatives import alternatives
 from ocs_design.sizing.design import design_device

@@ -17,10 +17,11 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, wheel_slew_time
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import module_axes
+from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.specification import FlywheelSection, MotorSection, Specification
+from ocs_design.requirement.specification import Specification
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
 from ocs_design.sizing.selection.advice import PRECISION, single_changes

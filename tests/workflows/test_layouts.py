@@ -9,14 +9,10 @@ from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout, LayoutName
 from ocs_design.device.records.design import read_design
 from ocs_design.requirement.checks import contradictions
+from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.reading import parse_specification, specification_of
-from ocs_design.requirement.specification import (
-    LAYOUTS,
-    OcsSection,
-    Specification,
-    merge,
-    specification_from_options,
-)
+from ocs_design.requirement.specification import Specification, merge, specification_from_options
+from ocs_design.requirement.vocabulary import LAYOUTS
 from ocs_design.sizing.design import CannotSurvive, design_device
 from ocs_design.sizing.selection.problem import selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan

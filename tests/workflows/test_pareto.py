@@ -10,7 +10,8 @@ from fronts import by_hand, infeasible, made_up, make_front
 from ocs_design.common.errors import Infeasible, QuantityError, SpecificationError, UsageError
 from ocs_design.common.files import to_json
 from ocs_design.requirement.reading import parse_specification
-from ocs_design.requirement.specification import RequirementSection, Specification
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import SWEEPS
 from ocs_design.workflows.pareto import draw_front, front_values, read_task
 

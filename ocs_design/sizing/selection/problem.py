@@ -28,11 +28,14 @@ from ocs_design.parts.rim import (
     hub_of,
 )
 from ocs_design.requirement.choices import MotorChoice
+from ocs_design.requirement.device_sections import FlywheelSection
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved
-from ocs_design.requirement.specification import (
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
     ALUMINIUM_WEB,
     AUTO,
@@ -45,10 +48,7 @@ from ocs_design.requirement.specification import (
     LIGHTEST,
     NO_WEB,
     RING,
-    FlywheelSection,
-    Specification,
 )
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.bound.rim_problem import check_limits

@@ -1,0 +1,265 @@
+"""Sections of a specification about what the device may be: wheels, motors and their supply.
+
+A field is a key, as in `sections`.
+"""
+
+from dataclasses import dataclass
+
+from ocs_design.common.units import Dimension
+from ocs_design.requirement.keys import keyed
+from ocs_design.requirement.values import (
+    INCIDENCE,
+    SUPPLY,
+    Choice,
+    Count,
+    Names,
+    Number,
+    Quantities,
+    Quantity,
+    Sign,
+    Switch,
+    Text,
+    WordOr,
+)
+from ocs_design.requirement.vocabulary import (
+    ALL_LAYOUTS,
+    AUTO,
+    CONSTRUCTIONS,
+    CRITERIA,
+    GUARDS,
+    LARGEST_CHAMFER,
+    LAYOUTS,
+    NO_CONTROLLERS,
+    OF_WHEELS,
+    STEEL,
+    WEBS,
+)
+
+_LENGTH, _MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OcsSection:
+    """`[ocs]`: how the device sits on the trunk, and what it may weigh [rad, m, kg]."""
+
+    layout: str | None = keyed(
+        Choice((*LAYOUTS, ALL_LAYOUTS)),
+        "how the wheels' axes lie",
+        why="double-pair, triple-pair: four and six wheels at a pair's axes; single: on pitch; "
+        "triad: three in the horizontal plane; orthogonal: x, y, z; pyramid: four. All but "
+        "pairs and pyramid have no angle.",
+    )
+    axes: tuple[float, ...] | None = keyed(
+        Quantities(Dimension.RATIO, OF_WHEELS),
+        "directions of the wheels' axes by hand, in place of a layout: x, y, z of each",
+        why="x, y, z of each wheel's axis, of any length; in place of a layout.",
+        default="as the layout says",
+        example="[0, 1, 0, 1, 0, 0]",
+    )
+    alpha: float | None = keyed(
+        INCIDENCE,
+        "incidence of a pair's axes, or elevation of a pyramid's",
+        why="Where mounts for one angle exist already.",
+        default="by the criterion below",
+        example='"40 deg"',
+    )
+    alpha_criterion: str | None = keyed(
+        Choice(CRITERIA),
+        "how the incidence is chosen",
+        why="equal-rate is the paper's: the same change of rate about either axis; lightest: any.",
+    )
+    position: tuple[float, ...] | None = keyed(
+        Quantities(Dimension.LENGTH, OF_WHEELS),
+        "centre of a pair's left wheel on the trunk: x, y, z; of other layouts, of each wheel",
+        why="In the trunk's frame; a pair's right wheel is mirrored in y.",
+        default="found, free of the robot's own parts",
+        example='["0 mm", "50 mm", "70 mm"]',
+    )
+    mass_max: float | None = keyed(
+        _MASS,
+        "largest mass of the device, all modules",
+        why="What the robot may carry: if the lightest device is heavier, there is none.",
+        default="not limited",
+        example='"1 kg"',
+    )
+    lighter_by: float | None = keyed(
+        _MASS,
+        "to be told what must give for a device so much lighter",
+        why="Each answer is sized as a whole: it takes a minute.",
+        default="not asked",
+        example='"90 g"',
+    )
+    co_design: bool | None = keyed(
+        Switch(),
+        "whether to refine all dimensions by optimal control in 3-D",
+        why="0 to 0.8 % lighter on the robots tried, and seconds slower to find.",
+    )
+    guard: str | None = keyed(
+        Choice(GUARDS),
+        "what the housings hold: fingers out, or also a wheel that bursts",
+        why="containing: a ring of mild steel in each housing that holds a third of the rim at "
+        "top speed, by a formula that nobody has tested on such rings.",
+    )
+    wheel: str | None = keyed(
+        Choice(CONSTRUCTIONS),
+        "a rim on a disc that sits on the motor, or a ring bonded around the motor's bell",
+        why="ring: bonded around the bell of an outrunner, as Mini Wheelbot has it; a flat "
+        "module, heavier where the wheel wants to be wide.",
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlywheelSection:
+    """`[flywheel]`: the room for a rim and what it is made of [m, kg]."""
+
+    r_max: float | None = keyed(
+        _LENGTH,
+        "largest outer radius of a rim",
+        why="Of the rim: its housing adds 3.6 mm all around. The wider the rim, the lighter.",
+    )
+    r_min: float | None = keyed(
+        _LENGTH,
+        "smallest bore radius of a rim",
+        why="Room for the motor's shaft or can inside the rim.",
+    )
+    h_max: float | None = keyed(
+        _LENGTH,
+        "largest height of a rim",
+        why="The room along the spin axis.",
+    )
+    h_min: float | None = keyed(
+        _LENGTH,
+        "smallest height of a rim",
+        why="What your lathe or printer still makes well.",
+    )
+    wall_min: float | None = keyed(
+        _LENGTH,
+        "smallest wall, outer less bore radius",
+        why="The same across the rim.",
+    )
+    wheel_mass_max: float | None = keyed(
+        _MASS,
+        "largest mass of a rim",
+        why="What the trunk may carry on each side.",
+    )
+    material: str | None = keyed(
+        Text((STEEL, AUTO)),
+        "material of a rim, from the catalogue; steel or auto: of many",
+        why="steel: any; auto: any material; or one of `ocs-design catalogue materials`.",
+    )
+    web: str | None = keyed(
+        Choice(WEBS),
+        "what joins a rim to its motor: a disc of one piece with it, one of aluminium that "
+        "it is shrunk on, or none: massless spokes",
+        why="none is the paper's: spokes that weigh nothing.",
+    )
+    stress_safety: float | None = keyed(
+        Number(),
+        "yield strength over hoop stress at the highest speed",
+        why="More where a burst rim could hurt someone.",
+    )
+    lightening: int | None = keyed(
+        Count(),
+        "holes in a web that has room for them; 0: none",
+        why="They take two fifths of the web, 3 mm of spoke is left; fewer parts to drill: 0.",
+    )
+    chamfer: float | None = keyed(
+        Quantity(Dimension.LENGTH, Sign.NOT_NEGATIVE, LARGEST_CHAMFER),
+        "broken edges of a wheel with a web, at 45 deg",
+        why="What your workshop breaks edges by; it is counted.",
+    )
+    balancing_holes: int | None = keyed(
+        Count(),
+        "in each face of a rim with a web; 0: none",
+        why="At least three, where weights are to balance the wheel; its wall grows to fit them.",
+    )
+    balancing_hole_diameter: float | None = keyed(
+        _LENGTH,
+        "of each, on the rim's middle radius",
+        why="1.6 mm is the core hole of M2.",
+    )
+    balancing_hole_depth: float | None = keyed(
+        _LENGTH,
+        "of each, from its face",
+        why="A thread of M2 wants 2 mm; both faces have them, so that the rim grows too.",
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotorSection:
+    """`[motor]`: what drives a wheel [N m]."""
+
+    name: str | None = keyed(
+        Names(),
+        "motors to choose from, of the catalogue; auto, or none",
+        option="motor",
+        why="Those that you have: see `ocs-design catalogue motors`; none: the bound alone.",
+    )
+    gear: str | None = keyed(
+        Text((AUTO, "direct")),
+        "gear from the catalogue, direct, or auto",
+        why="auto: any of `ocs-design catalogue gears`; how they are held is not designed.",
+    )
+    any: bool | None = keyed(
+        Switch(),
+        "whether motors may lack what a builder needs",
+        option="motors-any",
+        why="true: what motors would do whose threads, say, no source gives; not to be built.",
+    )
+    motors: str | None = keyed(
+        Text(),
+        "file with motors to choose from instead, CSV or TOML",
+        why="Instead of the catalogue; from the folder of this file.",
+        default="none",
+        example='"my_motors.csv"',
+    )
+    with_catalogue: bool | None = keyed(
+        Switch(),
+        "whether to choose from the catalogue too, beside that file",
+        why="true: your file's motors and the catalogue's.",
+    )
+    gears: str | None = keyed(
+        Text(),
+        "file with gears of your own, CSV or TOML",
+        why="To choose from as well; from the folder of this file.",
+        default="none",
+        example='"my_gears.csv"',
+    )
+    torque_max: float | None = keyed(
+        Quantity(Dimension.TORQUE),
+        "largest torque on a wheel",
+        why="What your motor controller gives, at the wheel.",
+        default="the motor's own",
+        example='"1 N m"',
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SupplySection:
+    """`[supply]`: what feeds all motors, drawn or fed back, and their controllers [V, A, W, kg]."""
+
+    voltage: float | None = keyed(
+        SUPPLY,
+        "of the supply of all motors",
+        option="bus-voltage",
+        why="Your robot's battery under load, not its nameplate.",
+    )
+    current_max: float | None = keyed(
+        Quantity(Dimension.CURRENT),
+        "largest current of all motors, drawn or fed back",
+        option="bus-current",
+        why="What fuse, cables and battery stand, both ways.",
+        default="not limited but by power",
+        example='"40 A"',
+    )
+    power_max: float | None = keyed(
+        Quantity(Dimension.POWER),
+        "largest power of all motors, drawn or fed back",
+        option="bus-power",
+        why="Less where the legs draw at the same time.",
+    )
+    controllers: float | str | None = keyed(
+        WordOr((AUTO, NO_CONTROLLERS), _MASS),
+        "mass of one motor controller; none: not counted",
+        why="auto: by their current; a mass where you have some; none: not counted.",
+    )

@@ -1,0 +1,76 @@
+"""Keys of a specification: what each one is, how it is read and why one would state it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import cache
+from typing import Any, TypeVar
+
+from ocs_design.common.errors import OcsError
+from ocs_design.requirement.values import Value, did_you_mean
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Key:
+    """What a field of a section means outside the program.
+
+    Attributes:
+        value: how it is read.
+        summary: what it is, for help and for messages.
+        option: its name on the command line; empty: the key's own, with dashes.
+        why: one line, when to state it, or what it changes.
+        default: what holds where nothing is stated, in words; empty: the value says it all.
+        example: a value as it is written in TOML, where there is no default to show.
+    """
+
+    value: Value[Any]
+    summary: str
+    option: str = ""
+    why: str = ""
+    default: str = ""
+    example: str = ""
+
+
+def keyed(
+    value: Value[T],
+    summary: str,
+    *,
+    why: str,
+    option: str = "",
+    default: str = "",
+    example: str = "",
+) -> T | None:
+    """A field of a section that is a key, None where it is not stated (`Key`)."""
+    key = Key(value, summary, option, why, default, example)
+    return field(default=None, metadata={"key": key})
+
+
+@cache
+def keys_of(section: type) -> Mapping[str, Key]:
+    """Every key of a section by name, in order."""
+    return {item.name: item.metadata["key"] for item in fields(section)}
+
+
+class Faults(list[str]):
+    """One line per fault, each with the path of its key."""
+
+    def read(self, value: Value[T], raw: object, where: str) -> T | None:
+        """The value, or None with the fault kept."""
+        try:
+            return value.read(raw, where)
+        except OcsError as error:
+            self.append(f"{error.message}. {error.hint}" if error.hint else error.message)
+            return None
+
+    def table(self, raw: object, where: str) -> Mapping[str, object]:
+        """A table as it is; an empty one, with the fault kept, for anything else."""
+        if isinstance(raw, Mapping):
+            return raw
+        self.append(f"{where}: must be a table")
+        return {}
+
+    def unknown(self, where: str, key: str, known: Sequence[str]) -> None:
+        """Keeps that `key` is none of `known`."""
+        hint = did_you_mean(key, tuple(known)) or f"Known: {', '.join(known)}."
+        self.append(f"{where}: unknown key. {hint}")

@@ -1,0 +1,338 @@
+"""Sections of a specification about the robot, what is asked of its device, and the proof of it.
+
+A field is a key: its name is the TOML key and, with dashes, the option; its value says how it is
+read. None means that it was not stated and that a default holds.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ocs_design.common.units import Dimension
+from ocs_design.requirement.keys import keyed
+from ocs_design.requirement.values import (
+    HEIGHT,
+    TRUNK_RATE,
+    WHEEL_SPEED,
+    Chance,
+    Choice,
+    Count,
+    JointValues,
+    LinkNames,
+    Number,
+    Quantities,
+    Quantity,
+    Several,
+    Switch,
+    Text,
+)
+from ocs_design.requirement.vocabulary import DETECTION, NONE_STOPS, PROJECTIONS, SURVIVED
+from ocs_design.requirement.words import (
+    CATCH_TEXT,
+    FLIP,
+    GRAVITY,
+    TURN_TEXT,
+    About,
+    Climb,
+    ClimbText,
+    Kick,
+    KickText,
+    Person,
+    PersonText,
+    Pivot,
+    PivotText,
+    Tilt,
+    TiltText,
+    UpsetText,
+)
+
+_LENGTH, _MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RobotSection:
+    """`[robot]`: which robot and how it stands; mass [kg] and inertia [kg m^2] replace a file."""
+
+    file: str | None = keyed(
+        Text(),
+        "robot file: URDF, xacro or MJCF",
+        why="Mass, inertia and legs are read from it; from the folder of this file.",
+        default="the robot on the command line",
+        example='"robot.urdf"',
+    )
+    name: str | None = keyed(
+        Text(),
+        "name of the robot",
+        why="Names the output folder of a robot by hand.",
+        default="the file's own",
+        example='"robot"',
+    )
+    trunk: str | None = keyed(
+        Text(),
+        "link that carries the device",
+        why="State it where the wrong link was found to carry the legs.",
+        default="found",
+        example='"trunk"',
+    )
+    legs: tuple[str, ...] | None = keyed(
+        LinkNames(),
+        "a link of each foot; none: it has no legs",
+        why="State them where the wrong limbs were found to be legs.",
+        default="found",
+        example='["FL_FOOT", "FR_FOOT"]',
+    )
+    posture: str | None = keyed(
+        Text(),
+        "zero, stand, or a name from the file",
+        why="The inertia, and with it all else, is that of this posture.",
+        default="stand where legs are found",
+        example='"stand"',
+    )
+    joints: Mapping[str, float] | None = keyed(
+        JointValues(),
+        "joint values on top of the posture",
+        option="joint",
+        why="For a posture that has no name.",
+        default="none",
+        example='{ "FL_HFE" = "45deg", "FL_KFE" = "-90deg" }',
+    )
+    mass: float | None = keyed(
+        _MASS,
+        "mass of the robot",
+        why="In place of a file, with the inertia.",
+        default="read",
+        example='"2.5 kg"',
+    )
+    inertia: tuple[float, ...] | None = keyed(
+        Quantities(Dimension.INERTIA, (3, 6)),
+        "inertia about the centre of mass: Ixx, Iyy, Izz[, Ixy, Ixz, Iyz]",
+        why="In place of a file, with the mass.",
+        default="read",
+        example="[0.032, 0.055, 0.070]",
+    )
+    human: Person | None = keyed(
+        PersonText(),
+        "a person in place of a file, who wears the device",
+        why="In place of a file: mass, height, payload.",
+        default="read",
+        example='"75kg 1.75m with 10kg"',
+    )
+    weighed: float | None = keyed(
+        _MASS,
+        "what the robot weighs on scales, to check its file's parts",
+        why="Tells when the parts in the file do not add up to it.",
+        default="not checked",
+        example='"2.5 kg"',
+    )
+
+
+WORDS = (
+    "jump_height",
+    "kick",
+    "fall",
+    "tilt",
+    "flip",
+    "turn",
+    "catch",
+    "pivot",
+    "balance",
+    "stand_up",
+)
+"""Keys of `[requirement]` that ask for a maneuver (`froude.worded_maneuvers`)."""
+
+TURNS = ("turn", "catch")
+"""Those of them that need no gravity."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RequirementSection:
+    """`[requirement]`: what the wheels must do [rad/s, rad/s, kg m^2, m/s^2]."""
+
+    rate_change: float | None = keyed(
+        TRUNK_RATE,
+        "change of the trunk's rate",
+        why="The paper's requirement: asked of either axis, on top of the maneuvers.",
+        default="not asked",
+        example='"2 rad/s"',
+    )
+    wheel_speed_max: float | None = keyed(
+        WHEEL_SPEED,
+        "highest speed of a wheel",
+        why="What bearings and balance stand, if less than the motor can do.",
+        default="the motor's own; 7200 rpm without a motor",
+        example='"7200 rpm"',
+    )
+    spin_inertia: float | None = keyed(
+        Quantity(Dimension.INERTIA),
+        "spin inertia of one wheel, asked directly",
+        why="For a wheel that you have already; nothing else is then asked.",
+        default="found",
+        example='"7.11e-5 kg m2"',
+    )
+    gravity: float | None = keyed(
+        GRAVITY,
+        "where maneuvers state none",
+        why="1.62 m/s2 is the Moon's; the paper's back-flip stays there.",
+    )
+    jump_height: tuple[float, ...] | None = keyed(
+        Several(HEIGHT),
+        "height of a jump, of the centre of mass",
+        why="Alone: disturbed as in the paper's first test; else the jump of each kick and flip.",
+        default="not asked",
+        example='"0.4 m"',
+    )
+    kick: tuple[Kick, ...] | None = keyed(
+        Several(KickText()),
+        "impulse on the trunk during a jump",
+        why="On the trunk during a jump; one without `along` comes from the side.",
+        default="not asked",
+        example='"12 N s at 0.1,0,0.2 along 0,1,0"',
+    )
+    fall: tuple[float, ...] | None = keyed(
+        Several(HEIGHT),
+        "height of the trunk that a fall starts at",
+        why="The trunk is released at rest so high over the ground, tilted.",
+        default="not asked",
+        example='"1 m"',
+    )
+    tilt: tuple[Tilt, ...] | None = keyed(
+        Several(TiltText()),
+        "of the trunk when a fall starts",
+        why="Of each fall, nose down; roll: to the right.",
+        default="not asked",
+        example='"20 deg"',
+    )
+    flip: tuple[float, ...] | None = keyed(
+        Several(FLIP),
+        "turn in pitch during a jump",
+        why="A whole turn, or an angle of pitch.",
+        default="not asked",
+        example='"back"',
+    )
+    turn: tuple[About, ...] | None = keyed(
+        Several(TURN_TEXT),
+        "turn to any attitude during a jump",
+        why="To an attitude, heading included, in a time.",
+        default="not asked",
+        example='"yaw 90 deg in 2.9 s"',
+    )
+    catch: tuple[About, ...] | None = keyed(
+        Several(CATCH_TEXT),
+        "rates at lift-off that the wheels stop",
+        why="Rates of the trunk at lift-off; to be level in a time.",
+        default="not asked",
+        example='"roll 20 deg/s pitch 45 deg/s in 0.5 s"',
+    )
+    pivot: Pivot | None = keyed(
+        PivotText(),
+        "point or edge that balance and stand_up are about",
+        why="Of balance and stand_up, in the trunk's frame, below the centre of mass.",
+        default="not asked",
+        example='"0,0,-0.2 along left"',
+    )
+    balance: tuple[About | Kick, ...] | None = keyed(
+        Several(UpsetText()),
+        "tilt or impulse to get over on the pivot",
+        why="To be upright again on the pivot: a tilt from where it balances, or an impulse.",
+        default="not asked",
+        example='"pitch 5 deg in 1 s"',
+    )
+    stand_up: tuple[Climb, ...] | None = keyed(
+        Several(ClimbText()),
+        "tilt to stand up from on the pivot",
+        why="From a tilt to upright on the pivot, by the motors or by stopping the wheels.",
+        default="not asked",
+        example='"pitch 45 deg by brake"',
+    )
+    maneuvers: str | None = keyed(
+        Choice(("paper", "none")),
+        "the paper's three beside what else is asked, or none",
+        why="paper: beside a rate_change or a spin_inertia; leave it out where you state your own.",
+    )
+    reliability: float | None = keyed(
+        Chance(),
+        "share of robots that shall pass as built (`[reality]`)",
+        why="0.5: sized for a robot just as its file says; more keeps a reserve for [reality].",
+    )
+    survives: str | None = keyed(
+        Choice(SURVIVED),
+        "whether it lands level though a drive stops in flight",
+        why="any one motor, or one: sized and flown so that it lands level whichever drive stops, "
+        "at any instant of a maneuver; its wheel runs on.",
+    )
+    detection: float | None = keyed(
+        Quantity(Dimension.TIME),
+        "time until it is known that a drive has stopped",
+        why="Until then the other drives go on as before.",
+    )
+
+    @property
+    def notices(self) -> float | None:
+        """Time until a stopped drive is known [s], where the device survives one; else None."""
+        survives = self.survives not in {None, NONE_STOPS}
+        return (self.detection or DETECTION) if survives else None
+
+    @property
+    def is_worded(self) -> bool:
+        """Whether a maneuver is asked for by a key of its own, such as `fall`."""
+        return any(getattr(self, word) is not None for word in WORDS)
+
+    def without_words(self) -> "RequirementSection":
+        """All else that is asked."""
+        return replace(self, **dict.fromkeys(WORDS))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ValidationSection:
+    """`[validation]`: the proof by simulation; gains [1/s^2, 1/s]."""
+
+    enabled: bool | None = keyed(
+        Switch(),
+        "whether to simulate at all",
+        option="validate",
+        why="false: size and export only, in half the time.",
+    )
+    projection: str | None = keyed(
+        Choice(PROJECTIONS),
+        "how the law's torque falls to the wheels",
+        why="transpose is the paper's, which scales the gains.",
+    )
+    kp: float | None = keyed(
+        Number(),
+        "gain on the attitude error",
+        why="Higher: quicker, and more torque.",
+    )
+    kd: float | None = keyed(
+        Number(),
+        "gain on the rate error",
+        why="2 sqrt(kp) damps critically.",
+    )
+    ballistic: bool | None = keyed(
+        Switch(),
+        "whether jumps start at lift-off, without a push-off",
+        why="true: the legs need not make the jumps.",
+    )
+    seed: int | None = keyed(
+        Count(),
+        "seed of all random numbers",
+        why="The same seed gives the same figures.",
+    )
+    video: bool | None = keyed(
+        Switch(),
+        "whether to film the flights",
+        why="true: each maneuver as a film, with the device and without.",
+    )
+    certify: bool | None = keyed(
+        Switch(),
+        "whether to fly robots as they might be built, until it is sure",
+        why="true: fly robots as they might be built until it is sure; it takes minutes.",
+    )
+    control_period: float | None = keyed(
+        Quantity(Dimension.TIME, most=0.1),
+        "from one torque to the next, whole milliseconds",
+        why="That of your controller; longer ones fly worse.",
+    )
+    desaturate: bool | None = keyed(
+        Switch(),
+        "whether the wheels are braked while the robot stands",
+        why="true: wheels let go of their momentum after landing.",
+    )
