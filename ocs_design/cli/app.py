@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,8 +24,12 @@ from ocs_design.cli.options import (
     typed_command,
     with_options,
 )
+from ocs_design.cli.output import Output
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ocs_design.device.records.design import OcsDesign
     from ocs_design.requirement.specification import Specification
 
 app = typer.Typer(
@@ -155,7 +160,7 @@ def size(
         specified_by_command(context),
         package_paths_of_command(context),
         out,
-        opt.Output(force, as_json, strict, quiet, no_color),
+        Output(as_json, no_color, quiet, force, strict),
         verbose=verbose,
         open_report=open_report,
     )
@@ -184,7 +189,7 @@ def demo(
         specification_from_options({"robot.file": str(robot)}),
         {},
         out,
-        opt.Output(force, as_json=False, strict=False, quiet=quiet, no_color=no_color),
+        Output(no_color=no_color, quiet=quiet, force=force),
         verbose=False,
         open_report=not no_open,
     )
@@ -194,17 +199,16 @@ def _design(
     specification: "Specification",
     package_paths: Mapping[str, Path],
     out: Path | None,
-    output: opt.Output,
+    output: Output,
     *,
     verbose: bool,
     open_report: bool,
 ) -> None:
     """Size, print and end with the outcome's exit code."""
-    from ocs_design.report.text.console import Steps, make_console, open_page
+    from ocs_design.report.text.console import open_page
     from ocs_design.requirement.vocabulary import ALL_LAYOUTS
 
-    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
-    steps = Steps(aside, quiet=output.quiet or output.as_json)
+    steps = output.steps
     if specification.ocs.layout == ALL_LAYOUTS:
         if out is not None:
             from ocs_design.common.errors import UsageError
@@ -213,20 +217,15 @@ def _design(
                 "a comparison of layouts writes no folder",
                 hint="leave out -o, or take one layout, as in --layout triad",
             )
-        from ocs_design.common.files import to_json
         from ocs_design.report.text.answers import print_layouts
         from ocs_design.workflows.layouts import compare_layouts
 
         answer = compare_layouts(
             specification, package_paths=package_paths, strict=output.strict, progress=steps
         )
-        if output.as_json:
-            sys.stdout.buffer.write(to_json(answer))
-        else:
-            print_layouts(console, answer)
+        output.give(answer, print_layouts)
         return
     with steps.step("load the solver and the simulator"), _quick_imports():
-        from ocs_design.common.files import to_json
         from ocs_design.report.text.size import print_design, print_outcome, print_solution
         from ocs_design.report.text.summary import print_summary
         from ocs_design.workflows.size import design_ocs, load_solvers
@@ -241,18 +240,21 @@ def _design(
         progress=steps,
         command=typed_command(),
     )
-    if output.as_json:
-        sys.stdout.buffer.write(to_json(outcome.design))
-    elif verbose:
-        print_design(console, outcome.design)
-        print_solution(console, outcome.design)
-        print_outcome(console, outcome.design, outcome.folder)
-    elif not output.quiet:
-        print_summary(console, outcome.design, outcome.runs, outcome.folder)
+
+    def show(console: "Console", design: "OcsDesign") -> None:
+        """All figures, or the story on one screen."""
+        if verbose:
+            print_design(console, design)
+            print_solution(console, design)
+            print_outcome(console, design, outcome.folder)
+        else:
+            print_summary(console, design, outcome.runs, outcome.folder)
+
+    output.give(outcome.design, show)
     if open_report:
         from ocs_design.export.folder import REPORT_FILE
 
-        open_page(aside, outcome.folder / REPORT_FILE)
+        open_page(output.aside, outcome.folder / REPORT_FILE)
     raise typer.Exit(outcome.exit_code)
 
 
@@ -272,8 +274,6 @@ def inspect(
 
     Mass, inertia, posture, legs, incidence angles, warnings.
     """
-    from ocs_design.common.files import to_json
-    from ocs_design.report.text.console import make_console
     from ocs_design.report.text.robot import print_inspection
     from ocs_design.workflows.inspect import inspect_robot
 
@@ -283,10 +283,7 @@ def inspect(
         strict=strict,
         picture=picture,
     )
-    if as_json:
-        sys.stdout.buffer.write(to_json(inspection))
-    else:
-        print_inspection(make_console(color=not no_color), inspection, verbose=verbose)
+    Output(as_json, no_color).give(inspection, partial(print_inspection, verbose=verbose))
 
 
 @app.command(epilog=_examples("bound"))
@@ -309,9 +306,7 @@ def bound(
 
     Least inertia of the wheels, and its curve over the incidence.
     """
-    from ocs_design.common.files import to_json
     from ocs_design.report.text.answers import print_bound
-    from ocs_design.report.text.console import make_console
     from ocs_design.workflows.bound import bound_by_hand
 
     answer = bound_by_hand(
@@ -321,10 +316,7 @@ def bound(
         alpha=alpha,
         axis=axis,
     )
-    if as_json:
-        sys.stdout.buffer.write(to_json(answer))
-    else:
-        print_bound(make_console(color=not no_color), answer)
+    Output(as_json, no_color).give(answer, print_bound)
 
 
 for command in (export, validate):

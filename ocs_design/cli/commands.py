@@ -17,10 +17,14 @@ from ocs_design.cli.options import (
     typed_command,
     with_options,
 )
+from ocs_design.cli.output import Output, with_output
 from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ocs_design.device.answers import Front
     from ocs_design.requirement.specification import Specification
     from ocs_design.workflows.init import Start
 
@@ -31,17 +35,16 @@ def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
     What each thing is for is told. Packages are imported and pictures drawn to see that they can
     be. Exit codes: 0 all that is required works, 5 something required does not.
     """
-    from ocs_design.report.text.console import Steps, make_console
     from ocs_design.report.text.doctor import print_examination
     from ocs_design.workflows.doctor import examination_to_json, examine
 
-    steps = Steps(make_console(color=not no_color, stderr=True), quiet=as_json)
-    with steps.step("import every package, draw with OpenGL"):
+    output = Output(as_json, no_color)
+    with output.steps.step("import every package, draw with OpenGL"):
         examination = examine()
     if as_json:
         sys.stdout.write(examination_to_json(examination))
     else:
-        print_examination(make_console(color=not no_color), examination)
+        print_examination(output.console, examination)
     raise typer.Exit(examination.exit_code)
 
 
@@ -82,10 +85,8 @@ def init(
     shall do, the room and the battery; an empty answer takes the default. Options are written as
     stated. With a robot, defaults are scaled to it.
     """
-    from ocs_design.common.files import to_json
     from ocs_design.export.folder import check_file_target
     from ocs_design.report.text.answers import print_initialized
-    from ocs_design.report.text.console import make_console
     from ocs_design.workflows.init import read_start, write_start
 
     packages = package_paths_of_command(context)
@@ -103,10 +104,7 @@ def init(
     if asking:
         start, chosen = _ask_task(start)
     written = write_start(start, file, chosen=chosen, package_paths=packages, force=force)
-    if as_json:
-        sys.stdout.buffer.write(to_json(written))
-    elif not quiet:
-        print_initialized(make_console(color=not no_color), written)
+    Output(as_json, no_color, quiet).give(written, print_initialized)
 
 
 def _ask_robot(
@@ -213,7 +211,7 @@ OtherRobot: TypeAlias = Annotated[
 ]
 
 
-@opt.with_output
+@with_output
 def export(
     context: typer.Context,
     design: DesignFile,
@@ -222,7 +220,7 @@ def export(
     robot: OtherRobot = None,
     package_path: opt.PackagePaths = None,
     *,
-    output: opt.Output,
+    output: Output,
 ) -> None:
     """Write the files of a design.json again.
 
@@ -230,19 +228,14 @@ def export(
     Files of the whole robot need the robot's own file as it was, and its meshes. In the design's
     own folder, with --force, only what is made anew is replaced.
     """
-    from ocs_design.common.files import to_json
     from ocs_design.export.formats import formats_named
     from ocs_design.report.text.answers import print_export
-    from ocs_design.report.text.console import Steps, make_console
-    from ocs_design.report.text.layout import warn
     from ocs_design.requirement.values import names_in
     from ocs_design.workflows.export import ON_DESIGN, export_order, finishing, read_order
 
     names = [name for text in formats or () for name in names_in(text)]
     chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
-    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
-    steps = Steps(aside, quiet=output.quiet or output.as_json)
-    with steps.step("read the design and its robot") as step:
+    with output.steps.step("read the design and its robot") as step:
         order = read_order(
             design,
             chosen,
@@ -251,15 +244,11 @@ def export(
             strict=output.strict,
         )
         step.note = order.subject.name
-    with steps.step("write " + ", ".join(names or (each.name for each in chosen))):
+    with output.steps.step("write " + ", ".join(names or (each.name for each in chosen))):
         exported = export_order(
             order, out or order.default_folder, force=output.force, finish=finish
         )
-    if output.as_json:
-        sys.stdout.buffer.write(to_json(exported))
-    elif not output.quiet:
-        warn(aside, exported.warnings)
-        print_export(console, exported)
+    output.give(exported, print_export, exported.warnings)
 
 
 Against: TypeAlias = Annotated[
@@ -295,7 +284,7 @@ FrontFolder: TypeAlias = Annotated[
 
 
 @with_options(opt.TASK_OPTIONS)
-@opt.with_output
+@with_output
 def pareto(
     context: typer.Context,
     against: Against = "time",
@@ -305,42 +294,36 @@ def pareto(
     maneuver: ManeuverName = "",
     out: FrontFolder = None,
     *,
-    output: opt.Output,
+    output: Output,
 ) -> None:
     """Show the lightest device against time, angle or room.
 
     Every value is a design of its own, not flown yet. To make, export and fly one:
     `ocs-design size --spec DIR/points/NN.toml`. Exit code 4: no value has a device.
     """
-    from ocs_design.common.files import to_json
-    from ocs_design.export.folder import check_target
-    from ocs_design.report.charts.front import write_front
-    from ocs_design.report.text.console import Steps, make_console
     from ocs_design.report.text.front import print_front, print_written
-    from ocs_design.report.text.layout import warn
-    from ocs_design.requirement.sweep import sweep_of
-    from ocs_design.workflows.pareto import draw_front, front_values, lightest_device, read_task
+    from ocs_design.workflows.pareto import make_front
 
-    sweep = sweep_of(against, maneuver)
-    if out is not None:
-        check_target(out, force=output.force)
-    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
-    steps = Steps(aside, quiet=output.quiet or output.as_json)
-    specification, paths = specified_by_command(context), package_paths_of_command(context)
-    with steps.step("read the robot") as step:
-        task = read_task(specification, package_paths=paths, strict=output.strict)
-        step.note = task.robot.name
-    steps.doubt(task.robot.warnings)
-    values = front_values(sweep, task, low=low, high=high, points=points)
-    with steps.step(f"choose a device for each of {points} values") as step:
-        front = draw_front(task, sweep, values, lightest_device, step.update)
-    remarks = () if out is None else write_front(front, out, force=output.force)
-    if output.as_json:
-        sys.stdout.buffer.write(to_json(front))
-    elif not output.quiet:
-        warn(aside, remarks)
+    front, remarks = make_front(
+        specified_by_command(context),
+        against,
+        low=low,
+        high=high,
+        points=points,
+        maneuver=maneuver,
+        package_paths=package_paths_of_command(context),
+        out=out,
+        force=output.force,
+        strict=output.strict,
+        steps=output.steps,
+    )
+
+    def show(console: "Console", front: "Front") -> None:
+        """The front, and where its files are."""
         print_front(console, front)
         print_written(console, front, out)
+
+    output.give(front, show, remarks)
     raise typer.Exit(front.exit_code)
 
 
@@ -384,7 +367,7 @@ Desaturate: TypeAlias = Annotated[
 ]
 
 
-@opt.with_output
+@with_output
 def validate(
     context: typer.Context,
     design: DesignFile,
@@ -406,7 +389,7 @@ def validate(
     robot_file: OtherRobot = None,
     package_path: opt.PackagePaths = None,
     *,
-    output: opt.Output,
+    output: Output,
 ) -> None:
     """Fly the maneuvers of a design.json again.
 
@@ -418,14 +401,8 @@ def validate(
     designed, a landing with a drive stopped is beyond the allowance, or the certificate falls
     short.
     """
-    from ocs_design.report.text.console import Steps, make_console
-
-    console, aside = (make_console(color=not output.no_color, stderr=e) for e in (False, True))
-    steps = Steps(aside, quiet=output.quiet or output.as_json)
-    with steps.step("load the simulator"):
-        from ocs_design.common.files import to_json
+    with output.steps.step("load the simulator"):
         from ocs_design.common.units import Dimension, parse_quantity
-        from ocs_design.report.text.layout import warn
         from ocs_design.report.text.validation import print_validated
         from ocs_design.workflows.validate import Request, validated, watch
     width = None
@@ -446,12 +423,9 @@ def validate(
         strict=output.strict,
         view=view,
     )
-    answer = validated(request, steps)
-    if output.as_json:
-        sys.stdout.buffer.write(to_json(answer.found))
-    elif not output.quiet:
-        warn(aside, answer.found.warnings)
-        print_validated(console, answer.found, answer.folder, answer.files)
+    answer = validated(request, output.steps)
+    show = partial(print_validated, folder=answer.folder, files=answer.files)
+    output.give(answer.found, show, answer.found.warnings)
     if view:
         watch(answer)
     raise typer.Exit(answer.exit_code)

@@ -5,7 +5,6 @@ import inspect
 import shlex
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
@@ -22,7 +21,8 @@ Command: TypeAlias = Callable[..., None]
 def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
     """Declare these options on a command too, before its own and each left out by default.
 
-    They are not handed on: `cli_stated` reads them from the command's context, its first parameter.
+    They are not handed on: `specified_by_command` reads them from the command's context, its first
+    parameter.
     """
 
     def declared(command: Command) -> Command:
@@ -352,41 +352,6 @@ START_OPTIONS: Mapping[str, object] = {
     **{name: TASK_OPTIONS[name] for name in STARTED},
 }
 """What names a robot, and what a specification to start from most often states."""
-
-
-@dataclass(frozen=True)
-class Output:
-    """How a command that writes a folder is to do it and to answer."""
-
-    force: bool
-    as_json: bool
-    strict: bool
-    quiet: bool
-    no_color: bool
-
-
-OUTPUT_OPTIONS: Mapping[str, object] = {
-    "force": Force,
-    "as_json": AsJson,
-    "strict": Strict,
-    "quiet": Quiet,
-    "no_color": NoColor,
-}
-"""Options of the fields of `Output`."""
-
-
-def with_output(command: Command) -> Command:
-    """Declare the options of `Output` behind a command's own; its parameter `output` has them."""
-
-    @functools.wraps(command)
-    def run(**given: object) -> None:
-        """Gathers them."""
-        output = Output(**{name: bool(given.pop(name)) for name in OUTPUT_OPTIONS})
-        command(**given, output=output)
-
-    own = [each for each in inspect.signature(command).parameters.values() if each.name != "output"]
-    redeclare(run, [*own, *parameters(OUTPUT_OPTIONS, default=False)])
-    return run
 
 
 def specified_by_command(context: typer.Context) -> "Specification":

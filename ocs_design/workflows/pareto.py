@@ -66,20 +66,51 @@ def pareto_front(
     Raises:
         OcsError: the robot cannot be read, or the values make no range.
     """
-    sweep, steps = sweep_of(against, maneuver), Steps.of(progress)
-    folder = None if out is None else Path(out)
-    if folder is not None:
-        check_target(folder, force=force)
-    paths = {name: Path(path) for name, path in (package_paths or {}).items()}
+    front, _ = make_front(
+        specification_of(design_for),
+        against,
+        low=low,
+        high=high,
+        points=points,
+        maneuver=maneuver,
+        package_paths={name: Path(path) for name, path in (package_paths or {}).items()},
+        out=None if out is None else Path(out),
+        force=force,
+        strict=strict,
+        steps=Steps.of(progress),
+    )
+    return front
+
+
+def make_front(
+    specification: Specification,
+    against: str,
+    *,
+    low: str | None,
+    high: str | None,
+    points: int,
+    maneuver: str,
+    package_paths: Mapping[str, Path],
+    out: Path | None,
+    force: bool,
+    strict: bool,
+    steps: Steps,
+) -> tuple[Front, tuple[str, ...]]:
+    """The front, written if that is asked for, and what is to be told of its files.
+
+    See `pareto_front`.
+    """
+    sweep = sweep_of(against, maneuver)
+    if out is not None:
+        check_target(out, force=force)
     with steps.step("read the robot") as step:
-        task = read_task(specification_of(design_for), package_paths=paths, strict=strict)
+        task = read_task(specification, package_paths=package_paths, strict=strict)
         step.note = task.robot.name
+    steps.doubt(task.robot.warnings)
     values = front_values(sweep, task, low=low, high=high, points=points)
     with steps.step(f"choose a device for each of {points} values") as step:
         front = draw_front(task, sweep, values, lightest_device, step.update)
-    if folder is not None:
-        write_front(front, folder, force=force)
-    return front
+    return front, () if out is None else write_front(front, out, force=force)
 
 
 def read_task(

@@ -1,0 +1,101 @@
+"""How a command answers: one JSON document, or text, with progress and warnings beside it."""
+
+import functools
+import inspect
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeVar
+
+from ocs_design.cli import options as opt
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ocs_design.report.text.console import Steps
+
+Answer = TypeVar("Answer")
+
+
+@dataclass(frozen=True)
+class Output:
+    """What was asked of a command's output, and the consoles that it goes to.
+
+    Attributes:
+        as_json, quiet, no_color: how it answers.
+        force: replace what is there. strict: warnings are errors.
+    """
+
+    as_json: bool = False
+    no_color: bool = False
+    quiet: bool = False
+    force: bool = False
+    strict: bool = False
+
+    @cached_property
+    def console(self) -> "Console":
+        """Console on standard output, for answers."""
+        return self._console(stderr=False)
+
+    @cached_property
+    def aside(self) -> "Console":
+        """Console on standard error, for progress and warnings."""
+        return self._console(stderr=True)
+
+    @cached_property
+    def steps(self) -> "Steps":
+        """Progress of the command."""
+        from ocs_design.report.text.console import Steps
+
+        return Steps(self.aside, quiet=self.quiet or self.as_json)
+
+    def give(
+        self,
+        answer: Answer,
+        show: "Callable[[Console, Answer], None]",
+        warnings: Iterable[str] = (),
+    ) -> None:
+        """Write an answer as JSON, or have it shown behind its warnings.
+
+        Args:
+            answer: a record. show: prints it. warnings: one sentence each.
+        """
+        if self.as_json:
+            from ocs_design.common.files import to_json
+
+            sys.stdout.buffer.write(to_json(answer))
+        elif not self.quiet:
+            from ocs_design.report.text.layout import warn
+
+            warn(self.aside, warnings)
+            show(self.console, answer)
+
+    def _console(self, *, stderr: bool) -> "Console":
+        from ocs_design.report.text.console import make_console
+
+        return make_console(color=not self.no_color, stderr=stderr)
+
+
+OUTPUT_OPTIONS: Mapping[str, object] = {
+    "force": opt.Force,
+    "as_json": opt.AsJson,
+    "strict": opt.Strict,
+    "quiet": opt.Quiet,
+    "no_color": opt.NoColor,
+}
+"""Options of the fields of `Output`, in the order of the help."""
+
+
+def with_output(command: opt.Command) -> opt.Command:
+    """Declare the options of `Output` behind a command's own; its parameter `output` has them."""
+
+    @functools.wraps(command)
+    def run(**given: object) -> None:
+        """Gathers them."""
+        output = Output(**{name: bool(given.pop(name)) for name in OUTPUT_OPTIONS})
+        command(**given, output=output)
+
+    own = [each for each in inspect.signature(command).parameters.values() if each.name != "output"]
+    opt.redeclare(run, [*own, *opt.parameters(OUTPUT_OPTIONS, default=False)])
+    return run
