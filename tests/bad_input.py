@@ -42,11 +42,11 @@ CASES = {
         EXIT_3,
         "x.urdf: line 2, column .* mismatched tag in '<link></robot>'|every tag is closed",
     ),
-    "XML below a blank line": (
-        {"x.urdf": b'\n<?xml version="1.0"?><robot/>'},
+    "two XML files in one": (
+        {"x.urdf": b'<robot/>\n<?xml version="1.0"?><robot/>'},
         "size x.urdf",
         EXIT_3,
-        "x.urdf: line 2, .*declaration not at start|remove what stands before",
+        "x.urdf: line 2, .*declaration not at start|every tag is closed",
     ),
     "a zero byte": (
         {"x.urdf": b"<robot/>\0"},

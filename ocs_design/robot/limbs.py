@@ -56,6 +56,8 @@ _COAXIAL = 0.05
 """Largest distance between the axes of limbs that share a hip, over the spread of all hips."""
 _PARALLEL = 0.97
 """Least product of axes that count as parallel (14 degrees)."""
+_MEET = 1e-3
+"""Distance within which the ends of two limbs are one point, over the reach."""
 _ONE_HIP = 0.3
 """Distance within which two limbs with one axis share a hip, over the spread of all hips."""
 _LEG_WORDS = re.compile(
@@ -165,6 +167,35 @@ class Anatomy:
             any(_on_one_hip(one, other, middle, spread) for other in self._all_limbs(up))
             for one in chosen
         )
+
+    def is_joined(self, limb: Limb) -> bool:
+        """Whether the end of a limb is tied to, or at rest meets, a body of another limb.
+
+        Where a URDF leaves a loop open, exporters write a frame on both sides of the cut.
+        """
+        own, above = bodies_of(self.tree, limb), set(ancestors(self.tree, limb.base))
+        for pair in self.tree.loops:
+            one, other = (self.tree.body_of_link[name] for name in pair)
+            for end, beyond in ((one, other), (other, one)):
+                if end == limb.last and beyond not in own | above:
+                    return True
+        ends = self._fixed_frames(limb.last)
+        for other in self._all_limbs(np.array([0.0, 0.0, 1.0])):
+            # Of robots in a plane, one leg is behind the other.
+            apart = np.linalg.norm(other.hip - limb.hip) > _MIRRORED * limb.reach
+            if other.base == limb.base and other.first != limb.first and apart:
+                theirs = self._fixed_frames(other.last)
+                gaps = np.linalg.norm(ends[:, None] - theirs[None], axis=2)
+                if (gaps < _MEET * limb.reach).any():
+                    return True
+        return False
+
+    def _fixed_frames(self, body: int) -> FloatArray:
+        """Origins at rest of a body's links, but of that at its joint [m], shape (n, 3)."""
+        place = self.placements[body]
+        places = [each.position for each in self.tree.bodies[body].links.values()]
+        found = [place.rotation @ each + place.position for each in places if each.any()]
+        return np.reshape(found, (-1, 3))
 
     def one_of_each_pair(self, chosen: Sequence[Limb], up: FloatArray) -> list[Limb]:
         """The limbs, of those that share a hip only the deepest, or the first in the file."""

@@ -260,12 +260,12 @@ _LOOP = (
 _TIE = "what connect or weld ties the robot to is let go, its mass left out"
 
 
-def _tied_roots(model: mujoco.MjModel, equality: int) -> set[int]:
-    """Children of the world, or the world itself (0), that a connect or weld ties together."""
+def _tied_bodies(model: mujoco.MjModel, equality: int) -> tuple[int, int]:
+    """Bodies, or the world (0), that a connect or weld ties together."""
     ends = [model.eq_obj1id[equality], model.eq_obj2id[equality]]
     if model.eq_objtype[equality] == mujoco.mjtObj.mjOBJ_SITE:
         ends = model.site_bodyid[ends]
-    return set(model.body_rootid[ends].tolist())
+    return int(ends[0]), int(ends[1])
 
 
 def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) -> Tree:
@@ -302,11 +302,15 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
             children.setdefault(connection.parent, []).append(connection)
             # In front of the last of several joints stand links without mass.
             links.setdefault(connection.child, Link(connection.child, None))
+    loops = []
     for index in np.flatnonzero(np.isin(model.eq_type, _LOOPS)):
-        ends = _tied_roots(model, int(index))
-        if base in ends:
+        ends = _tied_bodies(model, int(index))
+        roots = {int(model.body_rootid[end]) for end in ends}
+        if base in roots:
             name = model.eq(index).name or str(index)
-            warnings.add(_LOOP if ends == {base} else _TIE, name)
+            warnings.add(_LOOP if roots == {base} else _TIE, name)
+        if roots == {base}:
+            loops.append((model.body(ends[0]).name, model.body(ends[1]).name))
     tree = make_tree(spec.modelname, model.body(base).name, links, children, warnings)
     # Each keyframe has values of the tree's joints among others.
     addresses = {name: int(model.jnt_qposadr[model.joint(name).id]) for name in tree.joints}
@@ -321,6 +325,7 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
         named_postures=keyframes,
         warnings=warnings.sentences(),
         floats=bool(set(model.jnt_type[model.jnt_bodyid == base].tolist()) & _TRAVELS),
+        loops=tuple(loops),
     )
 
 

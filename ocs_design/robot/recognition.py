@@ -16,7 +16,17 @@ from ocs_design.common.errors import RobotError
 from ocs_design.robot.legs import ancestors, find_legs, find_trunk, leg_of
 from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
 from ocs_design.robot.links import listed
-from ocs_design.robot.robot import CLOSED, NO_LEGS, SPINE, Doubt, Leg, Reading, Recognition, Sign
+from ocs_design.robot.robot import (
+    CLOSED,
+    JOINED,
+    NO_LEGS,
+    SPINE,
+    Doubt,
+    Leg,
+    Reading,
+    Recognition,
+    Sign,
+)
 from ocs_design.robot.tree import Tree
 
 SURE = 0.8
@@ -183,7 +193,7 @@ class _Readings(Anatomy):
             called = [limb for limb in called if not bases & bodies_of(self.tree, limb)]
             for base in sorted({limb.base for limb in called}):
                 unlike = [limb for limb in called if limb.base == base]
-                if len(unlike) > 1 and unlike not in sets:
+                if unlike not in sets:
                     sets.append(unlike)
             sets = [self.one_of_each_pair(each, up) for each in sets]
             for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
@@ -292,6 +302,12 @@ class _Readings(Anatomy):
             )
         return self.stated(trunk, legs)
 
+    def closed(self, chosen: Sequence[Limb], up: FloatArray) -> str:
+        """How limbs are parts of closed chains, as a sentence; empty: they are not."""
+        if self.share_hips(chosen, up):
+            return CLOSED
+        return JOINED if any(map(self.is_joined, chosen)) else ""
+
     def stated(self, trunk: str | None, legs: Sequence[Leg]) -> Reading:
         """The reading with legs that the user stated."""
         up = np.round(self.placements[legs[0].base].rotation @ legs[0].up, 9)
@@ -299,7 +315,7 @@ class _Readings(Anatomy):
         bases = [leg.base for leg in legs]
         doubts = (
             *((Doubt(SPINE, 1.0),) if len(set(bases)) > 1 else ()),
-            *((Doubt(CLOSED, 1.0),) if self.share_hips(limbs, up) else ()),
+            *((Doubt(how, 1.0),) if (how := self.closed(limbs, up)) else ()),
         )
         name = trunk or self.tree.bodies[self._spine_trunk(bases)].name
         return Reading(name, tuple(legs), _STATED, doubts)
@@ -400,8 +416,8 @@ class _Readings(Anatomy):
         doubts: list[Doubt] = []
         if len({limb.base for limb in chosen}) > 1:
             doubts.extend(_SPINE)
-        if self.share_hips(chosen, up):
-            doubts.append(Doubt(CLOSED, 0.5))
+        if how := self.closed(chosen, up):
+            doubts.append(Doubt(how, 0.5))
         if self.names(chosen) is False:
             doubts.append(Doubt("limbs of such names are seldom legs", 0.9))
         if all(limb.hinges == 1 for limb in chosen):

@@ -69,6 +69,10 @@ CLOSED = (
     "limbs share a hip in pairs, as five-bar legs do whose loop the file leaves open: one of each "
     "pair is the leg, and the other is held where it is at zero"
 )
+JOINED = (
+    "limbs meet at their ends, as in a closed chain, which is cut open: each moves as if it ended "
+    "there"
+)
 
 
 @dataclass(frozen=True)
@@ -128,7 +132,7 @@ class Reading:
     @property
     def liberties(self) -> tuple[str, ...]:
         """What is taken otherwise than the robot has it, one sentence each."""
-        return tuple(each.what for each in self.doubts if each.what in {SPINE, CLOSED})
+        return tuple(each.what for each in self.doubts if each.what in {SPINE, CLOSED, JOINED})
 
     @property
     def options(self) -> str:

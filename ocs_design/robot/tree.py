@@ -205,6 +205,7 @@ class Tree:
         named_postures: joint values [rad or m] by posture name, from MJCF keyframes or an SRDF.
         warnings: what was odd in the file and how it was read, one sentence each.
         floats: whether the root moves freely against the world; None where the file does not say.
+        loops: pairs of links that the file ties together, which closes a chain.
     """
 
     name: str
@@ -212,6 +213,7 @@ class Tree:
     named_postures: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     floats: bool | None = None
+    loops: tuple[tuple[str, str], ...] = ()
 
     @cached_property
     def joints(self) -> Mapping[str, Joint]:

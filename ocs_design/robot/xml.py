@@ -4,6 +4,7 @@ Whatever a robot file gets wrong below the level of links and joints becomes a `
 names the place.
 """
 
+import re
 from collections.abc import Sequence
 from reprlib import repr as shortened
 from xml.etree import ElementTree as ET
@@ -28,6 +29,9 @@ def parse_xml(content: bytes, warnings: Warnings | None = None) -> ET.Element:
     # Elements take fifty times their four bytes or more: gigabytes, where nobody counted them.
     if content.count(b"<") > 2 * MOST_ELEMENTS:
         raise _too_many_elements()
+    content, moved = _declared_first(content)
+    if moved and warnings is not None:
+        warnings.add("the XML declaration is not the first thing in the file: read without it")
     try:
         root = _parsed(content)
     except ET.ParseError as error:
@@ -46,6 +50,22 @@ def parse_xml(content: bytes, warnings: Warnings | None = None) -> ET.Element:
         if "}" in element.tag and "xacro" not in element.tag:
             element.tag = element.tag.rpartition("}")[2]
     return root
+
+
+_LATE_DECLARATION = re.compile(rb"(?:\s|<!--(?:(?!--).)*-->)+(<\?xml\s[^>]*\?>)", re.DOTALL)
+
+
+def _declared_first(content: bytes) -> tuple[bytes, bool]:
+    """Content without a declaration below blank lines or comments, which simulators overlook.
+
+    Returns:
+        The content, with as many lines; whether there was one.
+    """
+    late = _LATE_DECLARATION.match(content)
+    if late is None:
+        return content, False
+    start, end = late.span(1)
+    return content[:start] + b" " * (end - start) + content[end:], True
 
 
 def _parsed_as_cp1252(content: bytes, error: ET.ParseError) -> ET.Element:
@@ -116,8 +136,6 @@ def _explained(content: bytes, error: ET.ParseError) -> RobotError:
     hint = "check that the file is complete and that every tag is closed"
     if b"\0" in content and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
         hint = "remove the bytes that are zero; many editors do not show them"
-    elif content.lstrip().startswith(b"<?xml") and not content.startswith(b"<?xml"):
-        hint = "remove what stands before `<?xml`: nothing may, not even a blank line"
     return RobotError(
         f"line {line}, column {column + 1}: the XML is broken: {reason}{excerpt}", hint=hint
     )

@@ -402,3 +402,60 @@ def test_a_hip_that_follows_the_other_legs_hip_is_a_joint_of_its_leg():
     assert feet(recognition) == ["left_foot", "right_foot"]
     signs = {sign.what: sign.holds for sign in recognition.reading.signs}
     assert signs["the limbs are mirror images"]
+
+
+def test_one_leg_beside_arms_is_asked_about():
+    elements = [TRUNK, *leg("r", (0.0, -0.1, 0.0), *ZEROS["hanging"])]
+    for side, y in (("l", 0.2), ("r", -0.2)):
+        words = ("upper_arm", "forearm", "hand")
+        elements += leg(f"{side}a", (0.0, y, 0.1), *ZEROS["level, knees outwards"], words=words)
+    recognition = found(elements)
+    assert not recognition.sure
+    assert [each.name for each in recognition.likely[0].legs] == ["r_foot"]
+    assert "it is not the robot's only limb" in question_about(recognition).message
+
+
+def closed_pair(gap):
+    """Two limbs of two bars with hips 0.2 m apart, whose ends are `gap` apart: 0 is a five-bar."""
+    elements = [TRUNK]
+    for name, x in (("a", 0.1), ("b", -0.1)):
+        side = np.sign(x)
+        shank = (side * (0.5 * gap - 0.2), 0.0, -0.2)
+        elements += leg(name, (x, 0.0, 0.0), (side * 0.1, 0.0, -0.1), shank, words=("p", "q", "e"))
+    return elements
+
+
+def test_limbs_that_meet_at_their_ends_are_no_legs_without_asking(tmp_path):
+    apart, closed = found(closed_pair(0.1)), found(closed_pair(0.0))
+    assert apart.sure
+    assert len(apart.reading.legs) == 2
+    assert not closed.sure
+    assert "meet at their ends" in question_about(closed).message
+    path = tmp_path / "five_bar.urdf"
+    path.write_bytes(robot(*closed_pair(0.0)))
+    stated = read_robot(path, legs=["a_e", "b_e"])
+    assert any("meet at their ends" in warning for warning in stated.warnings)
+
+
+def test_limbs_that_a_model_ties_together_at_their_ends_are_asked_about(tmp_path):
+    def limb(name, x):
+        return (
+            f'<body name="{name}1" pos="{x} 0 0"><joint axis="0 1 0"/>'
+            f'<geom type="capsule" fromto="0 0 0 0 0 -.2" size=".02"/>'
+            f'<body name="{name}2" pos="0 0 -.2"><joint axis="0 1 0"/>'
+            '<geom type="capsule" fromto="0 0 0 0 0 -.2" size=".02"/></body></body>'
+        )
+
+    path = tmp_path / "loop.xml"
+    model = (
+        '<mujoco><worldbody><body name="base"><freejoint/><geom size=".1"/>'
+        f"{limb('a', 0.1)}{limb('b', -0.1)}</body></worldbody>{{}}</mujoco>"
+    )
+    tie = '<equality><connect body1="a2" body2="b2" anchor="0 0 -.2"/></equality>'
+    sure = {}
+    for loop in ("", tie):
+        path.write_text(model.format(loop))
+        recognition = read_robot(path).recognition
+        assert recognition is not None
+        sure[loop] = recognition.sure
+    assert sure == {"": True, tie: False}

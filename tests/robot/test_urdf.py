@@ -253,3 +253,13 @@ def test_declared_encodings_are_read_silently(content):
 def test_a_default_namespace_does_not_matter():
     tree = read(TWO_LINKS.replace(b"<robot ", b'<robot xmlns="http://www.ros.org" '))
     assert set(tree.joints) == {"hip"}
+
+
+@pytest.mark.parametrize("above", [b"\n\n", b"<!-- a licence -->\n", b"<!-- a -->\n<!-- b -->"])
+def test_a_declaration_below_blank_lines_or_comments_is_overlooked_with_a_warning(above):
+    declared = b'<?xml version="1.0"?>\n'
+    assert read(declared + TWO_LINKS).warnings == read(TWO_LINKS).warnings
+    late = read(above + declared + TWO_LINKS)
+    assert len(late.bodies) == len(read(TWO_LINKS).bodies)
+    (warning,) = set(late.warnings) - set(read(TWO_LINKS).warnings)
+    assert "declaration is not the first" in warning
