@@ -11,7 +11,8 @@ from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.program import Dimensions, Plant, Solution, Turn, solve
+from ocs_design.sizing.trajectory.program import Dimensions, Solution, solve
+from ocs_design.sizing.trajectory.transcription import Plant, Turn
 
 DIAGONAL = np.diag([0.030, 0.0535, 0.068])
 FULL = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])

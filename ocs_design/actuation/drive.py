@@ -69,14 +69,13 @@ class DriveLine:
         )
 
     def divided(self, factor: float) -> "DriveLine":
-        """The line within which torque and speed may still grow by this factor."""
+        """The line within which torque and speed may grow by this factor; power stays."""
         return replace(
             self,
             stall_torque=self.stall_torque / factor,
             no_load_speed=self.no_load_speed / factor,
             torque_limit=self.torque_limit / factor,
             speed_max=self.speed_max / factor,
-            power_max=self.power_max / factor**2,
         )
 
     def begun(self, speed: float | FloatArray) -> "DriveLine":

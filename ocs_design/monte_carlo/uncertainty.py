@@ -25,8 +25,9 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
 from ocs_design.simulation.launch import Push
+from ocs_design.simulation.motor_limits import USED, MotorLimits
 from ocs_design.simulation.schedule import SURE
-from ocs_design.simulation.wheel_law import USED, MotorLimits, StoppedDrive
+from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.world import World
 
 KEYS = tuple(spreads())

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
+from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.imperfections import Drives, Sensing
 from ocs_design.simulation.scene import ANCHOR, whole_mass
 from ocs_design.simulation.schedule import (
@@ -20,7 +21,8 @@ from ocs_design.simulation.schedule import (
     References,
     StoppedDrives,
 )
-from ocs_design.simulation.wheel_law import Target, WheelBrake, WheelLaw
+from ocs_design.simulation.target import Target
+from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World, start_states
 
 

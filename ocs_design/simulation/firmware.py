@@ -21,9 +21,11 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.templates import fill
 from ocs_design.simulation import quaternions
+from ocs_design.simulation.desaturation import Desaturation, braking
 from ocs_design.simulation.loop import LoopMargins, level_margins, plan_margins
 from ocs_design.simulation.schedule import References
-from ocs_design.simulation.wheel_law import Desaturation, Target, WheelLaw, braking
+from ocs_design.simulation.target import Target
+from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World
 
 SENSOR_RATES = (200.0, 1000.0)

@@ -18,7 +18,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Flywheel
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.wheel_law import clipped, within_supply
+from ocs_design.simulation.motor_limits import clipped, within_supply
 
 _SENSED = 5
 """Numbers that noise is added to at each instant: two of attitude, three of rate."""

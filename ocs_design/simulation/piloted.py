@@ -9,7 +9,8 @@ from mujoco.rollout import Rollout
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.batch import Batch, Recording
-from ocs_design.simulation.wheel_law import Target, WheelLaw
+from ocs_design.simulation.target import Target
+from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World
 
 

@@ -7,7 +7,9 @@ import numpy as np
 
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common.arrays import FloatArray
-from ocs_design.simulation.wheel_law import MotorLimits, RegulatedPlan, WheelLaw
+from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.simulation.target import RegulatedPlan
+from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 

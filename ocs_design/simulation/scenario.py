@@ -28,6 +28,7 @@ from ocs_design.simulation.metrics import (
 )
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.verdict import (
     MOMENTUM_GATE,
     Fault,
@@ -36,7 +37,7 @@ from ocs_design.simulation.verdict import (
     off_at_touchdown,
     stands,
 )
-from ocs_design.simulation.wheel_law import Allocation, Gains, StoppedDrive
+from ocs_design.simulation.wheel_law import Allocation, Gains
 from ocs_design.simulation.world import World, WorldBuilder
 from ocs_design.sizing.trajectory.flight import Trajectory
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.reference import track
-from ocs_design.simulation.wheel_law import RegulatedPlan, Target
+from ocs_design.simulation.target import RegulatedPlan, Target
 from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory.gyrostat import shared_by_others
 

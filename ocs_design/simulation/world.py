@@ -29,6 +29,7 @@ from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Body, JointKind
 from ocs_design.simulation import quaternions
+from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.imperfections import Imperfections
 from ocs_design.simulation.launch import (
     Push,
@@ -39,6 +40,7 @@ from ocs_design.simulation.launch import (
     on_the_ground,
     place,
 )
+from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, Turn, fit_turn
 from ocs_design.simulation.scene import (
     JUMP_STEP,
@@ -49,15 +51,9 @@ from ocs_design.simulation.scene import (
     robot_scene,
     whole_mass,
 )
+from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.trotting import waiting
-from ocs_design.simulation.wheel_law import (
-    Allocation,
-    Desaturation,
-    Gains,
-    MotorLimits,
-    StoppedDrive,
-    WheelLaw,
-)
+from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
 from ocs_design.sizing.trajectory.boundary import HELD_ON
 from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat

@@ -11,9 +11,10 @@ from wheels import PAPER_WHEEL, motor, paper_device
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.motor_limits import USED, MotorLimits
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.wheel_law import USED, Allocation, Gains, MotorLimits, WheelLaw
+from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
 from ocs_design.simulation.world import World, WorldBuilder
 
 INERTIA = (0.030, 0.0535, 0.068, 0.001, 0.003, -0.002)

@@ -5,9 +5,9 @@ import pytest
 from wheels import paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.simulation.desaturation import SETTLING
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.wheel_law import SETTLING
 from ocs_design.simulation.world import WorldBuilder
 
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wheels import EC45, motor
 
-from ocs_design.simulation.wheel_law import MotorLimits
+from ocs_design.simulation.motor_limits import MotorLimits
 
 SLOPE = 650.4 / 1.4566
 SLOW = replace(EC45, speed_max=300.0)

@@ -5,6 +5,7 @@ import pytest
 
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.device.layout import module_axes
+from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import (
     Quintic,
     SmoothTrapezoid,
@@ -13,7 +14,6 @@ from ocs_design.simulation.reference import (
     fit_turn,
     utilisation,
 )
-from ocs_design.simulation.wheel_law import MotorLimits
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 PITCH = np.array([0.0, 1.0, 0.0])

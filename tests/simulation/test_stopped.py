@@ -12,7 +12,7 @@ from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import STOPS, fly_stopped
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.wheel_law import StoppedDrive
+from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.world import WorldBuilder
 from ocs_design.sizing.trajectory.gyrostat import shared_by_others
 

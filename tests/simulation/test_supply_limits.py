@@ -15,7 +15,7 @@ from robots import SOLO12
 from wheels import EC45
 
 from ocs_design.actuation.supply import Supply
-from ocs_design.simulation.wheel_law import MotorLimits, bus_power, within_supply
+from ocs_design.simulation.motor_limits import MotorLimits, bus_power, within_supply
 
 SHAPE = (3, 2)
 POWERS = st.floats(1.0, 1e4)

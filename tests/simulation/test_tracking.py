@@ -11,17 +11,12 @@ from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import Quintic, track
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.wheel_law import (
-    Allocation,
-    Gains,
-    MotorLimits,
-    Target,
-    WheelLaw,
-    tilt_error,
-)
+from ocs_design.simulation.target import Target
+from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw, tilt_error
 from ocs_design.simulation.world import WorldBuilder
 
 BODY = robot_by_hand(2.5, (0.030, 0.0535, 0.068, 0.001, 0.003, -0.002))

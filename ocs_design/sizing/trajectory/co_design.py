@@ -32,7 +32,8 @@ from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.program import Dimensions, Plant, Solution, Turn, solve
+from ocs_design.sizing.trajectory.program import Dimensions, Solution, solve
+from ocs_design.sizing.trajectory.transcription import Plant, Turn
 
 LEAST_GAIN = 1e-4
 """Share of the mass below which a gain is the program's own error, and the selection stands."""

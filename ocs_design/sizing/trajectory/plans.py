@@ -29,8 +29,9 @@ from ocs_design.sizing.trajectory.boundary import (
 from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
 from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat, taken_over
 from ocs_design.sizing.trajectory.motion import HeadingLoop
-from ocs_design.sizing.trajectory.program import Solution, Turn, solve
+from ocs_design.sizing.trajectory.program import Solution, solve
 from ocs_design.sizing.trajectory.tracking import tracking_gains
+from ocs_design.sizing.trajectory.transcription import Turn
 
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
@@ -199,7 +200,8 @@ def reference(
     shares = tuple(dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)))
     grows = taken_over(gyrostat.axes) if one_stops else 1.0
     for share, left in [(own, each) for each in dict.fromkeys((grows, 1.0)) for own in shares]:
-        planned = gentlest(asked, gyrostat, line.divided(left).reserved(share))
+        own_line = line.divided(left).reserved(share)
+        planned = gentlest(asked, gyrostat, own_line, one_stops=left > 1.0)
         if not planned.failure:
             break
     else:
@@ -306,15 +308,22 @@ def _part_climbed(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float
 
 
 def gentlest(
-    asked: Boundary, gyrostat: Gyrostat, line: DriveLine, intervals: int = INTERVALS
+    asked: Boundary,
+    gyrostat: Gyrostat,
+    line: DriveLine,
+    intervals: int = INTERVALS,
+    *,
+    one_stops: bool = False,
 ) -> Planned:
     """The turn of least peak power, or of least effort where none is limited, flown once more.
 
     The best of those from several initial guesses, where a change of heading has several optima.
-    Where the wheels do not reach an axis, nothing is asked about it at the end.
+    Where the wheels do not reach an axis, nothing is asked about it at the end. `one_stops`: see
+    `Turn`.
     """
     found = []
-    for turn in _guessed(asked, gyrostat, intervals):
+    for guessed in _guessed(asked, gyrostat, intervals):
+        turn = replace(guessed, one_stops=one_stops)
         solution = solve([turn], line, (intervals,))
         flight = fly(gyrostat, line, turn.asked, turn.outline, solution.motions[0])
         found.append(Planned(solution, flight.fine, flight.trajectory))

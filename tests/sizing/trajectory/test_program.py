@@ -25,10 +25,11 @@ from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.maneuver import Disturbance, Flip
 from ocs_design.sizing.trajectory.boundary import Boundary, vertical_of
 from ocs_design.sizing.trajectory.collocation import collocation
+from ocs_design.sizing.trajectory.equations import after_push
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import gentlest
-from ocs_design.sizing.trajectory.program import Turn, after_push
+from ocs_design.sizing.trajectory.transcription import Turn
 
 FORTY = np.radians(40.0)
 CASES = {

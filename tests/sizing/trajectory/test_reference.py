@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, PUSH, STANDING, body, drop
 
+from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import ISOTROPIC, Layout, LayoutName
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.flight import limit_violation
@@ -87,3 +88,35 @@ def test_the_others_can_take_over_a_plan_whichever_drive_stops_at_its_start(layo
         assert (worst < 1e-6) == follow
         assert (found.note == "") == follow
         assert (found.share <= PLANNED) == follow
+
+
+def test_the_supply_is_enough_for_the_others_whenever_a_drive_stops():
+    """The satellite of docs/machines.md, 45 deg of pitch in 10 s with 62 W that friction leaves.
+
+    Wheels that are left take the torque over and keep the momentum of all; what the one that
+    stopped runs on with, they hold as well. A plan of least power for all four wheels has these
+    work against each other, which three cannot do.
+    """
+    axes = Layout(LayoutName.PYRAMID).axes(ISOTROPIC)
+    gyrostat = Gyrostat(np.diag([2.129, 3.311, 2.602]), axes, 6e-4)
+    line = DriveLine(5.755, 1171.4, 0.709, 1407.4, 15.55)
+    pitch = TurnTo(name="turn", pitch=np.pi / 4.0, duration=10.0, gravity=0.0, jump_height=9.0)
+    shares = {}
+    for one_stops in (True, False):
+        path = reference(gyrostat, line, pitch, STANDING, one_stops=one_stops).trajectory
+        assert path.note == ""
+        largest = 0.0
+        for lost in range(4):
+            left = np.delete(axes, lost, axis=1)
+            torque = np.linalg.solve(left, axes @ path.wheel_torque.T).T
+            for stopped in range(0, len(path.time) - 1, len(path.time) // 8):
+                kept = np.outer(
+                    axes[:, lost], np.full(len(path.time), path.wheel_speed[stopped, lost])
+                )
+                speed = np.linalg.solve(left, axes @ path.wheel_speed.T - kept).T
+                heat = line.no_load_speed / line.stall_torque * torque
+                power = np.sum(torque * (speed + heat), axis=1)[stopped:]
+                largest = max(largest, float(np.abs(power).max()))
+        shares[one_stops] = largest / (4.0 * line.power_max)
+    assert shares[True] < 0.95
+    assert shares[False] > 2.0

@@ -1,0 +1,100 @@
+"""Braking of the wheels while the robot stands, so that they can take up momentum again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import STANDARD_GRAVITY
+from ocs_design.requirement.froude import Scale
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.target import Target
+
+SETTLING = 0.25
+"""Time on the ground before braking starts, of Solo12 [s]."""
+
+BRAKING = 0.5
+"""Time constant of the wheels' speed, of Solo12 [s]."""
+
+SUPPORT = 0.05
+"""Largest torque of a wheel over weight times standing height: the feet stay down."""
+
+
+@dataclass(frozen=True)
+class Desaturation:
+    """How the wheels of one world are braked while it stands.
+
+    The law damps the trunk meanwhile: the feet take up what the wheels let go.
+
+    Attributes:
+        settling: on the ground before it starts [s].
+        damping: torque per wheel speed [N m s/rad]. torque_max: [N m].
+    """
+
+    settling: float
+    damping: float
+    torque_max: float
+
+    @classmethod
+    def of(
+        cls, robot: Robot, standing: float, spin_inertia: float, gravity: float
+    ) -> "Desaturation":
+        """Settings with times scaled to the robot, and a torque that its weight outdoes."""
+        time = Scale.of(robot).time(STANDARD_GRAVITY)
+        return cls(
+            SETTLING * time,
+            spin_inertia / (BRAKING * time),
+            SUPPORT * robot.mass * gravity * standing,
+        )
+
+
+def braking(
+    speed: FloatArray,
+    stood: FloatArray,
+    *,
+    settling: FloatArray,
+    damping: FloatArray,
+    torque_max: FloatArray,
+) -> FloatArray:
+    """Torque that brakes wheels while the robot stands [N m], shape (n, wheels).
+
+    Args:
+        speed: of the wheels [rad/s], shape (n, wheels).
+        stood: time on the ground [s], shape (n, 1).
+        settling, damping, torque_max: see `Desaturation`, shape (n, 1).
+    """
+    wanted = np.minimum(np.maximum(-damping * speed, -torque_max), torque_max)
+    return np.where(stood >= settling, wanted, 0.0)
+
+
+class WheelBrake:
+    """Braking of the wheels of n worlds, with the time that each has stood."""
+
+    def __init__(self, own: Sequence[Desaturation | None], period: float) -> None:
+        """Brakes of worlds that decide every `period` [s]."""
+        idle = Desaturation(np.inf, 0.0, 0.0)
+        rows = [idle if each is None else each for each in own]
+        self._settling = np.array([[each.settling] for each in rows])
+        self._damping = np.array([[each.damping] for each in rows])
+        self._largest = np.array([[each.torque_max] for each in rows])
+        self._stood, self._period = np.zeros(len(rows)), period
+
+    def added(self, target: Target, speed: FloatArray, contact: NDArray[np.bool_]) -> Target:
+        """The target with the braking torque on top.
+
+        Args:
+            target: of the first n worlds. speed: of their wheels [rad/s], shape (n, m).
+            contact: whether each has just touched the floor, shape (n,).
+        """
+        n = len(speed)
+        self._stood[:n] = np.where(contact, self._stood[:n] + self._period, 0.0)
+        torque = braking(
+            speed,
+            self._stood[:n, None],
+            settling=self._settling[:n],
+            damping=self._damping[:n],
+            torque_max=self._largest[:n],
+        )
+        return replace(target, torque=target.torque + torque)

@@ -1,0 +1,221 @@
+"""What motors and their supply can do at the wheels, for a batch of worlds at once.
+
+The same limits cut the torques of a control step and judge a motion that is planned.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ocs_design.actuation.drive import RESERVE, Drive, power_less_friction
+from ocs_design.actuation.supply import Supply
+from ocs_design.common.arrays import FloatArray
+
+
+def clipped(
+    torque: FloatArray,
+    speed: FloatArray,
+    *,
+    gain: FloatArray,
+    line_slope: FloatArray,
+    no_load_speed: FloatArray,
+    torque_limit: FloatArray,
+    speed_max: FloatArray | float = np.inf,
+) -> FloatArray:
+    """Torques cut to current limit, voltage line and top speed at the end of the control step.
+
+    Both taken at the end, at `W + tau * gain`, are backward Euler: the exact line as the period
+    goes to zero, stable for any motor, and a wheel just keeps from passing its top speed. They cut
+    driving torque and leave braking.
+
+    Args:
+        torque: asked for [N m]. speed: of the wheels now [rad/s].
+        gain: change of speed in a control step per torque [rad/s/(N m)].
+        line_slope, no_load_speed, torque_limit, speed_max: see `MotorLimits`.
+    """
+    give = gain + line_slope
+    highest = np.minimum((no_load_speed - speed) / give, (speed_max - speed) / gain)
+    lowest = np.maximum((-no_load_speed - speed) / give, (-speed_max - speed) / gain)
+    driven = np.minimum(np.maximum(torque, lowest), highest)
+    return np.minimum(np.maximum(driven, -torque_limit), torque_limit)
+
+
+def bus_power(
+    torque: FloatArray,
+    speed: FloatArray,
+    *,
+    copper: FloatArray | float,
+    efficiency: FloatArray | float,
+) -> FloatArray:
+    """Power of all motors of a world at the bus [W], shape (n,): R i^2, and what the shafts take.
+
+    A gear's loss is drawn where its motor drives and lost where it brakes.
+
+    Args:
+        torque, speed: of the wheels [N m, rad/s], shape (n, wheels).
+        copper, efficiency: see `MotorLimits`.
+    """
+    shaft = torque * speed
+    taken = np.maximum(shaft / efficiency, shaft * efficiency)
+    power: FloatArray = (copper * torque**2 + taken).sum(axis=-1)
+    return power
+
+
+def within_supply(
+    torque: FloatArray,
+    speed: FloatArray,
+    *,
+    gain: FloatArray,
+    copper: FloatArray,
+    efficiency: FloatArray,
+    power_max: FloatArray,
+) -> FloatArray:
+    """Torques of a world, all scaled down alike until the supply can give or take their power.
+
+    Held torques speed wheels up and let them take more and more: a control step draws most at its
+    end and feeds back most at its start. With all torques times f, the power at the end is convex
+    in f and zero at f = 0; each of its parts is `a f^2 + b f`, which is P at 2 P / (b + root).
+
+    Args:
+        torque: that the motors could give [N m], (..., wheels).
+        speed: of the wheels now [rad/s], broadcast to that.
+        gain: change of speed in a control step per torque [rad/s/(N m)], shape (..., 1).
+        copper, efficiency, power_max: see `MotorLimits`, shape (..., 1).
+    """
+    limit, shaft = np.minimum(power_max[..., 0], _ENDLESS), torque * speed
+    heat = (copper * torque**2).sum(axis=-1)
+    factor = np.ones_like(heat)
+    for _ in range(torque.shape[-1] + 1):
+        # A motor that brakes at the start may drive at the end: each change takes another look.
+        ends = factor[..., None] * gain * torque**2 + shaft
+        share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
+        square = heat + (share * gain * torque**2).sum(axis=-1)
+        factor = np.minimum(factor, _reaching(limit, square, (share * shaft).sum(axis=-1)))
+    share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
+    given = (share * shaft).sum(axis=-1)
+    # Beyond the larger root, more torque burns what it brakes in the windings.
+    root = np.sqrt(np.maximum(given**2 - 4.0 * heat * limit, 0.0))
+    feeds = factor * (heat * factor + given) < -limit
+    least = 2.0 * limit / np.where(feeds, root - given, 1.0)
+    scaled: FloatArray = torque * np.where(feeds, np.minimum(factor, least), factor)[..., None]
+    return scaled
+
+
+def _reaching(limit: FloatArray, square: FloatArray, linear: FloatArray) -> FloatArray:
+    """Factor f up to which `square f^2 + linear f` is within a limit; inf: all."""
+    depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
+    return np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
+
+
+_ENDLESS = 1e100
+"""Stands for a power without limit: its products with others are finite [W]."""
+
+
+USED = 0.99
+"""Share of voltage and of the supply's power that the law uses: what else turns the wheels within a
+control step, as the trunk hits the ground, changes speed and power by less than the rest."""
+
+
+@dataclass(frozen=True)
+class MotorLimits:
+    """Limits of a motor at its wheel (docs/theory.md, What a motor can do).
+
+    Attributes:
+        no_load_speed: where the line ends that friction leaves [rad/s]; inf: not limited.
+        line_slope: speed lost per torque on the voltage line, w_0 / tau_s [rad/s/(N m)]; 0 where no
+            stall torque is given: full torque up to w_0.
+        torque_limit: at the current limit [N m]; inf: not limited.
+        speed_max: mechanical [rad/s]; inf: not limited.
+        copper: heat in the winding over the squared torque, R / (N eta k_t)^2 [W/(N m)^2].
+        efficiency: of the gear.
+        power_max: of the supply, for all motors together, without what their friction takes at the
+            most [W]; inf: not limited.
+        voltage: of the supply [V]; None: the winding or the supply is not known.
+    """
+
+    no_load_speed: float
+    line_slope: float
+    torque_limit: float
+    speed_max: float = np.inf
+    copper: float = 0.0
+    efficiency: float = 1.0
+    power_max: float = np.inf
+    voltage: float | None = None
+
+    @classmethod
+    def of(cls, motor: Drive, supply: Supply | None = None, wheels: int = 1) -> "MotorLimits":
+        """The limits of a catalogue or assumed motor.
+
+        Args:
+            motor: see `Drive`.
+            supply: that feeds all motors; None: nothing is known of it.
+            wheels: how many motors it feeds.
+        """
+        limit = np.inf if motor.torque_limit is None else motor.torque_limit
+        top = np.inf if motor.speed_max is None else motor.speed_max
+        line = cls(motor.no_load_speed, 0.0, limit, top)
+        if motor.stall_torque is not None and np.isinf(motor.no_load_speed):
+            line = cls(np.inf, 0.0, min(limit, motor.stall_torque), top)
+        elif motor.stall_torque is not None:
+            line = replace(
+                line,
+                no_load_speed=motor.line_left * motor.no_load_speed,
+                line_slope=motor.no_load_speed / motor.stall_torque,
+            )
+        if supply is None or motor.resistance is None or motor.torque_constant is None:
+            return line
+        per_current = motor.gear_ratio * motor.gear_efficiency * motor.torque_constant
+        return replace(
+            line,
+            copper=motor.resistance / per_current**2,
+            efficiency=motor.gear_efficiency,
+            power_max=power_less_friction(supply, wheels, motor, line.torque_limit / per_current),
+            voltage=supply.voltage,
+        )
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether the torque has a limit at every speed."""
+        return bool(np.isfinite(self.torque_limit) or self.line_slope > 0.0)
+
+    def reserved(self) -> "MotorLimits":
+        """What a reference may take; the rest of voltage, current and speed is for the feedback."""
+        return replace(
+            self,
+            no_load_speed=RESERVE * self.no_load_speed,
+            torque_limit=RESERVE * self.torque_limit,
+            speed_max=RESERVE * self.speed_max,
+            power_max=RESERVE * self.power_max,
+        )
+
+    def torque_range(self, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest torque at each wheel speed [rad/s], shapes as that [N m].
+
+        On the voltage line, within the current limit; none that drives the wheel beyond its top
+        speed.
+        """
+        # No slope: all or nothing on either side of the line's end.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            highest = np.nan_to_num((self.no_load_speed - speed) / self.line_slope, posinf=np.inf)
+            lowest = np.nan_to_num((-self.no_load_speed - speed) / self.line_slope, neginf=-np.inf)
+        highest = np.where(speed < self.speed_max, highest, np.minimum(highest, 0.0))
+        lowest = np.where(speed > -self.speed_max, lowest, np.maximum(lowest, 0.0))
+        limit = self.torque_limit
+        return np.clip(lowest, -limit, limit), np.clip(highest, -limit, limit)
+
+    def utilisation(self, speed: FloatArray, torque: FloatArray) -> float:
+        """The largest share of bus voltage, current, power or top speed that a motion takes.
+
+        At most 1 for what motor and supply can do: `|W + slope * tau| <= w_0`, `|tau| <= tau_L`,
+        `|W| <= speed_max` and a power of all wheels together of at most `power_max` either way.
+        """
+        voltage = np.abs(speed + self.line_slope * torque).max() / self.no_load_speed
+        current = np.abs(torque).max() / self.torque_limit
+        power = 0.0
+        if np.isfinite(self.power_max):
+            power = np.abs(self.bus_power(speed, torque)).max() / self.power_max
+        return float(max(voltage, current, np.abs(speed).max() / self.speed_max, power))
+
+    def bus_power(self, speed: FloatArray, torque: FloatArray) -> FloatArray:
+        """Power of all motors at the bus [W], see `bus_power`."""
+        return bus_power(torque, speed, copper=self.copper, efficiency=self.efficiency)

@@ -1,0 +1,91 @@
+"""What trunks should do at one instant: what the wheel law is told besides what it measures."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.simulation import quaternions
+
+
+@dataclass(frozen=True, eq=False)
+class RegulatedPlan(Table):
+    """Planned states of n worlds at one instant, and the gains that keep a trunk on them.
+
+    Attributes:
+        attitude: quaternions (n, 4). rate: in B [rad/s], (n, 3). wheel_speed: [rad/s], (n, m).
+        wheel_torque: of the motors [N m], (n, m).
+        gains: see `Trajectory`, (n, m, 6 + m).
+        holds: whether a world follows such a plan now, (n,).
+    """
+
+    attitude: FloatArray
+    rate: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    gains: FloatArray
+    holds: NDArray[np.bool_]
+
+    def torque(self, attitude: FloatArray, rate: FloatArray, speed: FloatArray) -> FloatArray:
+        """Planned torque less the gains times the errors [N m], shape (n, m)."""
+        off = quaternions.product(quaternions.conjugate(self.attitude), attitude)
+        error = np.concatenate(
+            [quaternions.rotation_vector(off), rate - self.rate, speed - self.wheel_speed], axis=1
+        )
+        taken_off: FloatArray = np.einsum("nij,nj->ni", self.gains, error)
+        return self.wheel_torque - taken_off
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """Attitude and rate that n trunks should have at one instant.
+
+    Attributes:
+        vertical: the world's upward direction in B, unit vectors (n, 3). The heading
+            is free.
+        rate, acceleration: in B [rad/s, rad/s^2], shape (n, 3); about yaw they count where the
+            wheels span all three axes.
+        torque: of the motors, on top of what the acceleration and the gyroscopic torque of the
+            moment ask for [N m], shape (n, m).
+        stands: whether the feet are on the ground, shape (n,). Three legs and more then hold the
+            attitude and the wheels only damp: whatever the stance leans by, wheels that push
+            against it run up to their top speed and are of no use any more.
+        plan: that worlds follow with gains of their own in place of all this; None: none does.
+        shared: what each motor gives of what all are asked for, shape (n, m, m), where drives have
+            stopped (`shared_by_others`); None: all run.
+    """
+
+    vertical: FloatArray
+    rate: FloatArray
+    acceleration: FloatArray
+    torque: FloatArray
+    stands: NDArray[np.bool_]
+    plan: RegulatedPlan | None = None
+    shared: FloatArray | None = None
+
+    def landed(self, contact: NDArray[np.bool_]) -> "Target":
+        """Target with the worlds at rest whose feet are on the ground, as plans end there."""
+        left, plan = ~contact[:, None], self.plan
+        return Target(
+            self.vertical,
+            self.rate * left,
+            self.acceleration * left,
+            self.torque * left,
+            self.stands | contact,
+            None if plan is None else replace(plan, holds=plan.holds & ~contact),
+        )
+
+
+@dataclass(frozen=True)
+class StoppedDrive:
+    """A drive that stops in flight: its motor gives no torque, and its wheel runs on.
+
+    Attributes:
+        wheel: which, from 0. instant: from lift-off or release [s].
+        detection: from then until the law knows of it [s].
+    """
+
+    wheel: int
+    instant: float
+    detection: float

@@ -1,0 +1,311 @@
+"""One turn of the trajectory program by direct collocation: its numbers, variables and constraints.
+
+Turns of one shape differ by their numbers alone, so that their program is derived once.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import isfinite
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from ocs_design.actuation.drive import DriveLine
+from ocs_design.common.arrays import FloatArray
+from ocs_design.requirement.maneuver import End
+from ocs_design.sizing.trajectory.boundary import Boundary
+from ocs_design.sizing.trajectory.collocation import DEGREE, TORQUE_DEGREE
+from ocs_design.sizing.trajectory.equations import (
+    after_push,
+    interval,
+    left_power,
+    missed,
+    start_of,
+)
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat, shared_by_others
+from ocs_design.sizing.trajectory.motion import FixedAxisTurn, Motion
+
+WINDING = 0.5
+"""How far the integral of the rate about the maneuver's axis may be from its angle [rad].
+
+It keeps the search from leaving out a whole turn; the attitude at the end is asked for exactly.
+"""
+
+
+class Plant(NamedTuple):
+    """A gyrostat whose figures may depend on the dimensions, see `Gyrostat`.
+
+    Attributes:
+        inertia: I_tot, wheels braked [kg m^2], (3, 3).
+        axes: A, (3, n).
+        spin_inertia, armature: [kg m^2].
+    """
+
+    inertia: ca.MX
+    axes: ca.MX
+    spin_inertia: ca.MX
+    armature: ca.MX
+
+    @classmethod
+    def of(cls, gyrostat: Gyrostat) -> "Plant":
+        """A gyrostat of numbers."""
+        figures = (gyrostat.inertia, gyrostat.axes, gyrostat.spin_inertia, gyrostat.armature)
+        return cls(*(ca.MX(ca.DM(figure)) for figure in figures))
+
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """One maneuver in the program.
+
+    Attributes:
+        asked: its boundary value problem.
+        gyrostat: robot and device where the search begins, at the incidence of the maneuver.
+        plant: the same as a function of the dimensions, (m, 1); None: nothing of it is free.
+        guess: where the search begins; None: a turn about a fixed axis.
+        one_stops: whether the supply must also be enough for the others after any one drive has
+            stopped at the start or half way.
+    """
+
+    asked: Boundary
+    gyrostat: Gyrostat
+    plant: Callable[[ca.MX], Plant] | None = None
+    guess: Motion | None = None
+    one_stops: bool = False
+
+    @cached_property
+    def outline(self) -> FixedAxisTurn:
+        """The turn about a fixed axis that starts like the maneuver."""
+        start = after_push(self.asked)(self.gyrostat.inertia)
+        return FixedAxisTurn.of(self.asked, *(np.asarray(part).ravel() for part in start))
+
+
+class Shape(NamedTuple):
+    """What of a turn decides which equations its program has.
+
+    Attributes:
+        wheels, intervals: how many. end: see `Boundary`.
+        stands, on_edge: about a pivot, about an edge.
+        axes_at_rest, axes_of_tilt: how many are stopped at the end, and righted.
+        guessed: whether the search begins elsewhere than at a turn about a fixed axis.
+        torque_limited, speed_limited, back_emf, power_limited: which limits there are.
+        one_stops: whether the power is limited after any one drive has stopped, too.
+    """
+
+    wheels: int
+    intervals: int
+    end: str
+    stands: bool
+    on_edge: bool
+    axes_at_rest: int
+    axes_of_tilt: int
+    guessed: bool
+    torque_limited: bool
+    speed_limited: bool
+    back_emf: bool
+    power_limited: bool
+    one_stops: bool
+
+    @classmethod
+    def of(cls, turn: Turn, line: DriveLine, guess: Motion) -> "Shape":
+        """The shape of a turn on the intervals of a guess."""
+        gyrostat = turn.gyrostat
+        back_emf = isfinite(float(line.stall_torque))
+        return cls(
+            wheels=len(guess.torques),
+            intervals=len(guess.lengths),
+            end=turn.asked.end,
+            stands=gyrostat.stands,
+            on_edge=gyrostat.edge is not None,
+            axes_at_rest=len(gyrostat.turns_about),
+            axes_of_tilt=len(_righted(turn.asked, gyrostat)),
+            guessed=turn.guess is not None,
+            torque_limited=isfinite(float(line.torque_limit)),
+            speed_limited=not back_emf or float(line.speed_max) < float(line.no_load_speed),
+            back_emf=back_emf,
+            power_limited=isfinite(float(line.power_max)),
+            one_stops=turn.one_stops and isfinite(float(line.power_max)),
+        )
+
+
+def numbers_of(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict[str, ca.MX]:
+    """All numbers of a turn's equations by their names, columns."""
+    asked, outline, gyrostat = turn.asked, turn.outline, turn.gyrostat
+    wheels = len(guess.torques)
+    # Numbers around one: speeds over that without load, torques over the current limit, else over
+    # the stall torque, else over what the turn asks for.
+    demand = outline.peak_acceleration * float(np.linalg.eigvalsh(gyrostat.inertia)[-1])
+    limits = (float(line.torque_limit), float(line.stall_torque), demand)
+    torque_unit, speed_unit = next(filter(isfinite, limits)), float(line.no_load_speed)
+    weight = float(np.linalg.norm(gyrostat.pull)) * asked.duration
+    scale = np.concatenate([np.ones(4), np.full(wheels, speed_unit), np.full(3, weight)])
+    attitude, figures = start_of(asked, gyrostat)(*plant)
+    slope = 1.0 / float(line.stall_torque)
+    own = ca.vertcat(outline.axis, slope * speed_unit, gyrostat.pull)
+    numbers: dict[str, Any] = {
+        "scale": scale[: len(guess.states)],
+        "torque_unit": torque_unit,
+        "speed_unit": speed_unit,
+        "lengths": guess.lengths,
+        "duration": asked.duration,
+        "attitude": attitude,
+        "speed": np.broadcast_to(np.asarray(asked.wheel_speed) / speed_unit, (wheels,)),
+        "figures": ca.vertcat(figures, own),
+        "momentum": figures[-3:] / weight if gyrostat.stands else 0.0,
+        "at_rest": gyrostat.turns_about.T,
+        # A trunk that is asked for no turn has no rate to count in.
+        "rate_unit": outline.peak_rate or 1.0 / asked.duration,
+        "final": asked.final_attitude,
+        "up": asked.final_vertical,
+        "righted": _righted(asked, gyrostat),
+        "angle": outline.angle,
+        "slope": slope * torque_unit if isfinite(float(line.stall_torque)) else 0.0,
+        "torque_most": line.torque_limit / torque_unit if isfinite(line.torque_limit) else 0.0,
+        "speed_most": min(float(line.speed_max) / speed_unit, 1.0),
+        "power_most": wheels * line.power_max if isfinite(line.power_max) else 0.0,
+        "copper": slope * speed_unit,
+    }
+    if turn.one_stops:
+        for wheel in range(wheels):
+            numbers[f"shared {wheel}"] = shared_by_others(gyrostat.axes, wheel)
+    return {
+        name: ca.MX(ca.DM(each)) if not isinstance(each, ca.MX) else each
+        for name, each in numbers.items()
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class Variables:
+    """Variables of one turn in its program, and what is to be minimised.
+
+    Attributes:
+        states, torques: over their units. turned: at the end of each interval [rad], (1, k).
+        scaled_states, scaled_torques: as in `Motion`.
+        effort: mean over the time of all squared torques over the square of the largest.
+        peak: power over the largest; None: it is not limited.
+    """
+
+    states: ca.MX
+    torques: ca.MX
+    turned: ca.MX
+    scaled_states: ca.MX
+    scaled_torques: ca.MX
+    effort: ca.MX
+    peak: ca.MX | None
+
+    def begin(
+        self, program: ca.Opti, turn: Turn, guess: Motion, numbers: Mapping[str, ca.MX | ca.DM]
+    ) -> None:
+        """Let the search begin at a guess."""
+        scale, torque_unit = (
+            np.asarray(ca.evalf(numbers[name])) for name in ("scale", "torque_unit")
+        )
+        shares = guess.lengths / guess.lengths.sum()
+        program.set_initial(self.states, guess.states / scale)
+        program.set_initial(self.torques, guess.torques / torque_unit)
+        program.set_initial(self.turned, turn.outline.angle * np.cumsum(shares))
+        if self.peak is not None:
+            program.set_initial(self.peak, 1.0)
+
+
+def transcribe(program: ca.Opti, shape: Shape, numbers: Mapping[str, ca.MX]) -> Variables:
+    """One turn by direct collocation on its intervals."""
+    wheels, count = shape.wheels, shape.intervals
+    scale, torque_unit, speed_unit = (
+        numbers[name] for name in ("scale", "torque_unit", "speed_unit")
+    )
+    duration, attitude, rate_unit = (
+        numbers[name] for name in ("duration", "attitude", "rate_unit")
+    )
+    states = program.variable(scale.shape[0], count * DEGREE + 1)
+    torques = program.variable(wheels, count * (TORQUE_DEGREE + 1))
+    turned = program.variable(1, count)
+
+    scaled = ca.repmat(scale, 1, count * DEGREE + 1) * states
+    mapped = interval(wheels, stands=shape.stands).map(count)(
+        states=ca.horzcat(*(scaled[:, k * DEGREE : (k + 1) * DEGREE + 1] for k in range(count))),
+        torques=torques * torque_unit,
+        length=numbers["lengths"].T,
+        figures=ca.repmat(numbers["figures"], 1, count),
+    )
+    for defect, unit in (("turning", 1.0), ("driving", torque_unit * duration)):
+        program.subject_to(ca.vec(mapped[defect]) / unit == 0.0)
+    program.subject_to(states[: 4 + wheels, 0] == ca.vertcat(attitude, numbers["speed"]))
+    if shape.stands:
+        program.subject_to(states[4 + wheels :, 0] == numbers["momentum"])
+        program.subject_to(ca.vec(mapped["swinging"]) / scale[-1] == 0.0)
+    for k in range(shape.axes_at_rest):
+        program.subject_to(numbers["at_rest"][:, k].T @ mapped["rates"][:, -1] / rate_unit == 0.0)
+    if shape.end != End.AT_REST:
+        whole = shape.end == End.ATTITUDE and not shape.on_edge
+        ending = numbers["final"], numbers["up"], numbers["righted"]
+        program.subject_to(missed(shape.axes_of_tilt, whole=whole)(states[:4, -1], *ending) == 0.0)
+    # Summed up one by one: a single sum would be a dense row, for which Jacobians take long.
+    program.subject_to(turned == ca.horzcat(ca.MX(0.0), turned[:-1]) + mapped["swept"])
+    if not shape.guessed and shape.end != End.AT_REST:
+        program.subject_to(program.bounded(-WINDING, turned[-1] - numbers["angle"], WINDING))
+
+    # On Bernstein coefficients, so that limits hold between the nodes too.
+    speeds, elevated = ca.vec(mapped["speeds"]) / speed_unit, ca.vec(mapped["elevated"])
+    if shape.torque_limited:
+        largest = numbers["torque_most"]
+        program.subject_to(program.bounded(-largest, ca.vec(torques), largest))
+    if shape.back_emf:
+        slope = numbers["slope"] / torque_unit
+        program.subject_to(program.bounded(-1.0, speeds + slope * elevated, 1.0))
+    if shape.speed_limited:
+        highest = numbers["speed_most"]
+        program.subject_to(program.bounded(-highest, speeds, highest))
+    peak = None
+    if shape.power_limited:
+        peak, power = program.variable(), ca.vec(mapped["power"]) / numbers["power_most"]
+        program.subject_to(program.bounded(0.0, peak, 1.0))
+        if shape.one_stops:
+            left = _powers_left(shape, numbers, mapped, scaled)
+            power = ca.vertcat(power, left / numbers["power_most"])
+        program.subject_to(power - peak <= 0.0)
+        program.subject_to(power + peak >= 0.0)
+    effort = ca.sum(mapped["effort"]) / (torque_unit**2 * duration)
+    return Variables(states, torques, turned, scaled, torques * torque_unit, effort, peak)
+
+
+def _powers_left(
+    shape: Shape, numbers: Mapping[str, ca.MX], mapped: Mapping[str, ca.MX], scaled: ca.MX
+) -> ca.MX:
+    """Bernstein coefficients of the others' power after any one drive has stopped [W], a column.
+
+    The others then give `S tau`, see `shared_by_others`, and a wheel that stopped at the speed W_k
+    leaves them at `S W + (1 - S) W(t_k)`. That is linear in the speed that it keeps, so that the
+    extremes count: for a turn from rest to rest these are none and that half way.
+
+    Args:
+        shape: of the turn. numbers: of its equations. mapped: outputs of its intervals.
+        scaled: its states.
+    """
+    wheels, count, found = shape.wheels, shape.intervals, []
+    by_interval = left_power(wheels)
+    for wheel in range(wheels):
+        shared = numbers[f"shared {wheel}"]
+        for stopped in (0, count // 2):
+            speed, later = scaled[4 : 4 + wheels, stopped * DEGREE], count - stopped
+            columns = slice(stopped * (DEGREE + 1), None)
+            power = by_interval.map(later)(
+                mapped["speeds"][:, columns],
+                mapped["elevated"][:, columns],
+                ca.repmat(shared, 1, later),
+                ca.repmat(speed - shared @ speed, 1, later),
+                ca.repmat(numbers["copper"], 1, later),
+            )
+            found.append(ca.vec(power))
+    return ca.vertcat(*found)
+
+
+def _righted(asked: Boundary, gyrostat: Gyrostat) -> FloatArray:
+    """Directions in B along which the vertical must be where it is asked for, shape (k, 3)."""
+    up = asked.final_vertical
+    if gyrostat.edge is not None:
+        return np.cross(gyrostat.edge, up)[None]
+    # A turn about pitch moves the vertical along the first, one about roll along the second.
+    along_pitch, lateral = np.cross([0.0, 1.0, 0.0], up), np.array([0.0, 1.0, 0.0])
+    return np.array([lateral, along_pitch])[gyrostat.reach[:2]]
