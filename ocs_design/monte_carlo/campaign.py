@@ -332,22 +332,12 @@ def replayed(
         pose_rate: see `simulate`.
     """
     flights = fly(campaign.worlds(sample), Options(hold=campaign.hold, pose_rate=pose_rate))
-    runs = []
-    for number, (designed, flight) in enumerate(zip(campaign.flights, flights, strict=True)):
-        verdict = campaign.judged(flight.metrics, number)
-        runs.append(
-            Run(
-                scenario=designed.maneuver.name,
-                ocs=True,
-                passed=verdict.passed,
-                reason=verdict.reason,
-                metrics=flight.metrics,
-                series=flight.series,
-                note=flight.world.note,
-                can_stand=designed.can_stand,
-                poses=flight.poses,
-                level=verdict.level,
-                stands=verdict.stands,
-            )
+    return tuple(
+        flight.run(
+            designed.maneuver.name,
+            campaign.judged(flight.metrics, number),
+            ocs=True,
+            can_stand=designed.can_stand,
         )
-    return tuple(runs)
+        for number, (designed, flight) in enumerate(zip(campaign.flights, flights, strict=True))
+    )

@@ -32,6 +32,7 @@ from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.verdict import (
     MOMENTUM_GATE,
     Fault,
+    Verdict,
     comes_down_well,
     judge,
     off_at_touchdown,
@@ -119,6 +120,22 @@ class Flown:
         """Poses to show the flight again; None if none were recorded."""
         return poses_of(self.recording, self.place, self.world)
 
+    def run(self, scenario: str, verdict: Verdict, *, ocs: bool, can_stand: bool | None) -> Run:
+        """The flight with its verdict; arguments as in `Run`."""
+        return Run(
+            scenario=scenario,
+            ocs=ocs,
+            passed=verdict.passed,
+            reason=verdict.reason,
+            metrics=self.metrics,
+            series=self.series,
+            note=self.world.note,
+            poses=self.poses,
+            can_stand=can_stand,
+            level=verdict.level,
+            stands=verdict.stands,
+        )
+
 
 def run_scenarios(
     robot: Robot,
@@ -184,21 +201,7 @@ def run_scenarios(
                 objection=against,
                 legs=len(robot.legs),
             )
-            runs.append(
-                Run(
-                    scenario=maneuver.name,
-                    ocs=ocs,
-                    passed=verdict.passed,
-                    reason=verdict.reason,
-                    metrics=flight.metrics,
-                    series=flight.series,
-                    note=flight.world.note,
-                    poses=flight.poses,
-                    can_stand=legs,
-                    level=verdict.level,
-                    stands=verdict.stands,
-                )
-            )
+            runs.append(flight.run(maneuver.name, verdict, ocs=ocs, can_stand=legs))
     return tuple(runs)
 
 
