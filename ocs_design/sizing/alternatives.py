@@ -75,12 +75,18 @@ def alternatives(
         found = lightest_below(change.problem, below)
         if found is None or change.problem.incidence is not None:
             return None if found is None else with_plate(found, choice.problem, robot)
-        # At another incidence another reserve is kept: a design of its own, with that motor.
+        # At another incidence another reserve is kept: a design of its own, of those parts.
         free = replace(specification, ocs=replace(specification.ocs, alpha_criterion=LIGHTEST))
         assert resolved.choice is not None, "wheels without motors have no alternatives"
-        offered = replace(resolved.choice, motors=(found.motor,))
+        parts = replace(
+            resolved.choice,
+            motors=(found.motor,),
+            gears=(found.gear,),
+            materials=(found.material,),
+        )
+        offered = replace(resolved, choice=parts)
         try:
-            own = design_device(free, robot, replace(resolved, choice=offered), advise=False)
+            own = design_device(free, robot, offered, advise=False, ranked=False)
         except Infeasible:
             return None
         return None if own.choice is None else own.choice.chosen

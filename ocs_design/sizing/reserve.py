@@ -514,7 +514,7 @@ class _Flown:
         axes = (self.designed if headed else self.designed[:2])[None, None]
         upright = np.array([[self.upright]]) if headed else None
         return wheel_task(
-            [self.maneuver], requirement, self.nominal, axes, begun=True, upright=upright
+            [self.maneuver], requirement, self.nominal, axes, begun=[True], upright=upright
         )
 
     def has(self, device: Candidate, rate: tuple[float, float]) -> float:

@@ -133,19 +133,16 @@ def _tried(
     """Margins of each maneuver, and of each that begins with a rate if any shall, shape (n, k)."""
     if not maneuvers:
         return []
-    tasks = [
-        wheel_task(maneuvers, requirement, inertia, axes, begun=each, upright=upright)
-        for each in ((False, True) if begun else (False,))
-    ]
-    found: list[Margins] = []
-    for task in tasks:
-        demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
-        can = capability(demand, spin_inertia)
-        following = newton_step(demand, spin_inertia, can)
-        with np.errstate(divide="ignore"):
-            margin = can.sweep / demand.sweep
-        found += [Margins(*both) for both in zip(margin, following, strict=True)]
-    return found
+    # All at once, as a call of numpy costs more than its work on few.
+    starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * begun)
+    every = [*maneuvers, *maneuvers] if begun else maneuvers
+    task = wheel_task(every, requirement, inertia, axes, begun=starts, upright=upright)
+    demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
+    can = capability(demand, spin_inertia)
+    following = newton_step(demand, spin_inertia, can)
+    with np.errstate(divide="ignore"):
+        margin = can.sweep / demand.sweep
+    return [Margins(*both) for both in zip(margin, following, strict=True)]
 
 
 def wheel_task(
@@ -154,7 +151,7 @@ def wheel_task(
     inertia: TiltInertia,
     axes: FloatArray,
     *,
-    begun: bool = False,
+    begun: Sequence[bool] | None = None,
     upright: FloatArray | None = None,
 ) -> WheelTask:
     """Maneuvers as what wheels must do, fields of shape (m, n, k, ...).
@@ -164,20 +161,24 @@ def wheel_task(
         requirement: that they are part of.
         inertia: of what they turn, shapes that broadcast against (n, k, 2) and (n, k).
         axes: of the wheels about roll and pitch, shape (n, k, 2, w); with yaw where all are headed.
-        begun: see `Requirement.slew`.
+        begun: see `Requirement.slew`, for each; None: no.
         upright: I_zz of what they turn where all are headed, shapes likewise [kg m^2].
     """
     inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes[..., :2, :]).max(axis=-1)
     each = [maneuver.turned(inertia).within_reach(reach, maneuver.stray) for maneuver in maneuvers]
+    starts = [False] * len(maneuvers) if begun is None else begun
     slews = [
-        requirement.slew(maneuver, own, begun=begun)
-        for maneuver, own in zip(maneuvers, each, strict=True)
+        requirement.slew(maneuver, own, begun=start)
+        for maneuver, own, start in zip(maneuvers, each, starts, strict=True)
     ]
     swept = np.stack([slew.swept for slew in slews])
     momentum = np.stack([slew.momentum for slew in slews])
     if upright is not None:
         kept = [requirement.reserves.get(maneuver.name) for maneuver in maneuvers]
-        factors = [1.0 if one is None else one.begun if begun else one.demand for one in kept]
+        factors = [
+            1.0 if one is None else one.begun if start else one.demand
+            for one, start in zip(kept, starts, strict=True)
+        ]
         about = [
             np.multiply(maneuver.heading(np.broadcast_to(upright, axes.shape[:-2])), factor)
             for maneuver, factor in zip(maneuvers, factors, strict=True)
