@@ -1,8 +1,9 @@
-"""Devices for Solo12's figures, designed with one motor or with none.
+"""Devices for Solo12's figures, designed with one motor or with none, of any material.
 
-Of any material and at the lightest incidence, whatever is the default.
+Each is made once in a process, however it is asked for.
 """
 
+from dataclasses import replace
 from functools import cache
 
 from fronts import by_hand
@@ -14,23 +15,20 @@ from ocs_design.sizing.design import design_device
 MOTOR = "EC 45 flat 70 W 411812"
 
 
-@cache
-def designed(motor=MOTOR, alpha=None, criterion="lightest", mass_max=None, guard=None, layout=None):
-    """The task and what came of it; without a motor no incidence is the lightest."""
-    task = by_hand()
-    if motor == "none" and criterion == "lightest":
-        criterion = None
-    given = Specification(
-        robot=task.specification.robot,
-        motor=MotorSection(name=motor, gear=None if motor == "none" else "direct"),
-        flywheel=FlywheelSection(material="auto"),
-        ocs=OcsSection(
-            alpha=alpha,
-            alpha_criterion=criterion if layout is None else None,
-            mass_max=mass_max,
-            guard=guard,
-            layout=layout,
-        ),
+def designed(motor=MOTOR, **ocs):
+    """The task and what came of it; the incidence is that of equal rates, the default."""
+    return design_of(
+        Specification(
+            motor=MotorSection(name=motor, gear=None if motor == "none" else "direct"),
+            flywheel=FlywheelSection(material="auto"),
+            ocs=OcsSection(**ocs),
+        )
     )
-    task = task.with_specification(given)
-    return task, design_device(given, task.robot, task.resolved)
+
+
+@cache
+def design_of(specification):
+    """The same for a specification of all but the robot."""
+    task = by_hand()
+    task = task.with_specification(replace(specification, robot=task.specification.robot))
+    return task, design_device(task.specification, task.robot, task.resolved)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 import pytest
-from fronts import by_hand
+from fronts import by_hand, make_front
 from stories import design, story
 
 import ocs_design
@@ -29,10 +29,8 @@ from ocs_design.common.files import to_json
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.reading import parse_specification, specification_of
-from ocs_design.requirement.sweep import sweep_of
 from ocs_design.requirement.writing import specification_to_toml
 from ocs_design.workflows.export import export_design
-from ocs_design.workflows.pareto import draw_front, lightest_device
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES, NOTEBOOK = ROOT / "examples", ROOT / "examples" / "solo12.ipynb"
@@ -103,7 +101,7 @@ def test_every_fault_of_what_is_specified_is_told():
 
 @cache
 def results():
-    made, front = design(), draw_front(by_hand(), sweep_of("time"), (0.3, 3.0), lightest_device)
+    made, front = design(), make_front(by_hand())
     outcome = Outcome(made, Path("solo12-ocs"), by_hand().robot, None, ())
     return {
         "OcsDesign for": made,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from designed import designed
+from designed import MOTOR, designed
 
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.simulation.margins import record_margins
@@ -35,8 +35,8 @@ def run(scenario, *, speed=500.0, torque=0.2, ocs=True, knock=1.0):
     return Run(scenario, ocs, True, "", metrics, series, "", True)
 
 
-def recorded(runs=(), plans=None, motor=None):
-    task, found = designed() if motor is None else designed(motor)
+def recorded(runs=(), plans=None, motor=MOTOR):
+    task, found = designed(motor)
     margins = record_margins(task.resolved, found, runs, plans or {})
     return {margin.name: margin for margin in margins}
 

@@ -47,13 +47,7 @@ def test_what_was_minimised_is_the_device_or_one_rim():
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 def test_without_a_word_the_incidence_is_that_of_equal_rates(motor):
-    assert designed(motor, criterion=None)[1].criterion == "equal-rate"
-
-
-def test_the_lightest_incidence_is_there_for_the_asking():
-    _, lightest = designed(criterion="lightest")
-    assert lightest.criterion == "lightest"
-    assert lightest.device.mass <= designed(criterion="equal-rate")[1].device.mass * 1.0001
+    assert designed(motor)[1].criterion == "equal-rate"
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
@@ -62,10 +56,10 @@ def test_an_incidence_by_hand_is_kept(motor):
     assert (found.criterion, found.device.incidence) == ("by hand", 0.4)
 
 
-@pytest.mark.parametrize("motor", ["none", pytest.param(MOTOR, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize("motor", ["none", MOTOR])
 def test_equal_rate_is_that_of_robot_and_device(motor):
     """tan(alpha) = I_roll / I_pitch."""
-    task, found = designed(motor, criterion="equal-rate")
+    task, found = designed(motor)
     roll, pitch, _ = np.diag(braked_inertia(task.robot, found.device).inertia)
     assert found.criterion == "equal-rate"
     assert found.device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
@@ -143,7 +137,7 @@ def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
 @pytest.mark.parametrize(("kilograms", "stays"), [(0.05, False), (0.01, True)])
 def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kilograms, stays):
     """Unless what changes is a twentieth of it at the most; 0.49 kg weighs this one."""
-    task, found = designed()
+    task, found = designed(alpha=0.4)
     place, device = found.choice.problem.place, found.device.mass
     assert (kilograms > 0.05 * device) is not stays
     mast = SimpleNamespace(

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from fronts import by_hand
+from designed import design_of
 
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.kinds import slower
@@ -22,12 +22,8 @@ LESS = 0.02
 @cache
 def made(**asked):
     """The task for Solo12's figures, its device, and what its mass is owed to."""
-    task = by_hand()
-    spec = Specification(
-        motor=MOTORS, robot=task.specification.robot, requirement=RequirementSection(**asked)
-    )
-    task = task.with_specification(spec)
-    designed = design_device(task.specification, task.robot, task.resolved)
+    specification = Specification(motor=MOTORS, requirement=RequirementSection(**asked))
+    task, designed = design_of(specification)
     return task, designed, owed_to(designed, task.robot)
 
 

@@ -46,8 +46,8 @@ def test_what_binds_is_the_task_that_asks_for_the_most(record):
 
 def test_supply_and_reserve_are_those_of_the_choice(chosen, record):
     assert (record.bus_voltage, record.reserve) == (24.0, 0.95)
-    # One motor, no gear, each material whose strength is known, 0 to 90 deg in steps of 5.
-    assert record.candidates == len(chosen.choice.problem.materials) * 18
+    # One motor, no gear, each material whose strength is known, one incidence.
+    assert record.candidates == len(chosen.choice.problem.materials)
 
 
 def test_without_co_design_there_is_none(record):
