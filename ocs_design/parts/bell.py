@@ -20,7 +20,7 @@ BELL_SHARE = 0.45
 estimate: no row of the catalogue has that figure."""
 
 FIXTURE_FLOOR = 3.0e-3
-"""[m]: the bell's front is pressed on it while the glue sets."""
+"""Least thickness [m]: the bell's front is pressed on it while the glue sets."""
 
 FIXTURE_FIT = 0.1e-3
 """Play of bell and ring in their fixture, on the radius [m]: to be scraped until both slide in."""
@@ -54,6 +54,7 @@ class Bell(NamedTuple):
         room: height of a rim whose housing has room for motor and shaft [m].
         front: from the ring's middle to the motor's front [m].
         shaft: radius of the shaft there, or 0 [m].
+        shaft_length: by which it stands out of the front, as far as known [m].
     """
 
     bore: float
@@ -61,6 +62,12 @@ class Bell(NamedTuple):
     room: float
     front: float
     shaft: float
+    shaft_length: float = 0.0
+
+    @property
+    def fixture_floor(self) -> float:
+        """Thickness of the fixture's floor, out of which the shaft must not stand [m]."""
+        return max(FIXTURE_FLOOR, self.shaft_length + FIXTURE_FIT)
 
 
 def bell_of(motor: HeldMotor) -> Bell | None:
@@ -85,6 +92,7 @@ def bell_of(motor: HeldMotor) -> Bell | None:
         room=length + before - 2.0 * CLEARANCE,
         front=(length - before) / 2.0,
         shaft=(mounting.shaft_diameter or 0.0) / 2.0,
+        shaft_length=mounting.shaft_length or 0.0,
     )
 
 
@@ -97,7 +105,8 @@ def fixture_part(bell: Bell, outer_radius: float, height: float) -> Part[float]:
         bell: of the motor. outer_radius, height: of the ring [m].
     """
     around = bell.bore - GLUE_GAP + FIXTURE_FIT
-    step = FIXTURE_FLOOR + bell.front - height / 2.0
+    floor = bell.fixture_floor
+    step = floor + bell.front - height / 2.0
     inside, top = outer_radius + FIXTURE_FIT, step + height / 2.0
     hole = bell.shaft + FIXTURE_FIT if bell.shaft > 0.0 else 0.0
     profile = [
@@ -109,7 +118,7 @@ def fixture_part(bell: Bell, outer_radius: float, height: float) -> Part[float]:
         (around + GLUE_ROOM, step),
         (around + GLUE_ROOM, step - GLUE_ROOM),
         (around, step - GLUE_ROOM),
-        (around, FIXTURE_FLOOR),
-        (hole, FIXTURE_FLOOR),
+        (around, floor),
+        (hole, floor),
     ]
     return Part("ring_fixture", DENSITY, (revolved(profile),))

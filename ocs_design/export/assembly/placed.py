@@ -15,6 +15,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import (
+    foot_holes,
     foot_screws,
     pedestal_kinds,
     pedestal_pieces,
@@ -25,9 +26,8 @@ from ocs_design.export.device_parts import (
     wheel_pieces,
 )
 from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
-from ocs_design.export.module_bodies import wheel_placement
+from ocs_design.export.module_bodies import carrier_placement, wheel_placement
 from ocs_design.export.visuals import cage_placement
-from ocs_design.parts.bell import FIXTURE_FLOOR
 from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
@@ -78,7 +78,8 @@ class Piece:
 def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     """Wheel, printed parts, motor and gear of one module by their names, each with its place.
 
-    Motor and gear are cylinders of their mass; a gear of two wheels has one by the name of each.
+    Motor and gear are cylinders of their mass, the motor with its shaft; a gear of two wheels has
+    one by the name of each.
     """
     found = {
         name.removeprefix("flywheel_"): (part, HERE)
@@ -98,18 +99,41 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     masses = {"motor": motor.mass, "gear": motor.gear_mass}
     solids = [solid for solid in drive_solids(device) if solid.name in masses]
     volumes = {
-        name: sum(_cylinder(solid).volume() for solid in solids if solid.name == name)
+        name: sum(
+            body.volume()
+            for solid in solids
+            if solid.name == name
+            for body in (_cylinder(solid), *_shaft(device, solid))
+        )
         for name in masses
     }
     for solid in solids:
         name = solid.name if solid.name not in found else f"{solid.name}_2"
-        part = Part(name, masses[solid.name] / volumes[solid.name], (_cylinder(solid),))
+        bodies = (_cylinder(solid), *_shaft(device, solid))
+        part = Part(name, masses[solid.name] / volumes[solid.name], bodies)
         found[name] = (part, Placement(np.eye(3), np.array([0.0, -solid.up, 0.0])))
     return found
 
 
 def _cylinder(solid: DriveSolid) -> Revolution:
     return hollow_cylinder(0.0, solid.radius, solid.low, solid.high)
+
+
+def _shaft(device: Device, solid: DriveSolid) -> tuple[Revolution, ...]:
+    """The shaft in front of a motor; as far as through its hub where its length is not known.
+
+    None where the wheel is screwed to the rotor, and the shaft in no source.
+    """
+    mounting, web = device.motor.mounting, device.flywheel.web
+    if solid.name != "motor" or mounting is None or not mounting.shaft_diameter:
+        return ()
+    length = mounting.shaft_length
+    if length is None and web is not None and mounting.rotor is None:
+        length = web.hub.height / 2.0 - solid.high
+    if not length or length <= 0.0:
+        return ()
+    end = solid.high + length
+    return (hollow_cylinder(0.0, mounting.shaft_diameter / 2.0, solid.high, end),)
 
 
 def module_pieces(device: Device) -> tuple[Piece, ...]:
@@ -129,7 +153,13 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     screws = [
         (
             each,
-            _ring(each.fastening, each.circle.radius, -pi / 2.0, floor + each.along, each.towards),
+            _ring(
+                each.fastening,
+                each.circle.radius,
+                -pi / 2.0,
+                each.along if each.by_wheel else floor + each.along,
+                each.towards,
+            ),
         )
         for each in mount.screwed
     ]
@@ -170,7 +200,9 @@ def bonding_pieces(device: Device) -> tuple[Piece, ...]:
     fixture, bell = ring_fixture(device), motor_mount(device).bell
     if fixture is None or bell is None:
         return ()
-    front = Placement(np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, FIXTURE_FLOOR + bell.front]))
+    front = Placement(
+        np.diag([1.0, -1.0, -1.0]), np.array([0.0, 0.0, bell.fixture_floor + bell.front])
+    )
     down = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
     parts = placed_parts(device)
     pieces = [Piece("ring_fixture", _placed(part_mesh(fixture, SECTIONS), down))]
@@ -207,16 +239,24 @@ def _ring(
 
 
 def _foot_screws(device: Device) -> Iterator[Piece]:
-    """Screws of the foot from above, in the middle of its slots; into what each foot stands on."""
+    """Screws of the foot from above, through its slots; into what each foot stands on."""
     foot = printed_foot(device)
     feet = [foot_screws(device, module) for module in device.modules]
     for held in dict.fromkeys(feet):
-        # A pedestal's holes are where the slots of a foot end that is not turned on it.
-        angle = pi / 4.0 if held is SEAT_SCREWS else pi / 2.0
-        across, along = foot.slot_radius * cos(angle), foot.slot_radius * sin(angle)
-        places = [np.array([s * across, s * along, BASE_THICKNESS]) for s in (1.0, -1.0)]
+        if held is SEAT_SCREWS:
+            # A pedestal's holes are where the slots of a foot end that is not turned on it.
+            off = foot.slot_radius * sin(pi / 4.0)
+            places, place = [(off, off), (-off, -off)], foot.placement
+            under = 0.0
+        else:
+            # The holes stay, the foot is turned over them.
+            module = device.modules[feet.index(held)]
+            places = list(foot_holes(device)[module.name])
+            place = (wheel_placement(module) @ carrier_placement(module)).inverse()
+            under = float(module.position[2]) - foot.wheel_height
         one = solid_mesh(_screw(held.screw, held.length), 24)
-        screws = _placed(merged([one.moved(place) for place in places]), foot.placement)
+        heads = [one.moved(np.array([x, y, under + BASE_THICKNESS])) for x, y in places]
+        screws = _placed(merged(heads), place)
         apart = -_APART * foot.housing.radius
         yield Piece(held.purpose, screws, held, drop=apart, modules=feet.count(held))
 

@@ -1,12 +1,14 @@
 """Exploded view and section of a module on a sheet, with the numbers of its pieces."""
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import cycle
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.assembly.line_art import section_lines, view_of, visible_lines
 from ocs_design.export.assembly.placed import Piece
+from ocs_design.export.drawing.cut_faces import hatching
 from ocs_design.export.drawing.sheet import (
     CENTRE,
     OUTLINE,
@@ -31,6 +33,8 @@ _DRAWN = Pen(0.25)
 _GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
 """Gaps between pieces pulled apart, over the largest radius: the widest that fits the sheet is
 taken. Share of it before screws."""
+
+_BOUGHT = ("motor", "gear", "gear_2")
 
 BALLOON = 3.2
 """Radius of a number's circle [mm]."""
@@ -135,9 +139,14 @@ def section_view(
     place = _placing(scale, middle, box)
     items: list[Item] = []
     beside: dict[bool, list[tuple[int, tuple[float, float]]]] = {True: [], False: []}
+    leaning = cycle((False, True))
     for piece, chains in cut:
+        lines = [tuple(map(place, chain)) for chain in chains]
+        if piece.fastening is None and piece.name not in _BOUGHT:
+            # Parts that touch lean to different sides; what is bought is shown whole.
+            items += hatching(*lines, mirrored=next(leaning))
         pen = THIN if piece.fastening is not None else OUTLINE
-        items += [Polyline(tuple(map(place, chain)), pen) for chain in chains]
+        items += [Polyline(line, pen) for line in lines]
         corners = np.concatenate(chains)
         behind = float(corners[:, 0].mean()) < middle[0]
         ends = corners[:, 0] if behind else -corners[:, 0]
@@ -168,8 +177,8 @@ def _placing(
 
 
 def _fitting(size: FloatArray, room: FloatArray) -> Scale:
-    """Largest standard scale at which a size [m] fits a room of the sheet [mm]."""
-    return largest_scale(lambda each: bool(np.all(_on_paper(each, size) <= room)))
+    """Largest scale at which a size [m] fits a room of the sheet [mm]."""
+    return largest_scale(lambda each: bool(np.all(_on_paper(each, size) <= room)), standard=False)
 
 
 def _on_paper(scale: Scale, lengths: FloatArray) -> FloatArray:

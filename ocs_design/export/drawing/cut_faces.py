@@ -82,25 +82,31 @@ def _distinct(profile: Profile) -> Profile:
     return [b for a, b in zip([profile[-1], *profile], profile, strict=False) if a != b]
 
 
-def hatching(corners: Sequence[Point], *, mirrored: bool = False) -> list[Item]:
+def hatching(
+    corners: Sequence[Point], *others: Sequence[Point], mirrored: bool = False
+) -> list[Item]:
     """Thin lines at 45 degrees inside a polygon (ISO 128-3).
 
     All polygons of a sheet share one grid, so that faces of one part are hatched as one.
 
     Args:
-        corners: of a simple polygon [mm].
+        corners: of a simple polygon [mm]. others: further ones of the part, or holes in it.
         mirrored: leaning to the left, for the part beside the first.
     """
     side = -_DIAGONAL if mirrored else _DIAGONAL
-    turned = [(_DIAGONAL * x - side * y, side * x + _DIAGONAL * y) for x, y in corners]
-    across = [v for _, v in turned]
+    rings = [
+        [(_DIAGONAL * x - side * y, side * x + _DIAGONAL * y) for x, y in ring]
+        for ring in (corners, *others)
+    ]
+    across = [v for ring in rings for _, v in ring]
     first, last = math.ceil(min(across) / SPACING), math.floor(max(across) / SPACING)
     lines: list[Item] = []
     for v in (SPACING * row for row in range(first, last + 1)):
-        # Parts of a level line inside the polygon, by the even-odd rule.
+        # Parts of a level line inside the polygons, by the even-odd rule.
         crossings = sorted(
             u0 + (u1 - u0) * (v - v0) / (v1 - v0)
-            for (u0, v0), (u1, v1) in zip(turned, [*turned[1:], turned[0]], strict=True)
+            for ring in rings
+            for (u0, v0), (u1, v1) in zip(ring, [*ring[1:], ring[0]], strict=True)
             if (v0 <= v) != (v1 <= v)
         )
         lines += [

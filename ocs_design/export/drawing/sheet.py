@@ -147,17 +147,17 @@ Item: TypeAlias = Line | Polyline | Circle | Area | Text
 
 @dataclass(frozen=True)
 class Scale:
-    """Scale of a drawing (ISO 5455).
+    """Scale of a drawing (ISO 5455), or of a picture, which needs no standard one.
 
     Attributes:
         paper, part: as in `paper:part`; one of them is 1.
     """
 
-    paper: int
-    part: int
+    paper: float
+    part: float
 
     def __str__(self) -> str:
-        return f"{self.paper}:{self.part}"
+        return f"{self.paper:g}:{self.part:g}"
 
     def __call__(self, length: float) -> float:
         """Length on paper [mm] of a length of the part [m]."""
@@ -168,14 +168,20 @@ class Scale:
         return 1e-3 * on_paper * self.part / self.paper
 
 
-_STEPS = (1, 2, 5)
-_ENLARGED = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(_STEPS)]
-_REDUCED = [Scale(1, step * 10**power) for power in range(7) for step in _STEPS][1:]
+_STANDARD, _FINE = (1, 2, 5), (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 
 
-def largest_scale(fits: Callable[[Scale], bool]) -> Scale:
-    """Largest standard scale for which `fits` holds; the smallest if it holds for none."""
-    scales = [*_ENLARGED, *_REDUCED]
+def largest_scale(fits: Callable[[Scale], bool], *, standard: bool = True) -> Scale:
+    """Largest scale for which `fits` holds; the smallest if it holds for none.
+
+    Args:
+        fits: whether a scale does.
+        standard: whether it is to be one of ISO 5455; else there are steps between.
+    """
+    steps = _STANDARD if standard else _FINE
+    enlarged = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(steps)]
+    reduced = [Scale(1, step * 10**power) for power in range(7) for step in steps][1:]
+    scales = [*enlarged, *reduced]
     return next((scale for scale in scales if fits(scale)), scales[-1])
 
 

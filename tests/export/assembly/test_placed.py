@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from built import DEVICES
+from manifold3d import Manifold, Mesh64
 
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
@@ -44,6 +45,39 @@ def test_a_gear_has_a_wheel_at_either_axis():
     assert heights == pytest.approx([0.0, -0.03])
     gears = sum(placed[name][0].mass_properties().mass for name in ("gear", "gear_2"))
     assert gears == pytest.approx(0.02)
+
+
+def _overlap(a, b):
+    """Volume that two pieces share [m^3]."""
+    first, second = (
+        Manifold(Mesh64(each.mesh.vertices, each.mesh.triangles.astype(np.uint64)))
+        for each in (a, b)
+    )
+    return float((first ^ second).volume())
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_screws_cut_into_nothing_but_what_their_threads_are_in(name):
+    """All of them: only into one piece each, and there only as far as they reach beyond what they
+    hold. A head in a part, or a tip in two, shares more, or with another."""
+    pieces = module_pieces(DEVICES[name])
+    for screw in (each for each in pieces if each.fastening is not None):
+        held = screw.fastening
+        shared = [_overlap(screw, each) for each in pieces if each.fastening is None]
+        in_thread = held.length - held.thickness
+        most = held.count * np.pi / 4.0 * held.screw.diameter**2 * in_thread
+        assert sum(each > 1e-12 for each in shared) <= 1, held.purpose
+        assert max(shared) <= most * (1.0 + 1e-6), held.purpose
+
+
+def test_a_shaft_reaches_into_the_hub_that_is_bonded_on_it():
+    parts = placed_parts(DEVICES["by its face"])
+    (body, shaft), place = parts["motor"][0].joined, parts["motor"][1]
+    wheel = DEVICES["by its face"].flywheel
+    assert place.position == pytest.approx(0.0)
+    assert shaft.profile[:, 0].max() == pytest.approx(wheel.web.hub.bore_radius, rel=1e-6)
+    assert shaft.profile[:, 1].min() == pytest.approx(body.profile[:, 1].max())
+    assert shaft.profile[:, 1].max() == pytest.approx(wheel.web.hub.height / 2.0)
 
 
 def test_the_screws_heads_stand_on_what_they_hold():
