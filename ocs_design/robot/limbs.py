@@ -175,8 +175,8 @@ class Anatomy:
         """
         own, above = bodies_of(self.tree, limb), set(ancestors(self.tree, limb.base))
         for pair in self.tree.loops:
-            one, other = (self.tree.body_of_link[name] for name in pair)
-            for end, beyond in ((one, other), (other, one)):
+            tied = [self.tree.body_of_link[name] for name in pair]
+            for end, beyond in (tied, reversed(tied)):
                 if end == limb.last and beyond not in own | above:
                     return True
         ends = self._fixed_frames(limb.last)
