@@ -22,12 +22,12 @@ ROBOTS = (".urdf", ".xacro", ".xml", ".urdf.gz", ".xacro.gz", ".xml.gz")
 
 
 def one_of(*words: str) -> Completer:
-    """These words."""
+    """Completion of one of these words."""
     return any_of(lambda: words)
 
 
 def any_of(names: Names) -> Completer:
-    """Names that are looked up when they are asked for."""
+    """Completion of names that are looked up when they are asked for."""
 
     def complete(incomplete: str) -> list[str]:
         """Candidates that begin so."""
@@ -38,7 +38,7 @@ def any_of(names: Names) -> Completer:
 
 
 def of_key(path: str) -> Completer:
-    """Words that a key of the specification takes, given by its path."""
+    """Completion of words that a key of the specification takes, given by its path."""
 
     def words() -> Iterable[str]:
         """Words in the order of the key."""
@@ -50,7 +50,7 @@ def of_key(path: str) -> Completer:
 
 
 def listed(completer: Completer) -> Completer:
-    """The last of several with commas between them."""
+    """Completion of the last of several names with commas between them."""
 
     def complete(incomplete: str) -> list[str]:
         """Completions, with what stands before them."""
@@ -61,7 +61,7 @@ def listed(completer: Completer) -> Completer:
 
 
 def files(*ends: str) -> Completer:
-    """Files whose names end so, and folders on the way to them.
+    """Completion of files whose names end so, and of folders on the way to them.
 
     None where a name needs quotes or a home is to be expanded: then the shell offers its own.
     """

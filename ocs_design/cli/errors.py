@@ -97,7 +97,7 @@ def _report_any(
 
 
 def _report_system(error: OSError, *, as_json: bool, color: bool) -> int:
-    """What a disk or a terminal said while something was printed, or where nobody expected it."""
+    """Report what a disk or a terminal said while something was printed."""
     from ocs_design.export.folder import output_error
 
     told = output_error(error, Path())

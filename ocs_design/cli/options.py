@@ -50,7 +50,7 @@ def parameters(options: Mapping[str, object], *, default: object) -> list[inspec
 
 
 def redeclare(command: Command, parameters: list[inspect.Parameter]) -> None:
-    """What Typer makes options from."""
+    """Declare the parameters of a command, which Typer makes options from."""
     command.__dict__["__signature__"] = inspect.Signature(parameters)
     command.__annotations__ = {each.name: each.annotation for each in parameters}
 

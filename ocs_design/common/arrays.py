@@ -42,7 +42,7 @@ def matrix(values: FloatArray) -> Matrix:
 def put_rows(
     values: NDArray[Number], rows: NDArray[np.intp], others: NDArray[Number]
 ) -> NDArray[Number]:
-    """A copy with other values in these rows."""
+    """A copy of an array with other values in these rows."""
     copy = values.copy()
     copy[rows] = others
     return copy

@@ -173,7 +173,7 @@ class FrontDevice:
 
 @dataclass(frozen=True, kw_only=True)
 class FrontPoint:
-    """One value of the figure that is varied.
+    """One value of the figure that is varied, and the lightest device there.
 
     Attributes:
         value: [SI].
@@ -191,7 +191,7 @@ class FrontPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class Front:
-    """The whole answer; SI.
+    """Lightest devices over one figure that is varied; SI.
 
     Attributes:
         robot: its name. against: what is varied, by its name and for people.
@@ -241,7 +241,7 @@ class Front:
 
 @dataclass(frozen=True, kw_only=True)
 class Initialized:
-    """What was written.
+    """The specification that `init` wrote.
 
     Attributes:
         file: the specification.
@@ -257,7 +257,7 @@ class Initialized:
 
 @dataclass(frozen=True, kw_only=True)
 class Exported:
-    """What was written.
+    """The files that `export` wrote.
 
     Attributes:
         folder: that it was written to.
@@ -290,7 +290,7 @@ BINS = 12
 
 @dataclass(frozen=True, kw_only=True)
 class Share:
-    """A probability, estimated.
+    """An estimated probability.
 
     Attributes:
         passed, flown: successes and trials.
@@ -340,7 +340,7 @@ class Spread:
 
 @dataclass(frozen=True, kw_only=True)
 class ScenarioSummary:
-    """One scenario.
+    """How the flights of one scenario went.
 
     Attributes:
         scenario: its name. success: how often it passes.
@@ -368,7 +368,7 @@ class ScenarioSummary:
 
 @dataclass(frozen=True, kw_only=True)
 class MonteCarloRecord:
-    """A campaign.
+    """What the flights of a campaign show.
 
     Attributes:
         seed: of all samples. samples: that were flown. asked: for at most.
@@ -400,7 +400,7 @@ class SampleRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class Validated:
-    """What came of it.
+    """Flights of a design that was read.
 
     `validation` has the flights as designed, or those of `sample` if that is given.
     """

@@ -165,7 +165,7 @@ HEAVY = 0.3
 def device_warnings(
     device: Device, robot: MassProperties, *, strict: bool = False
 ) -> tuple[str, ...]:
-    """One sentence each.
+    """Warnings about a device, one sentence each.
 
     Args:
         device: that was designed.

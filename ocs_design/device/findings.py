@@ -7,7 +7,7 @@ from ocs_design.common.errors import MissingToolError
 
 
 class State(StrEnum):
-    """How it is."""
+    """Whether a thing that the program uses works."""
 
     WORKS = "works"
     MISSING = "missing"
@@ -19,7 +19,7 @@ class State(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """One thing.
+    """What was found of one thing that the program uses.
 
     Attributes:
         name: of the thing. state: how it is.
@@ -49,7 +49,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Examination:
-    """What was found.
+    """What was found of the machine and of all packages.
 
     Attributes:
         version: of this program.
@@ -62,7 +62,7 @@ class Examination:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """All of them."""
+        """All findings, those of the machine first."""
         return (*self.machine, *self.packages)
 
     @property

@@ -18,7 +18,7 @@ _FLYWHEEL = "_flywheel"
 
 
 def flywheel_name(module: Module) -> str:
-    """Link in URDF, body in MJCF."""
+    """Name of a module's wheel: link in URDF, body in MJCF."""
     return f"{PREFIX}{module.name}{_FLYWHEEL}"
 
 
@@ -28,27 +28,27 @@ def flywheels_among(bodies: Iterable[str]) -> list[str]:
 
 
 def joint_name(module: Module) -> str:
-    """Joint, and in MJCF also its motor."""
+    """Name of a wheel's joint, and in MJCF also of its motor."""
     return f"{PREFIX}{module.name}"
 
 
 def carrier_name(module: Module) -> str:
-    """Name of what stands still: link and fixed joint in URDF, body in MJCF."""
+    """Name of what stands still of a module: link and fixed joint in URDF, body in MJCF."""
     return f"{PREFIX}{module.name}_motor"
 
 
 def velocity_sensor(module: Module) -> str:
-    """Sensor in MJCF, of the wheel's speed relative to the trunk [rad/s]."""
+    """Name of the sensor in MJCF of the wheel's speed relative to the trunk [rad/s]."""
     return f"{joint_name(module)}_velocity"
 
 
 def torque_sensor(module: Module) -> str:
-    """Sensor in MJCF, of the motor's torque on the wheel [N m]."""
+    """Name of the sensor in MJCF of the motor's torque on the wheel [N m]."""
     return f"{joint_name(module)}_torque"
 
 
 def imu_sensors() -> tuple[str, str]:
-    """Sensors in MJCF, of B's attitude as a quaternion and of its rate [rad/s]."""
+    """Names of the sensors in MJCF of B's attitude as a quaternion and of its rate [rad/s]."""
     return f"{IMU}_attitude", f"{IMU}_rate"
 
 
@@ -75,7 +75,7 @@ def require_no_device(joints: Iterable[str]) -> None:
 
 
 def flywheel_names(device: Device) -> tuple[str, ...]:
-    """Names for each module, in the modules' order."""
+    """Names of the wheels, in the modules' order."""
     return tuple(flywheel_name(module) for module in device.modules)
 
 
@@ -92,5 +92,5 @@ def plate_names(device: Device) -> tuple[str, ...]:
 
 
 def joint_names(device: Device) -> tuple[str, ...]:
-    """Names for each module, in the modules' order."""
+    """Names of the wheels' joints, in the modules' order."""
     return tuple(joint_name(module) for module in device.modules)

@@ -17,7 +17,7 @@ SEPARATOR = "  \N{MIDDLE DOT}  "
 
 @dataclass(frozen=True)
 class Headline:
-    """What a reader sees first.
+    """The verdict in one line, and what matters most.
 
     Attributes:
         parts: of the line, each with its tone.
@@ -29,7 +29,7 @@ class Headline:
 
     @property
     def text(self) -> str:
-        """The line."""
+        """All parts in one line."""
         return SEPARATOR.join(part.text for part in self.parts)
 
     @property

@@ -71,6 +71,6 @@ class Faults(list[str]):
         return {}
 
     def unknown(self, where: str, key: str, known: Sequence[str]) -> None:
-        """Keeps that `key` is none of `known`."""
+        """Keep that `key` is none of `known`, with the closest of them."""
         hint = did_you_mean(key, tuple(known)) or f"Known: {', '.join(known)}."
         self.append(f"{where}: unknown key. {hint}")

@@ -127,11 +127,11 @@ class Pivoted(Maneuver):
     body: MassProperties | None = None
 
     def calmer(self) -> Self:
-        """The same by nearly the least torque, for motors that have no more."""
+        """The same maneuver by nearly the least torque, for motors that have no more."""
         return replace(self, slower=4.0 / self._longest)
 
     def on(self, body: MassProperties) -> Self:
-        """The same of a body that stands.
+        """The maneuver of a body that stands.
 
         Raises:
             SpecificationError: its centre of mass is not above the pivot.
@@ -309,7 +309,7 @@ class Balance(Pivoted):
         return np.asarray(np.array(self.rate) + self.mobility @ turned)
 
     def times(self, factor: float) -> Self:
-        """The same of so many times the tilt, the rate and the impulse."""
+        """The maneuver with so many times the tilt, the rate and the impulse."""
         return replace(
             self,
             roll=factor * self.roll,
@@ -388,7 +388,7 @@ class StandUp(Pivoted):
         return super().momentum(inertia, standing_height)
 
     def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """None with a brake, of the motor."""
+        """Least torque of the motor [N m], shape (2,): none where a brake does it."""
         if self.braked:
             return np.zeros(2)
         return super().least_torque(inertia, standing_height)

@@ -130,7 +130,7 @@ def read_specified_robot(
     strict: bool = False,
     sure: bool = True,
 ) -> Robot:
-    """Read it.
+    """The robot that a specification names, read or made by hand.
 
     Args:
         specification: that states a file, or mass and inertia.

@@ -277,7 +277,7 @@ class RequirementSection:
         return any(getattr(self, word) is not None for word in WORDS)
 
     def without_words(self) -> "RequirementSection":
-        """All else that is asked."""
+        """The section without maneuvers that are asked for by keys of their own."""
         return replace(self, **dict.fromkeys(WORDS))
 
 

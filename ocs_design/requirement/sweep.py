@@ -33,7 +33,7 @@ class Task:
 
     @classmethod
     def of(cls, specification: Specification, robot: Robot, robot_size: float) -> "Task":
-        """A specification resolved.
+        """Task for a specification, resolved.
 
         Raises:
             SpecificationError: see `resolve`.
@@ -50,7 +50,7 @@ class Task:
 
     @property
     def maneuvers(self) -> tuple[Maneuver, ...]:
-        """Stated or assumed."""
+        """Maneuvers, stated or assumed."""
         return self.resolved.requirement.maneuvers
 
     @property
@@ -61,7 +61,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Sweep(ABC):
-    """What is varied.
+    """A figure of a specification that is varied.
 
     Attributes:
         name: on the command line. label: of the figure, for people.
@@ -98,7 +98,7 @@ class Sweep(ABC):
 
 @dataclass(frozen=True)
 class KeySweep(Sweep):
-    """One key of the file.
+    """A figure that is one key of the file.
 
     Attributes:
         section, key: of the file.
@@ -202,7 +202,7 @@ def _time(maneuver: Maneuver, standing_height: float) -> float | None:
 
 
 def _with_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-    """A fall from the height that takes so long; a turn in a jump that is longer by as much."""
+    """Maneuver that takes so many times as long: a fall from higher, a turn in a longer jump."""
     match maneuver:
         case Drop():
             return slower(maneuver, ratio, standing_height)
@@ -229,7 +229,7 @@ def _angle(maneuver: Maneuver, standing_height: float) -> float | None:
 
 
 def _with_angle(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-    """Roll and pitch of a tilt keep their proportion."""
+    """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
     del standing_height
     match maneuver:
         case Drop():

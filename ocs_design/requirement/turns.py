@@ -75,7 +75,7 @@ class TurnTo(Reorientation):
 
     @property
     def headed(self) -> bool:
-        """Whether they reach it, and it is asked for."""
+        """Whether a heading is asked for and the wheels reach the vertical."""
         return self.direct and (bool(self.yaw) or bool(self.rate[2]))
 
     def heading(self, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -120,7 +120,7 @@ class TurnTo(Reorientation):
         return self.duration
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """That of the tilt, half the time up and half down, of the loop and of the rate."""
+        """Momentum of the tilt, half the time up and half down, of the loop and of the rate."""
         del standing_height
         peak = 2.0 * self._tilt + np.copysign(self._loop, self._tilt)
         turning = self.estimate * np.abs(inertia.momentum(peak)) / self.duration

@@ -49,7 +49,7 @@ class Distribution(ABC):
 
 @dataclass(frozen=True)
 class Constant(Distribution):
-    """Always the same."""
+    """A quantity that is always the same."""
 
     value: float
 
@@ -381,7 +381,7 @@ _SCALES = ("standing height", "pendulum rate", "no-load torque", "no-load fricti
 
 
 def no_load_torque(motor: Drive) -> float:
-    """What a motor gives to turn freely, at its wheel [N m]; 0 where nothing is known of it."""
+    """Torque that a motor takes to turn freely, at its wheel [N m]; 0 where it is not known."""
     if motor.no_load_current is not None and motor.torque_constant is not None:
         return motor.gear_ratio * motor.torque_constant * motor.no_load_current
     return FRICTION_SHARE * (motor.torque_limit or 0.0)
@@ -390,7 +390,7 @@ def no_load_torque(motor: Drive) -> float:
 def default_uncertainty(
     standing_height: float, motor: Drive | None = None, file: str | None = None
 ) -> UncertaintySection:
-    """What holds where nothing is stated.
+    """Distributions that hold where nothing is stated.
 
     Args:
         standing_height: of the robot [m].
@@ -426,7 +426,7 @@ def default_uncertainty(
 def complete_uncertainty(
     stated: UncertaintySection, standing_height: float, motor: Drive
 ) -> UncertaintySection:
-    """What is stated, and in place of the rest what its file or the package has.
+    """Distributions that are stated, and in place of the rest those of its file or of the package.
 
     Args:
         stated: by a user. standing_height: of the robot [m]. motor: that turns the wheels.

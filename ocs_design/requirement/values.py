@@ -50,7 +50,7 @@ class Sign(Enum):
 
 
 class Value(ABC, Generic[T]):
-    """A kind of value."""
+    """How a value of a specification is read."""
 
     @property
     @abstractmethod

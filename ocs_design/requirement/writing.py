@@ -79,7 +79,7 @@ def with_files_from(specification: Specification, folder: Path) -> Specification
 
 
 def _with_files(specification: Specification, renamed: Callable[[str], str]) -> Specification:
-    """`-` is standard input."""
+    """Specification whose files are renamed; `-` is standard input, and stays."""
 
     def path(file: str | None) -> str | None:
         """Path under its new name."""
@@ -165,7 +165,7 @@ def _plain(value: object) -> str:
 
 
 def _text(text: str) -> str:
-    """A basic string; TOML escapes what JSON does, and the delete character."""
+    """Text in quotes; TOML escapes what JSON does, and the delete character."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 

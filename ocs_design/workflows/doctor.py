@@ -110,7 +110,7 @@ class Wanted:
 
     @property
     def use(self) -> Use:
-        """What it is for."""
+        """What the package is for."""
         return USES.get(self.name, Use(f"the extra {self.extra}"))
 
     @property
@@ -153,7 +153,7 @@ def wanted_packages() -> tuple[Wanted, ...]:
 
 
 def package_findings(wanted: Sequence[Wanted]) -> Iterator[Finding]:
-    """How each is; all are imported, in a process of its own."""
+    """Findings about the packages, each imported in a process of its own."""
     versions = dict.fromkeys((each.name for each in wanted), "")
     for name in versions:
         with suppress(metadata.PackageNotFoundError):
@@ -205,7 +205,7 @@ def machine_findings() -> tuple[Finding, ...]:
 
 
 def python() -> Finding:
-    """The interpreter."""
+    """Finding about the Python interpreter."""
     found = platform.python_version()
     wanted = metadata.metadata(DISTRIBUTION)["Requires-Python"]
     fits = SpecifierSet(wanted).contains(found, prereleases=True)
@@ -251,7 +251,7 @@ def processors() -> Finding:
 
 
 def opengl() -> Iterator[Finding]:
-    """Each way to draw without a screen, tried; one of them is enough."""
+    """Findings about each way to draw without a screen; one of them is enough."""
     ways = backends()
     with ThreadPoolExecutor() as pool:
         failures = list(pool.map(partial(failure_of, ("trial",)), ways))
@@ -268,7 +268,7 @@ def opengl() -> Iterator[Finding]:
 
 
 def film_maker() -> Finding:
-    """Ffmpeg."""
+    """Finding about ffmpeg, which makes films."""
     path, found = ffmpeg_program(), ""
     if path is not None:
         # What does not run is not there.
@@ -289,7 +289,7 @@ def film_maker() -> Finding:
 
 
 def compiler() -> Finding:
-    """A C compiler, by the names that `make` and Python's own builds try."""
+    """Finding about a C compiler, by the names that `make` and Python's own builds try."""
     found = next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), "")
     return Finding(
         name="C compiler",
@@ -306,7 +306,7 @@ SCHEMA_VERSION = 1
 
 
 def examine() -> Examination:
-    """Look at everything.
+    """Examination of this machine and of every package.
 
     Raises:
         MissingToolError: this program is not installed as a package, which tells what it needs.

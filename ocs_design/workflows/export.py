@@ -66,7 +66,7 @@ class Order:
 
     @property
     def default_folder(self) -> Path:
-        """Folder in the working directory that is written unless another is named."""
+        """Folder in the working directory, where no other is named."""
         return Path(f"{self.subject.name}-ocs-export")
 
 
@@ -194,7 +194,7 @@ ON_DESIGN = (FIGURES, REPORT, CONTROLLER)
 
 
 def finishing(names: Collection[str], command: str) -> Finish | None:
-    """Function that writes what is asked for of these; None where nothing is.
+    """Function that writes charts, report and controller where they are asked for; None: none is.
 
     Args:
         names: as users say them.
@@ -237,7 +237,7 @@ def finishing(names: Collection[str], command: str) -> Finish | None:
 
 
 def _postures(order: Order) -> tuple[tuple[PostureLine, ...], tuple[str, ...]]:
-    """Incidence in other postures, which takes the robot; else why it is missing."""
+    """Incidence in other postures, for which the robot is read; else why it is missing."""
     try:
         robot, _ = read_recorded_robot(order.design.robot, order.where, strict=False)
     except OcsError as error:

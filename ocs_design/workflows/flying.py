@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
-    """What is stated, and the defaults that hold in place of the rest."""
+    """Wheel law as it is stated, with the defaults in place of the rest."""
     gains = wheel_gains(robot)
     default = ControlRecord(
         projection=Allocation.PSEUDO_INVERSE,
@@ -50,7 +50,7 @@ def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
 
 
 def flight_options(control: ControlRecord) -> Options:
-    """Flights under this law."""
+    """Options of flights under a wheel law."""
     return Options(
         allocation=Allocation(control.projection),
         gains=Gains(control.kp, control.kd),
@@ -60,7 +60,7 @@ def flight_options(control: ControlRecord) -> Options:
 
 
 def overridden(control: ControlRecord, stated: ValidationSection) -> ControlRecord:
-    """What was recorded, with everything that is stated in its place.
+    """Wheel law as it was recorded, with everything that is stated in its place.
 
     Raises:
         SpecificationError: the control period is no whole number of the physics' steps.
@@ -85,7 +85,7 @@ def overridden(control: ControlRecord, stated: ValidationSection) -> ControlReco
 
 
 def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
-    """What flights track; a maneuver without any is met by feedback or by a smooth turn."""
+    """Trajectories that flights track; what has none is met by feedback or by a smooth turn."""
     return {
         name: planned.trajectory
         for name, planned in plans.items()
@@ -107,7 +107,7 @@ def jump_plans(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Flights:
-    """What is flown, as designed and as it might be built.
+    """Robot, device and maneuvers to be flown, as designed and as they might be built.
 
     Attributes:
         robot: that flies. device: on it.
@@ -127,7 +127,7 @@ class Flights:
     detection: float | None = None
 
     def fly(self, steps: Steps, *, pose_rate: float | None = None) -> tuple[Run, ...]:
-        """Every maneuver as designed, with the device and without; see `run_scenarios`."""
+        """Flights of every maneuver as designed, with the device and without (`run_scenarios`)."""
         with steps.step("fly the maneuvers with and without the device") as step:
             return run_scenarios(
                 self.robot,
@@ -140,7 +140,7 @@ class Flights:
             )
 
     def fly_stopped(self, steps: Steps) -> SurvivalRecord | None:
-        """Every maneuver with each drive stopping on the way; None where none has to."""
+        """Flights of every maneuver with each drive stopping on the way; None where none has to."""
         if self.detection is None:
             return None
         with steps.step("fly them with each drive stopping on the way") as step:

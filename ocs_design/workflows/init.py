@@ -41,7 +41,7 @@ class Start:
 
     @property
     def default_file(self) -> Path:
-        """Named after the robot, in the working directory."""
+        """File in the working directory, named after the robot."""
         return Path("ocs.toml" if self.robot is None else f"{safe_name(self.robot.name)}.toml")
 
 

@@ -107,7 +107,7 @@ def _leg_line(robot: Robot, leg: Leg) -> LegLine:
 
 
 def _draw(robot: Robot, picture: Path) -> None:
-    """The robot as recognised or, where that is not clear, in its likeliest reading."""
+    """Draw the robot as recognised or, where that is not clear, in its likeliest reading."""
     if robot.recognition is None:
         raise UsageError("a robot by hand has nothing to draw", hint="leave out --picture")
     asked = robot.recognition.likely

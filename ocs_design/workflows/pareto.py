@@ -96,7 +96,7 @@ def make_front(
     strict: bool,
     steps: Steps,
 ) -> tuple[Front, tuple[str, ...]]:
-    """The front, written if that is asked for, and what is to be told of its files.
+    """Front of a specification, written if that is asked for, and remarks on its files.
 
     See `pareto_front`.
     """
@@ -131,7 +131,7 @@ def read_task(
 def front_values(
     sweep: Sweep, task: Task, *, low: str | None, high: str | None, points: int
 ) -> tuple[float, ...]:
-    """Values at equal distances [SI].
+    """Values of the figure that is varied, at equal distances [SI].
 
     Args:
         sweep: what is varied. task: as it stands.
@@ -157,7 +157,7 @@ def front_values(
 
 
 def lightest_device(task: Task) -> FrontDevice:
-    """The selection's lightest, before any co-design.
+    """Lightest device that is selected for a task, before any co-design.
 
     Raises:
         Infeasible: there is none; does not say what would help. UsageError: no motor is wanted.
@@ -190,7 +190,7 @@ def draw_front(
     choose: Choose,
     progress: Callable[[float], None] | None = None,
 ) -> Front:
-    """The lightest device at each value; where there is none, why.
+    """Front of the lightest device at each value; where there is none, why.
 
     Args:
         task: as it stands.

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 
 
 def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> SelectionRecord:
-    """How the device came to be."""
+    """Record of how motor, gear, material and incidence were chosen."""
     problem, chosen, selection, refined = (
         choice.problem,
         choice.chosen,
@@ -107,7 +107,7 @@ FOLDER = "validation"
 
 
 def record_run(run: Run) -> ValidationRecord:
-    """One flight, without its time series."""
+    """Record of one flight, without its time series."""
     metrics = {} if run.metrics is None else asdict(run.metrics)
     return recorded(ValidationRecord, run, metrics=metrics)
 
@@ -117,7 +117,7 @@ STOPPED_FILE = "stopped.csv"
 
 
 def write_runs(runs: Sequence[Run], folder: Path, survival: SurvivalRecord | None = None) -> None:
-    """One CSV a flight, below `folder`, and one of all in which a drive stops."""
+    """Write one CSV for each flight, and one for all flights in which a drive stops."""
     if runs:
         (folder / FOLDER).mkdir()
     for run in runs:
@@ -169,7 +169,7 @@ def record_design(
     files: Mapping[str, str],
     package_paths: Mapping[str, Path] | None = None,
 ) -> OcsDesign:
-    """The whole artefact."""
+    """Record of the whole design, which becomes `design.json`."""
     margins, choice = record_margins(resolved, designed, runs, plans), designed.choice
     return OcsDesign(
         schema_version=SCHEMA_VERSION,

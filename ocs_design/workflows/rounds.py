@@ -198,7 +198,7 @@ TURN_ROUNDS = 3
 
 
 def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
-    """The device, sized anew with more for each turn that takes too much of it, or too long."""
+    """Size the device anew with more for each turn that takes too much of it, or too long."""
     for _ in range(TURN_ROUNDS):
         asked = placed.resolved.requirement.maneuvers
         estimates = dict(placed.estimates)
@@ -257,7 +257,7 @@ class Certificate:
     record: MonteCarloRecord
 
     def write(self, folder: Path, design: str) -> None:
-        """Write them into a folder of their own below `folder`.
+        """Write the flights into a folder of their own below `folder`.
 
         Args:
             folder: that exists. design: hash of what is flown (`flown_hash`).

@@ -53,7 +53,7 @@ from ocs_design.workflows.rounds import (
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What came out.
+    """A device that was sized for a robot, and the folder that has its files.
 
     Attributes:
         design: the artefact.

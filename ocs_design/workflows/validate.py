@@ -36,7 +36,7 @@ SAMPLES_VERSION = 2
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """What was asked for.
+    """What a validation is to fly, and where it is kept.
 
     Attributes:
         design: `design.json` or its folder. stated: `[validation]` and `[reality]`.
@@ -184,7 +184,7 @@ def validate_design(
 
 
 def validated(request: Request, steps: Steps) -> Validation:
-    """Read, fly and keep what was asked for.
+    """Flights that were asked for, flown and kept.
 
     Raises:
         OcsError: see `exceptions`.
@@ -301,7 +301,7 @@ def campaign_of(request: Request, task: Task, runs: Sequence[Run | ValidationRec
 
 
 def case_for(task: Task, path: Path) -> Case:
-    """Case that was kept of this design.
+    """Case that was kept of this very design.
 
     Raises:
         OcsError: it cannot be read, or is of another design.
@@ -316,7 +316,7 @@ def case_for(task: Task, path: Path) -> Case:
 
 
 def _validated(task: Task, runs: tuple[Run, ...]) -> Validated:
-    """Record of these runs."""
+    """Record of these flights."""
     return Validated(
         schema_version=SCHEMA_VERSION,
         design=str(task.path),
@@ -327,7 +327,7 @@ def _validated(task: Task, runs: tuple[Run, ...]) -> Validated:
 
 
 def _kept(request: Request, task: Task, runs: tuple[Run, ...], found: Validated) -> Validation:
-    """What was flown; its time series and a design with these flights are written if asked for."""
+    """Validation with its time series, and a design with these flights, written if asked for."""
     if request.out is None:
         return Validation(found, None, (), task, runs)
     design = write_flights(task, runs, found, request.out, force=request.force)

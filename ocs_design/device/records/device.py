@@ -19,7 +19,7 @@ from ocs_design.parts.printed import PLATE_THICKNESS
 
 @dataclass(frozen=True, kw_only=True)
 class ModuleRecord:
-    """One module in B."""
+    """Axis and position of one module, in B."""
 
     name: str
     axis: Vector

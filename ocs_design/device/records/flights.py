@@ -22,7 +22,7 @@ class ControlRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class ValidationRecord:
-    """One simulated run.
+    """One simulated flight.
 
     Attributes:
         scenario: name of the maneuver. ocs: with the device, or the bare robot.

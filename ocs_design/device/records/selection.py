@@ -109,7 +109,7 @@ class PriceRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class KeptRecord:
-    """What is kept for a maneuver.
+    """Reserve that is kept for a maneuver.
 
     Attributes:
         maneuver: its name. demand: factor on what is asked of the wheels, at least 1.
@@ -145,7 +145,7 @@ class UncertaintyCost:
 
 @dataclass(frozen=True, kw_only=True)
 class ReserveRecord:
-    """What is kept for what is drawn, and what it costs.
+    """What is kept for what is uncertain, and what it costs.
 
     Attributes:
         reliability: share of samples that shall pass. predicted: that do by the closed forms.

@@ -101,7 +101,7 @@ def _values(front: Front, points: Sequence[FrontPoint]) -> FloatArray:
 
 
 def write_front(front: Front, folder: Path, *, force: bool = False) -> tuple[str, ...]:
-    """Write all of it or nothing.
+    """Write a front with its chart and specifications: all of it or nothing.
 
     Returns:
         What could not be written, and the cure.

@@ -120,7 +120,7 @@ class _Drawing:
         self._curves: list[FloatArray] = []
 
     def text(self, style: str) -> str:
-        """The whole element."""
+        """Text of the whole element."""
         chart = self._chart
         legend = "".join(
             f"{_sample(mark, x, _TITLE + _ROW * row + 6.0)}"

@@ -103,7 +103,7 @@ def section(name: str, title: str, *content: str) -> Markup:
 
 
 def details(summary: str, *content: str) -> Markup:
-    """Folded away until it is wanted; left out in print."""
+    """An element that is folded away until it is wanted; left out in print."""
     return element("details", element("summary", summary), *content)
 
 

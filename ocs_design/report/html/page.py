@@ -51,7 +51,7 @@ def write_report(story: Story, folder: Path) -> Path:
 
 
 def report_page(story: Story) -> str:
-    """The page as text."""
+    """Text of the whole page."""
     style = template_text("report/report.css")
     script = "\n".join(template_text(f"report/{name}.js") for name in ("viewer", "report"))
     head = (

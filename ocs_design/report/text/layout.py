@@ -32,7 +32,7 @@ STYLES = {Tone.PLAIN: "dim", Tone.PASS: "green", Tone.FAIL: "bold red", Tone.OPE
 
 
 def heading(console: Console, text: str) -> None:
-    """Title of a section."""
+    """Print the title of a section."""
     console.print()
     console.print(Text(text, style="bold"))
 
@@ -44,19 +44,19 @@ def wrapped(text: str, width: int) -> str:
 
 
 def note(console: Console, text: str, *, style: str = "dim") -> None:
-    """A paragraph, indented like everything under a heading."""
+    """Print a paragraph, indented like everything under a heading."""
     lines = wrapped(text, console.width - INDENT[-1])
     console.print(Padding(Text(lines, style=style), INDENT))
 
 
 def warn(console: Console, warnings: Iterable[str]) -> None:
-    """Warnings, one line each."""
+    """Print warnings, one line each."""
     for warning in warnings:
         note(console, f"warning: {warning}", style="yellow")
 
 
 def items(console: Console, texts: Iterable[str], *, style: str = "dim") -> None:
-    """A list; what wraps stays indented behind its dash."""
+    """Print a list; what wraps stays indented behind its dash."""
     found = list(texts)
     if not found:
         return
@@ -68,7 +68,7 @@ def items(console: Console, texts: Iterable[str], *, style: str = "dim") -> None
 
 
 def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
-    """Names and values in two columns."""
+    """Print names and values in two columns."""
     found = [(f"  {name}", value) for name, value in rows]
     room = console.width - 2 - max((len(name) for name, _ in found), default=0)
     grid = rich_table.Table.grid(padding=(0, 2))
@@ -80,7 +80,7 @@ def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
 
 
 def show(console: Console, table: Table, *, fewest: int = 0) -> None:
-    """A table, indented like everything under a heading; closer where it would break a line.
+    """Print a table, indented like everything under a heading; closer where it would break a line.
 
     Where the terminal is too narrow, words are broken into lines, and where that does not do, the
     last columns are left out, and named: a number is never broken.
@@ -171,7 +171,7 @@ def _width(console: Console, drawn: rich_table.Table) -> int:
 
 
 def files_written(console: Console, folder: str, files: Iterable[str], held: str = "") -> None:
-    """Files that a folder got, by the folders in it.
+    """Print the files that a folder got, by the folders in it.
 
     Args:
         console: to print on.

@@ -69,12 +69,12 @@ class _Boxed:
 
     @classmethod
     def of(cls, body: ShownBody) -> "tuple[_Boxed, ...]":
-        """All surfaces of a body."""
+        """All surfaces of a body, in its box."""
         return tuple(cls.around(surface, _grain(body)) for surface in body.surfaces)
 
     @classmethod
     def around(cls, surface: Surface, grain: float = 1.0) -> "_Boxed":
-        """One surface."""
+        """One surface in its box."""
         offsets = tuple(column - column.min() for column in surface.vertices.T)
         return cls(offsets, tuple(np.ascontiguousarray(surface.faces.T)), grain)
 
