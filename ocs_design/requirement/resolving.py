@@ -26,11 +26,9 @@ from ocs_design.requirement.froude import (
     WHEEL_SPEED_MAX,
     Envelope,
     Scale,
-    Worded,
     default_envelope,
     default_maneuvers,
     standing_height,
-    worded_maneuvers,
 )
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.requirement import Requirement
@@ -58,6 +56,7 @@ from ocs_design.requirement.vocabulary import (
     RING,
     STEEL,
 )
+from ocs_design.requirement.worded import Worded, worded_maneuvers
 from ocs_design.robot.manual import person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot

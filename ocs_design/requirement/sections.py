@@ -137,7 +137,7 @@ WORDS = (
     "balance",
     "stand_up",
 )
-"""Keys of `[requirement]` that ask for a maneuver (`froude.worded_maneuvers`)."""
+"""Keys of `[requirement]` that ask for a maneuver (`worded.worded_maneuvers`)."""
 
 TURNS = ("turn", "catch")
 """Those of them that need no gravity."""

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from wheels import braked_inertia, paper_device
 
 from ocs_design.common.errors import OcsError, SpecificationError, UsageError
-from ocs_design.requirement.froude import default_maneuvers, worded_maneuvers
+from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.requirement.reading import parse_specification
@@ -21,6 +21,7 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.sweep import SWEEPS, Task
+from ocs_design.requirement.worded import worded_maneuvers
 from ocs_design.requirement.words import (
     FLIP,
     GRAVITY,
