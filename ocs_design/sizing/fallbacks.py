@@ -64,7 +64,7 @@ def attempt_text(specification: Specification, asked: Specification) -> str:
 
 def substitutions(
     specification: Specification, asked: Specification, tried: Sequence[Tried]
-) -> tuple[list[str], list[str]]:
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """What was taken in place of what is not stated, and why: as assumptions, and as warnings."""
     told: list[str] = []
     few: list[str] = []
@@ -84,7 +84,7 @@ def substitutions(
         why = next(error.message for each, error in tried if each.ocs == asked.ocs)
         told.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
         few.append(f"sized for {less:.0%} of robots: for {RELIABILITY:.0%} there is no device")
-    return told, few
+    return tuple(told), tuple(few)
 
 
 def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:

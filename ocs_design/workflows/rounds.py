@@ -74,9 +74,10 @@ class Placed:
     Attributes:
         specification: that it was sized for, with what was taken in place of what is not stated.
         robot, resolved, designed, mounting: the live values.
-        warnings: about what was taken, and about its place.
+        warnings: about its place, and about what was taken in place of what is not stated.
         jumping: its jumps, as far as they are planned; None: none will be flown.
         estimates: factor on what a turn is estimated to ask for, by its name.
+        taken: what was taken in place of what is not stated, as assumptions and as warnings.
     """
 
     specification: Specification
@@ -87,6 +88,13 @@ class Placed:
     warnings: tuple[str, ...]
     jumping: "JumpPlanning | None"
     estimates: Mapping[str, float] = field(default_factory=dict)
+    taken: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
+
+    def telling(self, taken: tuple[tuple[str, ...], tuple[str, ...]]) -> "Placed":
+        """The same, with what was taken among its assumptions and warnings."""
+        assumptions, warnings = taken
+        resolved = replace(self.resolved, assumptions=(*assumptions, *self.resolved.assumptions))
+        return replace(self, resolved=resolved, warnings=(*warnings, *self.warnings), taken=taken)
 
     @property
     def combinations(self) -> str:
@@ -181,12 +189,7 @@ def size_or_advise(
                 error.hint = f"{survivors(specification, robot, step.update)} {error.hint}"
                 raise
             step.note = placed.combinations
-        if not tried:
-            return placed
-        told, few = substitutions(specification, asked, tried)
-        resolved = placed.resolved
-        resolved = replace(resolved, assumptions=(*told, *resolved.assumptions))
-        return replace(placed, resolved=resolved, warnings=(*few, *placed.warnings))
+        return placed.telling(substitutions(specification, asked, tried)) if tried else placed
     refusal = closest(tried, robot.mass)
     with steps.step("look for the smallest changes that would do") as step:
         found = advised(refusal, specification, tried, step.update)
@@ -211,12 +214,13 @@ def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
             break
         with steps.step("size the device anew for its turns") as step:
             try:
-                placed = size_on_robot(
+                again = size_on_robot(
                     placed.specification, placed.robot, strict=strict, estimates=estimates
                 )
             except (Refused, NeverHeld):
                 step.note = "nothing makes them in time"
                 break
+        placed = again.telling(placed.taken)
     return placed
 
 
@@ -359,7 +363,8 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
                 step.note = "nothing has that reserve"
                 break
             step.note = again.combinations
-        placed, proof = again, prove(again, stated, steps)
+        placed = again.telling(placed.taken)
+        proof = prove(placed, stated, steps)
     return placed, proof
 
 
