@@ -381,7 +381,10 @@ def motor(name: str, known: Mapping[str, Motor] | None = None) -> Motor:
     Raises:
         SpecificationError: there is none; the hint names the closest.
     """
-    return entry(motors() if known is None else known, name, "motor")
+    rows = motors() if known is None else known
+    # As a design prints it, and as shops do.
+    behind_maker = {f"{each.maker} {each.name}": each for each in rows.values()}
+    return entry(rows, name, "motor", behind_maker)
 
 
 def load_motors(path: Path) -> Mapping[str, Motor]:

@@ -236,17 +236,24 @@ MOST_LISTED = 12
 """Names in a hint; more are read in the catalogue itself."""
 
 
-def entry(known: Mapping[str, T], name: str, kind: str) -> T:
-    """The entry called `name`, whatever its capitals, spaces and dashes; `kind` is for people.
+def entry(known: Mapping[str, T], name: str, kind: str, also: Mapping[str, T] | None = None) -> T:
+    """The entry called `name`, whatever its capitals, spaces and dashes.
+
+    Args:
+        known: entries by name.
+        name: that is looked for.
+        kind: of the entries, for people.
+        also: entries by further names, which no hint shows.
 
     Raises:
         SpecificationError: there is none; the hint names the closest.
     """
     if name in known:
         return known[name]
-    alike = [each for each in known if _letters(each) == _letters(name)]
-    if len(alike) == 1:
-        return known[alike[0]]
+    for names in (known, also or {}):
+        alike = [row for each, row in names.items() if _letters(each) == _letters(name)]
+        if len(alike) == 1:
+            return alike[0]
     if close := _closest(known, name):
         hint = f"Did you mean {' or '.join(close)}?"
     elif len(known) <= MOST_LISTED:

@@ -275,6 +275,7 @@ def unfit_for_robot(
     pivoted = (each for each in requirement.maneuvers if isinstance(each, Pivoted))
     yield from chain.from_iterable(_off_its_pivot(each, stated) for each in pivoted)
     yield from _overfed(specification)
+    yield from _starved(specification, robot)
     try:
         if name not in {None, STEEL, AUTO}:
             material(name)
@@ -345,6 +346,29 @@ def _overfed(specification: Specification) -> Iterator[str]:
         f"supply.voltage: {voltage:g} V, and no motor on offer is rated for more than {rated:g} V: "
         f"did you mean {meant:g}V?"
     )
+
+
+EMPTY_CELL = 3.0
+"""[V] of one empty lithium cell: no robot is fed with less."""
+
+LEAST_POWER = 1.0
+"""[W] per kg of the robot; less turns no wheel in time, so kilowatts were meant."""
+
+
+def _starved(specification: Specification, robot: Robot) -> Iterator[str]:
+    """A voltage or a power with which nothing turns: meant with its point or unit elsewhere."""
+    voltage, power = specification.supply.voltage, specification.supply.power_max
+    if voltage is not None and voltage < EMPTY_CELL:
+        meant = next(volts for place in range(1, 99) if (volts := voltage * 10**place) > EMPTY_CELL)
+        yield (
+            f"supply.voltage: {voltage:g} V is less than an empty lithium cell has: did you mean "
+            f"{meant:g}V?"
+        )
+    if power is not None and power < LEAST_POWER * robot.mass:
+        yield (
+            f"supply.power_max: {power:g} W is less than {LEAST_POWER:g} W per kg of the robot "
+            f"({robot.mass:.3g} kg): did you mean {power:g}kW?"
+        )
 
 
 def _empty_room(specified: FlywheelSection, envelope: Envelope) -> Iterator[str]:

@@ -445,6 +445,9 @@ FASTEST_BARE = 4000.0
 FASTEST_TURN = 50.0
 """[rad/s], eight turns a second: a larger rate without a unit was meant in degrees."""
 
+MOST_BARE_TORQUE = 100.0
+"""[N m]: a larger torque of a wheel without a unit was meant in millinewton metres."""
+
 HIGHEST_VOLTAGE = 1000.0
 """[V], beyond any robot's supply."""
 
@@ -456,6 +459,7 @@ HEIGHT = Quantity(Dimension.LENGTH, most_bare=20.0, likely="mm")
 
 WHEEL_SPEED = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
 TRUNK_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s")
+WHEEL_TORQUE = Quantity(Dimension.TORQUE, most_bare=MOST_BARE_TORQUE, likely="mNm")
 SUPPLY = Quantity(Dimension.VOLTAGE, most=HIGHEST_VOLTAGE, likely="mV")
 INCIDENCE = angle(Sign.NOT_NEGATIVE, pi / 2)
 TURN = angle(Sign.ANY, MOST_TURNS * 2.0 * pi, ONE_TURN)

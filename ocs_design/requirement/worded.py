@@ -242,9 +242,12 @@ def _point(point: Vector3 | str, robot: Robot) -> Vector3:
     index = robot.tree.body_of_link.get(point)
     if index is None:
         links = tuple(robot.tree.body_of_link)
+        moved = [each.name for each in robot.tree.bodies if each.joint and each.joint.name == point]
         raise SpecificationError(
             f"requirement.kick: the robot has no link {point!r}",
-            hint=did_you_mean(point, links) or f"Links: {', '.join(links[:_MOST_LINKS])}",
+            hint=f"It is a joint: {moved[0]!r} is the link that it moves."
+            if moved
+            else did_you_mean(point, links) or f"Links: {', '.join(links[:_MOST_LINKS])}",
         )
     placed = robot.tree.placements_from(robot.trunk, robot.posture)[index]
     x, y, z = (placed @ robot.tree.bodies[index].links[point]).position.tolist()

@@ -36,6 +36,18 @@ DIRECTIONS: Mapping[str, Vector3] = MappingProxyType(
 )
 """Unit vectors in B by their names."""
 
+SIDES: Mapping[str, Vector3] = MappingProxyType(
+    {
+        "left": DIRECTIONS["right"],
+        "right": DIRECTIONS["left"],
+        "front": DIRECTIONS["backward"],
+        "behind": DIRECTIONS["forward"],
+        "above": DIRECTIONS["down"],
+        "below": DIRECTIONS["up"],
+    }
+)
+"""Directions of a kick by where it comes from."""
+
 GRAVITY = NamedQuantity(
     Dimension.ACCELERATION,
     Sign.NOT_NEGATIVE,
@@ -77,9 +89,16 @@ class Kick:
 class KickText(Value[Kick]):
     """A kick: how much, where, and in which direction."""
 
-    _PARTS = re.compile(r"\s*(.+?)\s+at\s+(.+?)(?:\s+along\s+(.+?))?\s*")
+    _PARTS = re.compile(
+        r"\s*(.+?)\s+at\s+(.+?)(?:\s+along\s+(.+?)|\s+from\s+(?:the\s+)?(.+?))?\s*", re.I
+    )
+    _FORCE = re.compile(r"[\d.]+\s*k?N", re.I)
+    _SPACED = re.compile(r"(?:[-+.\d][^\s,]*\s+){2}[-+.\d][^\s,]*")
 
-    takes = "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left"
+    takes = (
+        "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left, or from a "
+        "side such as behind"
+    )
 
     def read(self, raw: object, where: str) -> Kick:
         """Value that `raw` stands for (`Value.read`)."""
@@ -90,11 +109,26 @@ class KickText(Value[Kick]):
                 hint="Write '12 N s at 0.1,0,0.2', '12 N s at FL_hip' or "
                 "'12 N s at 0.1,0,0.2 along 0,1,0'; metres in the trunk's frame.",
             )
-        impulse, at, along = parts.groups()
+        impulse, at, along, side = parts.groups()
+        if self._FORCE.fullmatch(impulse):
+            raise SpecificationError(
+                f"{where}: {impulse} is a force, and a kick is a force times a time",
+                hint="Write 50 N for 10 ms as '0.5 N s'.",
+            )
+        if self._SPACED.fullmatch(at):
+            at = ",".join(at.split())
+        direction = None if along is None else _direction(along, f"{where}, along")
+        if side is not None:
+            if side.casefold() not in SIDES:
+                raise SpecificationError(
+                    f"{where}: {shortened(side)} is no side that a kick comes from",
+                    hint=f"Write one of {', '.join(SIDES)}, or 'along 0,1,0'.",
+                )
+            direction = SIDES[side.casefold()]
         return Kick(
             Quantity(Dimension.IMPULSE).read(impulse, where),
             _row(at, Dimension.LENGTH, f"{where}, at") if "," in at else Text().read(at, where),
-            None if along is None else _direction(along, f"{where}, along"),
+            direction,
         )
 
 
@@ -147,24 +181,45 @@ class Tilt:
         return f"{self.roll!r} rad roll {self.pitch!r} rad pitch"
 
 
+TILTED: Mapping[str, tuple[str, float]] = MappingProxyType(
+    {
+        "roll": ("roll", 1.0),
+        "pitch": ("pitch", 1.0),
+        "left": ("roll", -1.0),
+        "right": ("roll", 1.0),
+        "forward": ("pitch", 1.0),
+        "backward": ("pitch", -1.0),
+    }
+)
+"""Axis and sign of a tilt by its name, or by the side that is lower."""
+
+
 @dataclass(frozen=True)
 class TiltText(Value[Tilt]):
     """A tilt: an angle of pitch, or angles with their axes."""
 
-    _PART = re.compile(r"\s*(.+?)\s*\b(roll|pitch)\b", re.IGNORECASE)
+    _PART = re.compile(rf"\s*(.+?)\s*\b({'|'.join(TILTED)})\b", re.IGNORECASE)
 
     @property
     def takes(self) -> str:
         """What may be written, in words (`Value.takes`)."""
-        return f"{TILT.takes}; of pitch, or as in '20deg roll', '10deg roll 20deg pitch'"
+        return (
+            f"{TILT.takes}; of pitch, or as in '20deg roll', '20deg left', '10deg roll 20deg pitch'"
+        )
 
     def read(self, raw: object, where: str) -> Tilt:
         """Value that `raw` stands for (`Value.read`)."""
-        found = {}
+        found: dict[str, float] = {}
         rest = raw
         while isinstance(rest, str) and (part := self._PART.match(rest)):
-            angle, axis = part.groups()
-            found[axis.casefold()] = TILT.read(angle, where)
+            angle, word = part.groups()
+            axis, sign = TILTED[word.casefold()]
+            if axis in found:
+                raise SpecificationError(
+                    f"{where}: {shortened(raw)} has two angles of {axis}",
+                    hint="Write '20deg roll', or '10deg roll 20deg pitch'.",
+                )
+            found[axis] = sign * TILT.read(angle, where)
             rest = rest[part.end() :]
         if not found:
             return Tilt(0.0, TILT.read(raw, where))

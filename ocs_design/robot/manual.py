@@ -145,12 +145,17 @@ USUAL_DENSITY = 50.0
 
 
 def _likely_unit(weighed: MassProperties) -> str:
-    """The unit of inertia or mass that makes the robot most like Solo12, as a question."""
-    options = {f"a mass of {weighed.mass:.4g}g": replace(weighed, mass=1e-3 * weighed.mass)}
+    """The units of mass and inertia that make the robot most like Solo12, as a question."""
+    grams, lighter = f"a mass of {weighed.mass:.4g}g", replace(weighed, mass=1e-3 * weighed.mass)
+    options = {grams: lighter}
     for unit, factor in UNITS[Dimension.INERTIA].items():
+        # Without a unit it is in SI, and that was found not to be meant.
+        if factor == 1:
+            continue
         written = (f"{moment:.6g}{unit.replace(' ', '')}" for moment in np.diag(weighed.inertia))
-        turned = replace(weighed, inertia=float(factor) * weighed.inertia)
-        options[f"an inertia of {','.join(written)}"] = turned
+        inertia, turned = f"an inertia of {','.join(written)}", float(factor) * weighed.inertia
+        options[inertia] = replace(weighed, inertia=turned)
+        options[f"{grams} and {inertia}"] = replace(lighter, inertia=turned)
     unlikely = {
         text: abs(np.log(ball_density(body) / USUAL_DENSITY)) for text, body in options.items()
     }

@@ -36,9 +36,13 @@ def test_an_unknown_name_gets_the_closest(find, asked, offered):
 
 @pytest.mark.parametrize(
     ("find", "asked", "name"),
-    [(motor, "r80-kv110", "R80 KV110"), (gear, "gt3-2mm x 6MM", "GT3 2 mm x 6 mm")],
+    [
+        (motor, "r80-kv110", "R80 KV110"),
+        (motor, "t-motor antigravity MN5006 KV450", "Antigravity MN5006 KV450"),
+        (gear, "gt3-2mm x 6MM", "GT3 2 mm x 6 mm"),
+    ],
 )
-def test_capitals_spaces_and_dashes_of_a_name_do_not_matter(find, asked, name):
+def test_capitals_spaces_dashes_and_the_makers_name_do_not_matter(find, asked, name):
     assert find(asked).name == name
 
 

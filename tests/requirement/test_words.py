@@ -59,6 +59,9 @@ def asked(**words):
         ("12Ns at 100mm, 0, 20cm along 0,1,0", Kick(12.0, (0.1, 0.0, 0.2), (0.0, 1.0, 0.0))),
         ("500 mN s at FL_hip along Left", Kick(0.5, "FL_hip", (0.0, 1.0, 0.0))),
         ("3 at base_link along 0,-1,-1", Kick(3.0, "base_link", (0.0, -1.0, -1.0))),
+        ("3 N s at 0.1 0 -0.2", Kick(3.0, (0.1, 0.0, -0.2))),
+        ("3 N s at 0.1,0,0.2 from left", Kick(3.0, (0.1, 0.0, 0.2), (0.0, -1.0, 0.0))),
+        ("3 N s at FL_hip from the Front", Kick(3.0, "FL_hip", (-1.0, 0.0, 0.0))),
     ],
 )
 def test_a_kick_is_read_and_written(text, kick):
@@ -71,7 +74,8 @@ def test_a_kick_is_read_and_written(text, kick):
     [
         ("12", "how much, and where.*'12 N s at FL_hip'"),
         ("12 N s", "how much, and where"),
-        ("12 N at 0.1,0,0.2", "unit 'N'.*N s"),
+        ("12 N at 0.1,0,0.2", "a force times a time.*N s"),
+        ("12 N s at 0.1,0,0.2 from outside", "no side.*left, right"),
         ("12 N m at 0.1,0,0.2", "torque, not of impulse"),
         ("-12 N s at 0.1,0,0.2", "must be positive"),
         ("12 N s at 0.1,0.2", "needs 3 values"),
@@ -87,7 +91,13 @@ def test_a_kick_that_is_none_is_told_how_to_write_it(text, says):
 
 @pytest.mark.parametrize(
     ("text", "roll", "pitch"),
-    [("20deg", 0, 20), ("20 deg roll", 20, 0), ("10deg roll -20deg pitch", 10, -20)],
+    [
+        ("20deg", 0, 20),
+        ("20 deg roll", 20, 0),
+        ("10deg roll -20deg pitch", 10, -20),
+        ("20deg left", -20, 0),
+        ("10 deg right 5deg backward", 10, -5),
+    ],
 )
 def test_a_tilt_is_read_and_written(text, roll, pitch):
     tilt = TiltText().read(text, "tilt")
@@ -95,10 +105,19 @@ def test_a_tilt_is_read_and_written(text, roll, pitch):
     assert TiltText().read(str(tilt), "tilt") == tilt
 
 
-@pytest.mark.parametrize("text", ["20", "20deg yaw", "200deg", "roll"])
+@pytest.mark.parametrize("text", ["20", "20deg yaw", "200deg", "roll", "5deg left 5deg roll"])
 def test_a_tilt_that_is_none_is_refused(text):
     with pytest.raises(OcsError, match="tilt"):
         TiltText().read(text, "tilt")
+
+
+def test_the_lower_side_is_that_of_the_tilt():
+    tilt = TiltText().read("20deg left 10deg forward", "tilt")
+    left_wheel, nose = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
+    roll, pitch = tilt.roll, tilt.pitch
+    # Roll turns y towards z, and pitch z towards x.
+    assert left_wheel[1] * np.sin(roll) < 0.0
+    assert -nose[0] * np.sin(pitch) < 0.0
 
 
 def test_a_person_is_mass_height_and_payload():

@@ -70,6 +70,7 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
         UsageError: there is no such catalogue, or a file of another kind is given.
         SpecificationError: the file cannot be read or has faults.
     """
+    what = what.casefold()
     if what not in KINDS:
         known = ", ".join(f"catalogue {name}" for name in KINDS)
         raise UsageError(f"there is no catalogue of {what}", hint=f"try: {known}")
