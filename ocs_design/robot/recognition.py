@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
-from ocs_design.robot.legs import ancestors, find_legs, find_trunk, leg_of
+from ocs_design.robot.legs import ancestors, find_legs, find_trunk, frame_link, leg_of
 from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
 from ocs_design.robot.links import listed
 from ocs_design.robot.robot import (
@@ -78,7 +78,9 @@ def recognise(
         # With a spine the legs do not tell which of its ends carries the device.
         ends = {leg.base for leg in named.legs} if trunk is None else set()
         heaviest = sorted(ends, key=lambda body: -anatomy.masses[body].mass)
-        spine = tuple(Reading(tree.bodies[i].name, named.legs, _STATED, _SPINE) for i in heaviest)
+        spine = tuple(
+            Reading(frame_link(tree.bodies[i]), named.legs, _STATED, _SPINE) for i in heaviest
+        )
         return Recognition(named, spine if len(spine) > 1 else (), _stated(trunk, legs))
     usual = find_legs(tree)
     readings = anatomy.readings(usual)
@@ -103,7 +105,7 @@ def recognise(
     )
     if all(each.legs for each in asked):
         asked.append(none)
-    root = tree.bodies[0].name
+    root = frame_link(tree.bodies[0])
     if trunk is None and none in asked and none.trunk != root:
         # An upper body's heaviest link is its chest, but it may be meant to sit on its pelvis.
         asked.append(anatomy.without_legs(None, likely=not arms, body=root))
@@ -218,7 +220,7 @@ class _Readings(Anatomy):
         """The readings of robots with a spine, with the other ends of it as trunk."""
         for each in readings:
             for base in sorted({leg.base for leg in each.legs}):
-                name = self.tree.bodies[base].name
+                name = frame_link(self.tree.bodies[base])
                 if name != each.trunk and any(doubt.what == SPINE for doubt in each.doubts):
                     lighter = Doubt(f"'{name}' is lighter than '{each.trunk}'", 0.9)
                     yield Reading(name, each.legs, each.signs, (*each.doubts, lighter))
@@ -317,7 +319,7 @@ class _Readings(Anatomy):
             *((Doubt(SPINE, 1.0),) if len(set(bases)) > 1 else ()),
             *((Doubt(how, 1.0),) if (how := self.closed(limbs, up)) else ()),
         )
-        name = trunk or self.tree.bodies[self._spine_trunk(bases)].name
+        name = trunk or frame_link(self.tree.bodies[self._spine_trunk(bases)])
         return Reading(name, tuple(legs), _STATED, doubts)
 
     def _hang(self, bodies: Sequence[int], bases: Sequence[int], up: FloatArray) -> float:
@@ -360,7 +362,7 @@ class _Readings(Anatomy):
         if any(leg.length <= 0.0 for leg in legs):
             return None
         trunk = self._spine_trunk([limb.base for limb in chosen])
-        return Reading(self.tree.bodies[trunk].name, legs, signs, doubts)
+        return Reading(frame_link(self.tree.bodies[trunk]), legs, signs, doubts)
 
     def _signs(
         self, chosen: Sequence[Limb], sets: Sequence[Sequence[Limb]], up: FloatArray

@@ -459,3 +459,15 @@ def test_limbs_that_a_model_ties_together_at_their_ends_are_asked_about(tmp_path
         assert recognition is not None
         sure[loop] = recognition.sure
     assert sure == {"": True, tie: False}
+
+
+def test_a_robot_that_its_file_fixes_to_the_world_has_its_own_trunk(tmp_path):
+    world = joint("hang", "world", "trunk", '<origin xyz="0 0 1"/>', kind="fixed")
+    path = tmp_path / "hung.urdf"
+    path.write_bytes(robot(link("world"), world, *quadruped(*ZEROS["bent"])))
+    hung = read_robot(path)
+    assert hung.trunk == "trunk"
+    path.write_bytes(robot(*quadruped(*ZEROS["bent"])))
+    free = read_robot(path)
+    assert hung.standing_height == pytest.approx(free.standing_height, abs=1e-12)
+    np.testing.assert_allclose(hung.com, free.com, atol=1e-12)
