@@ -79,7 +79,7 @@ def solo12(more="", reliability=None, scale=1.0):
     robot, stated = specified(more)
     resolved = resolve(stated, robot, size(robot.tree, robot.posture, robot.trunk))
     reserve = None if reliability is None else Reserve(reliability).raised(scale)
-    return design_device(stated, robot, resolved, reserve=reserve)
+    return design_device(stated, robot, resolved, reserve=reserve, ranked=False)
 
 
 def flights(more):
