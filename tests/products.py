@@ -75,7 +75,14 @@ class Case:
         pieces = [*self.pieces, *self.plates]
         # Of a device with a real motor, which is made and has something in reserve.
         made = ["cad/drilling.pdf", "figures/reliability.svg"] if self.standing else []
-        return [*FILES, *meshes, *self.cages, *made, *(f"cad/{piece}.stl" for piece in pieces)]
+        return [
+            *FILES,
+            *meshes,
+            *self.cages,
+            *self.sheets,
+            *made,
+            *(f"cad/{piece}.stl" for piece in pieces),
+        ]
 
     @property
     def cages(self) -> list[str]:
@@ -86,6 +93,11 @@ class Case:
     def plates(self) -> list[str]:
         """What the feet stand on beside the trunk."""
         return ["plate"] if "plate" in self.standing else []
+
+    @property
+    def sheets(self) -> list[str]:
+        """Drawings beside that of the wheel."""
+        return ["cad/plate.pdf"] if self.plates else []
 
 
 CASES = {

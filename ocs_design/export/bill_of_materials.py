@@ -31,13 +31,16 @@ from ocs_design.parts.carrier_plate import (
     sleeve_part,
 )
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
-from ocs_design.parts.joints import EPOXY
+from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import CLEARANCE, PANEL, TRUNK_SCREW, WALL
 
 COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
 
 _ALLOWANCE = 2e-3
 """Allowance of stock on finished diameter and length, to turn clean and to part off [m]."""
+
+SHIM = 1.0e-3
+"""Length below which a sleeve is easier had as washers than cut from tube [m]."""
 
 _MASSLESS = 1e-9
 """Rounding of masses: what is left of a module when all its parts are taken off [kg]."""
@@ -149,7 +152,7 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
     """The plate under the feet, its sleeves and the screws that hold it on the trunk."""
     size = " x ".join(map(_mm, plate.sizes))
     made = (
-        f"milled or cut by water jet to plate.dxf (`export --formats dxf` writes it), "
+        "milled or cut by water jet to plate.pdf (outline: `export --formats dxf`), "
         f"neck {_mm(2.0 * plate.neck)}; "
         f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
     )
@@ -171,7 +174,8 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
         yield BillRow("sleeve in the mast", count, plate.material, stock, mass, made)
     for length in sorted({length for length in plate.sleeves if length > 0.0}):
         stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
-        made = f"cut to {_mm(length)}, between {under} and trunk"
+        shims = ", or shim washers" if length < SHIM else ""
+        made = f"cut to {_mm(length)}{shims}, between {under} and trunk"
         count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
         yield BillRow(f"sleeve under the {under}", count, plate.material, stock, mass, made)
     for held in plate.fastenings:
@@ -210,7 +214,10 @@ def _used_up(device: Device) -> Iterator[BillRow]:
         where = "3-D print ring_fixture.stl, one per ring: glue spoils it; not in the device"
         yield BillRow("fixture for ring and bell", len(device.modules), "PETG", "", 0.0, where)
     elif any(joint.note.startswith("bonded") for joint in joints_of(device)):
-        where = "wheel on shaft; follow its maker's sheet"
+        where = (
+            f"wheel on shaft; at least {BOND_STRENGTH / 1e6:g} MPa in shear on steel (ISO 10123); "
+            "follow its maker's sheet"
+        )
         yield BillRow("retaining compound", 1, "", "", 0.0, where)
     screwed = (each.fastening for each in motor_mount(device).screwed)
     if any(each.depth < IN_PLASTIC for each in screwed):

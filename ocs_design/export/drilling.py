@@ -58,6 +58,7 @@ class Drilling:
         reach: of the screws into the trunk, least and largest [m].
         marks: holes with their coordinates, and the frame's axes [mm].
         around: feet and plate [mm].
+        standing: what the thin lines are.
         upwards: whether it is the trunk's back, coordinates up and to the left; else its top,
             forward and to the left.
     """
@@ -69,6 +70,7 @@ class Drilling:
     reach: tuple[float, float]
     marks: tuple[Item, ...]
     around: tuple[Item, ...]
+    standing: str = ""
     upwards: bool = False
 
     @property
@@ -77,7 +79,7 @@ class Drilling:
         return *self.marks, *self.around
 
     @property
-    def words(self) -> tuple[str, str, str]:
+    def words(self) -> tuple[str, ...]:
         """What to do, line by line."""
         ends = dict.fromkeys(f"{MILLIMETRES * each:.1f}" for each in self.reach)
         thread = round_outwards(self.thread, upwards=True, digits=2)
@@ -93,6 +95,8 @@ class Drilling:
             f"In a wall thinner than {MILLIMETRES * self.screw.diameter:.3g} mm, a print or "
             f"carbon: drill {MILLIMETRES * self.screw.clearance_hole:.3g} mm through, nuts and "
             "washers behind, screws longer by both and by the wall.",
+            "Assumed is a trunk of aluminium: no robot file tells what its wall is. Thin lines: "
+            f"{self.standing}.",
         )
 
     @property
@@ -165,6 +169,16 @@ def drilling_of(subject: Subject) -> Drilling | None:
             corners = _millimetres((flat_outline(shape.outline()) + plate.position[:2]).tolist())
             items.append(Polyline((*corners, corners[0]), THIN))
         items += [Circle(each, radius, THIN) for each in _millimetres(feet)]
+    stands = [
+        name
+        for name, there in (
+            ("feet", standing and mast is None),
+            ("pedestals", device.pedestals),
+            ("plate with its threads", plate is not None and mast is None),
+            ("mast", mast is not None),
+        )
+        if there
+    ]
     return Drilling(
         subject.name,
         subject.seat.trunk,
@@ -173,6 +187,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         trunk_reach(device),
         tuple(marks),
         tuple(items),
+        " and ".join(stands),
         upwards=mast is not None,
     )
 
@@ -201,6 +216,17 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
         if across * along == 1:
             break
     middle = (back + front) / 2.0, (rightmost + leftmost) / 2.0
+    if across * along == 1:
+        # In the middle without its words, as far as they have room then.
+        low, right_end, high, left_end = bounds(
+            each for each in shown if not isinstance(each, Text)
+        )
+        spare_x, spare_y = (height - (front - back)) / 2.0, (width - (leftmost - rightmost)) / 2.0
+        aim = (low + high) / 2.0, (right_end + left_end) / 2.0
+        middle = (
+            min(max(aim[0], middle[0] - spare_x), middle[0] + spare_x),
+            min(max(aim[1], middle[1] - spare_y), middle[1] + spare_y),
+        )
     for row in range(along):
         for column in range(across):
             # Where the middle of the drawing is on this sheet.

@@ -104,8 +104,9 @@ class Electrics:
         yield (
             "Torque is asked for from standstill and through zero speed: each motor needs a sensor "
             "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
-            "holds torque at low speed without one. Sensors and cables are not in the device's "
-            f"mass, controllers {'are' if self.counted else 'are not either'}."
+            "holds torque at low speed without one. No part here holds a sensor: see that the "
+            "motor has one, or fit it before the motor is screwed in. Sensors and cables are not "
+            f"in the device's mass, controllers {'are' if self.counted else 'are not either'}."
         )
         if battery:
             yield f"The battery, for all motors together, {battery}. Cables and fuse stand as much."

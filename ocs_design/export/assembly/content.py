@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from math import sqrt
 
 import numpy as np
 
@@ -54,7 +55,7 @@ from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import SEAT_SCREWS
-from ocs_design.parts.printed import CLEARANCE, WALL
+from ocs_design.parts.printed import CLEARANCE, LID_SCREW, WALL
 from ocs_design.parts.rim import stored_energy
 
 SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
@@ -65,6 +66,10 @@ OVERSPEED = 1.1
 
 LEAST_DRILL = 0.8e-3
 """Diameter below which steel is ground and not drilled [m]."""
+
+FREE_SPAN = 10.0e-3
+"""Width that a printer bridges without supports [m]: an assumption. Of a round hole with its axis
+level, what hangs over by more than 45 degrees is sqrt(2) times its radius wide."""
 
 DROP = 0.03e-3
 """Air on the diameter with which a hot rim drops on its web before it has cooled [m]."""
@@ -269,15 +274,17 @@ class Assembly:
 
     def _steps(self) -> Iterator[str]:
         device, wheel = self.device, wheel_geometry(self.device.flywheel)
-        if self.numbers.get("drum"):
+        if "drum" in self.numbers:
+            caged = "cage" in self.numbers
+            hole = printed_foot(device).housing.mount.pilot_radius
+            supports = "no supports"
+            if sqrt(2.0) * hole > FREE_SPAN:
+                supports += f" but in the hole of {2e3 * hole:.0f} mm of the standing foot"
             yield (
-                "Print drum, lid, foot and cage in PETG as they lie in cad/housing.3mf: "
-                f"0.2 mm layers, walls of {1e3 * WALL:g} mm are solid, at least 50 % infill in the "
-                "foot, no supports. Tap the ears of drum and cage M2."
-                if "cage" in self.numbers
-                else "Print drum, lid and foot in PETG as they lie in cad/housing.3mf: "
-                f"0.2 mm layers, walls of {1e3 * WALL:g} mm are solid, at least 50 % infill in the "
-                "foot, no supports. Tap the ears of the drum M2."
+                f"Print drum, lid{', foot and cage' if caged else ' and foot'} in PETG as they lie "
+                f"in cad/housing.3mf: 0.2 mm layers, walls of {1e3 * WALL:g} mm are solid, at "
+                f"least 50 % infill in the foot, {supports}. Tap the ears of "
+                f"{'drum and cage' if caged else 'the drum'} {LID_SCREW.name}."
             )
         yield (
             f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {RUN_OUT:g} mm. Weigh "
@@ -439,9 +446,10 @@ class Assembly:
             )
         else:
             cut = (
-                f"Cut the plate{self._number('plate')} (cad/plate.stl; `export --formats dxf` "
-                f"writes plate.dxf), with holes of {1e3 * plate.screw.clearance_hole:g} mm for the "
-                f"trunk's screws, and tap those {plate.foot_thread} for the feet, which are, "
+                f"Make the plate{self._number('plate')} to cad/plate.pdf (`export --formats dxf` "
+                f"writes its outline for a cutter), with holes of "
+                f"{1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and threads "
+                f"{plate.foot_thread} for the feet, which are, "
                 f"{frame} design.json), at {places_of}. Drill and tap the trunk"
             )
             if plate.mast is None:
@@ -456,7 +464,7 @@ class Assembly:
                 )
                 mast, ends = plate.mast, [f"{1e3 * z:.1f}" for z in plate.heights]
                 yield (
-                    f"Weld the mast{self._number('mast')} (cad/mast.stl) of square tube "
+                    f"Weld the mast{self._number('mast')} to cad/plate.pdf, of square tube "
                     f"{1e3 * mast.side:.0f} x {1e3 * mast.wall:.0f} mm: an upright of "
                     f"{1e3 * (mast.high - mast.low):.1f} mm, an arm of "
                     f"{1e3 * (mast.back + plate.neck):.1f} mm whose top is "
@@ -549,15 +557,19 @@ class Assembly:
             )
 
     def _direction(self) -> str:
-        names = ", ".join(joint_name(module) for module in self.device.modules)
-        axes = "; ".join(
-            f"{module.name} ({', '.join(f'{value:.3f}' for value in np.round(module.axis, 3))})"
-            for module in self.device.modules
-        )
+        turns: dict[str, list[str]] = {"counter-clockwise": [], "clockwise": []}
+        for module in self.device.modules:
+            outward = module.frame[:, 1] @ module.axis > 0.0
+            axis = ", ".join(f"{value:.3f}" for value in np.round(module.axis, 3) + 0.0)
+            turns["counter-clockwise" if outward else "clockwise"].append(
+                f"{joint_name(module)} (axis {axis})"
+            )
+        told = "; ".join(f"{way}: {', '.join(names)}" for way, names in turns.items() if names)
         return (
-            f"Name the drives {names}, as the robot files do. A positive torque has to turn the "
-            f"wheel counter-clockwise seen from the tip of its axis, which points to {axes} (x "
-            "forward, y left, z up). Else swap two of the motor's three wires."
+            "Name the drives as the robot files do. Seen from its lid, a positive torque turns the "
+            f"wheel {told}. Axes are in the frame of the design, x forward, y left, z up, and the "
+            "wheel turns about them by the right hand. Try each at low torque, lid on; where it is "
+            "wrong, swap two of the motor's three wires, and set up its sensor again."
         )
 
     def _balance(self) -> Iterator[str]:
@@ -619,13 +631,19 @@ class Assembly:
             return
         wheel, steel = self.device.flywheel, burst.steel.wall
         yield (
-            "Clamp the module on a bench inside a closed steel box or behind steel of at least "
-            f"{max(2.0, math.ceil(2e3 * steel)):.0f} mm (twice the wall that holds it, see "
-            "Safety) on all sides of the wheel's plane. Nobody stands in that plane. Drive it "
+            "Clamp the module by its foot on a bench inside a closed steel box or behind steel of "
+            f"at least {max(2.0, math.ceil(2e3 * steel)):.0f} mm (twice the wall that holds it, "
+            "see Safety) on all sides of the wheel's plane. Nobody stands in that plane. Drive it "
             "from behind the wall; a switch there cuts the supply."
         )
         steps = ", ".join(f"{share:.0%} ({rpm(share * speed)})" for share in SPIN_STEPS)
-        yield f"One minute each at {steps}; stop, and feel the motor and look at all screws."
+        # Nothing but its own foot is under it on the bench.
+        foot = [mode for mode in resonances_of(self.device) if mode.name == "foot"]
+        past = "".join(
+            f" Pass quickly through {60.0 * mode.frequency:,.0f} rpm, where the foot shakes."
+            for mode in foot
+        )
+        yield f"One minute each at {steps}; stop, and feel the motor and look at all screws.{past}"
         motor = self.device.motor
         allowed = math.inf if motor.speed_max is None else motor.speed_max
         share = min(OVERSPEED, allowed / speed)
@@ -695,6 +713,11 @@ class Assembly:
                 f"{1e3 * aluminium.mass:.0f} g each. `size --guard containing` builds the one of "
                 "steel in."
             )
+        if "cage" in self.numbers:
+            yield (
+                "Between the posts of the cage the motor's bell turns with the wheel and can be "
+                "touched: keep hands away while the supply is on, and cables tied to the cage."
+            )
         yield (
             "Whenever the supply is on: nobody in the plane of a wheel, eye protection for "
             "everybody in the room, no loose sleeves or cables, the lid on. Wheels coast on "
@@ -730,7 +753,7 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
         return f"{row.material}, {row.stock}", "guard_ring.stl"
     if name in ("plate", "mast", "sleeves"):
         cut = "" if row is None else f" from {row.material}, {row.stock}"
-        return f"cut{cut}", "" if name == "sleeves" else f"{name}.stl"
+        return f"cut{cut}", "" if name == "sleeves" else "plate.pdf"
     made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
     return made, "wheel.pdf"
 

@@ -1,7 +1,7 @@
 """Frame, title block, list of parts and notes of a wheel's drawing (ISO 5457, ISO 7200)."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ocs_design.device import joints
@@ -95,10 +95,10 @@ def frame() -> list[Item]:
     ]
 
 
-def title_block(drawing: WheelDrawing, scale: Scale) -> list[Item]:
+def title_block(cells: Iterable[Cell]) -> list[Item]:
     """Fields of the title block, and the symbol of first-angle projection."""
     items = outline(rectangle(BLOCK_LEFT, BLOCK_TOP, RIGHT, BOTTOM), FRAME)
-    for cell in _cells(drawing, scale):
+    for cell in cells:
         left, top = BLOCK_LEFT + cell.left, BLOCK_TOP + cell.row * ROW_HEIGHT
         items += outline(rectangle(left, top, left + cell.width, top + ROW_HEIGHT), THIN)
         room, height = cell.width - 3.0, cell.height
@@ -117,28 +117,62 @@ def title_block(drawing: WheelDrawing, scale: Scale) -> list[Item]:
     ]
 
 
-def _cells(drawing: WheelDrawing, scale: Scale) -> tuple[Cell, ...]:
-    """Fields row by row. Checker and date are written by hand."""
-    material = (
-        "see list of parts" if seat(drawing.wheel) is Seat.FITTED else drawing.wheel.rim.material
-    )
+@dataclass(frozen=True)
+class Entries:
+    """What the title block of any part says.
+
+    Attributes:
+        title: of the part. robot: that it is made for. scale: of the views.
+        material: name. mass: of one [kg]. figure: another of its figures, caption and value.
+        texture: of its surfaces. tool, identity: see `WheelDrawing`. sheet: number and count.
+    """
+
+    title: str
+    robot: str
+    scale: Scale
+    material: str
+    mass: float
+    figure: tuple[str, str]
+    texture: str
+    tool: str
+    identity: str
+    sheet: str = "1 / 1"
+
+    def cells(self) -> tuple[Cell, ...]:
+        """Fields row by row. Checker and date are written by hand."""
+        return (
+            Cell(0, 0.0, 64.0, "Title", self.title, 3.5),
+            Cell(0, 64.0, 64.0, "Robot", self.robot, 3.5),
+            Cell(0, 128.0, 26.0, "Scale", str(self.scale), 3.5),
+            Cell(0, 154.0, 26.0, "", ""),
+            Cell(1, 0.0, 64.0, "Material", self.material),
+            Cell(1, 64.0, 32.0, "Mass", f"{1e3 * self.mass:.4g} g"),
+            Cell(1, 96.0, 58.0, *self.figure),
+            Cell(1, 154.0, 26.0, "Dimensions", "all in mm"),
+            Cell(2, 0.0, 40.0, "General tolerances", "ISO 2768-mK"),
+            Cell(2, 40.0, 64.0, "Surface texture", self.texture),
+            Cell(2, 104.0, 50.0, "Drawn by", self.tool),
+            Cell(2, 154.0, 26.0, "Sheet", f"{self.sheet}, A4"),
+            Cell(3, 0.0, 104.0, "Design", self.identity),
+            Cell(3, 104.0, 40.0, "Checked by", ""),
+            Cell(3, 144.0, 36.0, "Date", ""),
+        )
+
+
+def wheel_entries(drawing: WheelDrawing, scale: Scale) -> Entries:
+    """Entries of a wheel's sheet."""
+    fitted_on = seat(drawing.wheel) is Seat.FITTED
     inertia = f"{1e6 * drawing.mass_properties.inertia[2, 2]:.4g} kg mm²"
-    return (
-        Cell(0, 0.0, 64.0, "Title", "OCS flywheel", 3.5),
-        Cell(0, 64.0, 64.0, "Robot", drawing.robot, 3.5),
-        Cell(0, 128.0, 26.0, "Scale", str(scale), 3.5),
-        Cell(0, 154.0, 26.0, "", ""),
-        Cell(1, 0.0, 64.0, "Material", material),
-        Cell(1, 64.0, 32.0, "Mass", f"{1e3 * sum(drawing.masses):.4g} g"),
-        Cell(1, 96.0, 58.0, "Spin inertia about the axis", inertia),
-        Cell(1, 154.0, 26.0, "Dimensions", "all in mm"),
-        Cell(2, 0.0, 40.0, "General tolerances", "ISO 2768-mK"),
-        Cell(2, 40.0, 64.0, "Surface texture", "Ra 3.2, bore Ra 1.6 (ISO 21920)"),
-        Cell(2, 104.0, 50.0, "Drawn by", drawing.tool),
-        Cell(2, 154.0, 26.0, "Sheet", "1 / 1, A4"),
-        Cell(3, 0.0, 104.0, "Design", drawing.identity),
-        Cell(3, 104.0, 40.0, "Checked by", ""),
-        Cell(3, 144.0, 36.0, "Date", ""),
+    return Entries(
+        "OCS flywheel",
+        drawing.robot,
+        scale,
+        "see list of parts" if fitted_on else drawing.wheel.rim.material,
+        sum(drawing.masses),
+        ("Spin inertia about the axis", inertia),
+        "Ra 3.2, bore Ra 1.6 (ISO 21920)",
+        drawing.tool,
+        drawing.identity,
     )
 
 
@@ -169,8 +203,13 @@ def notes(drawing: WheelDrawing) -> list[Item]:
     Those that end above the title block and the list of parts are as wide as the sheet. Where
     they would run out of the frame, lines are nearer to each other.
     """
-    sentences, leading = list(_sentences(drawing)), LEADING
     block = min([BLOCK_TOP, *(x.start[1] for x in parts_list(drawing) if isinstance(x, Line))])
+    return numbered(list(_sentences(drawing)), block)
+
+
+def numbered(sentences: Sequence[str], block: float = BLOCK_TOP) -> list[Item]:
+    """Numbered sentences at the lower left, as `notes` has them; `block` is its top [mm]."""
+    leading = LEADING
     while True:
         items: list[Item] = []
         y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
@@ -205,6 +244,12 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
         "the motor's rotor not included."
     )
     yield _edges(wheel)
+    if drawing.yield_strength is not None:
+        yield (
+            f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
+            "as it was sized with."
+        )
+    run_out = f"Run-out of the rim, around and on its faces, to the bore at most {RUN_OUT:g}."
     if drawing.bonded:
         gap = plain(2.0 * GLUE_GAP)
         size = plain(2.0 * (wheel.rim.inner_radius - GLUE_GAP))
@@ -212,7 +257,7 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
             f"Bonded around the motor's bell: bore it {gap} wider than the bell, which is measured "
             f"first; the bore drawn is that for Ø{size}."
         )
-        yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
+        yield run_out
         return
     yield {
         Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
@@ -224,11 +269,11 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
         radius, share = inside_corners(wheel)
         if radius > 0.0:
             yield f"Inside corners at most R~{plain(radius)} (+{_percent(share)} of inertia)."
-        yield f"Run-out of the rim to the bore at most {RUN_OUT:g}."
+        yield run_out
         if hub.bolts is None and drawing.on_shaft:
             yield "No bolt circle: bonded on the motor's shaft."
         elif not drawing.on_shaft:
-            yield "Bore: a pilot hole, to be opened to the motor."
+            yield "Bore: a pilot hole and the datum; open it where the rotor has a boss."
 
 
 def _interference(drawing: WheelDrawing) -> str:

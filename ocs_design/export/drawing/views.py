@@ -31,8 +31,8 @@ from ocs_design.export.drawing.sheet import (
     outline,
 )
 from ocs_design.export.drawing.wheel import (
-    diameter,
     diameters,
+    fitted_bore,
     holes,
     plain,
     toleranced,
@@ -285,7 +285,7 @@ def _leaders(wheel: Wheel, layout: Layout) -> Iterator[Item]:
     shelf = x + edge + SHELF
     callouts = []
     if hub is not None and hub.bore_radius > 0.0:
-        bore = f"{diameter(hub.bore_radius)} H7"
+        bore = fitted_bore(hub.bore_radius)
         callouts.append(Callout((bore,), layout.front, layout.scale(hub.bore_radius)))
     for label, radius, _ in diameters(wheel):
         on_paper = layout.scale(radius)

@@ -44,6 +44,7 @@ class WheelDrawing:
             there is none, or it is not known.
         bonded: whether it is a ring around the bell of its motor.
         on_shaft: whether the motor's shaft is known, which the hub's bore fits.
+        yield_strength: of the rim's material, with which it was sized [Pa]; None: not known.
     """
 
     wheel: Wheel
@@ -54,6 +55,7 @@ class WheelDrawing:
     interference: tuple[float, float] | None = None
     bonded: bool = False
     on_shaft: bool = False
+    yield_strength: float | None = None
 
     @cached_property
     def masses(self) -> tuple[float, ...]:
@@ -144,6 +146,11 @@ def diameter(radius: float) -> str:
     return f"Ø{plain(2.0 * radius)}"
 
 
+def fitted_bore(radius: float) -> str:
+    """Label of the hub's bore with the limits of H7, from the size up [mm]."""
+    return f"{diameter(radius)} H7 (0/+{1e3 * tolerance_width(2.0 * radius, Grade.IT7):.3f})"
+
+
 def rim_diameter(wheel: Wheel) -> str:
     """Label of the rim's outer diameter."""
     return f"Ø{toleranced(2.0 * wheel.rim.outer_radius, Grade.IT9)}"
@@ -172,6 +179,8 @@ def holes(ring: HoleRing) -> tuple[str, ...]:
     """Label of a ring of holes, line by line."""
     number = "" if ring.count == 1 else f"{ring.count} × "
     size, place = f"{number}{diameter(ring.hole_radius)}", f"on {diameter(ring.radius)} ±0.1"
+    if ring.count > 1:
+        place = f"evenly {place}"
     if isinf(ring.depth):
         return f"{size} through", place
     return size, place, f"{plain(ring.depth)} deep, both faces"

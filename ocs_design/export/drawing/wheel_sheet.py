@@ -8,14 +8,22 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from ocs_design import __version__
+from ocs_design.catalogue.materials import materials
 from ocs_design.device.device import Device
 from ocs_design.device.joints import rim_fit
 from ocs_design.export.device_parts import wheel_geometry
+from ocs_design.export.drawing.plate_sheet import plate_sheets
 from ocs_design.export.drawing.sheet import Item
-from ocs_design.export.drawing.title_block import frame, notes, parts_list, title_block
+from ocs_design.export.drawing.title_block import (
+    frame,
+    notes,
+    parts_list,
+    title_block,
+    wheel_entries,
+)
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import WheelDrawing
-from ocs_design.export.drawing.writers import pdf_bytes, svg_bytes
+from ocs_design.export.drawing.writers import pdf_bytes, pdf_of_pages, svg_bytes
 from ocs_design.export.drilling import write_drilling
 
 if TYPE_CHECKING:
@@ -26,9 +34,13 @@ DIGITS = 12
 
 
 def write(subject: "Subject", folder: Path) -> "Notes":
-    """Write `wheel.svg` and `wheel.pdf`, which show the same, and the drilling template."""
+    """Write `wheel.svg` and `wheel.pdf`, which show the same, `plate.pdf` and `drilling.pdf`."""
     for suffix, content in draw_wheel(wheel_drawing(subject.device, subject.name)).items():
         (folder / f"wheel.{suffix}").write_bytes(content)
+    identity = device_hash(subject.device), f"ocs-design {__version__}"
+    if sheets := plate_sheets(subject.device, subject.name, *identity):
+        title = f"Plate under the feet of {subject.name}"
+        (folder / "plate.pdf").write_bytes(pdf_of_pages(sheets, title))
     write_drilling(subject, folder)
     return ()
 
@@ -40,6 +52,7 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         device: that the wheel belongs to.
         robot: its name.
     """
+    material = materials().get(device.flywheel.material)
     speed, fit, mounting = device.motor.top_speed, rim_fit(device), device.motor.mounting
     return WheelDrawing(
         wheel=wheel_geometry(device.flywheel),
@@ -50,6 +63,7 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         interference=None if fit is None else (2.0 * fit.least, 2.0 * fit.most),
         bonded=device.on_bell,
         on_shaft=mounting is not None and mounting.shaft_diameter is not None,
+        yield_strength=None if material is None else material.yield_strength,
     )
 
 
@@ -68,7 +82,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
         *front_view(drawing.wheel, layout),
         *notes(drawing),
         *parts_list(drawing),
-        *title_block(drawing, layout.scale),
+        *title_block(wheel_entries(drawing, layout.scale).cells()),
     ]
 
 

@@ -46,6 +46,43 @@ def test_all_text_is_within_the_frame_and_none_on_another(assembly):
             assert apart, (a, b)
 
 
+@pytest.mark.parametrize("name", ["caged", "by its face"])
+def test_the_way_that_a_positive_torque_turns_is_told_as_seen_from_the_lid(name):
+    """About its axis by the right hand: whoever looks against the axis sees it counter-clockwise.
+    A lid is on the far side of its module from the motor, in its own mesh."""
+    device = DEVICES[name]
+    (text,) = (
+        text
+        for chapter in Assembly("dog", device).chapters()
+        for text in chapter.texts
+        if "positive torque" in text
+    )
+    pieces = {piece.name: piece for piece in Assembly("dog", device).pieces}
+    lid, motor = (pieces[each].mesh.vertices.mean(axis=0) for each in ("lid", "motor"))
+    for module in device.modules:
+        placed = wheel_placement(module) @ carrier_placement(module)
+        looks = placed.rotation @ (lid - motor)
+        way = "counter-clockwise" if looks @ module.axis > 0.0 else "clockwise"
+        said = re.search(
+            rf"(?<![\w-])({'counter-clockwise|clockwise'}): [^;]*ocs_{module.name}", text
+        )
+        assert said is not None
+        assert said.group(1) == way
+
+
+def test_the_bench_is_told_what_the_foot_does_and_what_can_be_touched():
+    said = {
+        name: " ".join(
+            text for part in Assembly("dog", DEVICES[name]).chapters() for text in part.texts
+        )
+        for name in ("caged", "by its face")
+    }
+    assert "Between the posts of the cage the motor's bell turns" in said["caged"]
+    assert "Between the posts" not in said["by its face"]
+    hole = 2e3 * printed_foot(DEVICES["caged"]).housing.mount.pilot_radius
+    assert f"no supports but in the hole of {hole:.0f} mm" in said["caged"]
+
+
 def test_all_lines_are_on_the_sheet(assembly):
     for page in assembly_pages(assembly):
         for item in page:
@@ -78,7 +115,7 @@ def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
     """Where it stands, its top is the foot's underside; pulled apart they are one below another."""
     assembly = Assembly("solo12", DEVICES["on a plate"])
     rows = {row.name: (row.quantity, row.file) for row in assembly.piece_rows()}
-    assert rows["plate under the feet"] == (1, "plate.stl")
+    assert rows["plate under the feet"] == (1, "plate.pdf")
     assert rows["sleeves around the trunk's screws"] == (3, "")
     screws = [row for row in assembly.screw_rows() if row.purpose.startswith("plate")]
     assert [row.quantity for row in screws] == [1, 2, 1]

@@ -59,10 +59,18 @@ def test_both_formats_are_well_formed(drawing):
 
 def test_every_size_is_written_once():
     found = words(FLAT)
-    for label in ("Ø82.60 ±0.04", "Ø78.40 shrink fit", "Ø24", "Ø8 H7", "3.05 ±0.03", "1.5", "8"):
+    for label in (
+        "Ø82.60 ±0.04",
+        "Ø78.40 shrink fit",
+        "Ø24",
+        "Ø8 H7 (0/+0.015)",
+        "3.05 ±0.03",
+        "1.5",
+        "8",
+    ):
         assert found.count(label) == 1, label
     assert "4 × Ø3.4 through" in found
-    assert "on Ø16 ±0.1" in found
+    assert "evenly on Ø16 ±0.1" in found
 
 
 def test_every_hole_is_written_once():

@@ -1,0 +1,343 @@
+"""Drawing of the plate under the feet, and of the mast that carries it: A4 sheets, first angle.
+
+The plate is seen from above, forward up, with a table of its holes; below it is its edge. The mast
+is seen from the left and, beside that, from behind. All places are from the middle of the plate's
+underside.
+"""
+
+from collections.abc import Iterator, Sequence
+
+from ocs_design.actuation.fasteners import screw
+from ocs_design.device.device import Device
+from ocs_design.export.drawing.dimensioning import (
+    ARROW,
+    arrow,
+    extension,
+    fits_inside,
+    level_dimension,
+    upright_dimension,
+)
+from ocs_design.export.drawing.sheet import (
+    CENTRE,
+    FRAME_BOX,
+    OUTLINE,
+    THIN,
+    Anchor,
+    Box,
+    Circle,
+    Item,
+    Line,
+    Point,
+    Polyline,
+    Scale,
+    Text,
+    largest_scale,
+    outline,
+    rectangle,
+)
+from ocs_design.export.drawing.title_block import Entries, frame, numbered, title_block
+from ocs_design.export.drawing.wheel import plain
+from ocs_design.parts.carrier_plate import CarrierPlate, Mast, directions, mast_part, plate_part
+from ocs_design.parts.flattening import flat_outline
+
+LEFT, TOP, RIGHT, _ = FRAME_BOX
+
+_TABLE = 62.0
+"""Width of the table of holes [mm]."""
+
+_VIEW: Box = (LEFT + 30.0, TOP + 8.0, RIGHT - _TABLE - 12.0, 122.0)
+"""Place of the plate's outline, with room for its dimensions around it [mm]."""
+
+_MAST_VIEW: Box = (LEFT + 34.0, TOP + 8.0, RIGHT - 60.0, 118.0)
+
+_ROW = 5.0
+"""Height of a row of the table of holes [mm]."""
+
+_BETWEEN = 40.0
+"""Distance between two views [mm]."""
+
+
+def plate_sheets(device: Device, robot: str, identity: str, tool: str) -> list[list[Item]]:
+    """Sheets of the plate and of its mast; none where the feet need no plate.
+
+    Args:
+        device: that stands on it. robot: its name. identity, tool: see `WheelDrawing`.
+    """
+    plate = device.plate
+    if plate is None:
+        return []
+    count, one = (1 if plate.mast is None else 2), plate.each[0]
+    scale, view = _top_view(one)
+    many = "" if len(plate.rows) == 1 else f", {len(plate.rows)} of them"
+    entries = Entries(
+        f"Plate under the feet{many}",
+        robot,
+        scale,
+        plate.material,
+        plate_part(one).mass(),
+        ("Thickness", f"{plain(plate.thickness)} (EN 485-4)"),
+        "as rolled, edges Ra 6.3 (ISO 21920)",
+        tool,
+        identity,
+        f"1 / {count}",
+    )
+    sheets = [
+        [*frame(), *view, *numbered(list(_plate_notes(plate))), *title_block(entries.cells())]
+    ]
+    if plate.mast is not None:
+        scale, view = _mast_views(plate, plate.mast)
+        entries = Entries(
+            "Mast behind the trunk",
+            robot,
+            scale,
+            plate.material,
+            mast_part(plate, plate.mast).mass(),
+            ("Square tube", f"{plain(plate.mast.side)} x {plain(plate.mast.wall)} (EN 755-8)"),
+            "as drawn (extruded)",
+            tool,
+            identity,
+            f"2 / {count}",
+        )
+        words = numbered(list(_mast_notes(plate, plate.mast)))
+        sheets.append([*frame(), *view, *words, *title_block(entries.cells())])
+    return sheets
+
+
+def _kinds(plate: CarrierPlate) -> tuple[tuple[str, float, Sequence[Point]], ...]:
+    """Holes of one plate: what each is, its diameter [m], and the places [m]."""
+    windows = plate.across * directions(plate.arms)
+    kinds = (
+        (plate.foot_thread, screw(plate.foot_thread).tapping_drill, plate.feet),
+        (f"Ø{plain(plate.screw.clearance_hole)}", plate.screw.clearance_hole, plate.trunk),
+        (
+            f"Ø{plain(2.0 * plate.window)}",
+            2.0 * plate.window,
+            [(float(x), float(y)) for x, y in windows],
+        ),
+    )
+    return tuple(kind for kind in kinds if kind[1] > 0.0 and kind[2])
+
+
+def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
+    """The plate from above with its sizes, its edge below it, and the table of holes."""
+    corners = flat_outline(plate.shape.outline())
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    left, top, right, bottom = _VIEW
+    thick = plate.thickness
+
+    def fits(scale: Scale) -> bool:
+        """Whether both views have room at that scale."""
+        wide, tall = scale(float(high[1] - low[1])), scale(float(high[0] - low[0]))
+        return wide <= right - left and tall + scale(thick) + 20.0 <= bottom - top
+
+    scale = largest_scale(fits)
+    offset = scale(float(low[1] + high[1])) / 2.0
+    middle = (left + right) / 2.0 + offset, top + 8.0 + scale(float(high[0]))
+
+    def place(x: float, y: float) -> Point:
+        """Point of the plate on the sheet: forward is up, the left on the left."""
+        return middle[0] - scale(y), middle[1] - scale(x)
+
+    ring = [place(float(x), float(y)) for x, y in corners]
+    items: list[Item] = [Polyline((*ring, ring[0]), OUTLINE)]
+    for name, (_, size, places) in zip("ABC", _kinds(plate), strict=False):
+        for number, (x, y) in enumerate(places, start=1):
+            at, radius = place(x, y), scale(size) / 2.0
+            items += [Circle(at, radius), *_cross(at, radius + 2.0)]
+            # The name of a window stands in it, that of a hole beside it.
+            aside = 1.0 if radius > 5.0 else radius + 0.8
+            items.append(Text((at[0] + aside, at[1] - aside), f"{name}{number}", 1.8))
+    edge_left, edge_right = (place(0.0, float(each))[0] for each in (high[1], low[1]))
+    upper, lower = place(float(high[0]), 0.0)[1], place(float(low[0]), 0.0)[1]
+    items += [
+        Line((edge_left - 3.0, middle[1]), (edge_right + 3.0, middle[1]), CENTRE),
+        Line((middle[0], upper - 3.0), (middle[0], lower + 3.0), CENTRE),
+        arrow((middle[0], upper - 3.0), (0.0, -1.0)),
+        Text((middle[0] + 2.0, upper - 2.0), "x, forward", 1.8),
+        arrow((edge_left - 3.0, middle[1]), (-1.0, 0.0)),
+        Text((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
+        *_tall(plain(float(high[0] - low[0])), edge_right, (upper, lower)),
+    ]
+    # Its edge from the front, below it in first-angle projection.
+    above = lower + 14.0
+    below = above + scale(thick)
+    items += outline(rectangle(edge_left, above, edge_right, below))
+    items += _tall(plain(thick), edge_right, (above, below))
+    y = below + 7.0
+    items += [extension(x, below, y) for x in (edge_left, edge_right)]
+    items += _wide(plain(float(high[1] - low[1])), edge_left, edge_right, y)
+    return scale, [*items, *_hole_table(plate)]
+
+
+def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
+    """Places of the holes from the middle."""
+    x, y = RIGHT - _TABLE, TOP + 8.0
+    columns = (x, x + 11.0, x + 27.0, x + 45.0)
+    rows = [("Hole", "Size", "x", "y")]
+    for name, (what, _, places) in zip("ABC", _kinds(plate), strict=False):
+        rows += [
+            (f"{name}{number}", what, f"{1e3 * at[0]:.2f}", f"{1e3 * at[1]:.2f}")
+            for number, at in enumerate(places, start=1)
+        ]
+    for row in rows:
+        for column, cell in zip(columns, row, strict=True):
+            yield Text((column, y), cell)
+        y += _ROW
+        yield Line((x, y - 3.6), (RIGHT - 4.0, y - 3.6), THIN)
+
+
+def _plate_notes(plate: CarrierPlate) -> Iterator[str]:
+    names = dict(zip((kind[0] for kind in _kinds(plate)), "ABC", strict=False))
+    yield (
+        f"Holes {names[plate.foot_thread]} are threads {plate.foot_thread} right through, for the "
+        "feet's screws; places of holes ±0.1 from the axes, x forward and y to the left."
+    )
+    ends = f"Ends R~{plain(plate.radius)} around their windows' middles"
+    if plate.window == 0.0:
+        ends = f"Ends R~{plain(plate.radius)}, {plain(plate.across)} from the middle of the plate"
+    arms = "neck" if plate.arms == 2 else f"{plate.arms} arms, evenly around,"
+    shape = plate.shape
+    yield (
+        f"{ends}; {arms} {plain(2.0 * plate.neck)} wide, R~{plain(shape.fillet)} where they meet."
+        if plate.neck < plate.radius
+        else f"{ends}, sides straight between them."
+    )
+    yield "All edges broken 0.2. Milled, or cut by water jet and drilled: flat within 0.2."
+    if plate.mast is None and any(plate.sleeves):
+        lengths = ", ".join(dict.fromkeys(plain(each) for each in plate.sleeves if each > 0.0))
+        yield (
+            f"Sleeves Ø{plain(2.0 * plate.sleeve_radius)} × {plain(plate.sleeve_wall)} of the same "
+            f"material go under it, {lengths} long: which where is in cad/assembly.pdf."
+        )
+
+
+def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
+    """The mast from the left, forward to the left as first angle has it, and from behind."""
+    half, end = mast.side / 2.0, -plate.neck
+    long, high = mast.face + mast.spacer - end, mast.high - mast.low
+    left, top, right, bottom = _MAST_VIEW
+
+    def fits(scale: Scale) -> bool:
+        """Whether both views have room at that scale."""
+        wide = scale(long) + _BETWEEN + scale(mast.side)
+        return wide <= right - left and scale(high) + 12.0 <= bottom - top
+
+    scale = largest_scale(fits)
+    start = left + scale(mast.face + mast.spacer)
+    upper = top + 4.0
+
+    def side(x: float, z: float) -> Point:
+        """Point of the view from the left: forward is on the left."""
+        return start - scale(x), upper + scale(mast.high - z)
+
+    behind = left + scale(long) + _BETWEEN + scale(half)
+
+    def back(y: float, z: float) -> Point:
+        """Point of the view from behind: the left is on the left."""
+        return behind - scale(y), upper + scale(mast.high - z)
+
+    items = _box(side(mast.face, mast.high), side(mast.back, mast.low))
+    items += _box(back(half, mast.high), back(-half, mast.low))
+    for level in plate.heights:
+        items += _box(side(mast.back, level), side(end, level - mast.side))
+        items += _box(back(half, level), back(-half, level - mast.side))
+    if mast.spacer > 0.0:
+        low, up = plate.block
+        items += _box(side(mast.face + mast.spacer, up), side(mast.face, low))
+    radius = scale(plate.screw.clearance_hole) / 2.0
+    for y, z in plate.trunk:
+        items += [Circle(back(y, z), radius), *_cross(back(y, z), radius + 2.0)]
+    for z in sorted({z for _, z in plate.trunk}):
+        (near, along), (far, _) = side(mast.face + mast.spacer, z), side(mast.back, z)
+        items.append(Line((near - 3.0, along), (far + 3.0, along), CENTRE))
+    # Heights of ends and holes from the plates' underside, level with the lowest.
+    beside = back(-half, 0.0)[0]
+    marks = {mast.high, mast.low, *plate.heights, *(z for _, z in plate.trunk)}
+    shown: list[float] = []
+    for z in sorted(marks, reverse=True):
+        at = back(0.0, z)[1]
+        row = max(at, shown[-1] + 4.0) if shown else at
+        shown.append(row)
+        items += [
+            Line((beside + 1.0, at), (beside + 8.0, at)),
+            Line((beside + 8.0, at), (beside + 11.0, row)),
+            Text((beside + 12.0, row + 1.0), f"z = {1e3 * z:.2f}", 2.5),
+        ]
+    y = back(0.0, mast.low)[1] + 8.0
+    front, rear = side(mast.face, mast.low)[0], side(end, 0.0)[0]
+    items += [extension(front, back(0.0, mast.low)[1], y)]
+    items += [extension(rear, side(0.0, min(plate.heights) - mast.side)[1], y)]
+    items += _wide(plain(mast.face - end), front, rear, y)
+    across = sorted({round(y, 9) for y, _ in plate.trunk})
+    items += [extension(back(each, 0.0)[0], back(0.0, mast.low)[1], y) for each in across]
+    ends = back(across[-1], 0.0)[0], back(across[0], 0.0)[0]
+    items += level_dimension(
+        plain(across[-1] - across[0]), left=ends[0], right=ends[1], y=y, text_x=ends[1] + 8.0
+    )
+    items.append(Text(((front + rear) / 2.0, upper - 4.0), "from the left", 2.5, Anchor.MIDDLE))
+    items.append(Text((behind, upper - 4.0), "from behind", 2.5, Anchor.MIDDLE))
+    return scale, items
+
+
+def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
+    arms = "one arm" if len(plate.heights) == 1 else f"{len(plate.heights)} arms"
+    yield (
+        f"An upright of {plain(mast.high - mast.low)} and {arms} of "
+        f"{plain(mast.back + plate.neck)}, welded all around with filler 5356 (EN~ISO~18273). "
+        "Heights z are from the underside of the lowest plate."
+    )
+    yield (
+        "A plate lies on each arm, the rear side of its neck flush with the arm's end, its middle "
+        "above the arm's, and is welded on along both sides."
+    )
+    yield (
+        f"Holes Ø{plain(plate.screw.clearance_hole)} through both walls of the upright, ±0.1; in "
+        f"each, between the walls, a sleeve Ø{plain(2.0 * plate.sleeve_radius)} × "
+        f"{plain(plate.sleeve_wall)}, {plain(mast.bore)} long."
+    )
+    if mast.spacer > 0.0:
+        low, high = plate.block
+        yield (
+            f"A block of {plain(mast.spacer)} × {plain(mast.side)} × {plain(high - low)} is welded "
+            "before the upright, around the holes, and drilled with it."
+        )
+    yield (
+        "Square within 0.5 over the arm's length; edges broken 0.2. Its strength is counted as "
+        "that beside a weld (EN~1999-1-1)."
+    )
+
+
+def _box(corner: Point, other: Point) -> list[Item]:
+    (x0, y0), (x1, y1) = corner, other
+    return outline(rectangle(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)))
+
+
+def _cross(at: Point, half: float) -> Iterator[Item]:
+    (x, y) = at
+    yield Line((x - half, y), (x + half, y), CENTRE)
+    yield Line((x, y - half), (x, y + half), CENTRE)
+
+
+def _tall(label: str, edge: float, ends: tuple[float, float]) -> Iterator[Item]:
+    """A height at the right of an outline: upper and lower end [mm]."""
+    upper, lower = ends
+    x = edge + 9.0
+    yield from (Line((edge + 0.75, y), (x + 1.5, y)) for y in ends)
+    if fits_inside(label, lower - upper):
+        middle, half = (upper + lower) / 2.0, (lower - upper) / 2.0
+        yield from upright_dimension(label, x=x, middle=middle, half=half, outline_x=x)
+        return
+    yield from (
+        Line((x, upper - 2.0 * ARROW), (x, lower + 2.0 * ARROW)),
+        arrow((x, upper), (0.0, 1.0)),
+        arrow((x, lower), (0.0, -1.0)),
+        Text((x + 1.5, upper - ARROW), label),
+    )
+
+
+def _wide(label: str, left: float, right: float, y: float) -> Iterator[Item]:
+    """A width below an outline, its text above the middle of the line."""
+    yield Line((left, y), (right, y))
+    yield arrow((left, y), (-1.0, 0.0))
+    yield arrow((right, y), (1.0, 0.0))
+    yield Text(((left + right) / 2.0, y - 0.9), label, anchor=Anchor.MIDDLE)

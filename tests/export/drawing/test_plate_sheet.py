@@ -1,0 +1,104 @@
+"""The drawing of the plate under the feet: its holes, sizes and mast, from the sheet alone."""
+
+import re
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+from built import DEVICES
+
+from ocs_design.export.drawing.plate_sheet import plate_sheets
+from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Polyline, Text
+from ocs_design.export.meshes import part_manifold
+from ocs_design.parts.carrier_plate import Mast, plate_part
+
+PLATE = DEVICES["on a plate"].plate
+MAST = Mast(side=0.04, wall=0.003, face=0.14, below=0.0988, high=0.04, overhang=0.09, spacer=0.01)
+ON_A_MAST = replace(
+    PLATE,
+    thread="M6",
+    trunk=tuple((y, z) for z in (-0.0689, -0.0889) for y in (0.0115, -0.0115)),
+    sleeves=(0.0,) * 4,
+    rows=(0.0, 0.0),
+    levels=(0.0, 0.09),
+    feet=PLATE.feet * 2,
+    mast=replace(MAST, high=0.09),
+)
+PLATES = {"on the trunk": PLATE, "on a mast": ON_A_MAST}
+
+
+@pytest.fixture(params=PLATES, ids=str)
+def plate(request):
+    return PLATES[request.param]
+
+
+def sheets_of(plate):
+    return plate_sheets(replace(DEVICES["on a plate"], plate=plate), "dog", "0123456789ab", "tool")
+
+
+def texts(page):
+    return [item for item in page if isinstance(item, Text) and item.text]
+
+
+def test_all_words_are_within_the_frame_and_none_on_another(plate):
+    left, top, right, bottom = FRAME_BOX
+    pages = sheets_of(plate)
+    assert len(pages) == (1 if plate.mast is None else 2)
+    for page in pages:
+        boxes = [item.box for item in texts(page)]
+        for x1, y1, x2, y2 in boxes:
+            assert left <= x1 < x2 <= right
+            assert top <= y1 < y2 <= bottom
+        for a, b in combinations(boxes, 2):
+            assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] + 0.3 or b[3] <= a[1] + 0.3, (a, b)
+
+
+def test_the_table_has_every_hole_of_one_plate_where_it_is(plate):
+    """Read as a machinist does: a row is what stands at one height."""
+    rows = {}
+    for item in texts(sheets_of(plate)[0]):
+        rows.setdefault(round(item.place[1], 3), []).append((item.place[0], item.text))
+    cells = [[text for _, text in sorted(row)] for row in rows.values()]
+    holes = [row for row in cells if re.fullmatch(r"[ABC]\d", row[0]) and len(row) == 4]
+    found = {(row[1], float(row[2]), float(row[3])) for row in holes}
+    own = plate.each[0]
+    wanted = {("M3", *np.round(1e3 * np.array(at), 2)) for at in own.feet}
+    if plate.mast is None:
+        wanted |= {("Ø3.4", *np.round(1e3 * np.array(at), 2)) for at in own.trunk}
+    for y in (own.across, -own.across) if own.window > 0.0 else ():
+        wanted.add((f"Ø{2e3 * own.window:.4g}", 0.0, round(1e3 * y, 2)))
+    assert found == wanted
+
+
+def test_the_outline_drawn_is_that_of_the_plate(plate):
+    """Its area at the sheet's scale, less that of the holes, is the volume over the thickness."""
+    page = sheets_of(plate)[0]
+    scale = next(item.text for item in texts(page) if re.fullmatch(r"\d+:\d+", item.text))
+    paper, part = map(int, scale.split(":"))
+    (ring,) = (item for item in page if isinstance(item, Polyline) and item.pen is OUTLINE)
+    x, y = np.array(ring.points).T
+    area = abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / 2.0
+    cut = sum(
+        np.pi * item.radius**2
+        for item in page
+        if isinstance(item, Circle) and item.center[1] < 140.0
+    )
+    own = plate.each[0]
+    volume = part_manifold(plate_part(own)).volume()
+    assert (area - cut) * (part / paper) ** 2 == pytest.approx(
+        1e6 * volume / own.thickness, rel=1e-3
+    )
+
+
+def test_a_mast_has_the_lengths_that_it_is_cut_to():
+    said = " ".join(item.text for item in texts(sheets_of(ON_A_MAST)[1]))
+    mast = ON_A_MAST.mast
+    assert f"An upright of {1e3 * (mast.high + mast.below):.4g} and 2 arms" in said
+    assert f"arms of {1e3 * (mast.face - mast.side + ON_A_MAST.neck):.5g}" in said
+    for z in (mast.high, -mast.below, -0.0689, -0.0889, 0.0):
+        assert f"z = {1e3 * z:.2f}" in said
+
+
+def test_without_a_plate_there_is_no_sheet():
+    assert plate_sheets(DEVICES["caged"], "dog", "0123456789ab", "tool") == []
