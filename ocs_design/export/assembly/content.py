@@ -398,8 +398,27 @@ class Assembly:
         )
         return (
             f"{joint}: {held.count} x {held.designation}"
-            f"{self._number(name)}, {found.torque:.2g} N m, crosswise in two rounds{lock}."
+            f"{self._number(name)}, {found.torque:.2g} N m, crosswise in two rounds{lock}"
+            f"{self._where(name)}."
         )
+
+    def _where(self, name: str) -> str:
+        """Where the trunk's screws of this length go, where there are several lengths [mm]."""
+        plate = self.device.plate
+        if (
+            plate is None
+            or len(plate.fastenings) == 1
+            or name not in {held.purpose for held in plate.fastenings}
+        ):
+            return ""
+        x, y = plate.position[:2] if plate.mast is None else plate.position[1:]
+        length = self.screws[name].fastening.length
+        places = _places(
+            (x + at[0], y + at[1])
+            for at, own in zip(plate.trunk, plate.screw_lengths, strict=True)
+            if own == length
+        )
+        return f"; those at {', '.join(places)}"
 
     def _on_the_trunk(self) -> Iterator[str]:
         foot = printed_foot(self.device)
@@ -481,7 +500,7 @@ class Assembly:
             ]
             if sleeves:
                 yield f"Under its holes stand sleeves{self._number('sleeves')}: " + (
-                    ", ".join(sleeves) + "."
+                    ", ".join(sleeves) + ". File them to the trunk where it slopes under them."
                 )
             yield from (
                 self._screwed(each)
