@@ -13,6 +13,7 @@ from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.booklet import assembly_pages
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.placed import bonding_pieces, placed_parts
+from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.drawing.sheet import Text
 from ocs_design.parts.bell import FIXTURE_FIT, FIXTURE_FLOOR, GLUE_GAP
@@ -216,7 +217,7 @@ def test_the_booklet_has_the_fixture_in_table_picture_and_steps():
     assembly = Assembly("solo12", made()[1].device)
     row = next(row for row in assembly.piece_rows() if row.file == "ring_fixture.stl")
     assert row.number == len(assembly.numbers)
-    steps = next(each for each in assembly.chapters() if each.title.startswith("Steps")).texts
+    steps = next(each for each in chapters(assembly) if each.title.startswith("Steps")).texts
     assert any(f"Print the fixture ({row.number})" in text for text in steps)
     page = assembly_pages(assembly)[1]
     texts = [item.text for item in page if isinstance(item, Text)]

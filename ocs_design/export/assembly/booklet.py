@@ -6,7 +6,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from ocs_design import __version__
-from ocs_design.export.assembly.content import Assembly, Chapter, assembly_of
+from ocs_design.export.assembly.content import Assembly, assembly_of
+from ocs_design.export.assembly.steps import Chapter, chapters
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
 from ocs_design.export.drawing.sheet import (
     FRAME_BOX,
@@ -66,8 +67,8 @@ def assembly_pdf(assembly: Assembly) -> bytes:
 
 def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     """Sheets of the booklet."""
-    chapters = assembly.chapters()
-    bodies = [_first_page(assembly), *_text_pages(assembly, chapters)]
+    texts = chapters(assembly)
+    bodies = [_first_page(assembly), *_text_pages(assembly, texts)]
     identity = f"design {device_hash(assembly.device)} · ocs-design {__version__}"
     return [
         [*frame(), *_heading(assembly.robot, identity, number, len(bodies)), *body]
@@ -144,7 +145,7 @@ def _first_page(assembly: Assembly) -> list[Item]:
     return items
 
 
-def _text_pages(assembly: Assembly, chapters: Sequence[Chapter]) -> list[list[Item]]:
+def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]]:
     """Text in columns: beside the section, then below the table of screws, then alone."""
     items: list[Item] = []
     for drawn, scale, what, box in _sections(assembly):
@@ -155,7 +156,7 @@ def _text_pages(assembly: Assembly, chapters: Sequence[Chapter]) -> list[list[It
     columns += [(1, each) for each in _halves(bottom + 6.0)]
     here = columns.pop(0)
     y = here[1][1]
-    blocks = list(_blocks(chapters))
+    blocks = list(_blocks(texts))
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         width = here[1][2] - here[1][0]
         lines = block.lines(width)
@@ -208,8 +209,8 @@ class _Block:
         return wrapped(self.text, width - (_NUMBER if self.number else 0.0), _TEXT)
 
 
-def _blocks(chapters: Sequence[Chapter]) -> Iterator[_Block]:
-    for chapter in chapters:
+def _blocks(texts: Sequence[Chapter]) -> Iterator[_Block]:
+    for chapter in texts:
         yield _Block(chapter.title, heading=True)
         for number, text in enumerate(chapter.texts, start=1):
             yield _Block(text, str(number) if chapter.numbered else "–")

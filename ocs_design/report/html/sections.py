@@ -10,7 +10,8 @@ from ocs_design.catalogue.gears import known_gears
 from ocs_design.catalogue.materials import materials
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.assembly.booklet import exploded_svg, section_svgs
-from ocs_design.export.assembly.content import Assembly, Chapter
+from ocs_design.export.assembly.content import Assembly
+from ocs_design.export.assembly.steps import Chapter, chapters
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
     bore_diameter,
@@ -291,7 +292,7 @@ def assembly_section(story: Story) -> Markup:
         ),
         joined(element("figure", Markup(each), class_="sheet") for each in section_svgs(assembly)),
         table("Screws", Table(columns(*_SCREWS), screws)) if screws else "",
-        joined(_chapter(chapter) for chapter in assembly.chapters()),
+        joined(_chapter(chapter) for chapter in chapters(assembly)),
         element("p", "The same stands on paper in ", element("code", "cad/assembly.pdf"), "."),
     )
 

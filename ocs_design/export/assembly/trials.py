@@ -1,0 +1,189 @@
+"""Balance, spin test and safety of a module, sentence by sentence."""
+
+import math
+from collections.abc import Iterator
+
+from ocs_design.common.units import rpm, significant
+from ocs_design.device.joints import DAMPING, balance_of, resonances_of
+from ocs_design.export.assembly.content import Assembly
+from ocs_design.export.electrics import demand_of
+from ocs_design.parts.rim import stored_energy
+
+SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
+"""Shares of the top speed at which a wheel is watched for a minute each."""
+
+OVERSPEED = 1.1
+"""Speed of the spin test over the top speed, once, before the wheel goes on a robot."""
+
+LEAST_DRILL = 0.8e-3
+"""Diameter below which steel is ground and not drilled [m]."""
+
+_SOFT = 68.0
+"""Heat deflection temperature of PETG at 0.45 MPa [deg C]: Prusament PETG, technical data sheet."""
+
+
+def balance(assembly: Assembly) -> Iterator[str]:
+    """How a wheel is balanced, and what is left shakes."""
+    wheel, speed = assembly.device.flywheel, assembly.top_speed
+    if speed is None:
+        return
+    balance = balance_of(assembly.device)
+    yield (
+        f"Grade G {balance.grade:g} (ISO 21940-11) at {rpm(speed)}: at most "
+        f"{_two(1e6 * balance.unbalance)} g mm are left in one plane, the wheel's own; its "
+        f"centre of mass is then {_two(1e6 * balance.eccentricity)} µm off the axis."
+    )
+    if balance.off_centre is not None:
+        found = balance.off_centre * wheel.mass
+        yield (
+            f"As made it may be {1e6 * balance.off_centre:.0f} µm off, {_two(1e6 * found)} g "
+            f"mm (turning, and {balance.centred_by}). So balance it on its motor, and mark "
+            "both: taken apart, they go together again the same way."
+        )
+    holes, cuts = balance.correction, wheel.cuts
+    if cuts.holes:
+        yield (
+            f"Remove mass by deepening the {cuts.holes} balancing holes in a face, a little at "
+            "a time, on the heavy side; never to the middle of the rim."
+        )
+    elif holes.hole_radius >= LEAST_DRILL / 2.0:
+        yield (
+            "Remove mass on the heavy side with a drill of "
+            f"{2e3 * holes.hole_radius:.2g} mm, at most {1e3 * holes.depth:.2g} mm deep, in "
+            "both faces of the rim, one hole opposite the other, "
+            f"{1e3 * holes.radius:.1f} mm from the axis and {1e3 * holes.apart:.2g} mm from "
+            f"the next: so deep a pair takes {_two(1e3 * holes.mass)} g, which are "
+            f"{_two(1e6 * holes.mass * holes.radius)} g mm; half as deep, half of it. One "
+            f"half of the rim has room for {holes.count} pairs, {_two(1e6 * holes.most)} g mm: "
+            "a wheel that is off by more is made anew."
+            f"{'' if wheel.web is None else ' Nothing is taken off web and hub.'}"
+        )
+    else:
+        yield (
+            "The rim's wall is too thin to drill by hand: grind the heavy side of its face, "
+            "evenly over 60 degrees."
+        )
+    for mode in resonances_of(assembly.device):
+        yield (
+            f"The {mode.name}'s first mode: {mode.frequency:.0f} Hz, "
+            f"{60.0 * mode.frequency:,.0f} rpm. What is left pushes with {_two(mode.force)} N; "
+            "a wheel that stays there shakes the module by "
+            f"{_two(1e6 * mode.amplitude)} µm, with {_two(mode.acceleration / 9.81)} times its "
+            f"weight ({DAMPING:.0%} damping, assumed)."
+        )
+    yield (
+        "By hand: shaft level on two blades, heavy side down; or with an accelerometer on the "
+        "foot, a trial mass of wax in three places, and the circle through the three readings."
+    )
+
+
+def spin_test(assembly: Assembly) -> Iterator[str]:
+    """How a module is run up behind a wall before it goes on the robot."""
+    speed, burst = assembly.top_speed, assembly.burst
+    if speed is None or burst is None:
+        return
+    wheel, steel = assembly.device.flywheel, burst.steel.wall
+    yield (
+        "Clamp the module by its foot on a bench inside a closed steel box or behind steel of "
+        f"at least {max(2.0, math.ceil(2e3 * steel)):.0f} mm (twice the wall that holds it, "
+        "see Safety) on all sides of the wheel's plane. Nobody stands in that plane. Drive it "
+        "from behind the wall; a switch there cuts the supply."
+    )
+    steps = ", ".join(f"{share:.0%} ({rpm(share * speed)})" for share in SPIN_STEPS)
+    # Nothing but its own foot is under it on the bench.
+    foot = [mode for mode in resonances_of(assembly.device) if mode.name == "foot"]
+    past = "".join(
+        f" Pass quickly through {60.0 * mode.frequency:,.0f} rpm, where the foot shakes."
+        for mode in foot
+    )
+    yield f"One minute each at {steps}; stop, and feel the motor and look at all screws.{past}"
+    motor = assembly.device.motor
+    allowed = math.inf if motor.speed_max is None else motor.speed_max
+    share = min(OVERSPEED, allowed / speed)
+    over = rpm(share * speed)
+    if share < OVERSPEED:
+        over += ", the most that motor and wheel are allowed"
+    supply = (
+        ""
+        if motor.bus_voltage is None or share <= 1.0
+        else f", which takes {share * motor.bus_voltage:.3g} V"
+    )
+    margin = wheel.stress_margin
+    stress = (
+        ""
+        if margin is None
+        else f" The yield strength is then {margin / share**2:.1f} times the hoop stress."
+    )
+    yield f"Once, for ten seconds, {share:.0%}: {over}{supply}.{stress}"
+    yield (
+        "It fails if anything hums that did not before, if the vibration rises between two "
+        "steps other than with the square of the speed, if the run-out has changed, if a screw "
+        f"has moved, or if the print at the motor is warmer than {_SOFT - 8:.0f} °C (PETG "
+        f"gives way at {_SOFT:.0f} °C). Then balance again, or build again."
+    )
+    yield (
+        "Brake from full speed with the battery that will be used, and watch the bus voltage: "
+        "it must stay below what controllers and battery stand."
+    )
+
+
+def safety(assembly: Assembly) -> Iterator[str]:
+    """What a wheel stores, what holds it when it bursts, and what nobody does near it."""
+    speed, burst = assembly.top_speed, assembly.burst
+    if speed is None or burst is None:
+        return
+    count = len(assembly.device.modules)
+    energy = stored_energy(assembly.device.flywheel.spin_inertia, speed)
+    both = demand_of(assembly.margins, "stored energy")
+    flown = ""
+    if both is not None:
+        flown = f"; the planned maneuvers reach {significant(both, 3)} J in all wheels"
+    yield (
+        f"Each wheel stores {significant(energy, 3)} J at {rpm(speed)}, {count} of them "
+        f"{significant(count * energy, 3)} J{flown}. That is "
+        f"{_two(count * energy / 9.81)} kg dropped from 1 m."
+    )
+    part = burst.fragment
+    yield (
+        f"If a wheel bursts at that speed, a third of it ({1e3 * part.mass:.0f} g) flies off "
+        f"at {part.speed:.0f} m/s with {_two(part.energy)} J."
+    )
+    steel, aluminium = burst.steel, burst.aluminium
+    rule = "BRL formula, 1.25 times the thickness that is just perforated"
+    built = assembly.device.guard_wall
+    if built >= steel.wall:
+        yield (
+            f"The guard ring of {1e3 * built:.1f} mm holds that piece by the {rule}, which "
+            f"asks for {1e3 * steel.wall:.2g} mm. That formula rests on tests of large plates; "
+            "no ring of this kind has been tested: stay out of the wheel's plane all the same."
+        )
+    elif "drum" in assembly.numbers:
+        short = f" and its ring of {1e3 * built:.1f} mm" if built else ""
+        yield (
+            f"The printed guard{short} keeps fingers out. It does not hold a burst rim: that "
+            f"would need a ring of {1e3 * steel.wall:.2g} mm of mild steel in the drum, "
+            f"{1e3 * steel.mass:.0f} g each ({2e3 * steel.inner_radius:.1f} mm inside, "
+            f"{1e3 * steel.height:.1f} mm wide; {rule}), or by an estimate without tests "
+            f"behind it {1e3 * aluminium.wall:.2g} mm of 6061-T6, "
+            f"{1e3 * aluminium.mass:.0f} g each. `size --guard containing` builds the one of "
+            "steel in."
+        )
+    if "cage" in assembly.numbers:
+        yield (
+            "Between the posts of the cage the motor's bell turns with the wheel and can be "
+            "touched: keep hands away while the supply is on, and cables tied to the cage."
+        )
+    yield (
+        "Whenever the supply is on: nobody in the plane of a wheel, eye protection for "
+        "everybody in the room, no loose sleeves or cables, the lid on. Wheels coast on "
+        "after the supply is cut; wait until they stand."
+    )
+    yield (
+        "After a crash, a fall on a wheel, or a touch of rim and housing: run-out, balance and "
+        "spin test again before the next flight."
+    )
+
+
+def _two(value: float) -> str:
+    """Two digits: most of these figures are estimates."""
+    return significant(value, 2)
