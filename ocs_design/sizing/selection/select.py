@@ -163,7 +163,7 @@ def at_own_incidence(
 ) -> tuple[float, Candidate | None]:
     """The incidence [rad] that the criterion sets for the device of these parts, and that device.
 
-    It keeps its radius, which hardly depends on the incidence. Where these parts make no device on
+    It keeps its radius, which hardly depends on the incidence, as far as it can there. Where these parts make no device on
     the way there, the first incidence at which they do not, and None.
     """
     found, angle, last = winner, winner.incidence, None
@@ -176,7 +176,8 @@ def at_own_incidence(
         last = angle, change
         # The device's inertia hardly changes with the incidence: the slope is about -1.
         angle -= change / (slope if -2.0 < slope < -0.5 else -1.0)
-        turned = device_at(problem, found, min(max(angle, 0.0), pi / 2.0))
+        # From its own radius each time: one that is lost beyond that incidence would stay lost.
+        turned = device_at(problem, winner, min(max(angle, 0.0), pi / 2.0))
         if turned is None:
             # Not of these parts, then: whether of others, the whole selection tells.
             return angle, None

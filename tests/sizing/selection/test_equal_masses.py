@@ -4,13 +4,17 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from commands import SOLO12
 from selections import ALUMINIUM, random_problem
 
-from ocs_design.catalogue.materials import Material
+from ocs_design.catalogue.materials import Material, material
 from ocs_design.device.layout import Criterion
+from ocs_design.requirement.specification import MotorSection, RobotSection, Specification
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.selection.result import SAME_MASS, devices_by_mass, lightest_first
 from ocs_design.sizing.selection.search import search_lightest
 from ocs_design.sizing.selection.select import select, select_by
+from ocs_design.workflows.pareto import read_task
 
 STRONG = Material("strong", 7833.0, 621e6, 827e6, 0.32, "for tests")
 WEAK = Material("weak", 7833.0, 552e6, 621e6, 0.32, "for tests")
@@ -50,6 +54,22 @@ def test_it_leads_at_the_incidence_of_a_criterion(steels):
 def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
     found = search_lightest(problem_of(steels, incidence=0.6))
     assert steels[found.places[0].parts[2]].name == "strong"
+
+
+@pytest.mark.parametrize("heavier", [-ROUNDING, ROUNDING])
+def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins(heavier):
+    """Solo12's device can only just carry itself: a step too far takes a smaller radius."""
+    specification = Specification(
+        robot=RobotSection(file=str(SOLO12)), motor=MotorSection(name="Antigravity MN5006 KV450")
+    )
+    task = read_task(specification)
+    solo = design_device(specification, task.robot, task.resolved, ranked=False)
+    strong, weak = material("steel-4140-normalized"), material("steel-1045-cold-worked")
+    steels = replace(weak, density=weak.density * (1.0 + heavier)), strong
+    problem = replace(solo.choice.problem, materials=steels, incidence=None)
+    best, second, *_ = select_by(problem, Criterion.EQUAL_RATE).ranking
+    assert (best.material.name, second.material.name) == (strong.name, weak.name)
+    assert second.mass == pytest.approx(best.mass, rel=10.0 * ROUNDING)
 
 
 def test_a_device_that_is_lighter_leads_whatever_its_strength(steels):
