@@ -163,8 +163,8 @@ def at_own_incidence(
 ) -> tuple[float, Candidate | None]:
     """The incidence [rad] that the criterion sets for the device of these parts, and that device.
 
-    It keeps its radius, which hardly depends on the incidence, as far as it can there. Where these parts make no device on
-    the way there, the first incidence at which they do not, and None.
+    It keeps its radius, which hardly depends on the incidence, as far as it can there. Where these
+    parts make no device on the way there, the first incidence at which they do not, and None.
     """
     found, angle, last = winner, winner.incidence, None
     for _ in range(_ITERATIONS_MAX):
