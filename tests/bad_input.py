@@ -258,7 +258,7 @@ CASES = {
         {},
         f"{QUAD} --motor none --bus-voltage 24V --gear direct --co-design",
         SPECIFICATION,
-        "motor.gear: says nothing|supply.voltage: says nothing|ocs.co_design: needs a motor",
+        "motor.gear: has no effect|supply.voltage: has no effect|ocs.co_design: needs a motor",
     ),
     "a motor whose figures are missing": (
         {

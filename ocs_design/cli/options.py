@@ -358,7 +358,7 @@ def specified_by_command(context: typer.Context) -> "Specification":
     """The file given with `--spec`, and over it every option of the command that is a key.
 
     Raises:
-        OcsError: the file or an option cannot be read, or an option says nothing as it stands.
+        OcsError: the file or an option cannot be read, or an option has no effect as it stands.
     """
     # Not for `--help`: reading specifications needs NumPy.
     from ocs_design.common.errors import UsageError
@@ -380,7 +380,7 @@ def specified_by_command(context: typer.Context) -> "Specification":
         )
     if typed.requirement.detection is not None and merged.requirement.notices is None:
         raise UsageError(
-            "--detection says nothing without --survives",
+            "--detection has no effect without --survives",
             hint="add --survives one, or leave --detection out",
         )
     return merged

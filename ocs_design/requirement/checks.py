@@ -87,7 +87,7 @@ def contradictions(specification: Specification) -> Iterator[str]:
     if flywheel.web == NO_WEB:
         for key in OF_WEBS:
             if getattr(flywheel, key) is not None:
-                yield f"flywheel.{key}: says nothing where flywheel.web is {NO_WEB!r}"
+                yield f"flywheel.{key}: has no effect where flywheel.web is {NO_WEB!r}"
 
     if specification.maneuvers and specification.requirement.maneuvers is not None:
         yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
@@ -189,7 +189,7 @@ def _of_a_pair(specification: Specification) -> Iterator[str]:
         return
     pairs = layout in MORE_PAIRS
     if stated.alpha is not None and not pairs and layout != PYRAMID:
-        yield f"ocs.alpha: says nothing where ocs.layout is {layout!r}"
+        yield f"ocs.alpha: has no effect where ocs.layout is {layout!r}"
     if stated.alpha_criterion and not pairs:
         yield f"ocs.alpha_criterion: of pairs only, and ocs.layout is {layout!r}"
     if stated.co_design:
@@ -236,10 +236,10 @@ def without_motor(specification: Specification) -> Iterator[str]:
     for table, keys in of_motors.items():
         for key in keys:
             if getattr(getattr(specification, table), key) is not None:
-                yield f"{table}.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+                yield f"{table}.{key}: has no effect where motor.name is {NO_MOTOR!r}"
     for key, stated in vars(specification.supply).items():
         if stated is not None:
-            yield f"supply.{key}: says nothing where motor.name is {NO_MOTOR!r}"
+            yield f"supply.{key}: has no effect where motor.name is {NO_MOTOR!r}"
     if specification.ocs.alpha_criterion == LIGHTEST:
         yield f"ocs.alpha_criterion: {LIGHTEST!r} needs a motor: motor.name is {NO_MOTOR!r}"
     if specification.ocs.lighter_by is not None:

@@ -208,7 +208,7 @@ def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
         (Specification(motor=MotorSection(gear="no gear")), ("motor.gear", "no gear")),
         (
             Specification(motor=MotorSection(name="none"), supply=SupplySection(voltage=24.0)),
-            ("supply.voltage", "says nothing"),
+            ("supply.voltage", "has no effect"),
         ),
         (
             Specification(

@@ -76,7 +76,7 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
         raise UsageError(f"there is no catalogue of {what}", hint=f"try: {known}")
     for kind, file in files.items():
         if file is not None and kind != what:
-            raise UsageError(f"--{kind} says nothing of {what}", hint=f"try: catalogue {kind}")
+            raise UsageError(f"--{kind} has no effect on {what}", hint=f"try: catalogue {kind}")
     given = files.get(what)
     path = None if given is None else Path(given)
     if what == "motors":

@@ -66,11 +66,11 @@ def test_holes_without_room_are_refused(text, words):
     ("text", "words"),
     [
         ("balancing_holes = 2", "2 is not 3 to 100, or 0"),
-        ('web = "none"\nchamfer = "0.1 mm"', "says nothing where flywheel.web is 'none'"),
+        ('web = "none"\nchamfer = "0.1 mm"', "has no effect where flywheel.web is 'none'"),
         ('chamfer = "2 mm"', "above 0.5 mm"),
         ("lightening = 3", "3 is none of 0, 5, 6, 7, 8"),
         ('lightening = 6\nweb = "aluminium"', "shrunk on has no holes"),
-        ('lightening = 6\nweb = "none"', "says nothing where flywheel.web is 'none'"),
+        ('lightening = 6\nweb = "none"', "has no effect where flywheel.web is 'none'"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(text, words):
