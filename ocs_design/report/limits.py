@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from ocs_design.common.units import ceiled, floored, rpm, significant
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.selection import SAVES_NOTHING, PriceRecord, ReserveRecord
+from ocs_design.device.records.selection import SAVES_NOTHING, ReserveRecord
 from ocs_design.parts.joints import Margin
 from ocs_design.report.quantities import degrees, degrees_number, grams, inertia_number, quantity
 from ocs_design.report.selection import best_drives, drive_name
@@ -272,10 +272,19 @@ def saving_table(design: OcsDesign) -> Table:
             columns("<limit", "used", "allowed", "<changes the rim's mass by"),
             tuple(_rim_limits(design)),
         )
-    return Table(
-        columns("<limit", "change", "mass saved"),
-        tuple((LIMITS[each.limit].label, _change(each), _saved(each)) for each in selection.prices),
-    )
+    rows = []
+    for price in selection.prices:
+        limit = LIMITS[price.limit]
+        change = f"{price.changed - price.value:+.0%}"
+        if limit is not TIME:
+            figures = (price.value, price.changed)
+            before, after = (significant(value * limit.per_si, 4) for value in figures)
+            change = f"{before} to {after} {limit.unit}".rstrip()
+        saved = -price.mass_change
+        rows.append(
+            (limit.label, change, f"{1e3 * saved:.2f} g" if saved > _NOTHING else "nothing")
+        )
+    return Table(columns("<limit", "change", "mass saved"), tuple(rows))
 
 
 def saving_notes(design: OcsDesign) -> str:
@@ -334,18 +343,6 @@ def _curve(kept: ReserveRecord) -> str:
         return f"The nominal device already has it: nothing up to {100.0 * kept.curve[-1][0]:g} %."
     curve = ", ".join(f"{grams(mass)} for {100.0 * level:g} %" for level, mass in kept.curve)
     return f"The same motor and material weigh {curve}."
-
-
-def _change(price: PriceRecord) -> str:
-    if LIMITS[price.limit] is TIME:
-        return f"{price.changed - price.value:+.0%}"
-    limit = LIMITS[price.limit]
-    before, after = (significant(value * limit.per_si, 4) for value in (price.value, price.changed))
-    return f"{before} to {after} {limit.unit}".rstrip()
-
-
-def _saved(price: PriceRecord) -> str:
-    return f"{-1e3 * price.mass_change:.2f} g" if price.mass_change < -_NOTHING else "nothing"
 
 
 def _rim_limits(design: OcsDesign) -> Iterator[tuple[Cell, ...]]:

@@ -60,13 +60,17 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
         return None
     limit, supply = specified.torque_max or inf, specified_supply(specification, robot)
     offered = _motors(specification, supply.voltage)
+    named = specification.flywheel.material or STEEL
     return MotorChoice(
         motors=tuple(_controlled(each, specification) for each in offered),
         gears=tuple(
             replace(stage, torque_max=min(stage.torque_max, limit))
             for stage in _gears(specification)
         ),
-        materials=_materials(specification.flywheel.material or STEEL),
+        # Of a group, only materials whose stress can be checked.
+        materials=strong_materials(steel=named == STEEL)
+        if named in {STEEL, AUTO}
+        else (material(named),),
         supply=supply,
         wheel_speed_max=specification.requirement.wheel_speed_max,
     )
@@ -186,13 +190,6 @@ def highest_rated_voltage(specification: Specification) -> float | None:
 
 MOST_NAMED = 3
 """Motors whose gaps a message names."""
-
-
-def _materials(name: str) -> tuple[Material, ...]:
-    """The material of this name, or those of the group that has it, whose stress can be checked."""
-    if name in {STEEL, AUTO}:
-        return strong_materials(steel=name == STEEL)
-    return (material(name),)
 
 
 def _gears(specification: Specification) -> tuple[Gear, ...]:

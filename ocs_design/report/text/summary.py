@@ -24,7 +24,7 @@ from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import facts, heading, items, note, show
 from ocs_design.report.text.plots import tilt_plots
 from ocs_design.report.text.validation import print_headline
-from ocs_design.report.verdict import Headline, headline
+from ocs_design.report.verdict import headline
 from ocs_design.report.warnings import all_warnings
 from ocs_design.simulation.scenario import Run
 
@@ -46,7 +46,10 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     facts(console, _device(design))
     if runs:
         _print_flights(console, design, runs)
-    minded = _minded(design, line)
+    # The verdict names flights already.
+    flown = (run for run in design.validation if run.ocs and run.scenario in line.matter)
+    told = {line.matter, *(run_sentence(run, with_note=False) for run in flown)}
+    minded = [each for each in all_warnings(design) if each not in told]
     if minded:
         more = f"; {len(minded) - MOST_MINDED} more with -v" if len(minded) > MOST_MINDED else ""
         heading(console, f"To mind{more}")
@@ -84,16 +87,6 @@ def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
     if design.survival is not None:
         told = (survival_sentence(design.survival), survival_cost(design))
         yield "survives", "; ".join(filter(None, told))
-
-
-def _minded(design: OcsDesign, line: Headline) -> list[str]:
-    """Warnings, without the flights that the verdict names already."""
-    told = {
-        run_sentence(run, with_note=False)
-        for run in design.validation
-        if run.ocs and run.scenario in line.matter
-    }
-    return [each for each in all_warnings(design) if each not in {line.matter, *told}]
 
 
 def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> None:
