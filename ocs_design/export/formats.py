@@ -179,6 +179,7 @@ def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple
     if not names:
         return USUAL_FORMATS
     known = (*(each.name for each in FORMATS), *others, ALL)
+    names = [name.casefold() for name in names]
     for name in names:
         if name not in known:
             available = ", ".join(known)

@@ -257,11 +257,18 @@ def open_points(design: OcsDesign) -> Table:
     return Table(columns("<what", "<cure"), tuple((each.what, each.cure) for each in points))
 
 
+def holding_up(design: OcsDesign) -> list[str]:
+    """Limits that hold the mass up: keys of the specification as they are, others in words."""
+    keys = {limit.label for limit in LIMITS.values()}
+    return [name if name in keys else name.replace("_", " ") for name in design.sizing.binding]
+
+
 def active_limits(design: OcsDesign) -> tuple[str, str]:
     """Names of the limits that hold the mass up, and what they mean."""
-    names = design.sizing.binding
-    meanings = (_MEANING[name] for name in names if name in _MEANING)
-    return ", ".join(names) or "none: the rim lies inside all limits", " ".join(meanings)
+    meanings = (_MEANING[name] for name in design.sizing.binding if name in _MEANING)
+    return ", ".join(holding_up(design)) or "none: the rim lies inside all limits", " ".join(
+        meanings
+    )
 
 
 def saving_table(design: OcsDesign) -> Table:

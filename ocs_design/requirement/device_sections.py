@@ -10,6 +10,7 @@ from ocs_design.requirement.keys import keyed
 from ocs_design.requirement.values import (
     INCIDENCE,
     SUPPLY,
+    WHEEL_TORQUE,
     Choice,
     Count,
     Names,
@@ -226,7 +227,7 @@ class MotorSection:
         example='"my_gears.csv"',
     )
     torque_max: float | None = keyed(
-        Quantity(Dimension.TORQUE),
+        WHEEL_TORQUE,
         "largest torque on a wheel",
         why="What your motor controller gives, at the wheel.",
         default="the motor's own",

@@ -7,7 +7,7 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from enum import Enum
 from math import pi
@@ -442,8 +442,8 @@ def did_you_mean(word: object, known: tuple[str, ...]) -> str:
 FASTEST_BARE = 4000.0
 """[rad/s], 38,000 rpm: a larger wheel speed without a unit was meant in rpm."""
 
-FASTEST_TURN = 50.0
-"""[rad/s], eight turns a second: a larger rate without a unit was meant in degrees."""
+FASTEST_TURN = 4.0 * pi
+"""[rad/s], two turns a second: a larger rate without a unit was meant in degrees."""
 
 MOST_BARE_TORQUE = 100.0
 """[N m]: a larger torque of a wheel without a unit was meant in millinewton metres."""
@@ -459,6 +459,7 @@ HEIGHT = Quantity(Dimension.LENGTH, most_bare=20.0, likely="mm")
 
 WHEEL_SPEED = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
 TRUNK_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s")
+TUMBLE = replace(TRUNK_RATE, sign=Sign.ANY)
 WHEEL_TORQUE = Quantity(Dimension.TORQUE, most_bare=MOST_BARE_TORQUE, likely="mNm")
 SUPPLY = Quantity(Dimension.VOLTAGE, most=HIGHEST_VOLTAGE, likely="mV")
 INCIDENCE = angle(Sign.NOT_NEGATIVE, pi / 2)

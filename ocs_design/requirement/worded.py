@@ -222,11 +222,11 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     roll, pitch, yaw = (f"{each:.3g}" for each in turned)
     spin = abs(np.linalg.solve(robot.inertia, turned)[2])
     rate = format_quantity(spin, "deg/s", 2)
-    heading = f", whose part about z turns it by {rate}: no wheel stops that"
+    heading = f" (no wheel stops the part about z, which turns it by {rate})"
     return kicked, (
-        f"{kick.impulse:.3g} N s at {named}({where}) mm along ({direction}){default}, as angular "
-        f"impulse ({roll}, {pitch}, {yaw}) N m s about the centre of mass without a device"
-        f"{heading if spin > _TURNS else ''}, and {moved:.3g} m/s; "
+        f"{kick.impulse:.3g} N s at {named}({where}) mm along ({direction}){default}: "
+        f"angular impulse ({roll}, {pitch}, {yaw}) N m s about the centre of mass without a device"
+        f"{heading if spin > _TURNS else ''}, which gets {moved:.3g} m/s; "
         f"{jump.onset:.3g} s after lift-off, for {jump.duration:.3g} s"
     )
 

@@ -13,6 +13,7 @@ from ocs_design.requirement.values import (
     MOST_TURNS,
     ONE_TURN,
     TILT,
+    TUMBLE,
     TURN,
     YAW,
     NamedQuantity,
@@ -299,9 +300,7 @@ TURN_TEXT = AboutText(
     MappingProxyType({"roll": TURN, "pitch": TURN, "yaw": YAW}), "rad", "yaw 90deg in 2.9s"
 )
 CATCH_TEXT = AboutText(
-    MappingProxyType(
-        dict.fromkeys(("roll", "pitch", "yaw"), Quantity(Dimension.ANGULAR_SPEED, Sign.ANY))
-    ),
+    MappingProxyType(dict.fromkeys(("roll", "pitch", "yaw"), TUMBLE)),
     "rad/s",
     "roll 20deg/s pitch 45deg/s in 0.5s",
 )

@@ -15,6 +15,7 @@ from ocs_design.report.limits import (
     alternatives_table,
     assumed,
     heat,
+    holding_up,
     lighter,
     margin_notes,
     margin_table,
@@ -42,6 +43,12 @@ def test_each_margin_is_a_row_and_each_note_a_line():
     assert "stored energy 8.14 J - - back-flip" in table
     assert any("rms current: a pause of 8.8 s cools it" in row for row in rows)
     assert max(map(len, rows)) <= 80
+
+
+def test_limits_that_are_no_keys_are_named_in_words():
+    found = design()
+    bound = replace(found, sizing=replace(found.sizing, binding=("r_max", "hoop_stress", "hub")))
+    assert holding_up(bound) == ["r_max", "hoop stress", "hub"]
 
 
 def test_units_of_the_bench():

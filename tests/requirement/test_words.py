@@ -23,6 +23,7 @@ from ocs_design.requirement.specification import Specification, merge, specifica
 from ocs_design.requirement.sweep import SWEEPS, Task
 from ocs_design.requirement.worded import worded_maneuvers
 from ocs_design.requirement.words import (
+    CATCH_TEXT,
     FLIP,
     GRAVITY,
     TURN_TEXT,
@@ -103,6 +104,13 @@ def test_a_tilt_is_read_and_written(text, roll, pitch):
     tilt = TiltText().read(text, "tilt")
     assert tilt == Tilt(pytest.approx(radians(roll)), pytest.approx(radians(pitch)))
     assert TiltText().read(str(tilt), "tilt") == tilt
+
+
+@pytest.mark.parametrize("text", ["pitch 45", "roll -115 pitch 1"])
+def test_a_fast_rate_without_a_unit_was_meant_in_degrees(text):
+    with pytest.raises(OcsError, match="without a unit") as told:
+        CATCH_TEXT.read(text, "catch")
+    assert "deg/s?" in (told.value.hint or "")
 
 
 @pytest.mark.parametrize("text", ["20", "20deg yaw", "200deg", "roll", "5deg left 5deg roll"])

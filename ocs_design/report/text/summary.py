@@ -17,7 +17,15 @@ from ocs_design.report.flights import (
     survival_cost,
     survival_sentence,
 )
-from ocs_design.report.limits import assumed, heat, lighter, lighter_table, owed_to, tightest
+from ocs_design.report.limits import (
+    assumed,
+    heat,
+    holding_up,
+    lighter,
+    lighter_table,
+    owed_to,
+    tightest,
+)
 from ocs_design.report.quantities import degrees_number, grams
 from ocs_design.report.table import Cell, Table, columns, listed
 from ocs_design.report.text.console import breaks_lines
@@ -77,7 +85,7 @@ def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
     found = dict(device_facts(design))
     yield from ((short, found[name]) for name, short in FIRST_FACTS.items() if name in found)
     owed = owed_to(design)
-    why = [listed(design.sizing.binding), f"owed to {owed}" if owed else ""]
+    why = [listed(holding_up(design)), f"owed to {owed}" if owed else ""]
     if any(why):
         yield "set by", "; ".join(filter(None, why))
     for index, (share, names) in enumerate(tightest(design)[:MOST_MARGINS]):
