@@ -26,13 +26,10 @@ from ocs_design.parts.joints import (
     WARMEST,
     Correction,
     Margin,
-    Ring,
     ShrinkFit,
-    TurningRings,
     bell_bond_tension,
     correction,
     cylinder_torque,
-    holed_peaks,
     hub_joint,
     preload,
     shear_torque,
@@ -42,6 +39,11 @@ from ocs_design.parts.joints import (
 )
 from ocs_design.parts.printed import BASE_THICKNESS
 from ocs_design.parts.rim import LIGAMENT
+from ocs_design.parts.turning_rings import (
+    Ring,
+    TurningRings,
+    holed_peaks,
+)
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
 

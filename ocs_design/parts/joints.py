@@ -1,41 +1,23 @@
-"""Joints of a wheel, as formulas: rotating rings, shrink fits, screws, bonds, balance.
-
-Rings of constant thickness that turn together are solved exactly (Budynas and Nisbett, Shigley's
-Mechanical Engineering Design, 10th ed., sections 3-14 to 3-16; Timoshenko and Goodier, Theory of
-Elasticity, 3rd ed., section 32). In plane stress, at the speed w, each has
-
-    u         = A r + B / r - (1 - nu^2) rho w^2 r^3 / (8 E)
-    sigma_r   = E A / (1 - nu) - E B / ((1 + nu) r^2) - (3 + nu) / 8 rho w^2 r^2
-    sigma_phi = E A / (1 - nu) + E B / ((1 + nu) r^2) - (1 + 3 nu) / 8 rho w^2 r^2,
-
-no stress on the innermost and the outermost edge, and where two meet equal forces t sigma_r, and
-displacements that differ by the interference. A wheel of one piece is three of them, hub, web and
-rim, without interference; a rim that is shrunk on is the last of them, with one. A web with holes
-is softer where they are, and its stress is that over the share that is left in a section through
-their middles (the ligament efficiency of a tube plate, (p - d) / p, ASME VIII-1, UG-53).
-"""
+"""Joints of a wheel, as formulas: shrink fits, screws, shafts, bonds, balance."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum
-from itertools import pairwise
-from math import floor, inf, pi, sin
+from math import floor, inf, pi
 
 import numpy as np
 
 from ocs_design.actuation.fasteners import CLASSES, USUAL_CLASS, Screw, screw
 from ocs_design.actuation.motor import Mounting
 from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.turning_rings import Ring, TurningRings
 
 OVERSPEED = 1.2
 """Speed at which a wheel is proved, over the highest that it can get to."""
 
 SERVICE = 1.5
 """Torque that a joint must carry, over the peak torque of its drive: it starts and stops hard."""
-
-_POINTS = 33
-"""Radii of each ring at which its stress is looked at, both edges among them."""
 
 _NO_WALL = 1e-15
 """Least difference of the squares of two radii [m^2]."""
@@ -45,9 +27,6 @@ _ROUNDED = 1e-6
 
 _HALVINGS = 40
 """Of an interval of radii, to rounding."""
-
-_BANDS = 16
-"""Rings that a web's holes are cut into."""
 
 
 @dataclass(frozen=True)
@@ -82,191 +61,6 @@ class Margin:
         """Grows with what is asked, and with its share of the capacity first."""
         factor = self.factor
         return (0.0 if factor is None else 1.0 / factor, self.demand)
-
-
-@dataclass(frozen=True)
-class Ring:
-    """A ring of constant thickness.
-
-    Attributes:
-        inner, outer: radii [m]; inner 0: a full disc.
-        thickness: along the axis [m].
-        density: [kg/m^3]. elastic_modulus: [Pa]. poisson_ratio: of its material.
-    """
-
-    inner: float
-    outer: float
-    thickness: float
-    density: float
-    elastic_modulus: float
-    poisson_ratio: float
-
-    def _rows(self, radius: float | FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Factors of A and B in the displacement and in the radial stress, shape (2, ...)."""
-        r, of_b = np.asarray(radius, dtype=np.float64), 1.0 if self.inner > 0.0 else 0.0
-        modulus, nu = self.elastic_modulus, self.poisson_ratio
-        # A full disc has no B, whose factor is infinite in its middle.
-        safe = np.where(r > 0.0, r, 1.0)
-        moved = np.stack([r, of_b / safe])
-        stressed = np.stack(
-            [modulus / (1.0 - nu) + 0.0 * r, -of_b * modulus / (1.0 + nu) / safe**2]
-        )
-        return moved, stressed
-
-    def _spun(self, speed: float, radius: float | FloatArray) -> tuple[FloatArray, ...]:
-        """Displacement, radial and hoop stress by the speed alone."""
-        load, nu, r = self.density * speed**2, self.poisson_ratio, np.asarray(radius)
-        return (
-            -(1.0 - nu**2) * load * r**3 / (8.0 * self.elastic_modulus),
-            -(3.0 + nu) / 8.0 * load * r**2,
-            -(1.0 + 3.0 * nu) / 8.0 * load * r**2,
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class TurningRings:
-    """Rings that turn together, from the axis outwards.
-
-    Attributes:
-        rings: each begins where the one before it ends.
-        speed: [rad/s].
-        constants: A and B of each, shape (n, 2).
-    """
-
-    rings: tuple[Ring, ...]
-    speed: float
-    constants: FloatArray
-
-    @classmethod
-    def of(
-        cls, rings: Sequence[Ring], speed: float, interferences: Sequence[float] | None = None
-    ) -> "TurningRings":
-        """Solve them.
-
-        Args:
-            rings: from the axis outwards.
-            speed: [rad/s].
-            interferences: by which each is too narrow for the one inside it, radial [m]; None: 0.
-        """
-        count = len(rings)
-        gaps = [0.0] * (count - 1) if interferences is None else list(interferences)
-        matrix, right = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
-        first, last = rings[0], rings[-1]
-        if first.inner > 0.0:
-            matrix[0, :2] = first._rows(first.inner)[1]
-            right[0] = -first._spun(speed, first.inner)[1]
-        else:
-            matrix[0, 1] = 1.0
-        matrix[-1, -2:] = last._rows(last.outer)[1]
-        right[-1] = -last._spun(speed, last.outer)[1]
-        for at, (inside, around) in enumerate(pairwise(rings)):
-            r, row, column = inside.outer, 2 * at + 1, 2 * at
-            (moved, pulled), (moved_out, pulled_out) = inside._rows(r), around._rows(r)
-            own, other = inside._spun(speed, r), around._spun(speed, r)
-            matrix[row, column : column + 4] = [*-moved, *moved_out]
-            right[row] = gaps[at] + float(own[0] - other[0])
-            matrix[row + 1, column : column + 4] = [
-                *(-inside.thickness * pulled),
-                *(around.thickness * pulled_out),
-            ]
-            right[row + 1] = float(inside.thickness * own[1] - around.thickness * other[1])
-        # Displacements are nine orders below stresses.
-        scale = np.abs(matrix).max(axis=1)
-        columns = np.abs(matrix / scale[:, None]).max(axis=0)
-        found = np.linalg.solve(matrix / scale[:, None] / columns, right / scale) / columns
-        return cls(tuple(rings), speed, found.reshape(count, 2))
-
-    def displacement(self, ring: int, radius: float) -> float:
-        """Radial displacement of one ring at a radius [m]."""
-        each = self.rings[ring]
-        moved = each._rows(radius)[0]
-        return float(self.constants[ring] @ moved + each._spun(self.speed, radius)[0])
-
-    def stresses(self, ring: int, radius: float | FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Radial and hoop stress in one ring [Pa]."""
-        each, (a, b) = self.rings[ring], self.constants[ring]
-        of_a, of_b = each._rows(radius)[1]
-        spun = each._spun(self.speed, radius)
-        return np.asarray(a * of_a + b * of_b + spun[1]), np.asarray(a * of_a - b * of_b + spun[2])
-
-    def pressure(self, joint: int) -> float:
-        """Pressure on the edge of the inner ring of a joint [Pa]; below 0 it would have to hold."""
-        return -float(self.stresses(joint, self.rings[joint].outer)[0])
-
-    def peak(self, ring: int) -> float:
-        """Largest equivalent stress of one ring by von Mises [Pa]."""
-        each = self.rings[ring]
-        radial, hoop = self.stresses(ring, np.linspace(each.inner, each.outer, _POINTS))
-        return float(np.sqrt(radial**2 - radial * hoop + hoop**2).max())
-
-    def peak_at_hole(self, ring: int, radius: float) -> float:
-        """Largest stress at the edge of a small hole at a radius: 3 s_1 - s_2 (Kirsch) [Pa]."""
-        radial, hoop = (float(stress) for stress in self.stresses(ring, radius))
-        return max(3.0 * hoop - radial, 3.0 * radial - hoop)
-
-
-def ligament_efficiencies(web: Ring, count: int, circle: float, hole: float) -> tuple[float, float]:
-    """Shares of a ring that holes leave of a section: from one to the next, and along a radius.
-
-    Args:
-        web: with the holes. count: of them.
-        circle: radius that their middles are on [m]. hole: radius of each [m].
-    """
-    pitch, width = 2.0 * circle * sin(pi / count), web.outer - web.inner
-    return 1.0 - 2.0 * hole / pitch, 1.0 - 2.0 * hole / width
-
-
-def holed_peaks(
-    rings: Sequence[Ring], speed: float, count: int, circle: float, hole: float
-) -> tuple[float, float, float]:
-    """Upper estimates of the largest stress in a hub, a web with holes and a rim [Pa].
-
-    The band of the web that the holes are in counts as rings of the stiffness and density that the
-    share of material at their radii has: the same all around, displacements make any body too
-    stiff. Radial stress on their circle is carried between the holes, the web's mean hoop stress
-    beside them: either is over its ligament efficiency e, and at the edge of a hole 2 + e^3 times
-    that, as in a strip with a hole in its middle (Heywood; Pilkey, Peterson's Stress Concentration
-    Factors, 3rd ed., section 4.3). The rim also stands what it has with no web at all.
-
-    Args:
-        rings: hub, web and rim. speed: [rad/s].
-        count, circle, hole: see `ligament_efficiencies`.
-    """
-    hub, web, rim = rings
-    edges = np.linspace(circle - hole, circle + hole, _BANDS + 1)
-    middles = (edges[:-1] + edges[1:]) / 2.0
-    cosines = (middles**2 + circle**2 - hole**2) / (2.0 * middles * circle)
-    shares = 1.0 - count * np.arccos(cosines) / pi
-    bands = [
-        replace(
-            web,
-            inner=inner,
-            outer=outer,
-            density=share * web.density,
-            elastic_modulus=share * web.elastic_modulus,
-        )
-        for (inner, outer), share in zip(pairwise(edges.tolist()), shares.tolist(), strict=True)
-    ]
-    inside = replace(web, outer=circle - hole)
-    around = replace(web, inner=circle + hole)
-    turning = TurningRings.of((hub, inside, *bands, around, rim), speed)
-    pulled = float(turning.stresses(2 + _BANDS // 2, circle)[0])
-    hoops = [
-        float(turning.stresses(row, np.linspace(ring.inner, ring.outer, _POINTS))[1].mean())
-        * (ring.outer - ring.inner)
-        for row, ring in enumerate(turning.rings[1:-1], start=1)
-    ]
-    stretched = sum(hoops) / (web.outer - web.inner)
-    between, beside = ligament_efficiencies(web, count, circle, hole)
-    return (
-        turning.peak(0),
-        max(
-            (2.0 + between**3) / between * pulled,
-            (2.0 + beside**3) / beside * stretched,
-            *(turning.peak(ring) for ring in (1, len(bands) + 2)),
-        ),
-        max(turning.peak(len(bands) + 3), TurningRings.of((rim,), speed).peak(0)),
-    )
 
 
 # --- screws -----------------------------------------------------------------------------------

@@ -18,8 +18,13 @@ from ocs_design.device.joints import (
     rim_fit,
     wheel_rings,
 )
-from ocs_design.parts.joints import TurningRings, friction_torque
+from ocs_design.parts.joints import (
+    friction_torque,
+)
 from ocs_design.parts.rim import WEB_THICKNESS, Hub
+from ocs_design.parts.turning_rings import (
+    TurningRings,
+)
 
 STEEL, ALUMINIUM = material("steel-4140-normalized"), material("aluminium-6061-t6")
 HUB = Hub(0.0096, 0.005, 0.002, 4, 0.006, 0.0017, chamfer=0.2e-3)

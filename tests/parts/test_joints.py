@@ -16,14 +16,10 @@ from ocs_design.parts.joints import (
     FRICTION,
     SERVICE,
     Grade,
-    Ring,
-    TurningRings,
     correction,
     cylinder_torque,
     friction_torque,
-    holed_peaks,
     hub_joint,
-    ligament_efficiencies,
     preload,
     shear_torque,
     shrink_fit,
@@ -34,6 +30,12 @@ from ocs_design.parts.joints import (
 )
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.rim import hoop_stress
+from ocs_design.parts.turning_rings import (
+    Ring,
+    TurningRings,
+    holed_peaks,
+    ligament_efficiencies,
+)
 
 TUNGSTEN = Ring(0.031, 0.0338, 0.0042, 18500.0, 345e9, 0.28)
 ALUMINIUM = Ring(0.0, 0.031, 0.0015, 2700.0, 68.9e9, 0.33)

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rims import STEEL, room
 
-from ocs_design.parts.joints import Ring, holed_peaks
 from ocs_design.parts.part import total
 from ocs_design.parts.rim import (
     LIGAMENT,
@@ -26,6 +25,10 @@ from ocs_design.parts.rim import (
     WebHoles,
     hoop_stress,
     wheel_body,
+)
+from ocs_design.parts.turning_rings import (
+    Ring,
+    holed_peaks,
 )
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, wheel_parts
 from ocs_design.parts.wheel import Hub as MadeHub

@@ -156,7 +156,13 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
     columns += [(1, each) for each in _halves(bottom + 6.0)]
     here = columns.pop(0)
     y = here[1][1]
-    blocks = list(_blocks(texts))
+    blocks: list[_Block] = []
+    for chapter in texts:
+        blocks.append(_Block(chapter.title, heading=True))
+        blocks += [
+            _Block(text, str(number) if chapter.numbered else "–")
+            for number, text in enumerate(chapter.texts, start=1)
+        ]
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         width = here[1][2] - here[1][0]
         lines = block.lines(width)
@@ -207,13 +213,6 @@ class _Block:
         if self.heading:
             return [self.text]
         return wrapped(self.text, width - (_NUMBER if self.number else 0.0), _TEXT)
-
-
-def _blocks(texts: Sequence[Chapter]) -> Iterator[_Block]:
-    for chapter in texts:
-        yield _Block(chapter.title, heading=True)
-        for number, text in enumerate(chapter.texts, start=1):
-            yield _Block(text, str(number) if chapter.numbered else "–")
 
 
 def _screw_table(assembly: Assembly) -> tuple[list[Item], float]:

@@ -259,10 +259,14 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
         )
         yield run_out
         return
+    fit = "which is not computed"
+    if drawing.interference is not None:
+        least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
+        fit = f"its bore {least} to {most} narrower than the web"
     yield {
         Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
         Seat.ONE_PIECE: "Rim, web and hub turned from one bar, web and hub in the rim's middle.",
-        Seat.FITTED: f"Rim shrunk on the web, {_interference(drawing)}.",
+        Seat.FITTED: f"Rim shrunk on the web, {fit}.",
     }[seat(wheel)]
     hub = wheel.hub
     if hub is not None:
@@ -274,14 +278,6 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
             yield "No bolt circle: bonded on the motor's shaft."
         elif not drawing.on_shaft:
             yield "Bore: a pilot hole and the datum; open it where the rotor has a boss."
-
-
-def _interference(drawing: WheelDrawing) -> str:
-    """How much too narrow the rim's bore is for its web."""
-    if drawing.interference is None:
-        return "which is not computed"
-    least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
-    return f"its bore {least} to {most} narrower than the web"
 
 
 def _edges(wheel: Wheel) -> str:
