@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import inf, pi
+from math import inf, pi, sqrt
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import DIRECT
@@ -37,6 +37,7 @@ from ocs_design.parts.joints import (
     slip_fit_eccentricity,
     tightening_torque,
 )
+from ocs_design.parts.pedestal import seat_compliance
 from ocs_design.parts.printed import BASE_THICKNESS
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import (
@@ -332,12 +333,13 @@ class Resonance:
 
 
 def resonances_of(device: Device) -> tuple[Resonance, ...]:
-    """First bending modes of plate, sleeves and foot that a wheel passes on its way to top speed.
+    """First bending modes of what carries a module that a wheel passes on its way to top speed.
 
     A force U w^2 shakes a mass m on a spring by U / (2 zeta m) at resonance, however stiff it is.
     The plate is shaken by all of the unbalance, the stem only by its moment about it: at the end of
     a cantilever of length L a moment M works as the force 3 M / 2 L. Gyroscopic moments of the
-    turning wheel are left out.
+    turning wheel are left out. A pedestal's seat gives way under all of the unbalance, and turns
+    under the stem: one over the square of their common frequency is the sum of both (Dunkerley).
     """
     if device.carrier.mass == 0.0:
         return ()
@@ -346,6 +348,13 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
     inertia = wheel.transverse_inertia + float(device.carrier.inertia[0, 0])
     lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - BASE_THICKNESS)
     modes = [("foot", stem_frequency(foot, mass, inertia), lever)]
+    if device.pedestals:
+        square, along = map(max, zip(*map(seat_compliance, device.pedestals), strict=True))
+        softer = 1.0 / modes[0][1] ** 2 + (2.0 * pi) ** 2 * along * mass
+        modes = [
+            ("pedestal", 1.0 / (2.0 * pi * sqrt(square * mass)), 1.0),
+            ("foot", 1.0 / sqrt(softer), lever),
+        ]
     if device.plate is not None:
         modes.insert(0, ("plate", device.plate.frequency(mass), 1.0))
         if device.plate.mast is None and device.plate.arms == 2:

@@ -98,7 +98,7 @@ class Layout:
 
     @property
     def text(self) -> str:
-        """How people call it, as in "the layout 'triad'"."""
+        """Name as people say it, as in "the layout 'triad'"."""
         return f"the layout '{self.name}'"
 
     @property

@@ -232,8 +232,7 @@ def _trunk_holes(device: Device) -> str:
         return (
             f"printed pedestals carry the feet that lean; the trunk needs threads "
             f"{TRUNK_SCREW.name} for {count} screws, whose places in the base frame are on "
-            "cad/drilling.pdf; whether its wall bears them is not looked at, and how much "
-            "pedestals bend is not computed"
+            "cad/drilling.pdf; whether its wall bears them is not looked at"
         )
     if plate is None:
         return (

@@ -24,6 +24,7 @@ from ocs_design.parts.printed import (
     AROUND_SLOT,
     BASE_THICKNESS,
     DENSITY,
+    MODULUS,
     SHOCK,
     STRENGTH_ACROSS,
     TRUNK_SCREW,
@@ -265,6 +266,19 @@ def _flange_needed(pedestal: Pedestal, mass: float) -> float:
     aside, above, along, across = _arms(pedestal)
     pulled = mass * SHOCK / 4.0 * (1.0 + max((above + aside) / along, above / across))
     return sqrt(6.0 * pulled * FLANGE_SCREW / (pedestal.width / 2.0 * STRENGTH_ACROSS))
+
+
+def seat_compliance(pedestal: Pedestal) -> tuple[float, float]:
+    """Way of the wheel over the force on it, square to the seat and along it [m/N].
+
+    A beam whose ends are held simply, with a and b from its ends to the foot's middle: it gives way
+    to a force there by a^2 b^2 / (3 E I L), and turns under a couple by (a^3 + b^3) / (3 E I L^2):
+    Roark, table 8.1, cases 1e and 3e. Base, brace and the foot on it count as stiff.
+    """
+    a, b, whole = pedestal.middle, pedestal.base_radius, pedestal.length
+    stiffness = 3.0 * MODULUS * pedestal.width * pedestal.thickness**3 / 12.0
+    turns = (a**3 + b**3) / (stiffness * whole**2)
+    return (a * b) ** 2 / (stiffness * whole), turns * pedestal.wheel_height**2
 
 
 def pedestal_use(pedestal: Pedestal, mass: float) -> float:

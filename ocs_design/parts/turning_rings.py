@@ -1,7 +1,8 @@
 """Rings of constant thickness that turn together: stresses, displacements, holes in a web.
 
 They are solved exactly (Budynas and Nisbett, Shigley's Mechanical Engineering Design, 10th ed.,
-sections 3-14 to 3-16; Timoshenko and Goodier, Theory of Elasticity, 3rd ed., section 32). In plane stress, at the speed w, each has
+sections 3-14 to 3-16; Timoshenko and Goodier, Theory of Elasticity, 3rd ed., section 32). In plane
+stress, at the speed w, each has
 
     u         = A r + B / r - (1 - nu^2) rho w^2 r^3 / (8 E)
     sigma_r   = E A / (1 - nu) - E B / ((1 + nu) r^2) - (3 + nu) / 8 rho w^2 r^2

@@ -18,9 +18,11 @@ from ocs_design.device.joints import (
     rim_fit,
     wheel_rings,
 )
+from ocs_design.device.solids import foot_of
 from ocs_design.parts.joints import (
     friction_torque,
 )
+from ocs_design.parts.pedestal import Pedestal, seat_compliance, strengthened
 from ocs_design.parts.rim import WEB_THICKNESS, Hub
 from ocs_design.parts.turning_rings import (
     TurningRings,
@@ -138,3 +140,27 @@ def test_resonances_are_those_below_top_speed_and_follow_the_unbalance():
     assert foot.amplitude < plate.amplitude
     slow = replace(device, motor=replace(device.motor, no_load_speed=6.0 * foot.frequency))
     assert resonances_of(slow) == ()
+
+
+def test_on_a_pedestal_a_module_shakes_on_its_seat_and_its_foot_is_softer():
+    """Springs in a row: one over the square of their frequency is the sum of those of each."""
+    device = DEVICES["caged"]
+    device = replace(device, motor=replace(device.motor, no_load_speed=3e5, speed_max=None))
+    (alone,), foot = resonances_of(device), foot_of(device)
+    seats = tuple(
+        strengthened(
+            Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, lean, 0.04), 0.4
+        )
+        for lean in (0.6, 1.2)
+    )
+    seat, stem = resonances_of(replace(device, pedestals=seats))
+    mass = device.flywheel.mass + device.carrier.mass
+    square, along = (max(each) for each in zip(*map(seat_compliance, seats), strict=True))
+    assert (2.0 * pi * seat.frequency) ** 2 == pytest.approx(1.0 / (square * mass))
+    own = 1.0 / (2.0 * pi) ** 2 / (along * mass)
+    assert stem.frequency**-2 == pytest.approx(alone.frequency**-2 + 1.0 / own)
+    assert stem.frequency < alone.frequency
+    assert (seat.name, stem.name) == ("pedestal", "foot")
+    assert seat.force == pytest.approx(
+        balance_of(device).unbalance * (2.0 * pi * seat.frequency) ** 2
+    )

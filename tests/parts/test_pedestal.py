@@ -17,9 +17,10 @@ from ocs_design.parts.pedestal import (
     drilled,
     pedestal_part,
     pedestal_use,
+    seat_compliance,
     strengthened,
 )
-from ocs_design.parts.printed import BASE_THICKNESS, TRUNK_SCREW, TRUNK_SCREWS
+from ocs_design.parts.printed import BASE_THICKNESS, MODULUS, TRUNK_SCREW, TRUNK_SCREWS
 from ocs_design.parts.solids import Prism, hollow_cylinder
 
 LEANS = np.radians([25.0, np.degrees(np.arctan(np.sqrt(0.5))), 60.0, 90.0])
@@ -138,3 +139,19 @@ def test_screws_of_the_seat_fit_the_slots():
     for x, y in holes:
         assert np.hypot(x, y) == pytest.approx(FOOT.slot_radius)
         assert abs(abs(np.arctan2(y, x)) % (np.pi / 2.0)) == pytest.approx(np.pi / 4.0)
+
+
+@pytest.mark.parametrize("lean", LEANS)
+def test_the_seat_gives_way_as_a_beam_that_is_integrated(lean):
+    """Mohr: the integral of the moment times that of a unit load, over E I, along the seat."""
+    made = strengthened(pedestal(lean), 2.0)
+    a, whole, high = made.middle, made.length, made.wheel_height
+    # The middle of each of many equal pieces; none is where the couple is.
+    at = (np.arange(200_000) + 0.5) * whole / 200_000
+    near = at < a
+    of_force = np.where(near, at * (whole - a) / whole, a * (whole - at) / whole)
+    of_couple = np.where(near, -at / whole, 1.0 - at / whole)
+    bent = MODULUS * made.width * made.thickness**3 / 12.0
+    square, along = seat_compliance(made)
+    assert square == pytest.approx(float(np.mean(of_force**2)) * whole / bent, rel=1e-4)
+    assert along == pytest.approx(float(np.mean(of_couple**2)) * whole * high**2 / bent, rel=1e-4)

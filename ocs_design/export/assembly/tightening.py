@@ -44,11 +44,10 @@ def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = Tru
     """Torque of screws.
 
     Those of the wheel as their joint is computed (`parts.joints`). Others, of class 8.8, with the
-    least of: 90 %
-    of the screw's yield strength (VDI 2230); half of the force that shears off a thread in
-    aluminium, or a third of it in a print, on half of the thread's cylinder; under a head on a
-    print, half the print's yield strength as pressure. A print's shear strength is its tensile one
-    over sqrt(3).
+    least of: 90 % of the screw's yield strength (VDI 2230); half of the force that shears off a
+    thread in aluminium, or a third of it in a print, on half of the thread's cylinder; under a head
+    on a print, half the print's yield strength as pressure. A print's shear strength is its tensile
+    one over sqrt(3).
 
     Args:
         fastening: what they are.

@@ -23,7 +23,7 @@ _SOFT = 68.0
 
 
 def balance(assembly: Assembly) -> Iterator[str]:
-    """How a wheel is balanced, and what is left shakes."""
+    """How a wheel is balanced, and what the unbalance that is left shakes."""
     wheel, speed = assembly.device.flywheel, assembly.top_speed
     if speed is None:
         return
