@@ -23,8 +23,9 @@ from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.selection.problem import SelectionProblem, selection_problem
+from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.specified import selection_problem
 from ocs_design.sizing.trajectory.co_design import co_design
 
 FILES = {
@@ -81,7 +82,7 @@ def variants(problem: SelectionProblem) -> Iterator[tuple[str, SelectionProblem]
 
 def row(problem: SelectionProblem) -> str:
     try:
-        chosen = select(problem, advise=False).best
+        chosen = select(problem).best
     except Infeasible:
         return " | ".join(["none", *["–"] * 8])
     found = co_design(problem, chosen)

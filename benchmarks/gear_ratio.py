@@ -56,7 +56,7 @@ def alone(problem: SelectionProblem, chosen: Candidate, gears: Sequence[Gear]) -
 def best(problem: SelectionProblem) -> Candidate | None:
     """The lightest device; None: there is none."""
     try:
-        return select(problem, advise=False).best
+        return select(problem).best
     except Infeasible:
         return None
 

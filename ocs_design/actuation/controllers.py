@@ -1,4 +1,4 @@
-"""Motor controllers: what each must stand, and what it weighs.
+"""Motor controllers: the current that each must carry, and its mass.
 
 The mass is a straight line over the peak phase current, the least squares of the boards in `KNOWN`.
 Flights last a second or two, so that what heats a board for good does not choose it.

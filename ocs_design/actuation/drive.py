@@ -1,4 +1,4 @@
-"""What a motor at a bus voltage does at its wheel, behind its gear.
+"""Torque and speed of a motor at a bus voltage, seen at the wheel behind its gear.
 
 With N = motor speed / wheel speed and the gear's efficiency eta, taken as a loss whichever way the
 power flows, so that braking is not counted stronger than it is:
@@ -58,7 +58,7 @@ class DriveLine:
     power_max: float | FloatArray = inf
 
     def reserved(self, share: float | FloatArray = RESERVE) -> "DriveLine":
-        """What a part of voltage, current, power and mechanical speed does."""
+        """Line with a part of voltage, current, power and mechanical speed."""
         return replace(
             self,
             stall_torque=self.stall_torque * share,
@@ -94,7 +94,7 @@ class DriveLine:
 
 
 def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
-    """The motor at `bus_voltage` [V] behind its gear, all of it; see the module's text.
+    """Whole line of the motor at `bus_voltage` [V] behind its gear; see the module's text.
 
     Raises:
         OcsError: figures are missing that this needs; `missing_figures` has them.
@@ -118,7 +118,7 @@ def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
 
 
 def speed_limit(motor: Motor) -> float | None:
-    """How fast the motor may turn [rad/s].
+    """Highest speed that the motor may turn at [rad/s].
 
     What its maker states; else no faster than without load at its rated voltage, for which it was
     built. None if the source gives neither.
@@ -133,7 +133,7 @@ def speed_limit(motor: Motor) -> float | None:
 
 
 def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
-    """What this motor behind this gear needs and its source does not give, by name.
+    """Names of the figures that this motor behind this gear needs and its source does not give.
 
     The rotor's inertia may be left out, or be the least that it can be, where that is conservative:
     where the rotor turns with the wheel and no faster, it adds at least as much to the momentum as

@@ -364,7 +364,7 @@ def estimated_continuous_torque(
 
 
 def build_gaps(motor: Motor) -> tuple[str, ...]:
-    """What nobody can build with this motor without, in plain words; empty: it is complete.
+    """Figures that anybody who builds with this motor needs and that are missing, in plain words.
 
     How it is held and how it holds a wheel, its size, winding, limits, rotor inertia and heat.
     """

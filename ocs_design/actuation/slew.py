@@ -1,4 +1,4 @@
-"""The quickest slew of a wheel: its time, and the course of speed and torque over it.
+"""The quickest slew of a wheel: how long it takes, and speed and torque over time.
 
 A wheel starts at rest relative to the trunk. Its motor accelerates the reduced inertia I_red on
 min(tau_L, tau_s (1 - W / w_0)), holds it at the highest speed if it gets there, brakes with

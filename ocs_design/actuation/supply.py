@@ -1,4 +1,4 @@
-"""What feeds the motors: one supply for all of them."""
+"""The supply that feeds all motors."""
 
 from dataclasses import dataclass, replace
 from math import inf
@@ -20,7 +20,7 @@ class Supply:
 
     @property
     def power(self) -> float:
-        """The power that both limits leave [W]."""
+        """Power that both limits allow [W]."""
         return min(self.power_max, self.voltage * self.current_max)
 
     @property

@@ -250,7 +250,7 @@ class WheelTask:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WheelBound(WheelTask):
-    """What no turn is below, on any trunk that is no lighter and about as much coupled.
+    """Lower bound of what a turn asks, on any trunk no lighter and about as much coupled.
 
     Attributes:
         swept: P without the coupling [N m s^2], shape (..., 2).

@@ -270,7 +270,7 @@ class GearSheet:
 
 
 def _stated(figure: float | None) -> float:
-    """A figure that `missing` has found to be there."""
+    """A figure that `missing` has found to be stated."""
     assert figure is not None
     return figure
 

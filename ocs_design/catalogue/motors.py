@@ -398,7 +398,7 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
 
 
 def _lacks(sheet: MotorSheet) -> str:
-    """What nobody can build with it without; empty: nothing."""
+    """Clause on the figures without which nobody can build with it; empty: none is missing."""
     gaps = build_gaps(sheet.motor())
     return f"to be built with, it lacks {', '.join(gaps)}" if gaps else ""
 

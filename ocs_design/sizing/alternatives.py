@@ -1,4 +1,4 @@
-"""What one change of the question would save: each a selection of its own, the rest as it was.
+"""What single changes of the specification would save: each a selection with the rest as it was.
 
 An answer is good to about 1.5 %. The reserve for what is uncertain stays what it is but for another
 incidence, though a device of its own would keep a little more or less. The incidence stays, though
@@ -23,32 +23,28 @@ from ocs_design.robot.robot import Robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import LIMITS, TIME
 from ocs_design.sizing.on_robot import with_plate
-from ocs_design.sizing.relaxations import relaxations
-from ocs_design.sizing.selection.problem import (
-    SelectionProblem,
-    other_construction,
-    with_limit,
-)
+from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import lightest_below
 from ocs_design.sizing.sized import Choice, Designed
+from ocs_design.sizing.specified import other_construction, relaxations
 
 MORE_ROOM, MORE_TIME = 1.2, 1.1
 """Factors on r_max and on the time of every maneuver."""
 
 _GAPS_TOLD = 2
-"""What a motor lacks that a line has room for."""
+"""Missing figures of a motor that a line has room for."""
 
 _OVER = 1.05
-"""Supply over a motor's rated voltage that is told."""
+"""Supply over a motor's rated voltage from which the note says so."""
 
 _WORTH = 0.005
-"""Share of the mass below which a change saves nothing that is worth telling."""
+"""Share of the mass below which a saving is not worth telling."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Change:
-    """One change of the question: in words, the question, and what speaks against it."""
+    """One change of what is asked: in words, the changed problem, and what speaks against it."""
 
     text: str
     problem: SelectionProblem
@@ -86,7 +82,7 @@ def alternatives(
         )
         offered = replace(resolved, choice=parts)
         try:
-            own = design_device(free, robot, offered, advise=False, ranked=False)
+            own = design_device(free, robot, offered, ranked=False)
         except Infeasible:
             return None
         return None if own.choice is None else own.choice.chosen
@@ -124,7 +120,7 @@ def owed_to(designed: Designed, robot: Robot) -> Owed | None:
 
 
 def _answer(change: _Change, lighter: Candidate | None, choice: Choice) -> Alternative:
-    """The device after a change, or that there is none that is worth it.
+    """The device after a change, or that no device is lighter by enough to be worth telling.
 
     What is lighter may be wider, and so may its plate.
     """

@@ -22,23 +22,19 @@ from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_sizing import size_device
-from ocs_design.sizing.changes import Progress
 from ocs_design.sizing.footing import stand_on_trunk
-from ocs_design.sizing.limits import DEVICE_MASS
+from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
 from ocs_design.sizing.placement import specified_place
 from ocs_design.sizing.reserve import Reality, Reserve, account
 from ocs_design.sizing.selection.device import braked, with_demands
-from ocs_design.sizing.selection.problem import (
-    SelectionProblem,
-    selection_problem,
-    specified_criterion,
-)
+from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import (
     device_at,
 )
 from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_selection
+from ocs_design.sizing.specified import selection_problem, specified_criterion
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.co_design import CoDesign
@@ -57,7 +53,6 @@ def design_device(
     robot: Robot,
     resolved: Resolved,
     *,
-    advise: bool = True,
     ranked: bool = True,
     reserve: Reserve | None = None,
 ) -> Designed:
@@ -69,7 +64,6 @@ def design_device(
 
     Args:
         specification: what was stated. robot: that carries it. resolved: what was meant.
-        advise: see `select`.
         ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
         reserve: to keep for what is drawn; None: for the reliability that is specified.
 
@@ -82,9 +76,7 @@ def design_device(
     com = robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
-            designed = _designed(
-                specification, robot, resolved, advise=advise, ranked=ranked, reserve=reserve
-            )
+            designed = _designed(specification, robot, resolved, ranked=ranked, reserve=reserve)
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
                 calmer = _calmer(resolved.requirement)
@@ -96,7 +88,6 @@ def design_device(
                         specification,
                         robot,
                         resolved,
-                        advise=advise,
                         ranked=ranked,
                         reserve=reserve,
                     )
@@ -137,7 +128,6 @@ def _designed(
     robot: Robot,
     resolved: Resolved,
     *,
-    advise: bool,
     ranked: bool,
     reserve: Reserve | None,
 ) -> Designed:
@@ -149,9 +139,7 @@ def _designed(
         assert resolved.reliability is not None, "there are motors to choose from"
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
-        designed = _by_selection(
-            specification, problem, robot, reserve, advise=advise, ranked=ranked
-        )
+        designed = _by_selection(specification, problem, robot, reserve, ranked=ranked)
     device, most = designed.device, specification.ocs.mass_max
     # Nothing is lighter than the lightest: no search is needed.
     if most is None or device.mass <= most:
@@ -239,7 +227,7 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
             continue
         resolved = resolve(asked, robot, size(robot.tree, robot.posture, robot.trunk))
         with suppress(Infeasible):
-            designed = design_device(asked, robot, resolved, advise=False, ranked=False)
+            designed = design_device(asked, robot, resolved, ranked=False)
             masses[layout] = designed.device.mass
     if not masses:
         return "No layout that survives it has a device either."
@@ -260,7 +248,7 @@ def mass_without_survival(
     """
     free = replace(resolved, requirement=replace(resolved.requirement, detection=None))
     with suppress(Infeasible):
-        return design_device(specification, robot, free, advise=False, ranked=False).device.mass
+        return design_device(specification, robot, free, ranked=False).device.mass
     return None
 
 
@@ -270,7 +258,6 @@ def _by_selection(
     robot: Robot,
     reserve: Reserve,
     *,
-    advise: bool,
     ranked: bool,
 ) -> Designed:
     """Modules with a motor of the catalogue each, co-designed where that is asked for."""
@@ -283,7 +270,7 @@ def _by_selection(
     )
     asked = problem.requirement
     problem, selection, reserve, nominal = on_its_footing(
-        problem, criterion, robot, (reality, reserve), advise=advise, ranked=ranked
+        problem, criterion, robot, (reality, reserve), ranked=ranked
     )
     if specification.ocs.guard == CONTAINING:
         problem, selection = in_rings(problem, selection.best, criterion, robot)

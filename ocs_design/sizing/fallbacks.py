@@ -10,9 +10,10 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, MORE_PAIRS, RELIABILITY, WHEELS
-from ocs_design.sizing.changes import Progress
+from ocs_design.sizing.limits import Progress
 from ocs_design.sizing.on_robot import NeverHeld
-from ocs_design.sizing.selection.advice import NO_ROOM, Refused
+from ocs_design.sizing.selection.advice import advice_on
+from ocs_design.sizing.selection.rejections import NO_ROOM, Refused
 
 LESS_SURE = (0.9, 0.8)
 """Reliabilities that are tried in turn where no device has the default one."""
@@ -122,7 +123,8 @@ def advised(
         progress: is told the share that is done.
     """
     incidences = [error.problem.incidence for _, error in tried if isinstance(error, Refused)]
-    found = refusal.advised(
+    found = advice_on(
+        refusal,
         progress,
         default=specification.asks_nothing,
         lightest=all(incidence is not None for incidence in incidences),

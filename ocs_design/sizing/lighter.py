@@ -1,4 +1,4 @@
-"""What would have to give for a lighter device: mass against each figure, read backwards.
+"""What must change for a device that is lighter by a stated mass.
 
 Each answer is the smallest change of one figure, in whole percent, or one or two other choices;
 where none of these does, one figure with one choice. It is searched for as an alternative is, and
@@ -20,14 +20,14 @@ from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import AUTO, LIGHTEST
-from ocs_design.sizing.changes import Progress, unseen
 from ocs_design.sizing.design import design_device
+from ocs_design.sizing.limits import Progress, unseen
 from ocs_design.sizing.on_robot import with_plate
-from ocs_design.sizing.relaxations import Relaxation, relaxations
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import lightest_below
 from ocs_design.sizing.sized import Choice
+from ocs_design.sizing.specified import Relaxation, relaxations
 
 MOST = 200
 """Largest change that is looked for [%]."""
@@ -130,7 +130,7 @@ class _Search:
         named = replace(changed, motor=motor, ocs=replace(changed.ocs, co_design=None))
         try:
             task = self.task.with_specification(named)
-            device = design_device(named, task.robot, task.resolved, advise=False).device
+            device = design_device(named, task.robot, task.resolved).device
         except Infeasible:
             return None
         if device.mass > self.target:

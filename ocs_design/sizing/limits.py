@@ -1,9 +1,15 @@
-"""The limits of the specification by name."""
+"""The limits of the specification by name, and the smallest change of one that would do.
 
-from collections.abc import Mapping
+The search for that change knows nothing of designs. It asks whether there is one with a limit at
+another value, and where that takes long also whether one is conceivable at all, which a bound tells
+at once.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import pi
-from typing import Any, TypeVar
+from functools import partial
+from math import isfinite, log10, pi, sqrt
+from typing import Any, TypeAlias, TypeVar
 
 from ocs_design.common.units import round_outwards
 from ocs_design.requirement.froude import Envelope
@@ -82,3 +88,127 @@ LIMITS: Mapping[str, Limit] = {
     for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, BUS_POWER, TIME, DEVICE_MASS)
 }
 """All limits by name."""
+
+
+MOST_CHANGE = 1e3
+"""A limit that helps only when multiplied or divided by more than this is no advice."""
+
+PRECISION = 1e-6
+"""Relative, of the smallest change that helps."""
+
+_LARGEST_STEP = 1.25
+"""Ratio of two changes that are tried one after the other, at most."""
+
+Test: TypeAlias = Callable[[Limit, float], bool]
+"""Whether something holds with one limit at another value [SI]."""
+
+Progress: TypeAlias = Callable[[float], None]
+"""Is told the share that is done."""
+
+
+def unseen(share: float) -> None:
+    """Progress that nobody looks at."""
+
+
+def smallest_changes(
+    values: Mapping[Limit, float],
+    mends: Test,
+    *,
+    precision: float = PRECISION,
+    most: Callable[[Limit], float] = lambda _: MOST_CHANGE,
+    conceivable: Test | None = None,
+    progress: Progress = unseen,
+) -> dict[Limit, float]:
+    """Values of the limits that can mend the design alone and just do, gentlest first [SI].
+
+    Args:
+        values: of the limits as they are [SI].
+        mends: whether a design exists with one limit at another value.
+        precision: of the values, relative.
+        most: factor by which a limit is changed at most.
+        conceivable: see `smallest_change`.
+        progress: is told the share that is done.
+    """
+    found = {}
+    for index, (limit, now) in enumerate(values.items()):
+        value = smallest_change(
+            limit,
+            now,
+            partial(mends, limit),
+            precision=precision,
+            most=most(limit),
+            conceivable=None if conceivable is None else partial(conceivable, limit),
+        )
+        if value is not None:
+            found[limit] = value
+        progress((index + 1) / len(values))
+    return dict(sorted(found.items(), key=lambda item: abs(log10(item[1] / values[item[0]]))))
+
+
+def smallest_change(
+    limit: Limit,
+    now: float,
+    mends: Callable[[float], bool],
+    *,
+    precision: float = PRECISION,
+    most: float = MOST_CHANGE,
+    conceivable: Callable[[float], bool] | None = None,
+) -> float | None:
+    """The value next to `now`, on its loose side, that mends the design; None: none does.
+
+    Steps outwards until it mends, by steps that grow, then halves the last one: a limit loosened
+    too far need not mend what a smaller change does, as a larger wheel also weighs on the robot.
+
+    Args:
+        limit: which one, for the side on which it is loose.
+        now: its value, at which there is no design.
+        mends: whether a value allows a design.
+        precision: of the value, relative.
+        most: factor by which it is changed at most.
+        conceivable: where `mends` takes long, whether a bound leaves any design: true from some
+            change on. A limit that does not mend at its largest change is then taken for one that
+            never does.
+    """
+    if not (isfinite(now) and now > 0.0):
+        return None
+
+    def at(test: Callable[[float], bool]) -> Callable[[float], bool]:
+        """The test as a function of the factor by which the limit is loosened."""
+        return lambda factor: test(limit.loosened(now, factor))
+
+    low, step = 1.0, 1.0 + precision
+    if conceivable is not None:
+        if not at(mends)(most):
+            return None
+        low, _ = _bracket(at(conceivable), low, most, precision)
+    high = min(low * step, most)
+    while not at(mends)(high):
+        if high >= most:
+            return None
+        low, step = high, min(step**2, _LARGEST_STEP)
+        high = min(low * step, most)
+    return limit.loosened(now, _bracket(at(mends), low, high, precision)[1])
+
+
+def _bracket(
+    mends: Callable[[float], bool], low: float, high: float, precision: float
+) -> tuple[float, float]:
+    """Two factors next to each other, of which the larger mends and the smaller does not."""
+    while high > (1.0 + precision) * low:
+        middle = sqrt(low * high)
+        low, high = (low, middle) if mends(middle) else (middle, high)
+    return low, high
+
+
+def advice(changes: Sequence[str], most: float, otherwise: str) -> str:
+    """Single changes that would do as a sentence.
+
+    Args:
+        changes: a text of each.
+        most: factor by which each limit was changed at most.
+        otherwise: advice where there is none.
+    """
+    if not changes:
+        return f"No single limit would do, not even changed {most:.0f}-fold: {otherwise}"
+    which = "Any one of these" if len(changes) > 1 else "This"
+    return f"{which} alone would do: {'; '.join(changes)}."

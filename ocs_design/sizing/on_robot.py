@@ -16,11 +16,8 @@ from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.footing import Footing, footing_under, stand_on_trunk
 from ocs_design.sizing.reserve import Reality, Reserve
-from ocs_design.sizing.selection.device import of_parts
-from ocs_design.sizing.selection.problem import (
-    SelectionProblem,
-)
-from ocs_design.sizing.selection.result import Candidate, Selection, devices_by_mass
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.result import Candidate, Selection, devices_by_mass, of_parts
 from ocs_design.sizing.selection.select import (
     at_own_incidence,
     device_at,
@@ -87,7 +84,6 @@ def on_its_footing(
     robot: Robot,
     kept: tuple[Reality, Reserve],
     *,
-    advise: bool,
     ranked: bool,
 ) -> tuple[SelectionProblem, Selection, Reserve, Candidate]:
     """The selection on the footing that its best device has, with the problem that this is.
@@ -99,7 +95,7 @@ def on_its_footing(
     they stay.
 
     Args:
-        problem: to solve. criterion, advise: see `select_by`. robot: that carries it.
+        problem: to solve. criterion: see `select_by`. robot: that carries it.
         ranked: see `with_plates`.
         kept: what is drawn and the reserve for it, which the lightest device without one settles.
 
@@ -122,7 +118,7 @@ def on_its_footing(
             # Under a mast, which no estimate before had, another drive may be needed, or none do.
             again = again or lightest_by(own, criterion)
             try:
-                best = again or select_by(own, criterion, advise=advise).best
+                best = again or select_by(own, criterion).best
             except Infeasible as error:
                 held = format_quantity(own.robot.mass - robot.mass, "kg", digits=4)
                 error.message = f"With the {held} that hold it on the trunk: {error.message}"
@@ -136,12 +132,12 @@ def on_its_footing(
     first, widest = lightest_by(problem, criterion), problem
     if first is not None:
         problem, first = settled(first)
-    nominal = select_by(problem, criterion, advise=advise).best if first is None else first
+    nominal = select_by(problem, criterion).best if first is None else first
     reality, reserve = kept
     reserve = reserve.settled(reality, problem, nominal)
     if any(each.short for each in reserve.maneuvers.values()):
         # What the reserve costs is told against a device that is refined as well.
-        nominal = select_by(of_parts(problem, nominal), criterion, advise=False).best
+        nominal = select_by(of_parts(problem, nominal), criterion).best
     free, plain = problem.incidence is None and criterion is None, problem
     problem, widest = (
         replace(each, requirement=reserve.kept(each.requirement, free=free))
@@ -149,10 +145,10 @@ def on_its_footing(
     )
     first = device_at(problem, nominal, nominal.incidence)
     try:
-        selection = select_by(problem, criterion, advise=False, winner=first)
+        selection = select_by(problem, criterion, winner=first)
     except Infeasible:
         problem = widest
-        selection = select_by(problem, criterion, advise=advise)
+        selection = select_by(problem, criterion)
     if free:
         problem, selection, reserve = _surer(problem, selection, reserve, (reality, plain))
     selection = with_plates(selection, problem, criterion, robot, ranked=ranked)
@@ -161,7 +157,7 @@ def on_its_footing(
         own, device = settled(best)
         if own is problem:
             break
-        again = select_by(of_parts(own, device), criterion, advise=False, winner=device)
+        again = select_by(of_parts(own, device), criterion, winner=device)
         again, problem = with_plates(again, own, criterion, robot), own
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
         selection = replace(selection, ranking=(again.best, *others))
@@ -191,7 +187,7 @@ def _surer(
         own = reserve.of(needed)
         surer = replace(problem, requirement=own.kept(plain.requirement, free=True))
         try:
-            selection = select_by(surer, None, advise=False)
+            selection = select_by(surer, None)
         except Infeasible:
             break
         problem, reserve = surer, own
@@ -256,7 +252,7 @@ def in_rings(
 
     at, tried = ringed(best, 0.0), set[tuple[str, str]]()
     try:
-        selection = select_by(at, criterion, advise=False)
+        selection = select_by(at, criterion)
     except Infeasible as error:
         raise _unheld(at.guard_wall, error) from error
     selection = with_plates(selection, at, criterion, robot)
@@ -278,7 +274,7 @@ def in_rings(
         ]
         alone = replace(own, motors=(best.motor,), gears=(best.gear,))
         try:
-            again = select_by(alone, criterion, advise=False)
+            again = select_by(alone, criterion)
         except Infeasible as error:
             if not others:
                 raise _unheld(own.guard_wall, error) from error

@@ -169,7 +169,7 @@ def lightest_device(task: Task) -> FrontDevice:
         )
     stated = task.specification
     alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
-    designed = design_device(alone, task.robot, task.resolved, advise=False, ranked=False)
+    designed = design_device(alone, task.robot, task.resolved, ranked=False)
     choice = designed.choice
     assert choice is not None, "there are motors to choose from"
     best = choice.chosen

@@ -46,7 +46,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.scenario import Run
 from ocs_design.sizing.mounting import Mounting
-from ocs_design.sizing.selection.prices import mass_prices
+from ocs_design.sizing.selection.refinement import mass_prices
 from ocs_design.sizing.sized import Choice, Designed, Sized
 from ocs_design.workflows.buildable import buildable
 

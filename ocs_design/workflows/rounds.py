@@ -54,7 +54,8 @@ from ocs_design.sizing.fallbacks import (
 from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
 from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.sizing.reserve import Reserve
-from ocs_design.sizing.selection.advice import Refused, unasked
+from ocs_design.sizing.selection.advice import unasked
+from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.sized import Designed
 from ocs_design.workflows.flying import Flights, control_of, trajectories
 
@@ -135,7 +136,7 @@ def size_on_robot(
     require_trot(resolved.requirement.maneuvers, robot)
     jumping = _begin_jumps(specification.validation, robot, resolved)
     try:
-        designed = design_device(specification, robot, resolved, advise=False, reserve=reserve)
+        designed = design_device(specification, robot, resolved, reserve=reserve)
         device = designed.device
         if designed.requirement is not None:
             own = designed.requirement

@@ -130,7 +130,7 @@ def test_rex_hopper_as_built_catches_itself_from_16_degrees(axis):
     stated = specification("rex_hopper")
     nominal = replace(stated, requirement=replace(stated.requirement, reliability=0.5))
     task = read_task(nominal, package_paths={}, strict=False)
-    device = design_device(nominal, task.robot, task.resolved, advise=False, ranked=False).device
+    device = design_device(nominal, task.robot, task.resolved, ranked=False).device
     whole = standing.REX_HOPPER
     body = MassProperties(whole.mass, whole.com, whole.inertia)
     for degrees, catches in ((16.0, True), (17.0, False)):

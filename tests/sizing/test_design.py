@@ -77,7 +77,7 @@ def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
     """To 0.1 mm, and 0.2 mm that are left as they are; all of it is weighed."""
     robot = RobotSection(mass=12.0, inertia=(0.1, 0.25, 0.3))
     task = read_task(Specification(robot=robot, motor=MotorSection(name="U8 Lite L KV110")))
-    device = design_device(task.specification, task.robot, task.resolved, advise=False).device
+    device = design_device(task.specification, task.robot, task.resolved).device
     thick = device.foot_plate
     assert thick > 0.006
     bears = stem_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)

@@ -15,8 +15,8 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import DeadEnd, DeviceProblem, find_fixed_point
 from ocs_design.sizing.bound.device_sizing import size_device
+from ocs_design.sizing.bound.infeasible import DEVICE_PRECISION, with_limit
 from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED
-from ocs_design.sizing.relaxation import DEVICE_PRECISION, with_limit
 
 SOLO12 = MassProperties(
     2.5,

@@ -574,7 +574,7 @@ def falling(height, robot):
         ocs=OcsSection(layout="pair", alpha_criterion="lightest"),
     )
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
-    return resolved, design_device(specification, robot, resolved, advise=False)
+    return resolved, design_device(specification, robot, resolved)
 
 
 def test_what_cannot_carry_its_mast_is_refused(column):

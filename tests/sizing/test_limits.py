@@ -6,8 +6,13 @@ from hypothesis import strategies as st
 
 from ocs_design.common.units import round_outwards
 from ocs_design.requirement.froude import Envelope
-from ocs_design.sizing.changes import PRECISION, smallest_change, smallest_changes
-from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED
+from ocs_design.sizing.limits import (
+    PRECISION,
+    RIM_LIMITS,
+    WHEEL_SPEED,
+    smallest_change,
+    smallest_changes,
+)
 
 BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED)}
 

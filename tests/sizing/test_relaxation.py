@@ -8,16 +8,15 @@ from hypothesis import HealthCheck, assume, given, settings
 from rims import PAPER_STEEL, STEEL, paper_problem, rim_problems, room
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
-from ocs_design.sizing.bound.rim_program import solve_rim
-from ocs_design.sizing.changes import MOST_CHANGE
-from ocs_design.sizing.limits import RIM_LIMITS
-from ocs_design.sizing.relaxation import (
+from ocs_design.sizing.bound.infeasible import (
     conflicting_limits,
     is_feasible,
     largest_spin_inertia,
     with_limit,
 )
+from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
+from ocs_design.sizing.bound.rim_program import solve_rim
+from ocs_design.sizing.limits import MOST_CHANGE, RIM_LIMITS
 
 BY_NAME = {limit.name: limit for limit in RIM_LIMITS}
 few = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))

@@ -24,12 +24,12 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
-from ocs_design.sizing.selection.advice import PRECISION, single_changes
+from ocs_design.sizing.selection.advice import PRECISION, Field, advice_on, single_changes
 from ocs_design.sizing.selection.device import with_demands
-from ocs_design.sizing.selection.feasibility import Field
-from ocs_design.sizing.selection.problem import selection_problem, with_limit
+from ocs_design.sizing.selection.problem import with_limit
 from ocs_design.sizing.selection.result import Reason
 from ocs_design.sizing.selection.select import select
+from ocs_design.sizing.specified import selection_problem
 
 MASS_DIGITS = 2e-5
 """To which the lightest device is found."""
@@ -152,7 +152,7 @@ def test_a_stated_spin_inertia_is_kept():
     assert found.mass > best.mass
     little = replace(problem.requirement, spin_inertia=0.3 * best.spin_inertia)
     with pytest.raises(Infeasible):
-        select(replace(problem, requirement=little), advise=False)
+        select(replace(problem, requirement=little))
 
 
 def test_a_rate_change_alone():
@@ -178,7 +178,7 @@ def only(problem, **changes):
 def reasons(problem):
     """Of all motors of a problem that none of them solves."""
     with pytest.raises(Infeasible) as caught:
-        select(problem, advise=False)
+        select(problem)
     return caught.value
 
 
@@ -252,7 +252,7 @@ def test_infeasible_says_what_would_do():
     narrow = replace(problem, motors=(motor,))
     with pytest.raises(Infeasible) as caught:
         select(narrow)
-    error = caught.value
+    error = advice_on(caught.value)
     assert error.message.startswith(f"Motor {motor.name} cannot do it at {problem.bus_voltage:g} V")
     assert "alone would do: " in error.hint
     assert "time" in error.relaxations
@@ -316,6 +316,6 @@ def test_where_no_rim_fits_at_all_none_is_said_to():
     problem = random_problem(0)
     room = replace(problem.envelope, wall_min=2.0 * problem.envelope.outer_radius_max)
     with pytest.raises(Infeasible) as caught:
-        select(replace(problem, envelope=room), advise=False)
+        select(replace(problem, envelope=room))
     assert "no rim fits at all" in str(caught.value)
     assert caught.value.largest_spin_inertia == 0.0

@@ -16,19 +16,19 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.placement import Place, Size, around
 from ocs_design.sizing.selection.bounds import (
     Cell,
-    Least,
-    LeastInertia,
     RimFloor,
     bound_task,
     cells_of,
-    least_composite_inertia,
     least_masses,
     least_spin_inertias,
 )
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.composite_inertia import (
+    Least,
+    LeastInertia,
     Modules,
     composite_inertia,
+    least_composite_inertia,
 )
 from ocs_design.sizing.selection.demand import columns, wheel_task
 from ocs_design.sizing.selection.device import braked

@@ -14,7 +14,7 @@ from ocs_design.requirement.reading import parse_specification, specification_of
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.vocabulary import LAYOUTS
 from ocs_design.sizing.design import CannotSurvive, design_device
-from ocs_design.sizing.selection.problem import selection_problem, specified_layout
+from ocs_design.sizing.specified import selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
 from ocs_design.workflows.layouts import compare_layouts
 from ocs_design.workflows.pareto import read_task
@@ -151,8 +151,7 @@ def test_the_lightest_is_the_same_without_the_plates_of_the_others():
     asked = specification_from_options({"robot.file": str(SOLO12)})
     task = read_task(asked, package_paths={}, strict=False)
     whole, alone = (
-        design_device(asked, task.robot, task.resolved, advise=False, ranked=ranked)
-        for ranked in (True, False)
+        design_device(asked, task.robot, task.resolved, ranked=ranked) for ranked in (True, False)
     )
     assert alone.device.mass == whole.device.mass
     assert alone.device.motor == whole.device.motor
@@ -188,7 +187,7 @@ def test_layouts_that_cannot_do_without_any_one_wheel_are_refused(layout):
     asked = specification_from_options({**SURVIVES, "ocs.layout": layout})
     task = read_task(asked, package_paths={}, strict=False)
     with pytest.raises(CannotSurvive, match=f"'{layout}' does not survive .* without wheel"):
-        design_device(asked, task.robot, task.resolved, advise=False)
+        design_device(asked, task.robot, task.resolved)
 
 
 @pytest.mark.parametrize(
@@ -208,7 +207,7 @@ def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     drop = {"requirement.fall": "1m", "requirement.tilt": "30deg", "supply.power_max": "600 W"}
     asked = specification_from_options({"robot.file": str(SOLO12), "ocs.layout": layout, **drop})
     task = read_task(asked, package_paths={}, strict=False)
-    designed = design_device(asked, task.robot, task.resolved, advise=False)
+    designed = design_device(asked, task.robot, task.resolved)
     promised = designed.choice.chosen.line.power_max
     assert drive_line_of(designed.device).power_max == pytest.approx(promised, rel=1e-9)
     standing = task.resolved.requirement.standing_height
@@ -233,7 +232,7 @@ def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     assert turn.headed == direct
     assert (turn.turn == 0.0).all() == direct
     if direct:
-        designed = design_device(asked, task.robot, task.resolved, advise=False)
+        designed = design_device(asked, task.robot, task.resolved)
         standing = task.resolved.requirement.standing_height
         found = plan(task.robot.mass_properties, designed.device, (turn,), standing)
         assert found[turn.name].share < 1.0

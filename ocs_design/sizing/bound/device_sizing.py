@@ -16,9 +16,9 @@ from ocs_design.sizing.bound.device_problem import (
     best_incidences,
     find_fixed_point,
 )
+from ocs_design.sizing.bound.infeasible import infeasible_device
 from ocs_design.sizing.bound.rim_problem import check_limits, lightest_rim
 from ocs_design.sizing.bound.rim_program import RimSolution, solve_rim
-from ocs_design.sizing.relaxation import infeasible_device
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,8 +28,8 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia, hoop_weights
+from ocs_design.sizing.bound.infeasible import infeasible_rim
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
-from ocs_design.sizing.relaxation import infeasible_rim
 
 if TYPE_CHECKING:
     from types import ModuleType

@@ -1,12 +1,21 @@
-"""No motor can do it: what is missing, and the smallest single changes that would do."""
+"""Where no motor can do it: the smallest single changes that would do.
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+Each asks whether there is any device, of many problems that are alike (`Field`). Which device is of
+no account, so that candidates need not be ranked: those are tried first whose largest wheel exceeds
+what they need the most, and the first that is solved ends the search. Where nothing is possible,
+nearly all candidates fall out by what they need with a wheel of no mass and by the largest wheel in
+closed form.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, repeat
 from math import sqrt
 
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Motor
+from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import round_outwards
 from ocs_design.requirement.bound import per_wheel, spin_demands
@@ -14,11 +23,19 @@ from ocs_design.requirement.kinds import change_text
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Balance
 from ocs_design.robot.links import listed
-from ocs_design.sizing.changes import Progress, advice, smallest_changes, unseen
-from ocs_design.sizing.limits import TIME, Limit
-from ocs_design.sizing.selection.feasibility import Field, largest_wheel
-from ocs_design.sizing.selection.problem import SelectionProblem, limits_of, with_limit, with_time
-from ocs_design.sizing.selection.result import Reason, Rejection
+from ocs_design.sizing.bound.rim_problem import largest_spin_inertia
+from ocs_design.sizing.limits import TIME, Limit, Progress, advice, smallest_changes, unseen
+from ocs_design.sizing.selection.bounds import cells_of, initial_guess, least_spin_inertias
+from ocs_design.sizing.selection.candidates import Candidates, Drives, Guess, drives_of, known_pairs
+from ocs_design.sizing.selection.fixed_point import solve_stepwise
+from ocs_design.sizing.selection.problem import (
+    SelectionProblem,
+    limits_of,
+    with_limit,
+    with_time,
+)
+from ocs_design.sizing.selection.rejections import Refused, largest_wheel
+from ocs_design.sizing.selection.result import Reason
 
 PRECISION = 0.03
 """Precision of the changes, relative: with less by more than that none of the drives that
@@ -33,92 +50,154 @@ times its height: beyond, a humanoid is told to fall from 145 m. A radius, with 
 the inertia goes, is changed less: wheels beyond may couple roll and pitch by anything, and no bound
 of what they need survives that."""
 
-NO_ROOM = frozenset({Reason.ENVELOPE, Reason.STRESS, Reason.MASS})
-"""Reasons that are a wheel's, not a motor's."""
-
 _STATE_FIGURES = (
     "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state its "
     "figures in a file of your own with --motors."
 )
 
 
-class Refused(Infeasible):
-    """No motor can do it; what would do is not looked for yet, which takes longer than the search.
+_CELLS = 6
+"""Ranges of the incidence: wider than those of `bounds`, for all drives at once."""
+
+_FIRST, _BLOCK = 32, 512
+"""Candidates that are bounded at once: few first, where any will do."""
+
+_FIRST_SOLVED, _SOLVED = 4, 64
+"""Candidates that are solved at once."""
+
+_MOST_SOLVED = 128
+"""Candidates that are solved before the answer is no: the most promising ones come first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Drives of a problem that are still in question.
 
     Attributes:
-        problem: that no motor solves. nearest: the motor that comes closest.
+        problem: what is asked for, and the room for it.
+        drives: n of them.
+        needed: what their wheels need at the least, whatever they weigh [kg m^2], shape (n,); inf
+            where no wheel would do.
     """
 
-    def __init__(self, problem: SelectionProblem, rejections: Iterable[Rejection]) -> None:
-        # How far a motor is from being possible; last, those whose figures are missing.
-        nearest = min(rejections, key=lambda one: (one.reason is Reason.FIGURES, one.shortfall))
-        largest = nearest.largest
-        count, voltage = len(problem.motors), f"{problem.bus_voltage:g} V"
-        if (wheels := len(problem.layout)) != 2:
-            voltage += " with one wheel" if wheels == 1 else f" with {wheels} wheels"
-        who = (
-            f"Motor {nearest.motor} cannot do it at {voltage}"
-            if count == 1
-            else f"None of {count} motors can do it at {voltage}; {nearest.motor} comes closest"
-        )
-        super().__init__(
-            f"{who}: {nearest.detail}.",
-            binding=[str(nearest.reason)],
-            required_spin_inertia=nearest.needed,
-            largest_spin_inertia=(
-                largest_wheel(problem, problem.envelope) if largest is None else largest
-            ),
-            relaxations={},
-        )
-        self.problem, self.nearest = problem, nearest
+    problem: SelectionProblem
+    drives: Drives
+    needed: FloatArray
+
+    @classmethod
+    def of(cls, problem: SelectionProblem, drives: Drives | None = None) -> "Field":
+        """All motors and gears whose figures are known, or these drives."""
+        if drives is None:
+            pairs = np.argwhere(known_pairs(problem.motors, problem.gears))
+            drives = drives_of(problem, pairs)
+        cells, nothing = cells_of(problem.incidence, _CELLS), np.zeros(len(drives))
+        needed = least_spin_inertias(problem, drives, cells, nothing)
+        return cls(problem, drives, needed.min(axis=1))
+
+    def changed(self, problem: SelectionProblem) -> "Field":
+        """Field of these drives for a problem that differs in a limit."""
+        old, drives = self.problem, self.drives
+        before, after = ((each.bus_voltage, each.wheel_speed_max) for each in (old, problem))
+        if before != after:
+            drives = drives_of(problem, np.column_stack([drives.motor, drives.gear]))
+        return Field.of(problem, drives)
 
     @property
-    def for_reserve(self) -> bool:
-        """Whether a device that keeps nothing does it."""
-        return any(kept.short for kept in self.problem.requirement.reserves.values())
+    def possible(self) -> bool:
+        """Whether any of the most promising has a device; what can only just be may be missed."""
+        tried = 0
+        for candidates, guess in self._bounded():
+            if any_solved(candidates, guess):
+                return True
+            tried += len(candidates)
+            if tried >= _MOST_SOLVED:
+                break
+        return False
 
-    def advised(
-        self, progress: Progress = unseen, *, default: bool = False, lightest: bool = True
-    ) -> Infeasible:
-        """The error with the single changes that would do.
+    @property
+    def conceivable(self) -> bool:
+        """Whether no bound rules all of them out: if not, nothing is possible."""
+        return any(len(candidates) for candidates, _ in self._bounded())
 
-        Args:
-            progress: is told the share that is done.
-            default: whether nobody asked for these maneuvers.
-            lightest: whether the lightest incidence may be a cure, as nobody has tried it.
+    def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
+        """Candidates that no bound rules out, the most promising first, few at first."""
+        left, needed = self._roomy()
+        sizes = chain([_FIRST], repeat(_BLOCK))
+        solved = chain([_FIRST_SOLVED], repeat(_SOLVED))
+        while len(left):
+            size = next(sizes)
+            some = left.take(np.arange(min(size, len(left))))
+            guess = initial_guess(some, needed[:size])
+            rows = np.flatnonzero(np.isfinite(guess.mass))
+            solved = chain([_FIRST_SOLVED], repeat(_SOLVED))
+            while rows.size:
+                count = next(solved)
+                yield some.take(rows[:count]), guess.take(rows[:count])
+                rows = rows[count:]
+            left, needed = left.take(np.arange(size, len(left))), needed[size:]
+
+    def _roomy(self) -> tuple[Candidates, FloatArray]:
+        """Candidates whose largest wheel is large enough, and what they need [kg m^2].
+
+        Those with the most to spare come first.
         """
-        reason = self.nearest.reason
-        changes: dict[Limit, float] = {}
-        hints: Iterable[str] = [_STATE_FIGURES]
-        if reason is not Reason.FIGURES:
-            field = Field.of(self.problem)
-            # No change of a limit mends an incidence.
-            if reason is not Reason.INCIDENCE:
-                changes = single_changes(field, progress)
-            hints = [
-                *_caught(field),
-                *self._motor_hint(),
-                *_hints(field, reason, changes, lightest=lightest),
-            ]
-            if default:
-                hints = [_default_hint(field), *hints]
-        if self.for_reserve:
-            hints = [*hints, "A lower --reliability keeps less in reserve."]
-        return Infeasible(
-            self.message,
-            binding=self.binding,
-            required_spin_inertia=self.required_spin_inertia,
-            largest_spin_inertia=self.largest_spin_inertia,
-            relaxations={limit.name: value for limit, value in changes.items()},
-            hint=" ".join(hints),
-        )
+        kinds, rows = np.arange(len(self.problem.materials)), np.arange(len(self.drives))
+        material, row = (each.ravel() for each in np.meshgrid(kinds, rows))
+        every = Candidates(self.problem, self.drives.take(row), material)
+        beside, needed = every.drives.beside_rim, self.needed[row]
+        largest = largest_spin_inertia(every.limits) + beside
+        spare = largest / np.maximum(needed, 1e-15)
+        roomy = np.flatnonzero((largest > beside) & (spare >= 1.0))
+        order = roomy[np.argsort(-spare[roomy], kind="stable")]
+        return every.take(order), needed[order]
 
-    def _motor_hint(self) -> Iterator[str]:
-        """What motor would do, as heavy for its torque as the nearest."""
-        model = next(each for each in self.problem.motors if each.name == self.nearest.motor)
-        needed = needed_motor(self.problem, model)
-        if needed is not None:
-            yield needed.text
+
+def any_solved(candidates: Candidates, guess: Guess) -> bool:
+    """Whether any of the candidates has a device; closes in no further than to the first."""
+    return any(solved.point.feasible.any() for solved in solve_stepwise(candidates, guess))
+
+
+def advice_on(
+    refused: Refused,
+    progress: Progress = unseen,
+    *,
+    default: bool = False,
+    lightest: bool = True,
+) -> Infeasible:
+    """The error with the single changes that would do.
+
+    Args:
+        refused: what no motor can do.
+        progress: is told the share that is done.
+        default: whether nobody asked for these maneuvers.
+        lightest: whether the lightest incidence may be a cure, as nobody has tried it.
+    """
+    reason, problem = refused.nearest.reason, refused.problem
+    changes: dict[Limit, float] = {}
+    hints: list[str] = [_STATE_FIGURES]
+    if reason is not Reason.FIGURES:
+        field = Field.of(problem)
+        # No change of a limit mends an incidence.
+        if reason is not Reason.INCIDENCE:
+            changes = single_changes(field, progress)
+        model = next(each for each in problem.motors if each.name == refused.nearest.motor)
+        needed = needed_motor(problem, model)
+        hints = [
+            *([_default_hint(field)] if default else []),
+            *_caught(field),
+            *([] if needed is None else [needed.text]),
+            *_hints(field, reason, changes, lightest=lightest),
+        ]
+    if refused.for_reserve:
+        hints.append("A lower --reliability keeps less in reserve.")
+    return Infeasible(
+        refused.message,
+        binding=refused.binding,
+        required_spin_inertia=refused.required_spin_inertia,
+        largest_spin_inertia=refused.largest_spin_inertia,
+        relaxations={limit.name: value for limit, value in changes.items()},
+        hint=" ".join(hints),
+    )
 
 
 def _caught(field: Field) -> Iterator[str]:

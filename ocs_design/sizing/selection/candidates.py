@@ -282,6 +282,22 @@ class Candidates(Table):
         return Modules.of(whole, drives.size(outer + guard, height))
 
 
+@dataclass(frozen=True, eq=False)
+class Guess(Table):
+    """Initial guesses of candidates, shape (n,) each.
+
+    Attributes:
+        spin_inertia: a lower bound [kg m^2].
+        mass: a lower bound, of all modules [kg]; inf: there is none.
+        angle: incidence [rad]. width: how far around it [rad]; 0: there only.
+    """
+
+    spin_inertia: FloatArray
+    mass: FloatArray
+    angle: FloatArray
+    width: FloatArray
+
+
 def web_inertia(limits: RimLimits, bore: FloatArray) -> FloatArray:
     """Inertia of webs about their axes in rims of these bore radii [m], without hubs [kg m^2]."""
     return np.asarray(np.pi / 2.0 * np.asarray(limits.density) * limits.web * bore**4)

@@ -1,14 +1,14 @@
-"""Composite inertia of robot and all modules, braked, for many devices at once."""
+"""Composite inertia of robot and all modules, braked, for many devices, and its lower bound."""
 
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.layout import Layout
+from ocs_design.device.layout import PAIR, Layout
 from ocs_design.parts.moments import MassMoments
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.placement import Place, Size
@@ -108,3 +108,130 @@ def composite_inertia(
 ) -> CompositeInertia:
     """Inertia of each device on the robot; see `CompositeInertia`."""
     return CompositeInertia(robot, layout, modules, place.centers(modules.size) - robot.com)
+
+
+_Range: TypeAlias = tuple[FloatArray, FloatArray]
+"""Two ends, from and to."""
+
+
+class LeastInertia(NamedTuple):
+    """Inertia about roll and pitch that no device is below, and how much it couples them.
+
+    Attributes:
+        inertia: the least about either axis, coupled as the robot alone, shape (n, 2).
+        spread: that J_xy differs by from that at most [kg m^2], shape (n,).
+    """
+
+    inertia: TiltInertia
+    spread: FloatArray
+
+
+class Least(NamedTuple):
+    """What no module of a kind is below, all of shape (n,), and what it is not beyond.
+
+    Attributes:
+        mass: of what stands about the wheel's centre, wheel and drum [kg].
+        inertia: of that about any axis [kg m^2].
+        behind: of what stands behind it [kg].
+        depth, above: of its middle from the wheel's, at most [m].
+        smallest, largest: rooms that modules take.
+        heaviest: [kg].
+    """
+
+    mass: FloatArray
+    inertia: FloatArray
+    behind: FloatArray
+    depth: FloatArray
+    above: FloatArray
+    smallest: Size[FloatArray]
+    largest: Size[FloatArray]
+    heaviest: FloatArray
+
+
+def least_composite_inertia(
+    robot: MassProperties, place: Place, least: Least, layout: Layout = PAIR
+) -> LeastInertia:
+    """Inertia that no device is below whose modules are no smaller and no lighter.
+
+    Every term grows with mass, inertia or a distance; each distance is at its own least between
+    where the smallest and where the largest module stands, at any incidence. What is not looked at,
+    the foot, would only add to the inertia about the common centre of mass.
+    """
+    corners = np.stack(
+        [
+            place.centers(Size(reach, standing))
+            for reach in (least.smallest.reach, least.largest.reach)
+            for standing in (least.smallest.standing, least.largest.standing)
+        ]
+    )
+    middle = corners.mean(axis=-2)
+    x, y, z = zip(middle.min(axis=0).T, middle.max(axis=0).T, strict=True)
+    apart = corners - middle[..., None, :]
+    wheels, mass = corners.shape[-2], least.mass + least.behind
+    off, risen = least.behind * least.depth / mass, least.behind * least.above / mass
+    # What stands behind a pair's wheels, which face away from each other, leaves their middle.
+    aside, sunk = (0.0 * off, 0.0 * off) if layout.pairs else (off, off + np.abs(risen))
+    forward = _least_square((x[0] - off, x[1] + aside), robot.com[0])
+    left = _least_square((y[0] - aside, y[1] + aside), robot.com[1])
+    up = _least_square((z[0] - sunk, z[1] + risen + sunk), robot.com[2])
+    # Of the wheels about their own middle, what stands behind them left out.
+    spread = _least_square((apart.min(axis=0), apart.max(axis=0)), 0.0).sum(axis=-2)
+    along, across, above = least.mass * spread.T
+    reduced = robot.mass * wheels * mass / (robot.mass + wheels * mass)
+    own = wheels * least.inertia
+    roll = robot.inertia[0, 0] + reduced * (left + up) + across + above + own
+    pitch = robot.inertia[1, 1] + reduced * (forward + up) + along + above + own
+    diagonal = np.stack([roll, pitch], axis=-1)
+    product = np.full(len(roll), TiltInertia.of(robot.inertia).product)
+    coupling = _coupling_spread(robot, least, x, z, wheels)
+    if not layout.pairs:
+        coupling = coupling + _lopsidedness(least, apart, layout)
+    return LeastInertia(TiltInertia(diagonal, product), coupling)
+
+
+def _lopsidedness(least: Least, apart: FloatArray, layout: Layout) -> FloatArray:
+    """Most that modules which are no mirror images add to I_xy about their middle [kg m^2], (n,).
+
+    Args:
+        least: of a module.
+        apart: of the wheels from their middle at each corner of the sizes [m], (..., n, w, 3).
+        layout: of the modules.
+    """
+    _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
+    turned = sum(
+        abs(float((one[:, 0] * other[:, 1] + other[:, 0] * one[:, 1]).sum()))
+        for one, other in ((outward, outward), (upward, upward), (outward, upward))
+    )
+    along, across = np.abs(apart[..., 0]), np.abs(apart[..., 1])
+    places = np.abs((apart[..., 0] * apart[..., 1]).sum(axis=-1)).max(axis=0)
+    moved = (along + across).sum(axis=-1).max(axis=0) * np.abs(least.depth)
+    return np.asarray(least.heaviest * (places + moved + turned * least.largest.reach**2))
+
+
+def _coupling_spread(
+    robot: MassProperties, least: Least, x: _Range, z: _Range, wheels: int
+) -> FloatArray:
+    """Most that a device changes J_xy by, term by term [kg m^2], shape (n,).
+
+    A module's own products are no more than its mass times its room around its wheel squared.
+    """
+    reach, standing = least.largest
+    room = reach + standing + np.abs(least.above)
+    mass = wheels * least.heaviest
+    reduced = robot.mass * mass / (robot.mass + mass)
+    forward, up = (
+        np.maximum(np.abs(low - about), np.abs(high - about)) + room
+        for (low, high), about in ((x, robot.com[0]), (z, robot.com[2]))
+    )
+    left, (xz, yz) = abs(robot.com[1]), np.abs(robot.inertia[:2, 2])
+    aslant, sideways = reduced * forward * up + mass * room**2, reduced * left * up
+    # Of I_xz I_yz / I_zz, the last term because I_zz grows too.
+    yaw = aslant * yz + xz * sideways + aslant * sideways + xz * yz
+    return np.asarray(reduced * left * forward + yaw / robot.inertia[2, 2])
+
+
+def _least_square(between: _Range, about: float) -> FloatArray:
+    """Least square of the distance from `about` of anything in a range."""
+    low, high = between[0] - about, between[1] - about
+    least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
+    return least

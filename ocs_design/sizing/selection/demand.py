@@ -1,4 +1,4 @@
-"""What a requirement asks of drives and their wheels, for many at once."""
+"""What a requirement asks of wheels and their drives, for many candidates at once."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -24,7 +24,7 @@ lightest device, 0.40 and 0.45 with Romeo's of two and four wheels, 0.47 with TA
 
 
 class Margins(NamedTuple):
-    """What wheels of some spin inertia come to, by each part of the requirement.
+    """How wheels of some spin inertia do in one part of the requirement.
 
     Attributes:
         margin: what they do over what is asked for; at least 1 if they are in time.
@@ -43,7 +43,7 @@ def margins_of(
     spin_inertia: FloatArray,
     angle: FloatArray,
 ) -> tuple[list[Margins], list[Margins]]:
-    """What wheels come to in each part of the requirement.
+    """Margins of wheels in each part of the requirement.
 
     Args:
         requirement: maneuvers and rate change.

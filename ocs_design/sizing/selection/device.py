@@ -120,18 +120,6 @@ def device_of(solved: Solved) -> Candidate:
     )
 
 
-def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem:
-    """The problem with motor, gear, material and web of each device alone to choose from."""
-    hubs = [device.hub for device in devices]
-    return replace(
-        problem,
-        motors=tuple(device.motor for device in devices),
-        gears=tuple(device.gear for device in devices),
-        materials=tuple(device.material for device in devices),
-        lightenings=tuple(0 if hub is None else hub.lightening for hub in hubs),
-    )
-
-
 def braked(
     robot: MassProperties,
     bodies: tuple[Carrier, ...],
@@ -213,7 +201,7 @@ def _task_of(
     inertia: TiltInertia,
     angle: float,
 ) -> WheelTask:
-    """A maneuver as what the device's wheels must do at an angle of the layout [rad]."""
+    """Task of the device's wheels in a maneuver, at an angle of the layout [rad]."""
     rows, upright = (3, device.total.inertia[2:, 2]) if maneuver.headed else (2, None)
     axes = device.layout.axes(np.array([[angle]]))[..., :rows, :]
     return wheel_task([maneuver], requirement, inertia, axes, upright=upright)

@@ -23,7 +23,7 @@ from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.module_radii import smallest_radius
-from ocs_design.sizing.selection.candidates import Candidates
+from ocs_design.sizing.selection.candidates import Candidates, Guess
 from ocs_design.sizing.selection.composite_inertia import composite_inertia
 from ocs_design.sizing.selection.demand import margins_of, worst
 
@@ -48,24 +48,8 @@ _BEYOND, _NOTHING = 1e9, 1e-9
 """Beyond any spin inertia [kg m^2] and any mass [kg], and below any margin."""
 
 
-@dataclass(frozen=True, eq=False)
-class Guess(Table):
-    """Initial guesses of candidates, shape (n,) each.
-
-    Attributes:
-        spin_inertia: a lower bound [kg m^2].
-        mass: a lower bound, of all modules [kg]; inf: there is none.
-        angle: incidence [rad]. width: how far around it [rad]; 0: there only.
-    """
-
-    spin_inertia: FloatArray
-    mass: FloatArray
-    angle: FloatArray
-    width: FloatArray
-
-
 class Design(NamedTuple):
-    """What a candidate's dimensions are chosen by, beyond its spin inertia; shape (n,) each.
+    """Radius and incidence of candidates, shape (n,) each; the rest follows by spin inertia.
 
     Attributes:
         radius: outer radius of the rim [m]; the nearest possible is taken.
@@ -119,7 +103,7 @@ class FixedPoint(Table):
 
 @dataclass(frozen=True, eq=False)
 class Solved(Table):
-    """Candidates about at their best, one per row.
+    """Candidates near their best radius and incidence, one per row.
 
     Attributes:
         candidates: what they are made of. guess: where they were looked for.
@@ -155,7 +139,7 @@ def solve(candidates: Candidates, guess: Guess) -> Solved:
 
 
 def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
-    """Candidates at the best radius so far, each time that it is better known; rough till last."""
+    """Candidates at the best radius so far, each time it is better known; rough but the last."""
     start = np.maximum(guess.spin_inertia, candidates.least_spin_inertia)
     # A larger wheel than that of the start may be needed, and may have a larger radius.
     rim = np.maximum(start - candidates.drives.beside_rim, smallest_spin_inertia(candidates.limits))
@@ -285,7 +269,7 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
 def _along_secant(
     spin: FloatArray, asked: FloatArray, last_spin: FloatArray, last_asked: FloatArray
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Spin inertia at which what is asked for meets it, by the last two; whether it never does.
+    """Spin inertia that meets what is asked for, by a secant of the last two; whether none does.
 
     Close to each other, the last two tell how steeply what is asked for rises, which it does ever
     more steeply: a secant from below leads no further than to the fixed point, and none is ahead

@@ -1,4 +1,4 @@
-"""What the selection chooses from, and for what."""
+"""The selection's problem: what is required, and the parts to choose from."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -6,53 +6,26 @@ from math import isfinite
 
 import numpy as np
 
-from ocs_design.actuation.motor import DIRECT, Gear, Motor, Mounting
+from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.actuation.supply import Supply
-from ocs_design.catalogue.materials import Material, material
-from ocs_design.common.arrays import FloatArray, vector
-from ocs_design.common.errors import SpecificationError, UsageError
-from ocs_design.common.units import format_quantity
-from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
-from ocs_design.parts.bell import bell_of
-from ocs_design.parts.joints import SERVICE, hub_joint
-from ocs_design.parts.motor_mount import is_held
+from ocs_design.catalogue.materials import Material
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import UsageError
+from ocs_design.device.layout import PAIR, Layout
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import (
     NO_CUTS,
     SHRUNK_WEB_THICKNESS,
-    WEB_MATERIAL,
     WEB_THICKNESS,
     Hub,
     RimCuts,
-    hub_height,
     hub_of,
 )
-from ocs_design.requirement.choices import MotorChoice
-from ocs_design.requirement.device_sections import FlywheelSection
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.resolving import Resolved
-from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.turns import TurnTo
-from ocs_design.requirement.vocabulary import (
-    ALL_LAYOUTS,
-    ALUMINIUM_WEB,
-    AUTO,
-    BALANCING_DEPTH,
-    BALANCING_DIAMETER,
-    CHAMFER,
-    EQUAL_RATE,
-    LARGEST_CHAMFER,
-    LIGHTENING,
-    LIGHTEST,
-    NO_WEB,
-    RING,
-)
 from ocs_design.robot.mass import MassProperties
-from ocs_design.robot.robot import Robot
 from ocs_design.sizing.bound.rim_problem import check_limits
-from ocs_design.sizing.footing import footing_of
 from ocs_design.sizing.limits import BUS_POWER, BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
 from ocs_design.sizing.placement import Place
 
@@ -139,7 +112,7 @@ class SelectionProblem:
         return hub if fits else replace(hub, lightening=0)
 
     def check(self) -> None:
-        """Refuse a problem that is no question.
+        """Refuse a problem that cannot be solved as it is stated.
 
         Raises:
             UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
@@ -159,7 +132,7 @@ class SelectionProblem:
 
 
 def limits_of(problem: SelectionProblem) -> dict[Limit, float]:
-    """Every limit that may be in the way, as it is [SI]."""
+    """Values of all limits that may stand in the way [SI]."""
     speed = {} if problem.wheel_speed_max is None else {WHEEL_SPEED: problem.wheel_speed_max}
     power = {BUS_POWER: problem.supply.power} if isfinite(problem.supply.power) else {}
     return {
@@ -198,180 +171,3 @@ def with_time(problem: SelectionProblem, factor: float, names: set[str]) -> Sele
         for maneuver in requirement.maneuvers
     )
     return replace(problem, requirement=replace(requirement, maneuvers=maneuvers))
-
-
-def selection_problem(
-    specification: Specification, robot: Robot, resolved: Resolved
-) -> SelectionProblem | None:
-    """The problem that a specification poses; None where it wants no motor."""
-    choice = resolved.choice
-    if choice is None:
-        return None
-    stated, layout = specification.ocs, specified_layout(specification)
-    footing = footing_of(robot, resolved.envelope, stated.position, layout)
-    angle = layout.angle if stated.alpha is None else stated.alpha
-    direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
-    maneuvers = tuple(
-        replace(each, direct=direct) if isinstance(each, TurnTo) else each
-        for each in resolved.requirement.maneuvers
-    )
-    problem = SelectionProblem(
-        robot=footing.carried(robot.mass_properties),
-        requirement=replace(resolved.requirement, maneuvers=maneuvers),
-        envelope=resolved.envelope,
-        place=footing.place,
-        motors=_held(specification, choice),
-        gears=choice.gears,
-        materials=choice.materials,
-        supply=choice.supply,
-        incidence=angle,
-        layout=layout,
-        wheel_speed_max=choice.wheel_speed_max,
-        web=specification.flywheel.web != NO_WEB,
-        cuts=specified_cuts(specification.flywheel, resolved.envelope),
-        web_material=material(WEB_MATERIAL)
-        if specification.flywheel.web == ALUMINIUM_WEB
-        else None,
-        lightenings=specified_lightenings(specification.flywheel),
-    )
-    return on_bells(problem, choice.motors) if stated.wheel == RING else problem
-
-
-def on_bells(problem: SelectionProblem, motors: Sequence[Motor]) -> SelectionProblem:
-    """The problem with rings around the bells of those of these motors that have one.
-
-    Raises:
-        UsageError: none has.
-    """
-    belled = tuple(motor for motor in motors if bell_of(motor) is not None)
-    if not belled:
-        some = ", ".join(motor.name for motor in motors[:_NAMED])
-        raise UsageError(
-            f"no ring fits around the bell of {some}{' ...' if len(motors) > _NAMED else ''}: it "
-            "takes an outrunner that is screwed on by its back, of known diameter and length, with "
-            "a bell longer than its shaft stands out",
-            hint="Name another motor with --motor, or leave out --wheel ring.",
-        )
-    return replace(
-        problem,
-        motors=belled,
-        gears=(DIRECT,),
-        web=False,
-        on_bell=True,
-        web_material=None,
-        lightenings=(0,),
-    )
-
-
-def other_construction(
-    specification: Specification, resolved: Resolved, problem: SelectionProblem
-) -> SelectionProblem | None:
-    """A problem with rings in place of discs, or discs in place of rings; None: nothing to ask."""
-    choice, flywheel = resolved.choice, specification.flywheel
-    if choice is None or (flywheel.web == NO_WEB and not problem.on_bell):
-        return None
-    if problem.on_bell:
-        return replace(
-            problem,
-            motors=_held(specification, choice),
-            gears=choice.gears,
-            web=True,
-            on_bell=False,
-            lightenings=specified_lightenings(flywheel),
-        )
-    try:
-        return on_bells(problem, choice.motors)
-    except UsageError:
-        return None
-
-
-_NAMED = 3
-"""Motors that a message names."""
-
-_SPANS = 1e-3
-"""Least singular value of axes that reach roll, pitch and yaw."""
-
-
-def _held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...]:
-    """Motors to choose from: of those that nobody named, the ones that are held and hold a wheel.
-
-    All of them where none is, whose open points then say why.
-    """
-    stated = specification.motor
-    if stated.any or stated.name not in {None, AUTO} or any(gear.room for gear in choice.gears):
-        return choice.motors
-    held = (motor for motor in choice.motors if is_held(motor, None) and _holds_wheel(motor))
-    return tuple(held) or choice.motors
-
-
-def _holds_wheel(motor: Motor) -> bool:
-    """True if the joint of hub and motor carries its peak torque with what is to spare."""
-    mounting = motor.mounting or Mounting()
-    carried = hub_joint(mounting, hub_height(mounting) - 2.0 * LARGEST_CHAMFER)
-    return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
-
-
-def specified_lightenings(stated: FlywheelSection) -> tuple[int, ...]:
-    """Solid webs, and those with lightening holes; one that a rim is shrunk on is pressed, solid.
-
-    A small wheel of a fast motor has no room for holes, and may yet be the lightest.
-    """
-    holes = LIGHTENING if stated.lightening is None else stated.lightening
-    return (0, holes) if holes and stated.web not in {NO_WEB, ALUMINIUM_WEB} else (0,)
-
-
-def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
-    """Chamfers and balancing holes of wheels with a web.
-
-    Raises:
-        SpecificationError: no rim in this room is large enough for them.
-    """
-    if stated.web == NO_WEB:
-        return NO_CUTS
-    cuts = RimCuts(CHAMFER if stated.chamfer is None else stated.chamfer)
-    if stated.balancing_holes:
-        cuts = replace(
-            cuts,
-            holes=stated.balancing_holes,
-            hole_radius=(stated.balancing_hole_diameter or BALANCING_DIAMETER) / 2.0,
-            hole_depth=stated.balancing_hole_depth or BALANCING_DEPTH,
-        )
-    name, faults = "balancing_holes" if cuts.holes else "chamfer", []
-    bore = max(room.inner_radius_min, cuts.inner_radius_min)
-    wall = room.outer_radius_max - bore
-    if cuts.wall_min > wall:
-        faults.append(
-            f"flywheel.{name}: a wall of {format_quantity(cuts.wall_min, 'mm')} is the least, and "
-            f"{format_quantity(max(wall, 0.0), 'mm')} is between r_max and the bore: allow a "
-            "larger r_max, or fewer and smaller holes"
-        )
-    if cuts.height_min > room.height_max:
-        faults.append(
-            f"flywheel.{name}: a height of {format_quantity(cuts.height_min, 'mm')} is the least, "
-            f"and h_max is {format_quantity(room.height_max, 'mm')}: allow a larger h_max, or "
-            "less depth"
-        )
-    if faults:
-        raise SpecificationError("the rim has no room for what is cut off it:", problems=faults)
-    return cuts
-
-
-def specified_layout(specification: Specification) -> Layout:
-    """Layout of the wheels' axes: a pair where none is stated."""
-    stated = specification.ocs.layout
-    if stated == ALL_LAYOUTS:
-        raise UsageError(
-            f"ocs.layout: {ALL_LAYOUTS!r} is no layout of one device",
-            hint="`size --layout all` compares all layouts; state one of them here.",
-        )
-    if specification.ocs.axes is not None:
-        axes = np.reshape(specification.ocs.axes, (-1, 3))
-        axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
-        return Layout(LayoutName.BY_HAND, tuple(vector(axis) for axis in axes))
-    return PAIR if stated is None else Layout(LayoutName(stated))
-
-
-def specified_criterion(specification: Specification) -> Criterion | None:
-    """Criterion for a pair's incidence; None: whatever makes the device lightest."""
-    stated = specification.ocs.alpha_criterion or EQUAL_RATE
-    return None if stated == LIGHTEST else Criterion(stated)

@@ -1,12 +1,18 @@
-"""One candidate as a smooth nonlinear programme, without a fixed point.
+"""One candidate as a smooth nonlinear programme without a fixed point, and what limits cost by it.
 
 Over the logarithms of outer radius, height and wall, and the incidence, the mass is the smallest
 for which every part of the requirement is met on the robot with the device. Where a device can
 hardly carry itself, a fixed point at a given incidence runs away though there is one beside it;
 here what is asked for is a limit as any other, and may be missed on the way. SciPy's SLSQP solves
 it (Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28, 1988).
+
+The same programme tells what slightly looser limits save with the same motor, gear and material:
+the device is sized anew with one limit looser and all else as it is, from where it stands. A limit
+that is not active is worth nothing. What another drive would make of the change is not looked at:
+that the choice may jump is told by how much heavier the next drive is.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
@@ -16,14 +22,18 @@ from threadpoolctl import ThreadpoolController
 
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.records.selection import PriceRecord
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
 from ocs_design.sizing.lightest_module import ModuleShape
-from ocs_design.sizing.selection.candidates import Candidates, web_inertia
+from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED
+from ocs_design.sizing.selection.candidates import Candidates, drives_of, web_inertia
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia, composite_inertia
 from ocs_design.sizing.selection.demand import margins_of
 from ocs_design.sizing.selection.fixed_point import FINE, Design, FixedPoint, fixed_point
+from ocs_design.sizing.selection.problem import SelectionProblem, limits_of, with_limit
+from ocs_design.sizing.selection.result import Candidate, of_parts
 
 HELD = 1e-10
 """Relative violation of a limit that is rounding."""
@@ -43,7 +53,7 @@ _AROUND = 0.7
 
 
 class Optimum(NamedTuple):
-    """End of a search.
+    """Where SLSQP ended.
 
     Attributes:
         point: see `coordinates`. value: logarithm of the mass of a module [log kg].
@@ -278,3 +288,54 @@ def coordinates(shapes: ModuleShape, angle: float) -> FloatArray:
     outer, height = shapes.outer_radius.item(), shapes.height.item()
     wall = outer - shapes.inner_radius.item()
     return np.array([np.log(outer), np.log(height), np.log(wall), angle])
+
+
+_UNITS = {STRESS: 0.1, TIME: 0.01, WHEEL_SPEED: 100.0}
+"""Changes that an engineer would make, in the limit's own unit; all others by one."""
+
+_LEAST_LEFT = 0.5
+"""Share of a limit that is left where it is loosened downwards."""
+
+_HELD = 1e-6
+"""Relative violation of a limit that does not matter to a price."""
+
+_HOLDS, _MOVES = 1e-6, 1e-9
+"""Slack of an active limit, and change of it that counts as moved; logarithms of ratios."""
+
+
+def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceRecord]:
+    """Prices of all limits that are stated, with the same motor, gear and material.
+
+    Args:
+        problem: that was solved.
+        chosen: its lightest device, as it was selected.
+    """
+    alone = of_parts(problem, chosen)
+    wall = chosen.outer_radius - chosen.inner_radius
+    sizes = np.log([chosen.outer_radius, chosen.height, wall])
+    start = np.append(sizes, chosen.incidence)
+    (before,), (held,) = _programme(alone)(start[None])
+    for limit, value in limits_of(problem).items():
+        if not (np.isfinite(value) and value > 0.0):
+            continue
+        step = _UNITS.get(limit, 1.0) / limit.per_si
+        changed = value + step if limit.loosens_upwards else max(value - step, _LEAST_LEFT * value)
+        looser = _programme(with_limit(alone, limit, changed))
+        _, (moved,) = looser(start[None])
+        change = 0.0
+        if np.any((held < _HOLDS) & (np.abs(moved - held) > _MOVES)):
+            found = lightest(looser, start)
+            if found.violation <= _HELD:
+                change = min(float(np.expm1(found.value - before)), 0.0)
+        yield PriceRecord(
+            limit=limit.name,
+            value=value,
+            changed=changed,
+            mass_change=float(change * chosen.modules_mass),
+        )
+
+
+def _programme(alone: SelectionProblem) -> Programme:
+    """Programme of a problem with a single motor, gear and material."""
+    first = np.zeros(1, dtype=np.intp)
+    return Programme(Candidates(alone, drives_of(alone, first.repeat(2)[None]), first))

@@ -1,4 +1,4 @@
-"""Why motors fell out: one reason each, at the most promising gear and incidence, with figures."""
+"""Why motors are rejected: one reason each, at the most promising gear and incidence."""
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -17,18 +17,22 @@ from ocs_design.actuation.wheel_load import (
     wheel_slew_time,
 )
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
+from ocs_design.parts.rim import web_axial_inertia
+from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.bound.rim_problem import (
+    BORE_SHARE,
     RimLimits,
 )
 from ocs_design.sizing.bound.rim_problem import (
     smallest_spin_inertia as smallest_rim,
 )
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.selection.bounds import cells_of, least_inertia
+from ocs_design.sizing.selection.bounds import PairBounds, cells_of, least_inertia
 from ocs_design.sizing.selection.candidates import Drives, drives_of, rim_limits
 from ocs_design.sizing.selection.demand import (
     column,
@@ -37,10 +41,8 @@ from ocs_design.sizing.selection.demand import (
     needed_by_rate,
     wheel_task,
 )
-from ocs_design.sizing.selection.feasibility import largest_wheel
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Reason, Rejection
-from ocs_design.sizing.selection.search import Found
 
 _NEVER = 1e9
 """Beyond any time that is finite."""
@@ -49,7 +51,47 @@ _NOTHING = 1e-15
 """Spin inertia below that of any wheel [kg m^2]."""
 
 
-def rejections(found: Found, ranked: Collection[int]) -> tuple[Rejection, ...]:
+NO_ROOM = frozenset({Reason.ENVELOPE, Reason.STRESS, Reason.MASS})
+"""Reasons that are a wheel's, not a motor's."""
+
+
+class Refused(Infeasible):
+    """No motor can do it; what would do is not looked for here: that takes longer than the search.
+
+    Attributes:
+        problem: that no motor solves. nearest: the motor that comes closest.
+    """
+
+    def __init__(self, problem: SelectionProblem, rejections: Iterable[Rejection]) -> None:
+        # How far a motor is from being possible; last, those whose figures are missing.
+        nearest = min(rejections, key=lambda one: (one.reason is Reason.FIGURES, one.shortfall))
+        largest = nearest.largest
+        count, voltage = len(problem.motors), f"{problem.bus_voltage:g} V"
+        if (wheels := len(problem.layout)) != 2:
+            voltage += " with one wheel" if wheels == 1 else f" with {wheels} wheels"
+        who = (
+            f"Motor {nearest.motor} cannot do it at {voltage}"
+            if count == 1
+            else f"None of {count} motors can do it at {voltage}; {nearest.motor} comes closest"
+        )
+        super().__init__(
+            f"{who}: {nearest.detail}.",
+            binding=[str(nearest.reason)],
+            required_spin_inertia=nearest.needed,
+            largest_spin_inertia=(
+                largest_wheel(problem, problem.envelope) if largest is None else largest
+            ),
+            relaxations={},
+        )
+        self.problem, self.nearest = problem, nearest
+
+    @property
+    def for_reserve(self) -> bool:
+        """Whether there would be a device if it kept no reserve."""
+        return any(kept.short for kept in self.problem.requirement.reserves.values())
+
+
+def rejections(found: PairBounds, ranked: Collection[int]) -> tuple[Rejection, ...]:
     """Reasons of all motors but those of these indices, in the order of the problem."""
     reasons: dict[int, Rejection | None] = {}
     for index, motor in enumerate(found.problem.motors):
@@ -69,19 +111,19 @@ def rejections(found: Found, ranked: Collection[int]) -> tuple[Rejection, ...]:
     return tuple(reason or unable[index] for index, reason in reasons.items())
 
 
-def _at_least(found: Found, motor: int) -> str:
+def _at_least(found: PairBounds, motor: int) -> str:
     gear = int(np.argmin(found.least[motor]))
     return f"{1e3 * found.least[motor, gear]:.0f} g at least ({found.problem.gears[gear].name})"
 
 
-def _lightest_gear(found: Found, motor: int) -> int:
+def _lightest_gear(found: PairBounds, motor: int) -> int:
     """Index of the lightest whose figures are known with this motor; as a rule, direct drive."""
     mass = np.array([gear.mass for gear in found.problem.gears])
     return int(np.argmin(np.where(found.known[motor], mass, np.inf)))
 
 
-def promising_gears(found: Found, motor: int) -> Iterable[int]:
-    """The lightest; if no gear will do, also those that ask for the least wheel or push hardest."""
+def promising_gears(found: PairBounds, motor: int) -> Iterable[int]:
+    """The lightest gear; if none will do, also that of the least wheel, and of most torque."""
     lightest = _lightest_gear(found, motor)
     if np.isfinite(found.least[motor]).any():
         return {lightest}
@@ -114,7 +156,7 @@ class Part(NamedTuple):
 
 
 class _Obstacle(NamedTuple):
-    """What is in the way of one drive: the fields of the part that is worst, as single figures.
+    """Obstacle of one drive: the fields of the part that is worst, as single figures.
 
     Attributes:
         largest: spin inertia of the largest wheel that fits [kg m^2]; 0 where not even a rim does.
@@ -131,8 +173,8 @@ class _Obstacle(NamedTuple):
     weighty: float
 
 
-def _unable(found: Found, motors: Sequence[int]) -> dict[int, Rejection]:
-    """Reasons of motors that their lightest gears do not help; what others weigh is added."""
+def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
+    """Reasons of motors that cannot do it with their lightest gear; another's mass is added."""
     if not motors:
         return {}
     problem = found.problem
@@ -228,7 +270,7 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
 
 
 def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[Reason, str]:
-    """The first thing that is in the way, with figures."""
+    """The first obstacle, with figures."""
     wheel = f"{part.name} needs a wheel of {part.needed:.3g} kg m^2"
     if part.reason == SlewReason.AXIS:
         at = np.degrees(part.incidence)
@@ -259,6 +301,27 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
     return Reason.TORQUE if weak else Reason.SPEED, detail
 
 
+def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
+    """Spin inertia of the largest rim of any material, whatever its hoop stress [kg m^2].
+
+    With its web, without its hub and what is cut off it. As wide and tall as may be, and as thick
+    as its mass allows; if it must be thicker, lower.
+    """
+    density = np.array([material.density for material in problem.materials])
+    outer, layer = room.outer_radius_max, np.pi * density * room.height_max
+    bore = max(room.inner_radius_min, BORE_SHARE * outer)
+    square = np.maximum(outer**2 - room.mass_max / layer, bore**2)
+    inner = np.minimum(np.sqrt(square), outer - room.wall_min)
+    mass = np.minimum(layer * (outer**2 - inner**2), room.mass_max)
+    beside = np.zeros_like(inner)
+    if problem.web:
+        cut = problem.cuts.axial_inertia(inner, np.full_like(inner, outer), 1.0)
+        web = web_axial_inertia(inner, problem.web_densities, problem.web_thickness)
+        beside = web - density * cut
+    inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + beside, 0.0)
+    return float(inertia.max(initial=0.0))
+
+
 def _limits(problem: SelectionProblem, drive: Drives) -> RimLimits:
     """Limits of the rims of each material on one drive."""
     kinds = np.arange(len(problem.materials))
@@ -275,7 +338,7 @@ def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
 
 
 def _too_narrow(limits: RimLimits) -> str:
-    """Clause on what leaves no radius below the largest; empty where something does."""
+    """Clause on what a rim is too narrow to go around; empty: there is room."""
     most, (where, radius) = float(np.max(limits.outer_radius_max)), _narrowest(limits)
     if radius <= most:
         return ""

@@ -1,4 +1,4 @@
-"""What a selection comes to: the lightest devices, and why the other motors fell out."""
+"""Result of a selection: the lightest devices, and why the other motors were rejected."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -30,6 +30,7 @@ from ocs_design.sizing.bound.rim_problem import (
     limits_with_web,
     stretch_beside_holes,
 )
+from ocs_design.sizing.selection.problem import SelectionProblem
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,6 +175,18 @@ class Candidate:
         return most.source
 
 
+def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem:
+    """The problem with motor, gear, material and web of each device alone to choose from."""
+    hubs = [device.hub for device in devices]
+    return replace(
+        problem,
+        motors=tuple(device.motor for device in devices),
+        gears=tuple(device.gear for device in devices),
+        materials=tuple(device.material for device in devices),
+        lightenings=tuple(0 if hub is None else hub.lightening for hub in hubs),
+    )
+
+
 SAME_MASS = 1e-5
 """Relative difference of two masses that is none: materials of one density make devices of one mass
 but for rounding, which differs from processor to processor."""
@@ -236,7 +249,7 @@ class Reason(StrEnum):
 
 @dataclass(frozen=True)
 class Rejection:
-    """Why a motor fell out.
+    """Why a motor was rejected.
 
     Attributes:
         motor: its name.

@@ -15,24 +15,21 @@ of the stronger material is the lighter one (`lightest_first`).
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.actuation.motor import Motor
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.motor_mount import mount_of
 from ocs_design.sizing.selection.bounds import (
     CELLS,
-    RimFloor,
+    PairBounds,
     cells_of,
     initial_guess,
     least_masses,
     least_spin_inertias,
 )
-from ocs_design.sizing.selection.candidates import Candidates, Drives, drives_of, known_pairs
-from ocs_design.sizing.selection.fixed_point import Guess, Solved, solve
+from ocs_design.sizing.selection.candidates import Candidates, Drives, Guess, drives_of
+from ocs_design.sizing.selection.fixed_point import Solved, solve
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.result import lightest_first
@@ -78,44 +75,19 @@ class Rank:
 
 
 @dataclass(eq=False)
-class Found:
-    """What a search knows so far.
+class Found(PairBounds):
+    """What a search has found so far.
 
     Attributes:
-        problem: that is searched. floor: of its rims.
-        known: whether a motor behind a gear has all figures, shape (motors, gears).
-        least: lower bound of the mass of any device of motor and gear [kg], shape (motors, gears);
-            inf: there is none.
-        spin_inertia: lower bound of that of its wheels [kg m^2], as far as it was looked for.
         batches: solved candidates. places: of the lightest, lightest first.
         below: mass of what is heavier than anybody asks for [kg].
         ranks: whether the next lightest are looked for too.
     """
 
-    problem: SelectionProblem
-    floor: RimFloor
-    known: NDArray[np.bool_]
-    least: FloatArray
-    spin_inertia: FloatArray
     batches: list[Solved] = field(default_factory=list)
     places: list[Rank] = field(default_factory=list)
     below: float = np.inf
     ranks: bool = True
-
-    @classmethod
-    def nothing(cls, problem: SelectionProblem) -> "Found":
-        """State before the search."""
-        floor = RimFloor.of(problem)
-        motors = np.array([motor.mass or 0.0 for motor in problem.motors])
-        plate, on_bell = problem.foot_plate, problem.on_bell
-        mounts = np.array([_held_mass(motor, plate, on_bell) for motor in problem.motors])
-        gears = np.array([gear.mass for gear in problem.gears])
-        direct = np.array([gear.room is None for gear in problem.gears])
-        drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
-        least = len(problem.layout) * (drives + floor.mass.min(initial=np.inf))
-        known = known_pairs(problem.motors, problem.gears)
-        least = np.where(known, least, np.inf)
-        return cls(problem, floor, known, least, np.zeros(known.shape))
 
     @property
     def lightest(self) -> float:
@@ -143,7 +115,7 @@ class Found:
         return [self.batches[rank.batch].take(np.array([rank.row])) for rank in self.places]
 
     def add(self, solved: Solved) -> None:
-        """List what belongs among the lightest."""
+        """Add solved candidates, and list those that belong among the lightest."""
         self.batches.append(solved)
         self._list([*self.places, *_ranks(len(self.batches) - 1, solved)])
 
@@ -204,16 +176,9 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
     return list(best.values())[:MOTORS]
 
 
-@lru_cache(maxsize=512)
-def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
-    """Mass of screws and cage at the least, less the holes [kg]."""
-    mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
-    return mount.by_floor().mass + mount.by_wheel().mass
-
-
 def search(problem: SelectionProblem) -> Found:
     """The lightest devices, and for every motor and gear how light its lightest is at least."""
-    found = Found.nothing(problem)
+    found = Found.of(problem)
     _search(found)
     found.refine()
     return found
@@ -226,14 +191,14 @@ def search_lightest(problem: SelectionProblem, below: float = np.inf) -> Found:
         problem: see `SelectionProblem`.
         below: what is no lighter need not be found [kg].
     """
-    found = Found.nothing(problem)
+    found = Found.of(problem)
     found.below, found.ranks = below, False
     _search(found)
     return found
 
 
 def _search(found: Found) -> None:
-    """Look at every motor behind every gear that may be worth it."""
+    """Examine every motor behind every gear whose bound leaves it a place in the list."""
     for pairs in _chunks(found):
         worth = pairs[found.least[tuple(pairs.T)] < found.enough[pairs[:, 0]]]
         if worth.size:

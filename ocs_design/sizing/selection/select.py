@@ -8,20 +8,20 @@ import numpy as np
 
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.sizing.bound.device_problem import design_momenta
-from ocs_design.sizing.selection.advice import Refused
 from ocs_design.sizing.selection.bounds import cells_of
-from ocs_design.sizing.selection.candidates import Candidates, drives_of
-from ocs_design.sizing.selection.device import device_of, of_parts, with_demands
-from ocs_design.sizing.selection.fixed_point import FINE, Design, Guess, Solved, fixed_point
+from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
+from ocs_design.sizing.selection.device import device_of, with_demands
+from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
-from ocs_design.sizing.selection.rejections import rejections
+from ocs_design.sizing.selection.rejections import Refused, rejections
 from ocs_design.sizing.selection.result import (
     Candidate,
     Reason,
     Rejection,
     Selection,
     devices_by_mass,
+    of_parts,
 )
 from ocs_design.sizing.selection.search import Found, search, search_lightest
 
@@ -32,23 +32,20 @@ _ABOUT = 1e-4
 """Relative difference of masses that an incidence which is about right may make."""
 
 
-def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
-    """The lightest devices, those of the best motors among them, and why the others fell out.
+def select(problem: SelectionProblem) -> Selection:
+    """The lightest devices, those of the best motors among them, and why the others are rejected.
 
     No device of these motors, gears and materials that does every maneuver in time is lighter by
     0.1 %, at any incidence, with any rim within the envelope (docs/theory.md, The selection).
 
     Args:
         problem: what to choose from, and for what.
-        advise: where no motor can do it, whether to look for single changes that would do, which
-            takes longer than the selection; `Refused` can do so later.
 
     Raises:
-        Infeasible: no motor can do it; says what is missing, and which single change would do.
-        Refused: the same, not advised.
+        Refused: no motor can do it; says what is missing.
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
     """
-    found = _found(problem, search, advise=advise)
+    found = _found(problem, search)
     ranked = {rank.motor for rank in found.places}
     best, *others = map(device_of, found.devices)
     return Selection(
@@ -60,23 +57,18 @@ def select(problem: SelectionProblem, *, advise: bool = True) -> Selection:
     )
 
 
-def _found(
-    problem: SelectionProblem, look: Callable[[SelectionProblem], Found], *, advise: bool
-) -> Found:
-    """What a search finds, at least one device (`select`)."""
+def _found(problem: SelectionProblem, look: Callable[[SelectionProblem], Found]) -> Found:
+    """Devices that a search finds, at least one (`select`)."""
     problem.check()
     found = look(problem)
     if not found.places:
-        refused = Refused(problem, rejections(found, ()))
-        raise refused.advised() if advise else refused
+        raise Refused(problem, rejections(found, ()))
     return found
 
 
 def select_by(
     problem: SelectionProblem,
     criterion: Criterion | None,
-    *,
-    advise: bool = True,
     winner: Candidate | None = None,
 ) -> Selection:
     """The lightest devices at the incidence that a criterion sets.
@@ -90,24 +82,23 @@ def select_by(
     Args:
         problem: its own incidence goes first.
         criterion: None: whatever makes the device lightest.
-        advise: see `select`.
         winner: device of this problem that is likely to win; None: the lightest at the robot's own
             incidence.
 
     Raises:
-        Infeasible, UsageError: see `select`.
+        Refused, UsageError: see `select`.
     """
     if problem.incidence is not None or criterion is None:
-        return select(problem, advise=advise)
+        return select(problem)
     if winner is None:
         # Only its winner is of use, and a refined one would be at the wrong incidence too.
-        found = _found(_at_robots(problem, criterion), search_lightest, advise=advise)
+        found = _found(_at_robots(problem, criterion), search_lightest)
         winner = device_of(found.devices[0])
     winners: list[Candidate] = []
     own: list[Candidate] = []
     while not any(same_parts(winner, earlier) for earlier in winners):
         angle, settled = at_own_incidence(problem, winner, criterion)
-        selection = select(replace(problem, incidence=angle), advise=advise)
+        selection = select(replace(problem, incidence=angle))
         if same_parts(selection.best, winner):
             _, exact = at_own_incidence(problem, selection.best, criterion)
             return selection if exact is None else _with_best(problem, exact, selection)
@@ -119,12 +110,12 @@ def select_by(
     if not own:
         return selection
     lightest = devices_by_mass(own)[0]
-    there = select(replace(problem, incidence=lightest.incidence), advise=advise)
+    there = select(replace(problem, incidence=lightest.incidence))
     return _led_by(with_demands(problem, lightest), there)
 
 
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
-    """The lightest device alone, not refined; None where only the whole selection can tell.
+    """The lightest device alone, not refined; None: only the whole selection can tell.
 
     Args:
         problem, criterion: see `select_by`.
@@ -215,7 +206,7 @@ def _devices_at(
 
 
 def _with_best(problem: SelectionProblem, exact: Candidate, selection: Selection) -> Selection:
-    """Selection with its best at exactly its own incidence, and there what is about as light."""
+    """Selection with its best, and what is about as light, at exactly the best one's incidence."""
     near = [entry for entry in selection.ranking[1:] if entry.mass < exact.mass * (1.0 + _ABOUT)]
     there = _devices_at(problem, near, exact.incidence) if near else ()
     moved = [found or entry for found, entry in zip(there, near, strict=True)]
@@ -225,7 +216,7 @@ def _with_best(problem: SelectionProblem, exact: Candidate, selection: Selection
 
 
 def _led_by(chosen: Candidate, selection: Selection) -> Selection:
-    """Selection with this device as the best; motors that are lighter there fall out.
+    """Selection led by this device; motors that are lighter at this incidence are rejected.
 
     Args:
         chosen: at its own incidence.

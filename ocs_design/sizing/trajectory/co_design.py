@@ -1,4 +1,4 @@
-"""The selected device's wheels and incidence together with all maneuvers in 3-D, least mass.
+"""Co-design: the lightest wheels and incidence of the selected parts, with all maneuvers in 3-D.
 
 Motor, gear and material stand. A wheel is free in its spin inertia and its outer radius; bore and
 height are those of the lightest module that has both. A smaller module may weigh more and yet be
@@ -77,7 +77,7 @@ class CoDesign:
 
     @property
     def gain(self) -> float:
-        """Mass saved over the selection's; what was found where it is not adopted, negative too."""
+        """Mass saved, over the selection's; negative where what was found is heavier."""
         return 1.0 - self.found_mass / self.selected_mass
 
     @property
@@ -315,7 +315,7 @@ def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) ->
 
 
 def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
-    """What the drives may use: torque and speed over a factor do a turn with that factor to spare.
+    """Line that the drives may use: torque and speed over the reserve's factor.
 
     Of the reserves of all maneuvers the largest holds for each.
     """
@@ -332,7 +332,7 @@ def _top_speed(device: Candidate) -> float:
 def _flights(
     problem: SelectionProblem, device: Candidate, turns: Sequence[Turn], solution: Solution
 ) -> Iterator[Flight]:
-    """Each maneuver's torques on the device of numbers."""
+    """Each maneuver flown on the device that was found, with the planned torques."""
     maneuvers = problem.requirement.maneuvers
     for maneuver, turn, motion in zip(maneuvers, turns, solution.motions, strict=True):
         own = maneuver.incidence
@@ -344,7 +344,7 @@ def _flights(
 def _rejection_reason(
     solution: Solution, flights: Sequence[Flight], ratio: float, names: Sequence[str]
 ) -> str:
-    """Why the outcome is not taken, in a few words; empty if it is."""
+    """Why the outcome is not adopted, in a few words; empty: it is."""
     if not solution.solved:
         return f"IPOPT ended with {solution.status}"
     for name, flight in zip(names, flights, strict=True):
@@ -360,7 +360,7 @@ def _rejection_reason(
 def _demands(
     problem: SelectionProblem, device: Candidate, flights: Sequence[Flight]
 ) -> Iterator[TaskDemand]:
-    """What each part of the requirement takes of the co-designed device.
+    """Demands of each part of the requirement on the co-designed device.
 
     A maneuver takes what it does in 3-D, and all the time that it has. Its smallest spin inertia is
     the closed form's, or the device's own where it does with less.

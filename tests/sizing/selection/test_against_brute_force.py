@@ -32,7 +32,7 @@ LOPSIDED = (3, 9, 12, 16, 20)
 def selected(problem):
     """The lightest device that was drawn; None if there is none."""
     try:
-        return select(problem, advise=False).best
+        return select(problem).best
     except Infeasible:
         return None
 

@@ -43,9 +43,9 @@ def test_a_turn_that_ends_off_level_asks_for_the_axis():
     """0.1 of 30 deg are 3 deg; half a turn about an axis that leans leaves twice its lean."""
     for maneuver in (DROP, HALF):
         with pytest.raises(Infeasible, match="out of reach"):
-            select(asking(0.1, maneuver), advise=False)
+            select(asking(0.1, maneuver))
 
 
 def test_a_whole_turn_ends_where_it_began():
-    found = select(asking(0.1, WHOLE), advise=False).best
+    found = select(asking(0.1, WHOLE)).best
     assert found.incidence == 0.0

@@ -106,7 +106,7 @@ def test_what_no_motor_can_do_there_is_said_of_all_of_them():
     """At the incidence that its lightest device leads to, not even that one can do it."""
     problem = replace(draw(15).problem, incidence=None)
     with pytest.raises(Infeasible, match=f"None of {len(problem.motors)} motors"):
-        select_by(problem, Criterion.WEIGHTED, advise=False)
+        select_by(problem, Criterion.WEIGHTED)
 
 
 def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(problem, monkeypatch):
@@ -121,7 +121,7 @@ def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(prob
         motor = replace(base.motor, name=name)
         return replace(base, motor=motor, incidence=incidence, rim_mass=rim, web_mass=0.0)
 
-    def choose(asked, *, advise=True):
+    def choose(asked):
         """All that are asked for, lightest first."""
         names = {motor.name for motor in asked.motors} & set(angles) or set(angles)
         found = sorted((device(name, asked.incidence) for name in names), key=lambda d: d.mass)

@@ -17,7 +17,7 @@ POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 16)
 def test_a_chosen_device_passes_with_its_motors_limits(seed):
     drawn = draw(seed)
     problem, requirement = drawn.problem, drawn.problem.requirement
-    chosen = select(problem, advise=False).best
+    chosen = select(problem).best
     device = assemble_selected(chosen, problem.supply)
     plans = plan(
         drawn.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height

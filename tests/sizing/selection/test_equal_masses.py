@@ -9,7 +9,9 @@ from selections import ALUMINIUM, random_problem
 
 from ocs_design.catalogue.materials import Material, material
 from ocs_design.device.layout import Criterion
-from ocs_design.requirement.specification import MotorSection, RobotSection, Specification
+from ocs_design.requirement.device_sections import MotorSection
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.selection.result import SAME_MASS, devices_by_mass, lightest_first
 from ocs_design.sizing.selection.search import search_lightest

@@ -5,9 +5,8 @@ import pytest
 from selections import has_device, random_problem, with_radius
 
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
-from ocs_design.sizing.selection import feasibility
-from ocs_design.sizing.selection.advice import PRECISION, single_changes
-from ocs_design.sizing.selection.feasibility import Field
+from ocs_design.sizing.selection import advice
+from ocs_design.sizing.selection.advice import PRECISION, Field, single_changes
 from ocs_design.sizing.selection.problem import limits_of, with_limit
 from ocs_design.sizing.selection.search import search
 
@@ -54,11 +53,11 @@ def test_after_so_many_of_the_most_promising_the_answer_is_no(monkeypatch):
 
     field = Field.of(random_problem(9))
     assert field.possible
-    monkeypatch.setattr(feasibility, "any_solved", none_solved)
+    monkeypatch.setattr(advice, "any_solved", none_solved)
     assert not field.possible
     everything = sum(tried)
     tried.clear()
-    monkeypatch.setattr(feasibility, "_MOST_SOLVED", 3)
+    monkeypatch.setattr(advice, "_MOST_SOLVED", 3)
     assert not field.possible
     assert 3 <= sum(tried) < everything
 

@@ -6,8 +6,8 @@ import pytest
 from drawn_selections import draw
 
 from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME
-from ocs_design.sizing.selection.prices import mass_prices
 from ocs_design.sizing.selection.problem import with_limit
+from ocs_design.sizing.selection.refinement import mass_prices
 from ocs_design.sizing.selection.select import select
 
 SEED = 5
@@ -20,7 +20,7 @@ LOOKED_AT = {"r_max", "h_max", "bus_voltage", "time"}
 def priced():
     """The problem of the lightest drive alone, its device, and what each limit is worth."""
     problem = draw(SEED).problem
-    best = select(problem, advise=False).best
+    best = select(problem).best
     alone = replace(problem, motors=(best.motor,), gears=(best.gear,), materials=(best.material,))
     return alone, best, tuple(mass_prices(problem, best))
 
@@ -28,7 +28,7 @@ def priced():
 def test_a_price_is_what_selecting_anew_saves(priced):
     alone, best, prices = priced
     for price in (price for price in prices if price.limit in LOOKED_AT):
-        looser = select(with_limit(alone, LIMITS[price.limit], price.changed), advise=False).best
+        looser = select(with_limit(alone, LIMITS[price.limit], price.changed)).best
         saved = looser.mass - best.mass
         assert price.mass_change == pytest.approx(saved, rel=1e-4, abs=1e-6 * best.mass), price
 

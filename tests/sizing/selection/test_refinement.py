@@ -47,7 +47,7 @@ def beside(chosen, factors, turn):
 )
 def test_the_start_does_not_matter(seed, factors, turn):
     problem = draw(seed).problem
-    chosen = select(problem, advise=False).best
+    chosen = select(problem).best
     turn = turn if problem.incidence is None else 0.0
     candidates = candidates_of(problem, chosen)
     found = refine(candidates, beside(chosen, factors, turn))
@@ -62,7 +62,7 @@ def test_the_start_does_not_matter(seed, factors, turn):
 def test_the_number_of_threads_does_not_matter(seed):
     """To the last digit, though libraries round otherwise on another number of them."""
     problem = draw(seed).problem
-    chosen = select(problem, advise=False).best
+    chosen = select(problem).best
     candidates = candidates_of(problem, chosen)
     turn = 0.01 if problem.incidence is None else 0.0
     found = []
@@ -75,7 +75,7 @@ def test_the_number_of_threads_does_not_matter(seed):
 
 def test_what_cannot_be_is_not_possible():
     problem = draw(2).problem
-    chosen = select(problem, advise=False).best
+    chosen = select(problem).best
     small = replace(problem.envelope, outer_radius_max=0.3 * problem.envelope.outer_radius_max)
     less = replace(problem, envelope=small)
     assert not refine(candidates_of(less, chosen), beside(chosen, (1.0, 1.0, 1.0), 0.0)).feasible
@@ -83,7 +83,7 @@ def test_what_cannot_be_is_not_possible():
 
 def test_a_stated_incidence_and_spin_inertia_are_kept():
     problem = draw(2).problem
-    chosen = select(problem, advise=False).best
+    chosen = select(problem).best
     more = replace(problem.requirement, spin_inertia=1.1 * chosen.spin_inertia)
     stated = replace(problem, incidence=chosen.incidence, requirement=more)
     found = refine(candidates_of(stated, chosen), beside(chosen, (0.99, 1.0, 1.0), 0.0))

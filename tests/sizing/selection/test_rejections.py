@@ -9,7 +9,7 @@ from rims import STEEL, UNLIMITED, room
 from selections import ALUMINIUM, random_problem
 
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
-from ocs_design.sizing.selection.feasibility import largest_wheel
+from ocs_design.sizing.selection.rejections import largest_wheel
 
 RADIUS, HEIGHT = 0.05, 0.015
 STEPS = 20_000

@@ -33,7 +33,7 @@ def problem(request):
 def mass(problem):
     """Of the lightest device [kg]; inf where there is none."""
     try:
-        return select(problem, advise=False).best.mass
+        return select(problem).best.mass
     except Infeasible:
         return inf
 
@@ -121,7 +121,7 @@ def check_each_by_itself(problem):
         for gear in problem.gears
         for material in problem.materials
     ]
-    ranked = [device.mass for device in select(problem, advise=False).ranking]
+    ranked = [device.mass for device in select(problem).ranking]
     per_motor = np.array(alone).reshape(len(problem.motors), -1)
     leaders = sorted(each for each in per_motor.min(axis=1) if each < inf)[:5]
     ten = sorted(each for each in alone if each < inf)[:10]
@@ -158,7 +158,7 @@ def test_a_free_incidence_is_no_heavier_than_any(problem):
 
 
 def test_the_ranking_is_sorted_settled_and_adds_up(problem):
-    ranking = select(problem, advise=False).ranking
+    ranking = select(problem).ranking
     masses = [device.mass for device in ranking]
     assert masses == sorted(masses)
     names = {(d.motor.name, d.gear.name, d.material.name) for d in ranking}
@@ -211,11 +211,11 @@ def _cloud(masses, points, mass, com, inertia):
 
 @pytest.mark.parametrize("times", [1.01, 1.05])
 def test_a_stated_spin_inertia_is_kept(problem, times):
-    best = select(problem, advise=False).best
+    best = select(problem).best
     # Of the same drive: another one may have less momentum in the same wheel.
     alone = replace(problem, motors=[best.motor], gears=[best.gear], materials=[best.material])
     stated = times * best.spin_inertia
     asking = replace(alone, requirement=replace(alone.requirement, spin_inertia=stated))
-    kept = select(asking, advise=False).best
+    kept = select(asking).best
     assert kept.spin_inertia == pytest.approx(stated, rel=1e-9)
     assert kept.mass >= best.mass * (1.0 - EXACT)

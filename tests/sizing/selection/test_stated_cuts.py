@@ -7,7 +7,7 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.parts.rim import NO_CUTS, RimCuts
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.reading import parse_specification
-from ocs_design.sizing.selection.problem import specified_cuts, specified_lightenings
+from ocs_design.sizing.specified import specified_cuts, specified_lightenings
 
 ROOM = Envelope(
     outer_radius_max=0.05, inner_radius_min=0.01, height_max=0.01, height_min=0.002,

@@ -33,7 +33,7 @@ def question(seed, **changes):
     # Where a mount's holes bound the foot's plate its mass has kinks: see docs/parts.md.
     problem = random_problem(seed, mounted=False)
     problem = replace(problem, requirement=replace(problem.requirement, **changes))
-    return problem, select(problem, advise=False).best
+    return problem, select(problem).best
 
 
 @cache
@@ -224,7 +224,7 @@ def test_where_only_the_finer_mesh_fails_the_coarse_one_counts(monkeypatch):
 @pytest.mark.exhaustive
 def test_the_incidence_stays_where_it_is_stated():
     problem = replace(random_problem(ROLL_AND_PITCH, mounted=False), incidence=0.5)
-    selected = select(problem, advise=False).best
+    selected = select(problem).best
     assert co_design(problem, selected).device.incidence == 0.5
 
 

@@ -17,8 +17,15 @@ from ocs_design.sizing.bound.device_problem import (
     find_fixed_point,
 )
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim, smallest_spin_inertia
-from ocs_design.sizing.changes import MOST_CHANGE, PRECISION, advice, smallest_changes
-from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED, Limit
+from ocs_design.sizing.limits import (
+    MOST_CHANGE,
+    PRECISION,
+    RIM_LIMITS,
+    WHEEL_SPEED,
+    Limit,
+    advice,
+    smallest_changes,
+)
 
 DEVICE_PRECISION = 1e-4
 """Precision of a device's changes, relative: they are reported to three digits, and each step of

@@ -1,0 +1,273 @@
+"""The selection's problem that a specification poses, and its layout, criterion, webs and cuts."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ocs_design.actuation.motor import DIRECT, Motor, Mounting
+from ocs_design.catalogue.materials import material, strong_materials
+from ocs_design.common.arrays import vector
+from ocs_design.common.errors import SpecificationError, UsageError
+from ocs_design.common.units import format_quantity
+from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
+from ocs_design.parts.bell import bell_of
+from ocs_design.parts.joints import SERVICE, hub_joint
+from ocs_design.parts.motor_mount import is_held
+from ocs_design.parts.rim import (
+    NO_CUTS,
+    WEB_MATERIAL,
+    RimCuts,
+    hub_height,
+)
+from ocs_design.requirement.choices import BUS_VOLTAGES, MotorChoice, any_motors
+from ocs_design.requirement.device_sections import FlywheelSection
+from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.resolving import Resolved
+from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.vocabulary import (
+    ALL_LAYOUTS,
+    ALUMINIUM_WEB,
+    AUTO,
+    BALANCING_DEPTH,
+    BALANCING_DIAMETER,
+    CHAMFER,
+    EQUAL_RATE,
+    LARGEST_CHAMFER,
+    LIGHTENING,
+    LIGHTEST,
+    NO_WEB,
+    RING,
+    STEEL,
+)
+from ocs_design.robot.robot import Robot
+from ocs_design.sizing.footing import footing_of
+from ocs_design.sizing.limits import BUS_VOLTAGE
+from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
+
+
+def selection_problem(
+    specification: Specification, robot: Robot, resolved: Resolved
+) -> SelectionProblem | None:
+    """The problem that a specification poses; None where it wants no motor."""
+    choice = resolved.choice
+    if choice is None:
+        return None
+    stated, layout = specification.ocs, specified_layout(specification)
+    footing = footing_of(robot, resolved.envelope, stated.position, layout)
+    angle = layout.angle if stated.alpha is None else stated.alpha
+    direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
+    maneuvers = tuple(
+        replace(each, direct=direct) if isinstance(each, TurnTo) else each
+        for each in resolved.requirement.maneuvers
+    )
+    problem = SelectionProblem(
+        robot=footing.carried(robot.mass_properties),
+        requirement=replace(resolved.requirement, maneuvers=maneuvers),
+        envelope=resolved.envelope,
+        place=footing.place,
+        motors=_held(specification, choice),
+        gears=choice.gears,
+        materials=choice.materials,
+        supply=choice.supply,
+        incidence=angle,
+        layout=layout,
+        wheel_speed_max=choice.wheel_speed_max,
+        web=specification.flywheel.web != NO_WEB,
+        cuts=specified_cuts(specification.flywheel, resolved.envelope),
+        web_material=material(WEB_MATERIAL)
+        if specification.flywheel.web == ALUMINIUM_WEB
+        else None,
+        lightenings=specified_lightenings(specification.flywheel),
+    )
+    return on_bells(problem, choice.motors) if stated.wheel == RING else problem
+
+
+def on_bells(problem: SelectionProblem, motors: Sequence[Motor]) -> SelectionProblem:
+    """The problem with rings around the bells of those of these motors that have one.
+
+    Raises:
+        UsageError: none has.
+    """
+    belled = tuple(motor for motor in motors if bell_of(motor) is not None)
+    if not belled:
+        some = ", ".join(motor.name for motor in motors[:_NAMED])
+        raise UsageError(
+            f"no ring fits around the bell of {some}{' ...' if len(motors) > _NAMED else ''}: it "
+            "takes an outrunner that is screwed on by its back, of known diameter and length, with "
+            "a bell longer than its shaft stands out",
+            hint="Name another motor with --motor, or leave out --wheel ring.",
+        )
+    return replace(
+        problem,
+        motors=belled,
+        gears=(DIRECT,),
+        web=False,
+        on_bell=True,
+        web_material=None,
+        lightenings=(0,),
+    )
+
+
+def other_construction(
+    specification: Specification, resolved: Resolved, problem: SelectionProblem
+) -> SelectionProblem | None:
+    """The problem with rings in place of discs, or discs in place of rings; None: there is none."""
+    choice, flywheel = resolved.choice, specification.flywheel
+    if choice is None or (flywheel.web == NO_WEB and not problem.on_bell):
+        return None
+    if problem.on_bell:
+        return replace(
+            problem,
+            motors=_held(specification, choice),
+            gears=choice.gears,
+            web=True,
+            on_bell=False,
+            lightenings=specified_lightenings(flywheel),
+        )
+    try:
+        return on_bells(problem, choice.motors)
+    except UsageError:
+        return None
+
+
+_NAMED = 3
+"""Motors that a message names."""
+
+_SPANS = 1e-3
+"""Least singular value of axes that reach roll, pitch and yaw."""
+
+
+def _held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...]:
+    """Motors to choose from: of those that nobody named, the ones that are held and hold a wheel.
+
+    All of them where none is, whose open points then say why.
+    """
+    stated = specification.motor
+    if stated.any or stated.name not in {None, AUTO} or any(gear.room for gear in choice.gears):
+        return choice.motors
+    held = (motor for motor in choice.motors if is_held(motor, None) and _holds_wheel(motor))
+    return tuple(held) or choice.motors
+
+
+def _holds_wheel(motor: Motor) -> bool:
+    """True if the joint of hub and motor carries its peak torque with what is to spare."""
+    mounting = motor.mounting or Mounting()
+    carried = hub_joint(mounting, hub_height(mounting) - 2.0 * LARGEST_CHAMFER)
+    return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
+
+
+def specified_lightenings(stated: FlywheelSection) -> tuple[int, ...]:
+    """Numbers of lightening holes to choose from, 0 a solid web; webs under shrunk rims are solid.
+
+    A small wheel of a fast motor has no room for holes, and may yet be the lightest.
+    """
+    holes = LIGHTENING if stated.lightening is None else stated.lightening
+    return (0, holes) if holes and stated.web not in {NO_WEB, ALUMINIUM_WEB} else (0,)
+
+
+def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
+    """Chamfers and balancing holes of wheels with a web.
+
+    Raises:
+        SpecificationError: no rim in this room is large enough for them.
+    """
+    if stated.web == NO_WEB:
+        return NO_CUTS
+    cuts = RimCuts(CHAMFER if stated.chamfer is None else stated.chamfer)
+    if stated.balancing_holes:
+        cuts = replace(
+            cuts,
+            holes=stated.balancing_holes,
+            hole_radius=(stated.balancing_hole_diameter or BALANCING_DIAMETER) / 2.0,
+            hole_depth=stated.balancing_hole_depth or BALANCING_DEPTH,
+        )
+    name, faults = "balancing_holes" if cuts.holes else "chamfer", []
+    bore = max(room.inner_radius_min, cuts.inner_radius_min)
+    wall = room.outer_radius_max - bore
+    if cuts.wall_min > wall:
+        faults.append(
+            f"flywheel.{name}: a wall of {format_quantity(cuts.wall_min, 'mm')} is the least, and "
+            f"{format_quantity(max(wall, 0.0), 'mm')} is between r_max and the bore: allow a "
+            "larger r_max, or fewer and smaller holes"
+        )
+    if cuts.height_min > room.height_max:
+        faults.append(
+            f"flywheel.{name}: a height of {format_quantity(cuts.height_min, 'mm')} is the least, "
+            f"and h_max is {format_quantity(room.height_max, 'mm')}: allow a larger h_max, or "
+            "less depth"
+        )
+    if faults:
+        raise SpecificationError("the rim has no room for what is cut off it:", problems=faults)
+    return cuts
+
+
+def specified_layout(specification: Specification) -> Layout:
+    """Layout of the wheels' axes: a pair where none is stated."""
+    stated = specification.ocs.layout
+    if stated == ALL_LAYOUTS:
+        raise UsageError(
+            f"ocs.layout: {ALL_LAYOUTS!r} is no layout of one device",
+            hint="`size --layout all` compares all layouts; state one of them here.",
+        )
+    if specification.ocs.axes is not None:
+        axes = np.reshape(specification.ocs.axes, (-1, 3))
+        axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+        return Layout(LayoutName.BY_HAND, tuple(vector(axis) for axis in axes))
+    return PAIR if stated is None else Layout(LayoutName(stated))
+
+
+def specified_criterion(specification: Specification) -> Criterion | None:
+    """Criterion for a pair's incidence; None: whatever makes the device lightest."""
+    stated = specification.ocs.alpha_criterion or EQUAL_RATE
+    return None if stated == LIGHTEST else Criterion(stated)
+
+
+@dataclass(frozen=True, eq=False)
+class Relaxation:
+    """A choice that the specification leaves open.
+
+    Attributes:
+        text: in words. option: of the command line, with what speaks against it.
+        stated: the specification with it. problem: the problem with it.
+    """
+
+    text: str
+    option: str
+    stated: Callable[[Specification], Specification]
+    problem: Callable[[SelectionProblem], SelectionProblem]
+
+
+def relaxations(specification: Specification, asked: SelectionProblem) -> Iterator[Relaxation]:
+    """Choices that a specification leaves open; `asked` is the problem that it states."""
+    stated = specification.ocs
+    if asked.layout.pairs and stated.alpha is None and stated.alpha_criterion != LIGHTEST:
+        yield Relaxation(
+            "the incidence with which it is lightest",
+            "--alpha-criterion lightest",
+            lambda s: replace(s, ocs=replace(s.ocs, alpha_criterion=LIGHTEST)),
+            lambda p: replace(p, incidence=None, requirement=replace(p.requirement, free=True)),
+        )
+    if specification.flywheel.material in {None, STEEL}:
+        yield Relaxation(
+            "any material",
+            "--material auto",
+            lambda s: replace(s, flywheel=replace(s.flywheel, material=AUTO)),
+            lambda p: replace(p, materials=strong_materials()),
+        )
+    if specification.motor.name in {None, AUTO} and not specification.motor.any:
+        yield Relaxation(
+            "any motor of the catalogue",
+            "--motors-any, not buildable",
+            lambda s: replace(s, motor=replace(s.motor, any=True)),
+            lambda p: replace(p, motors=any_motors(specification)),
+        )
+    more = min((v for v in BUS_VOLTAGES.values() if v > asked.bus_voltage), default=None)
+    if more is not None:
+        yield Relaxation(
+            f"a supply of {more:g} V",
+            f"--bus-voltage {more:g}V",
+            lambda s: replace(s, supply=replace(s.supply, voltage=more)),
+            lambda p: with_limit(p, BUS_VOLTAGE, more),
+        )
