@@ -18,7 +18,7 @@ from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.vocabulary import LIGHTEST
+from ocs_design.requirement.vocabulary import AUTO, LIGHTEST
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import LIMITS, TIME
@@ -74,11 +74,13 @@ def alternatives(
         # At another incidence another reserve is kept: a design of its own, of those parts.
         free = replace(specification, ocs=replace(specification.ocs, alpha_criterion=LIGHTEST))
         assert resolved.choice is not None, "wheels without motors have no alternatives"
+        # Steels make much the same device; of all materials another may be the lightest there.
+        any_material = specification.flywheel.material == AUTO
         parts = replace(
             resolved.choice,
             motors=(found.motor,),
             gears=(found.gear,),
-            materials=(found.material,),
+            materials=resolved.choice.materials if any_material else (found.material,),
         )
         offered = replace(resolved, choice=parts)
         try:

@@ -70,12 +70,12 @@ def with_plates(
     for entry in selection.ranking:
         if ranked or all(entry.modules_mass < other.mass for other in plated):
             plated.append(with_plate(entry, problem, robot))
-    first, lightest = plated[0], devices_by_mass(plated)[0]
+    first, lightest = plated[0], devices_by_mass(plated, problem.envelope)[0]
     if lightest is not first and criterion is not None and problem.incidence is None:
         _, own = at_own_incidence(problem, lightest, criterion)
         lightest = first if own is None else with_plate(own, problem, robot)
     others = [entry for entry in plated if not same_parts(entry, lightest)]
-    return replace(selection, ranking=(lightest, *devices_by_mass(others)))
+    return replace(selection, ranking=(lightest, *devices_by_mass(others, problem.envelope)))
 
 
 def on_its_footing(
@@ -281,7 +281,7 @@ def in_rings(
             selection = replace(selection, ranking=tuple(others))
             continue
         again, at = with_plates(again, alone, criterion, robot), own
-        ranking = devices_by_mass((*again.ranking, *others))
+        ranking = devices_by_mass((*again.ranking, *others), own.envelope)
         selection = replace(selection, ranking=tuple(ranking))
     return at, selection
 

@@ -7,6 +7,7 @@ import pytest
 from designed import design_of
 from part_gaps import overlap_volume, turning_clearance
 
+from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import SpecificationError, UsageError
 from ocs_design.device.joints import balance_of, joints_of
 from ocs_design.device.solids import motor_mount
@@ -25,7 +26,12 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.alternatives import alternatives
 from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.limits import TIME
+from ocs_design.sizing.selection.problem import with_limit
 from ocs_design.sizing.selection.select import lightest_by
+
+MORE_TIME = 1.2
+"""Factor with which no bond limits the ring."""
 
 ABOUT = 0.015
 """To which an alternative's mass is good: the reserve of the device as it stands is kept."""
@@ -171,6 +177,22 @@ def test_none_of_the_motors_and_steels_alone_has_a_lighter_one():
     ]
     least = min(each.mass for each in found if each is not None)
     assert lightest_by(problem, None).mass == pytest.approx(least, rel=1e-3)
+
+
+@pytest.mark.parametrize("heavier", [-1e-9, 1e-9])
+def test_of_equally_heavy_rings_the_one_whose_bond_holds_more_leads(heavier):
+    """A ring that expands more than its bell pulls on the glue when both are warm."""
+    _, designed = made()
+    at = designed.choice.chosen.incidence
+    problem = with_limit(designed.choice.problem, TIME, MORE_TIME)
+    strong, close = material("steel-4140-normalized"), material("steel-1045-cold-worked")
+    assert strong.yield_strength > close.yield_strength
+    assert strong.thermal_expansion > close.thermal_expansion
+    steels = strong, replace(close, density=strong.density * (1.0 + heavier))
+    both = [lightest_by(replace(problem, materials=(one,), incidence=at), None) for one in steels]
+    assert both[0].mass == pytest.approx(both[1].mass, rel=1e-7)
+    found = lightest_by(replace(problem, materials=steels, incidence=at), None)
+    assert found.material.name == close.name
 
 
 def test_a_motor_without_a_bell_is_refused_with_a_cure():

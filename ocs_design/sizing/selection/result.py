@@ -213,12 +213,17 @@ def lightest_first(
     return ordered + sorted(alike, key=preference)
 
 
-def devices_by_mass(devices: Iterable[Candidate]) -> list[Candidate]:
-    """Devices, lightest first; of equally heavy ones, that of the strongest material."""
+def devices_by_mass(devices: Iterable[Candidate], room: Envelope) -> list[Candidate]:
+    """Devices in the room for their rims, lightest first; of equally heavy ones, the safest.
 
-    def preference(device: Candidate) -> tuple[float, str, str, str]:
+    That is the one whose bond allows the wider ring, where it has one, then that of the material
+    which yields last.
+    """
+
+    def preference(device: Candidate) -> tuple[float, float, str, str, str]:
+        widest = float(np.max(device.limits(room).outer_radius_max))
         names = (device.motor.name, device.gear.name, device.material.name)
-        return -(device.material.yield_strength or 0.0), *names
+        return -widest, -(device.material.yield_strength or 0.0), *names
 
     return lightest_first(devices, lambda device: device.mass, preference)
 

@@ -9,8 +9,8 @@ is none of a motor that may be among the five with the lightest devices: so the 
 lightest of the five best motors are found whatever the order. What may be the lightest of all is
 refined in the end.
 
-Materials of one density make devices of one mass, but for the last digits. Of such devices the one
-of the stronger material is the lighter one (`lightest_first`).
+Materials of one density make devices of one mass, but for the last digits. Of such devices the
+safest comes first (`devices_by_mass`).
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -59,6 +59,7 @@ class Rank:
 
     Attributes:
         parts: indices of motor, gear and material.
+        widest: largest outer radius of its rim, or of a ring that its bond holds [m].
         strength: of the material [Pa]; 0: not known.
     """
 
@@ -66,6 +67,7 @@ class Rank:
     batch: int
     row: int
     parts: tuple[int, int, int]
+    widest: float
     strength: float
 
     @property
@@ -153,17 +155,20 @@ def _ranks(batch: int, solved: Solved) -> Iterator[Rank]:
     candidates, mass = solved.candidates, solved.mass
     drives = candidates.drives
     parts = np.stack([drives.motor, drives.gear, candidates.material], axis=1).tolist()
+    widest = np.broadcast_to(candidates.limits.outer_radius_max, mass.shape)
     for row in np.flatnonzero(solved.point.feasible).tolist():
         motor, gear, material = parts[row]
         strength = candidates.problem.materials[material].yield_strength or 0.0
-        yield Rank(float(mass[row]), batch, row, (motor, gear, material), strength)
+        yield Rank(
+            float(mass[row]), batch, row, (motor, gear, material), float(widest[row]), strength
+        )
 
 
 def _ordered(ranks: Iterable[Rank]) -> list[Rank]:
-    """The lightest first, and of equally heavy ones the strongest."""
+    """The lightest first; of equally heavy ones the safest, as in `devices_by_mass`."""
 
-    def preference(rank: Rank) -> tuple[float, tuple[int, int, int], float, int, int]:
-        return -rank.strength, rank.parts, rank.mass, rank.batch, rank.row
+    def preference(rank: Rank) -> tuple[float, float, tuple[int, int, int], float, int, int]:
+        return -rank.widest, -rank.strength, rank.parts, rank.mass, rank.batch, rank.row
 
     return lightest_first(ranks, lambda rank: rank.mass, preference)
 

@@ -109,7 +109,7 @@ def select_by(
         winner = selection.best
     if not own:
         return selection
-    lightest = devices_by_mass(own)[0]
+    lightest = devices_by_mass(own, problem.envelope)[0]
     there = select(replace(problem, incidence=lightest.incidence))
     return _led_by(with_demands(problem, lightest), there)
 
@@ -210,7 +210,7 @@ def _with_best(problem: SelectionProblem, exact: Candidate, selection: Selection
     near = [entry for entry in selection.ranking[1:] if entry.mass < exact.mass * (1.0 + _ABOUT)]
     there = _devices_at(problem, near, exact.incidence) if near else ()
     moved = [found or entry for found, entry in zip(there, near, strict=True)]
-    best, *others = devices_by_mass((exact, *moved))
+    best, *others = devices_by_mass((exact, *moved), problem.envelope)
     later = selection.ranking[1 + len(near) :]
     return replace(selection, ranking=(with_demands(problem, best), *others, *later))
 

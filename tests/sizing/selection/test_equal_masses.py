@@ -78,7 +78,7 @@ def test_a_device_that_is_lighter_leads_whatever_its_strength(steels):
     problem = problem_of(steels, incidence=0.6)
     twin = select(problem).best
     lighter = replace(twin, material=WEAK, rim_mass=twin.rim_mass * (1.0 - 1e-3))
-    assert devices_by_mass([twin, lighter]) == [lighter, twin]
+    assert devices_by_mass([twin, lighter], problem.envelope) == [lighter, twin]
 
 
 def test_equal_masses_are_those_next_to_the_lightest_of_them():
