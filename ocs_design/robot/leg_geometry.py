@@ -1,5 +1,6 @@
 """Base frame B and the legs in it: their chains, their planes and the upward axis."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -102,7 +103,8 @@ def with_base_frame(
     """The tree with a base frame fixed to `trunk`, if the trunk's own frame is none.
 
     Up follows from how the legs hang, sideways from the axes that they bend about. Front and back
-    look alike: the one nearer to the trunk's own x axis is taken as front.
+    look alike: the legs' names tell them apart, else the one nearer to the trunk's own x axis is
+    taken as front.
 
     Returns:
         The tree; how B is fixed to the trunk, None if the trunk's own frame is B; the warnings.
@@ -139,10 +141,32 @@ def with_base_frame(
 def _base_rotation(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
     """Axes of B in the trunk's frame, turned by right angles, as columns, shape (3, 3)."""
     up = up_axis(tree, trunk, legs)
-    knees = [geometry.plane.axis for geometry in leg_geometries(tree, trunk, legs)]
+    planes = [geometry.plane for geometry in leg_geometries(tree, trunk, legs)]
+    knees = [plane.axis for plane in planes]
     if up[2] == 1.0 and not all(abs(axis[0]) > SIDEWAYS for axis in knees):
         return np.eye(3)
     sideways = np.sum(np.abs(knees), axis=0) * (up == 0.0)
     left = np.eye(3)[int(np.argmax(sideways))]
     both = [np.column_stack([np.cross(y, up), y, up]) for y in (left, -left)]
-    return max(both, key=np.trace)
+    front = named_front(legs, [plane.hip for plane in planes])
+    return max(both, key=lambda axes: (np.sign(axes[:, 0] @ front).round(6), np.trace(axes)))
+
+
+_FRONT = re.compile(
+    r"front|(?<![a-z])fore(?!arm)|(?<![a-z])(?:f[lr]|[lr]f)(?![a-z])", re.IGNORECASE
+)
+_REAR = re.compile(r"rear|hind|back|(?<![a-z])(?:[bhr][lr]|[lr]h)(?![a-z])", re.IGNORECASE)
+
+
+def named_front(legs: Sequence[Leg], hips: Sequence[FloatArray]) -> FloatArray:
+    """From the hips of legs named as hind ones to those of front ones [m], shape (3,).
+
+    Zero where not both are named.
+    """
+    called = [(bool(_FRONT.search(leg.name)), bool(_REAR.search(leg.name))) for leg in legs]
+    front = [hip for hip, names in zip(hips, called, strict=True) if names == (True, False)]
+    rear = [hip for hip, names in zip(hips, called, strict=True) if names == (False, True)]
+    if not front or not rear:
+        return np.zeros(3)
+    ahead: FloatArray = np.mean(front, axis=0) - np.mean(rear, axis=0)
+    return ahead

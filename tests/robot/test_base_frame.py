@@ -1,10 +1,12 @@
 """A robot is the same robot, whichever way its trunk's frame points."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from robots import ROBOTS, SOLO12
 
-from ocs_design.robot.leg_geometry import BASE_FRAME, with_base_frame
+from ocs_design.robot.leg_geometry import BASE_FRAME, named_front, with_base_frame
 from ocs_design.robot.legs import find_legs
 from ocs_design.robot.posture import resolve_posture
 from ocs_design.robot.reader import read_robot
@@ -54,8 +56,28 @@ def test_inertia_does_not_depend_on_the_trunks_frame(name):
     posture = resolve_posture(tree, BASE_FRAME, legs, None, {})
     assert posture.standing_height == pytest.approx(robot.standing_height, abs=1e-6)
     inertia = tree.locked_mass_properties(posture.values, BASE_FRAME).inertia
-    # Solo12 looks alike from the front and the back, so that half a turn may be left.
-    np.testing.assert_allclose(np.abs(inertia), np.abs(robot.inertia), atol=1e-8)
+    # Front and back look alike, and are told by the legs' names.
+    np.testing.assert_allclose(inertia, robot.inertia, atol=1e-8)
+    placements = tree.placements_from(BASE_FRAME, posture.values)
+    ahead = {leg.name: placements[leg.body].position[0] > 0.0 for leg in legs}
+    assert ahead == {"FL_FOOT": True, "FR_FOOT": True, "HL_FOOT": False, "HR_FOOT": False}
+
+
+@pytest.mark.parametrize(
+    ("names", "front"),
+    [
+        (("A:FR12", "A:FL22", "A:BL32", "A:BR42"), 1.0),
+        (("LF_FOOT", "RF_FOOT", "LH_FOOT", "RH_FOOT"), 1.0),
+        (("hind_left", "hind_right", "front_left", "front_right"), -1.0),
+        (("leg1", "leg2", "leg3", "leg4"), 0.0),
+        (("left_forearm", "right_forearm", "flap", "brick"), 0.0),
+    ],
+)
+def test_names_tell_front_from_back(names, front):
+    solo12 = read_robot(SOLO12)
+    legs = [replace(leg, name=name) for leg, name in zip(solo12.legs, names, strict=True)]
+    hips = [np.array([x, y, 0.0]) for x in (0.2, -0.2) for y in (0.1, -0.1)]
+    np.testing.assert_allclose(named_front(legs, hips), [0.4 * front, 0.0, 0.0], atol=1e-12)
 
 
 def test_a_usual_robot_keeps_its_trunk():
