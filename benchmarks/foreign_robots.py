@@ -286,7 +286,8 @@ def row(path: Path, name: str, trunk: str, legs: int, sized: str) -> str:
     """Of the table."""
     package, *inside = name.replace("xmls/", "").split("/")
     label = f"{package.removeprefix('mujoco_').removesuffix('_data')}: {'/'.join(inside[-2:])}"
-    person = (f"{legs} legs" if legs else "no legs") + ("" if trunk == "-" else f" on {trunk}")
+    number = "no legs" if not legs else "1 leg" if legs == 1 else f"{legs} legs"
+    person = number + ("" if trunk == "-" else f" on {trunk}")
     try:
         robot = read_robot(path)
     except RobotError as error:
