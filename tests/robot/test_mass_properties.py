@@ -4,7 +4,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.robot.mass import MassProperties, combine, physical_defect
+from ocs_design.robot.mass import (
+    MassProperties,
+    ball_density,
+    combine,
+    impossible_size,
+    physical_defect,
+)
 from ocs_design.robot.rotations import rotation_about, rotation_from_quaternion, rotation_from_rpy
 
 seeds = st.integers(min_value=0, max_value=2**32 - 1)
@@ -123,6 +129,21 @@ def test_rounding_is_no_defect():
     dust = MassProperties(0.5, np.zeros(3), np.diag([-5e-20, 0.0, 1e-19]))
     assert physical_defect(lamina) is None
     assert physical_defect(dust) is None
+
+
+@pytest.mark.parametrize(
+    ("density", "refused"),
+    [(0.0119, "thinner than air"), (0.0121, None), (19_250.0, None), (19_350.0, "tungsten")],
+)
+def test_a_ball_is_refused_where_nothing_is_as_dense_or_as_thin(density, refused):
+    """Tungsten has 19,300 kg/m^3, a hundredth of air 0.012; the inertia is 2 m R^2 / 5."""
+    radius = 0.3
+    mass = density * 4.0 / 3.0 * np.pi * radius**3
+    ball = MassProperties(mass, np.zeros(3), 0.4 * mass * radius**2 * np.eye(3))
+    assert ball_density(ball) == pytest.approx(density, rel=1e-12)
+    reason = impossible_size(ball)
+    assert (reason is None) == (refused is None)
+    assert refused is None or refused in reason
 
 
 def test_arrays_cannot_be_written_to():
