@@ -5,6 +5,7 @@ from functools import cache
 
 import mujoco
 import pytest
+from exported import LEGGED
 from robots import ROBOTS
 
 from ocs_design.device.naming import flywheel_names
@@ -23,15 +24,7 @@ from ocs_design.simulation.world import TrunkChain, WorldBuilder
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.mounting import mounting_of
 
-MEASURED = [
-    "solo_description/robots/solo12",
-    "a1_description/urdf/a1",
-    "anymal_c_simple_description/urdf/anymal",
-    "go2_description/urdf/go2",
-    "hyq_description/robots/hyq_no_sensors",
-    "bolt_description/robots/bolt",
-    "talos_data/robots/talos_reduced",
-]
+MEASURED = [name for name in LEGGED if "romeo" not in name]
 
 
 @cache

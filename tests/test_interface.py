@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-import matplotlib as mpl
 import pytest
 from fronts import by_hand, make_front
 from stories import design, story
@@ -203,7 +202,7 @@ PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 @pytest.mark.slow
 def test_the_page_on_python_runs_from_top_to_bottom(beside_solo12):
-    mpl.use("agg")
+    pytest.importorskip("matplotlib").use("agg")
     shown = PYTHON.findall((ROOT / "docs" / "api.md").read_text())
     assert len(shown) > 4
     names = {}

@@ -108,6 +108,15 @@ def check_exit(folder, *arguments):
     assert everything_in(folder) == before
 
 
+def extreme(test):
+    """Each limit of a robot like Solo12 beyond all reason."""
+    for name in ("--r-max", "--wheel-speed-max", "--rate-change", "--wheel-mass-max"):
+        for value in ("1e-300", "1e300"):
+            given = {"mass": "2.5", "inertia": "0.03,0.05,0.07", "drive": ("--motor=none",)}
+            test = example(options={name: value}, **given)(test)
+    return test
+
+
 @FUZZ
 @given(
     mass=QUANTITIES,
@@ -115,41 +124,9 @@ def check_exit(folder, *arguments):
     options=st.dictionaries(st.sampled_from(OPTIONS), QUANTITIES, max_size=3),
     drive=DRIVES,
 )
-@example(
-    mass="2.5", inertia="0.03,0.05,0.07", options={"--r-max": "1e-300"}, drive=("--motor=none",)
-)
 @example(mass="1e-300", inertia="1e-300,1e-300,1e-300", options={}, drive=("--motor=none",))
 @example(mass="1e300", inertia="1e300,1e300,1e300", options={}, drive=("--motor=none",))
-@example(
-    mass="2.5",
-    inertia="0.03,0.05,0.07",
-    options={"--wheel-speed-max": "1e-300"},
-    drive=("--motor=none",),
-)
-@example(
-    mass="2.5",
-    inertia="0.03,0.05,0.07",
-    options={"--wheel-speed-max": "1e300"},
-    drive=("--motor=none",),
-)
-@example(
-    mass="2.5",
-    inertia="0.03,0.05,0.07",
-    options={"--rate-change": "1e300"},
-    drive=("--motor=none",),
-)
-@example(
-    mass="2.5",
-    inertia="0.03,0.05,0.07",
-    options={"--rate-change": "1e-300"},
-    drive=("--motor=none",),
-)
-@example(
-    mass="2.5",
-    inertia="0.03,0.05,0.07",
-    options={"--wheel-mass-max": "1e-300"},
-    drive=("--motor=none",),
-)
+@extreme
 def test_robots_by_hand(folder, mass, inertia, options, drive):
     typed = [f"{name}={value}" for name, value in options.items()]
     by_hand = (f"--mass={mass}", f"--inertia={inertia}")

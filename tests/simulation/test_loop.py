@@ -1,8 +1,8 @@
 """Margins of the wheels' loop against python-control, and against what a late loop does."""
 
+import importlib
 from dataclasses import replace
 
-import control
 import numpy as np
 import pytest
 from trajectories import from_rest
@@ -21,6 +21,12 @@ GAINS = [(60.0, 12.0), (400.0, 4.0), (2.0, 30.0)]
 
 
 @pytest.fixture(scope="module")
+def control():
+    """It loads charts, too: not in every worker that collects this file."""
+    return importlib.import_module("control")
+
+
+@pytest.fixture(scope="module")
 def world(solo12):
     return WorldBuilder(solo12, driven_device()).flight(default_maneuvers(solo12)[0], Wheels.ACTIVE)
 
@@ -29,7 +35,7 @@ def world(solo12):
 @pytest.mark.filterwarnings("ignore:stability_margins", "ignore:invalid value:RuntimeWarning")
 @pytest.mark.parametrize("rate", [200.0, 1000.0])
 @pytest.mark.parametrize("gains", GAINS)
-def test_a_single_axis_has_the_margins_that_python_control_gives(gains, rate):
+def test_a_single_axis_has_the_margins_that_python_control_gives(control, gains, rate):
     period, feedback = 1.0 / rate, np.array([gains])
     plant = control.c2d(control.ss(STATE, CONTROL, feedback, 0.0), period, method="zoh")
     _, phase, _, crossover = control.margin(plant)
@@ -52,7 +58,7 @@ def test_the_law_on_a_robot_has_those_of_one_axis(world, rate):
 
 @pytest.mark.parametrize("rate", [200.0, 1000.0])
 @pytest.mark.parametrize("gains", GAINS)
-def test_it_is_stable_until_the_delay_and_no_longer(gains, rate):
+def test_it_is_stable_until_the_delay_and_no_longer(control, gains, rate):
     """Poles of the closed loop with that many whole steps of delay."""
     period, feedback = 1.0 / rate, np.array([gains])
     delay = loop_margins(STATE, CONTROL, feedback, period).delay
