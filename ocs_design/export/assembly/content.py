@@ -197,12 +197,14 @@ class Assembly:
         found = self.screws[name]
         held = found.fastening
         joint = "Lid on drum" if lid else short(name).capitalize()
-        lock = (
-            "; threadlocker of medium strength" if held.depth < IN_PLASTIC else "; no threadlocker"
-        )
+        lock = "no threadlocker"
+        if held.depth < IN_PLASTIC:
+            lock = "threadlocker of medium strength"
+            if found.on_print:
+                lock += ", a drop on the tips alone, for it attacks the print"
         return (
             f"{joint}: {held.count} x {held.designation}"
-            f"{self.number(name)}, {found.torque:.2g} N m, crosswise in two rounds{lock}"
+            f"{self.number(name)}, {found.torque:.2g} N m, crosswise in two rounds; {lock}"
             f"{self._where(name)}."
         )
 

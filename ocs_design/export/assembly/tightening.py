@@ -32,12 +32,14 @@ class Tightened:
         torque: [N m].
         rule: what limits it.
         engagement: length of thread that holds, at least [m].
+        on_print: whether their heads press on a print, and they go through it.
     """
 
     fastening: Fastening
     torque: float
     rule: str
     engagement: float
+    on_print: bool = False
 
 
 def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = True) -> Tightened:
@@ -72,4 +74,4 @@ def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = Tru
         stripped = THREAD_SHARE * sheared * ALUMINIUM_SHEAR
         limits.append((stripped, "thread in aluminium at half of what strips it"))
     preload, rule = min(limits)
-    return Tightened(fastening, screw.torque(preload), rule, engagement)
+    return Tightened(fastening, screw.torque(preload), rule, engagement, head_on_print)

@@ -31,8 +31,7 @@ _CAMERA, _UP = (0.80, -0.38, 0.55), (0.0, -1.0, 0.0)
 _DRAWN = Pen(0.25)
 
 _GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
-"""Gaps between pieces pulled apart, over the largest radius: the widest that fits the sheet is
-taken. Share of it before screws."""
+"""Gaps between pieces pulled apart that are tried, over the largest radius; share before screws."""
 
 _BOUGHT = ("motor", "gear", "gear_2")
 
@@ -88,8 +87,12 @@ def exploded_view(
         points = np.concatenate([piece.mesh.vertices for piece in apart]) @ view[:2].T
         low, high = points.min(axis=0), points.max(axis=0)
         tried.append((_fitting(high - low, room), apart, low, high))
-    # The first of the largest scale has the widest gaps.
-    scale, apart, low, high = max(tried, key=lambda each: each[0].paper / each[0].part)
+    # Large pieces are of no use where they cover each other: a gap of twice the width is worth 1.4
+    # times the scale.
+    worth = [
+        each[0].paper / each[0].part * gap**0.5 for each, gap in zip(tried, _GAPS, strict=True)
+    ]
+    scale, apart, low, high = tried[worth.index(max(worth))]
     meshes = [Mesh(piece.mesh.vertices @ view.T, piece.mesh.triangles) for piece in apart]
     lines = visible_lines(meshes)
     place = _placing(scale, (low + high) / 2.0, box)
