@@ -188,12 +188,13 @@ def mast_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
     ]
     drums = [
         Drum(
-            middle + [x, aside, z] + off * np.cross(axis, _LEFT),
+            middle + [x, aside, z] + off * square,
             axis,
             sqrt(2.0) * quarter,
             length,
         )
         for x, z, axis, length in tubes
+        for square in (np.cross(axis, _LEFT),)
         for aside in (quarter, -quarter)
         for off in (quarter, -quarter)
     ]

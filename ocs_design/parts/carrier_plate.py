@@ -78,6 +78,8 @@ _SECTIONS = 101
 
 Point: TypeAlias = tuple[float, float]
 
+Lengths: TypeAlias = float | FloatArray
+
 Hole = TypeVar("Hole", Point, float)
 
 
@@ -92,7 +94,7 @@ def directions(arms: int) -> FloatArray:
     return np.round(np.stack([-np.sin(angles), np.cos(angles)], axis=1), 15) + 0.0
 
 
-def bending_stress(mass: float, arm: float, width: float, thickness: float) -> float:
+def bending_stress(mass: float, arm: Lengths, width: Lengths, thickness: Lengths) -> FloatArray:
     """Stress in a plate that carries a mass at the end of a cantilever, under `SHOCK` [Pa].
 
     M = m a L and sigma = 6 M / (w t^2): Roark's Formulas for Stress and Strain, 7th edition, table
@@ -103,10 +105,10 @@ def bending_stress(mass: float, arm: float, width: float, thickness: float) -> f
         arm: from its support to the mass [m].
         width, thickness: of the section, less its holes [m].
     """
-    return 6.0 * mass * SHOCK * arm / (width * thickness**2)
+    return np.asarray(6.0 * mass * SHOCK * arm / (width * thickness**2))
 
 
-def twisting_stress(mass: float, arm: float, width: float, thickness: float) -> float:
+def twisting_stress(mass: float, arm: float, width: float, thickness: Lengths) -> FloatArray:
     """Shear stress in a plate that a mass above it twists, under `SHOCK` across its length [Pa].
 
     T = m a h, and tau = 3 T / (w t^2) (1 + 0.6095 q + 0.8865 q^2 - 1.8023 q^3 + 0.91 q^4), q = t/w:
@@ -119,7 +121,7 @@ def twisting_stress(mass: float, arm: float, width: float, thickness: float) -> 
     """
     q = thickness / width
     series = 1.0 + 0.6095 * q + 0.8865 * q**2 - 1.8023 * q**3 + 0.91 * q**4
-    return 3.0 * mass * SHOCK * arm / (width * thickness**2) * series
+    return np.asarray(3.0 * mass * SHOCK * arm / (width * thickness**2) * series)
 
 
 @dataclass(frozen=True)
@@ -521,19 +523,26 @@ class CarrierPlate:
             mass: of a module [kg].
             height: of the module's middle above the plate [m].
         """
+        return float(self.stresses(np.array([self.thickness]), mass, height)[0])
+
+    def stresses(self, thicknesses: FloatArray, mass: float, height: float) -> FloatArray:
+        """Largest stress of plates of this outline of some thicknesses [Pa]; see `stress`.
+
+        Args:
+            thicknesses: [m], shape (n,). mass, height: see `stress`.
+        """
         if len(self.rows) > 1:
-            return max(plate.stress(mass, height) for plate in self.each)
-        start = self.support
-        across = np.linspace(start, self.across, _SECTIONS)
+            # On a mast they are alike.
+            distinct = self.each[:1] if self.mast else self.each
+            each = [plate.stresses(thicknesses, mass, height) for plate in distinct]
+            return np.asarray(np.max(each, axis=0))
+        across = np.linspace(self.support, self.across, _SECTIONS)
         widths, arms = self.net_width(across), self.across - across
-        down = max(
-            bending_stress(mass, arm, width, self.thickness)
-            for arm, width in zip(arms.tolist(), widths.tolist(), strict=True)
-        )
+        down = bending_stress(mass, arms[:, None], widths[:, None], thicknesses).max(axis=0)
         narrow = float(widths[arms >= self.window].min(initial=widths[0]))
-        sideways = bending_stress(mass, height, narrow, self.thickness)
-        forward = twisting_stress(mass, height, narrow, self.thickness)
-        return max(down, sideways, sqrt(3.0) * forward)
+        sideways = bending_stress(mass, height, narrow, thicknesses)
+        forward = twisting_stress(mass, height, narrow, thicknesses)
+        return np.maximum(np.maximum(down, sideways), sqrt(3.0) * forward)
 
     def arm_stress(self, mass: float, height: float) -> float:
         """Largest stress of a mast by its arms, wherever its screws are, under `SHOCK` [Pa].
@@ -669,7 +678,8 @@ class CarrierPlate:
     @property
     def mass(self) -> float:
         """Mass of plate, sleeves and the trunk's screws [kg]."""
-        return sum(body.mass for body in self._bodies())
+        solid = sum(part.mass() for part, _ in plate_bodies(self))
+        return solid + sum(self.screw.mass(length) for length in self.screw_lengths)
 
     def mass_properties(self) -> MassProperties:
         """Mass properties of plate, sleeves and the trunk's screws in B."""

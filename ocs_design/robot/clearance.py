@@ -93,7 +93,14 @@ _PROGRESS = 1e-5
 """Smallest gain for which the search goes on [m]."""
 
 
-def descended(collision: CollisionModel, probe: Probe, start: Nearest, ranges: Ranges) -> Nearest:
+def descended(
+    collision: CollisionModel,
+    probe: Probe,
+    start: Nearest,
+    ranges: Ranges,
+    *,
+    enough: float = -np.inf,
+) -> Nearest:
     """Nearest that a part comes to a solid around a posture in which it is near already.
 
     A pattern search along the joints that move the part: drawn postures lie too far apart to find
@@ -103,22 +110,23 @@ def descended(collision: CollisionModel, probe: Probe, start: Nearest, ranges: R
         collision, probe: as for `CollisionModel.nearest`.
         start: from there.
         ranges: of joints, which are kept.
+        enough: distance below which it need not be nearer [m].
     """
     robot = collision.robot
     joints = [name for name in start.part.joints if name in ranges]
     best, share = start, _FIRST_STEP
     for _ in range(_HALVINGS):
-        while True:
+        while best.distance >= enough:
             # One joint at a time, by a share of its range to either side.
             around = []
             for name, step in product(joints, (-share, share)):
                 lower, upper = ranges[name]
                 here = best.posture.get(name, robot.posture[name])
                 value = min(max(here + step * (upper - lower), lower), upper)
-                around.append({**best.posture, name: value})
-            nearer = collision.nearest(
-                probe, collision.poses(around), [best.part], within=best.distance - _PROGRESS
-            )
+                if value != here:
+                    around.append({name: value})
+            poses = collision.poses(around, [best.part], start=best.posture)
+            nearer = collision.nearest(probe, poses, [best.part], within=best.distance - _PROGRESS)
             if nearer is None:
                 break
             best = nearer

@@ -5,7 +5,8 @@ MuJoCo measures them (`mj_geomDistance`), with everything placed in the trunk's 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from types import MappingProxyType
 
 import mujoco
 import numpy as np
@@ -121,8 +122,16 @@ def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
     return [i for i in up if i not in shared] + [i for i in reversed(down) if i not in shared]
 
 
+_UPRIGHT = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+
 _FARTHEST = 10.0
 """Largest distance that is looked for [m]."""
+
+_SLACK = 1e-9
+"""What no limb is left out for [m]: rounding."""
+
+_FEW = 16
+"""Pairs of geoms and postures that are sooner measured than their boxes are looked at."""
 
 Posture = Mapping[str, float]
 """Values of driven joints [rad or m]; all others are at the nominal posture."""
@@ -140,6 +149,11 @@ class Poses:
     postures: Sequence[Posture]
     positions: FloatArray
     axes: FloatArray
+
+    @cached_property
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Least and largest coordinates of each geom's middle [m], each of shape (ngeom, 3)."""
+        return self.positions.min(axis=0), self.positions.max(axis=0)
 
     def __getitem__(self, index: int) -> "Poses":
         """The posture with this number alone."""
@@ -178,8 +192,12 @@ class CollisionModel:
         self._data = mujoco.MjData(self._model)
         self.parts = parts_of(robot, self._model)
         self._part_of = {int(geom): part for part in self.parts for geom in part.geoms}
+        self._geoms_of: dict[tuple[Part, ...], NDArray[np.int64]] = {}
         self._fromto = np.zeros(6)
+        # Probes, whose radii change, are not among the geoms of parts.
+        self._radii = np.array(self._model.geom_rbound)
         self._base = self._model.site(BASE).id
+        self._probes = {name: int(self._model.geom(name).id) for name in PROBES}
         self._nominal = posture_qpos(self._model, robot)
         # Coordinates that go with each driven joint: address, factor and offset.
         self._moved_by: dict[str, list[tuple[int, float, float]]] = {}
@@ -189,54 +207,124 @@ class CollisionModel:
             self._moved_by.setdefault(leader, []).append((address, factor, offset))
         self.nominal = self.poses([{}])
 
-    def poses(self, postures: Sequence[Posture]) -> Poses:
-        """Places of all geoms in these postures; joints that mimic others follow them."""
+    def poses(
+        self,
+        postures: Sequence[Posture],
+        parts: Sequence[Part] | None = None,
+        *,
+        start: Posture = MappingProxyType({}),
+    ) -> Poses:
+        """Places of all geoms in these postures; joints that mimic others follow them.
+
+        Args:
+            postures: of the robot, as far as they differ from `start`.
+            parts: whose geoms are wanted, all others are not placed; None: all.
+            start: values of other joints, the same in all postures.
+        """
         model, data, count = self._model, self._data, len(postures)
-        origin, base = np.empty((count, 1, 3)), np.empty((count, 1, 3, 3))
-        positions = np.empty((count, model.ngeom, 3))
-        axes = np.empty((count, model.ngeom, 3, 3))
+        geoms = np.arange(model.ngeom) if parts is None else self._geoms(tuple(parts))
+        origin, base = np.empty((count, 1, 3)), np.empty((count, 9))
+        positions, axes = np.empty((count, model.ngeom, 3)), np.empty((count, model.ngeom, 9))
+        qpos, common = data.qpos, self._nominal.copy()
+        self._move(common, start)
         for index, posture in enumerate(postures):
-            data.qpos[:] = self._nominal
-            for name, value in posture.items():
-                for address, factor, offset in self._moved_by.get(name, ()):
-                    data.qpos[address] = factor * value + offset
+            qpos[:] = common
+            self._move(qpos, posture)
             mujoco.mj_kinematics(model, data)
             origin[index], positions[index] = data.site_xpos[self._base], data.geom_xpos
-            base[index].flat, axes[index].flat = data.site_xmat[self._base], data.geom_xmat
-        return Poses(
-            postures,
-            (base.swapaxes(2, 3) @ (positions - origin)[..., None])[..., 0],
-            (base.swapaxes(2, 3) @ axes).reshape(count, model.ngeom, 9),
-        )
+            base[index], axes[index] = data.site_xmat[self._base], data.geom_xmat
+        into = base.reshape(count, 1, 3, 3).swapaxes(2, 3)
+        turned = axes[:, geoms].reshape(count, len(geoms), 3, 3)
+        positions[:, geoms] = (into @ (positions[:, geoms] - origin)[..., None])[..., 0]
+        axes[:, geoms] = (into @ turned).reshape(count, len(geoms), 9)
+        whole = [{**start, **posture} for posture in postures] if start else postures
+        return Poses(whole, positions, axes)
+
+    def _move(self, qpos: FloatArray, posture: Posture) -> None:
+        """Put a posture's joints, and those that mimic them, into MuJoCo's coordinates."""
+        for name, value in posture.items():
+            for address, factor, offset in self._moved_by.get(name, ()):
+                qpos[address] = factor * value + offset
 
     def nearest(
-        self, probe: Probe, poses: Poses, parts: Sequence[Part], *, within: float = _FARTHEST
+        self,
+        probe: Probe,
+        poses: Poses,
+        parts: Sequence[Part],
+        *,
+        within: float = _FARTHEST,
+        enough: float = -np.inf,
     ) -> Nearest | None:
         """Part that comes nearest to a solid in any of the postures; None beyond `within`.
 
-        Balls around both tell which pairs need to be looked at.
+        Balls and boxes around them tell which pairs need to be looked at. Of what is nearer than
+        `enough` [m], any will do.
         """
-        geoms = np.array([geom for part in parts for geom in part.geoms], dtype=np.int64)
+        geoms = self._geoms(tuple(parts))
+        if len(poses.postures) > 1:
+            # Most limbs are near in no posture.
+            low, high = poses.bounds
+            off = np.maximum(np.maximum(low - probe.center, probe.center - high), 0.0)[geoms]
+            far = within + probe.reach + self._radii[geoms] + _SLACK
+            geoms = geoms[(off * off).sum(axis=1) < np.maximum(far, 0.0) ** 2]
         if not len(geoms):
             return None
-        apart = np.linalg.norm(poses.positions[:, geoms] - probe.center, axis=2)
-        at_least = apart - self._model.geom_rbound[geoms] - probe.reach
-        rows, columns = np.nonzero(at_least < within)
-        order = np.argsort(at_least[rows, columns], kind="stable")
+        rows, geoms, bounds = self._candidates(probe, poses, geoms, within)
+        if not len(rows):
+            return None
+        order = np.argsort(bounds, kind="stable")
         best, least = None, within
-        where = self._put(probe, 0)
-        for row, column in zip(rows[order], columns[order], strict=True):
-            if at_least[row, column] >= least:
+        where, xpos, xmat = self._put(probe, 0), self._data.geom_xpos, self._data.geom_xmat
+        near = rows[order].tolist(), geoms[order].tolist(), bounds[order].tolist()
+        for row, geom, bound in zip(*near, strict=True):
+            if bound >= least or least < enough:
                 break
-            geom = int(geoms[column])
-            self._data.geom_xpos[geom] = poses.positions[row, geom]
-            self._data.geom_xmat[geom] = poses.axes[row, geom]
+            xpos[geom], xmat[geom] = poses.positions[row, geom], poses.axes[row, geom]
             distance = self._distance(where, geom, least)
             if distance < least:
-                best, least = (int(row), geom), distance
+                best, least = (row, geom), distance
         if best is None:
             return None
         return Nearest(self._part_of[best[1]], least, poses.postures[best[0]])
+
+    def near(
+        self, probes: Sequence[Probe], pose: Poses, parts: Sequence[Part], within: float
+    ) -> list[Probe]:
+        """Those solids that may be so near to parts in a single posture, for `nearest` to tell."""
+        geoms = self._geoms(tuple(parts))
+        centers = np.array([probe.center for probe in probes]).reshape(-1, 1, 3)
+        reach = np.array([probe.reach for probe in probes]).reshape(-1, 1)
+        apart = np.linalg.norm(pose.positions[0, geoms] - centers, axis=2)
+        near = (apart - self._radii[geoms] - reach < within + _SLACK).any(axis=1)
+        return [probe for probe, is_near in zip(probes, near.tolist(), strict=True) if is_near]
+
+    def _candidates(
+        self, probe: Probe, poses: Poses, geoms: NDArray[np.int64], within: float
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray]:
+        """Numbers of postures and geoms that may be so near to a solid, and their least distances.
+
+        A geom is within a ball, and within a box of its own axes.
+        """
+        apart = probe.center - poses.positions[:, geoms]
+        at_least = np.sqrt((apart * apart).sum(axis=2)) - self._radii[geoms] - probe.reach
+        rows, columns = np.nonzero(at_least < within)
+        bounds, geoms = at_least[rows, columns], geoms[columns]
+        if len(rows) <= _FEW:
+            return rows, geoms, bounds
+        axes, box = poses.axes[rows, geoms].reshape(-1, 3, 3), self._model.geom_aabb[geoms]
+        own = np.einsum("nji,nj->ni", axes, apart[rows, columns]) - box[:, :3]
+        off = np.maximum(np.abs(own) - box[:, 3:], 0.0)
+        boxed = np.sqrt((off * off).sum(axis=1)) - probe.reach - _SLACK
+        bounds = np.maximum(bounds, boxed)
+        near = bounds < within
+        return rows[near], geoms[near], bounds[near]
+
+    def _geoms(self, parts: tuple[Part, ...]) -> NDArray[np.int64]:
+        """Numbers of the geoms of parts, the same array for the same parts."""
+        if parts not in self._geoms_of:
+            geoms = [geom for part in parts for geom in part.geoms]
+            self._geoms_of[parts] = np.array(geoms, dtype=np.int64)
+        return self._geoms_of[parts]
 
     def between(self, left: Drum, right: Drum) -> float:
         """Distance of two solids on the trunk [m]."""
@@ -249,7 +337,7 @@ class CollisionModel:
 
     def _put(self, probe: Probe, which: int) -> int:
         """Put the geom that stands in for `probe` in its place; the geom's number."""
-        axes = np.eye(3).ravel()
+        axes = np.array(_UPRIGHT)
         match probe:
             case Ball():
                 name, size = BALL, (probe.radius, 0.0, 0.0)
@@ -259,7 +347,7 @@ class CollisionModel:
                 quaternion = np.empty(4)
                 mujoco.mju_quatZ2Vec(quaternion, probe.axis)
                 mujoco.mju_quat2Mat(axes, quaternion)
-        geom = int(self._model.geom(name).id)
+        geom = self._probes[name]
         self._model.geom_size[geom] = size
         self._model.geom_rbound[geom] = probe.reach
         self._data.geom_xpos[geom] = probe.center

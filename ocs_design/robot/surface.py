@@ -5,7 +5,7 @@ What is seen counts, for screws go into what is there; collision shapes only sta
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import combinations
 from pathlib import Path
 
@@ -50,12 +50,17 @@ class Surface:
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Heights at places in B [m], each that of the nearest place of the grid."""
-        i = np.rint((np.asarray(x) - self.x) / self.step).astype(np.int64)
-        j = np.rint((np.asarray(y) - self.y) / self.step).astype(np.int64)
-        rows, columns = self.heights.shape
-        inside = (i >= 0) & (i < rows) & (j >= 0) & (j < columns)
-        found = self.heights[np.clip(i, 0, rows - 1), np.clip(j, 0, columns - 1)]
-        return np.where(inside, found, -np.inf)
+        rows, columns = self._bordered.shape
+        i, j = (
+            np.clip(np.rint((of - start) / self.step) + 1.0, 0.0, count - 1).astype(np.intp)
+            for of, start, count in ((x, self.x, rows), (y, self.y, columns))
+        )
+        return np.asarray(self._bordered.ravel()[i * columns + j])
+
+    @cached_property
+    def _bordered(self) -> FloatArray:
+        """The heights with a border of places where there is nothing [m]."""
+        return frozen(np.pad(self.heights, 1, constant_values=-np.inf))
 
     def farthest(self, low: float, high: float, aside: float) -> float:
         """Largest height between two x and so far to both sides of y = 0 [m]; -inf: nothing."""

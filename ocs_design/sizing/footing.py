@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import product
-from math import ceil, copysign, cos, inf, isfinite, log, pi, sin, sqrt
+from math import ceil, copysign, cos, inf, isfinite, isnan, log, nan, pi, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +112,9 @@ MODULE_SHARE = 0.1
 
 SPARE = 1e-3
 """Height by which a pedestal may be higher than it must be [m], so that places settle."""
+
+_FEW = 29
+"""Of so many points of a screw's land one is looked at first."""
 
 _ENDLESS = 1e3
 """Step of a surface of one place [m]."""
@@ -461,7 +464,7 @@ def _pedestalled(
         origins = tuple((x, 0.0, height - size.standing) for height in heights)
         place = replace(around_it, origins=origins)
         solids = [solid for each in pedestals for solid in pedestal_solids(each)]
-        if search.is_off(solids) and search.is_free(place) and not any(map(search.hit, solids)):
+        if search.is_off(solids) and search.is_free(place) and not any(map(search.touches, solids)):
             return Footing(place, None, pedestals)
     return None
 
@@ -620,7 +623,7 @@ def _nearest_footing(
             # Farther apart, modules leave room for a limb between them, but not a plate.
             posts = held_by is POST_SCREW
             between = plate_solids(footing.plate) if aside or posts else ()
-            if search.is_free(footing.place) and not any(map(search.hit, between)):
+            if search.is_free(footing.place) and not any(map(search.touches, between)):
                 return footing
         if shift == np.inf:
             break
@@ -723,14 +726,14 @@ def _mast_spot(
     spots.sort(key=lambda each: (each[3], search.cost(each[0])))
     for place, far, height, spacer in spots:
         tubes = _tubes(arms[far][0], place.centers(size), height, face + spacer)
-        if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.hit, tubes)):
+        if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.touches, tubes)):
             continue
         masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms[far])
         for footing in (each for each in masted if each is not None):
             # A wider tube moves modules by less than what is kept free around them.
             if not search.is_free(footing.place):
                 break
-            if not any(map(search.hit, plate_solids(footing.plate))):
+            if not any(map(search.touches, plate_solids(footing.plate))):
                 return far, height, spacer
     return None
 
@@ -739,14 +742,14 @@ def _on_arms(feet: Feet, mast: Mast) -> CarrierPlate | None:
     """The lightest plate across the arms of a mast that bears a pair; None: there is none."""
     edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
     ring = feet.slot_radius + edge
-    plates = (
+    blanks = (
         CarrierPlate(
             position=(0.0, 0.0, 0.0),
             radius=ring,
             half_length=feet.y + ring,
             # A rounding that flat is none.
             neck=neck if neck < ring - _PATTERN_STEP else ring,
-            thickness=thickness,
+            thickness=STOCK[0],
             across=feet.y,
             window=max(0.0, feet.slot_radius - edge),
             feet=feet.screws,
@@ -755,17 +758,29 @@ def _on_arms(feet: Feet, mast: Mast) -> CarrierPlate | None:
             rows=feet.rows,
             mast=mast,
         )
-        for thickness in STOCK
         for neck in (mast.side / 2.0 + wider for wider in WIDER)
     )
+    # Thicker plates stand higher, which bends the arms more.
     bearing = (
         plate
-        for plate in plates
-        if plate.shape.half_width(np.asarray(mast.side / 2.0)) <= mast.back
-        and plate.stress(feet.mass, feet.height) <= MAST_YIELD
+        for blank in blanks
+        if blank.shape.half_width(np.asarray(mast.side / 2.0)) <= mast.back
+        and (plate := next(_thick_enough(blank, feet, MAST_YIELD), None)) is not None
         and plate.arm_stress(feet.mass, feet.height) <= MAST_YIELD
     )
     return min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)
+
+
+def _thick_enough(blank: CarrierPlate, feet: Feet, stress: float) -> Iterator[CarrierPlate]:
+    """The plate in all thicknesses in stock that keep it below a stress [Pa], the thinnest first.
+
+    Args:
+        blank: of any thickness. feet: on it.
+    """
+    stresses = blank.stresses(np.array(STOCK), feet.mass, feet.height)
+    for thickness, own in zip(STOCK, stresses.tolist(), strict=True):
+        if own <= stress:
+            yield replace(blank, thickness=thickness)
 
 
 def _tubes(
@@ -897,15 +912,12 @@ def _patterns(
     force = 2.0 * feet.mass * SHOCK * len(centers)
     wheels, off, found = float(centers[:, 2].mean()), mast.face + spacer, []
     for aside in np.arange(least, most, _PATTERN_STEP).tolist():
-        z, pads = _pads(back, plate.sleeve_radius, aside)
-        top = pads[:, 1]
-        low, high = np.triu_indices(len(z), 1)
+        z, pads, (low, high) = _pads(back, plate.sleeve_radius, aside)
         half = (z[high] - z[low]) / 2.0
-        near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
-        near &= np.abs(top[high] - top[low]) <= SLEEVE_MAX
-        low, high, half = low[near], high[near], half[near]
         up = np.abs(wheels - (z[low] + z[high]) / 2.0)
         used = pattern_use(held, force, (off, up), (half, np.asarray(aside)))
+        if not (used <= 1.0).any():
+            continue
         longer = np.maximum(0.0, height - z[low]) + np.maximum(0.0, z[high] - centers[-1, 2])
         longer = np.where(used <= 1.0, longer + 1e-3 * used, np.inf)
         for index in np.argsort(longer, kind="stable")[:_PATTERNS].tolist():
@@ -917,11 +929,14 @@ def _patterns(
     return [pattern for _, pattern in sorted(found, key=lambda each: each[0])[:_PATTERNS]]
 
 
-@lru_cache(maxsize=64)
-def _pads(back: Surface, radius: float, aside: float) -> tuple[FloatArray, FloatArray]:
+@lru_cache(maxsize=256)
+def _pads(
+    back: Surface, radius: float, aside: float
+) -> tuple[FloatArray, FloatArray, tuple[NDArray[np.int64], NDArray[np.int64]]]:
     """Heights at which a trunk's back is flat under a sleeve on either side, and how far back [m].
 
-    That is a row of two: at the least and at the most.
+    That is a row of two: at the least and at the most. Last come the numbers of lower and upper
+    heights that are as far apart as screws may be.
 
     Args:
         back: of the trunk. radius: of the sleeves [m]. aside: of their middles to both sides [m].
@@ -933,7 +948,12 @@ def _pads(back: Surface, radius: float, aside: float) -> tuple[FloatArray, Float
     top, low = behind.max(axis=1), behind.min(axis=1)
     with np.errstate(invalid="ignore"):
         flat = top - low <= FLATNESS
-    return frozen(z[flat]), frozen(np.stack([low, top], axis=1)[flat])
+    z, low, top = z[flat], low[flat], top[flat]
+    lower, upper = np.triu_indices(len(z), 1)
+    half = (z[upper] - z[lower]) / 2.0
+    near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
+    near &= np.abs(top[upper] - top[lower]) <= SLEEVE_MAX
+    return frozen(z), frozen(np.stack([low, top], axis=1)), (lower[near], upper[near])
 
 
 def _in_the_way(surface: Surface, feet: Feet, search: Search, aside: float) -> bool:
@@ -965,15 +985,26 @@ def _held_at(
         underside: height of the feet in B, where it is stated [m]; None: what the trunk has.
         held_by: screws of a plate.
     """
-    sides = feet.middles
-    bases = np.concatenate([_disc(side, feet.radius) for side in sides])
-    plane = _highest(surface, bases) if underside is None else underside
+    plane = _level(surface, feet) if underside is None else underside
     lands = feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT
     if np.isfinite(plane) and all(
-        _contact("", surface, side, feet.radius, plane=plane, lands=lands).held for side in sides
+        _contact("", surface, side, feet.radius, plane=plane, lands=lands).held
+        for side in feet.middles
     ):
         return float(round(plane, 6))
     return _plate(surface, feet, underside, held_by) if feet.rows else None
+
+
+def _level(surface: Surface, feet: Feet) -> float:
+    """Height of the trunk under feet that it may hold at one height [m]; nan: it holds not all."""
+    lands = feet.slot_radius - AROUND_SLOT, feet.slot_radius + AROUND_SLOT
+    # A few points of the screws' lands tell of most places that they are not.
+    few = np.concatenate([_ring(side, *lands)[::_FEW] for side in feet.middles])
+    heights = _heights(surface, few)
+    with np.errstate(invalid="ignore"):
+        if not heights.max() - heights.min() <= FLATNESS:
+            return nan
+    return _highest(surface, np.concatenate([_disc(side, feet.radius) for side in feet.middles]))
 
 
 def _plate(
@@ -1007,18 +1038,30 @@ def _plate(
         arms=feet.arms,
         sleeve_wall=SLEEVE_WALL if held_by is PLATE_SCREW else POST_WALL,
     )
-    beneath = [_disc(middle, feet.reach) for middle in feet.middles]
-    # Beside the plate the trunk may be as high as the plate's top: modules begin above that.
-    beside = _highest(surface, np.concatenate(beneath)) - STOCK[0]
-    best: CarrierPlate | None = None
+    shapes = []
     for neck in (least + wider for wider in WIDER):
         radius = max(ring, neck)
         # A rounding this flat is none.
         wide = neck if neck < radius - _PATTERN_STEP else radius
         plate = replace(blank, radius=radius, half_length=feet.y + radius, neck=wide)
-        borne = _borne(surface, feet, plate, underside, beside) if plate.shape.fits else None
-        if borne is not None and (best is None or borne.mass < best.mass):
-            best = borne
+        if plate.shape.fits:
+            shapes.append(plate)
+    if not shapes:
+        return None
+    flat = [_flat_patterns(surface, feet, row, shapes) for row in blank.rows]
+    best, lightest, beside = None, inf, nan
+    for index, plate in enumerate(shapes):
+        patterns = [row.of(index) for row in flat]
+        if not all(len(row) for row in patterns):
+            continue
+        if isnan(beside):
+            # Beside the plate the trunk may be as high as its top: modules begin above that.
+            beneath = np.concatenate([_disc(middle, feet.reach) for middle in feet.middles])
+            beside = _highest(surface, beneath) - STOCK[0]
+        level = max(_highest(surface, _all_over(plate)), beside)
+        borne = _borne(feet, plate, patterns, underside, level)
+        if borne is not None and (mass := borne.mass) < lightest:
+            best, lightest = borne, mass
         # What is wider and as thick is heavier.
         if best is not None and best.thickness == STOCK[0]:
             return best
@@ -1026,106 +1069,201 @@ def _plate(
 
 
 def _borne(
-    surface: Surface, feet: Feet, blank: CarrierPlate, underside: float | None, beside: float
+    feet: Feet,
+    blank: CarrierPlate,
+    patterns: Sequence["_Patterns"],
+    underside: float | None,
+    highest: float,
 ) -> CarrierPlate | None:
     """The thinnest plate of this outline that the trunk holds and that bears the modules.
 
     Args:
-        surface: of the trunk. feet: on it. blank: the plate without screws.
+        feet: on it. blank: the plate without screws.
+        patterns: of screws that are flat on the trunk, of each row.
         underside: height of the feet in B, where it is stated [m].
-        beside: least height of the plate, for what is beside it [m].
+        highest: least height of the plate, for what is beneath and beside it [m].
     """
-    highest = max(_highest(surface, _all_over(blank)), beside)
     if not np.isfinite(highest):
         return None
-    held = None
+    x, y, _ = blank.position
+    if underside is None:
+        held = _screwed(replace(blank, position=(x, y, round(highest, 6))), patterns)
+        return None if held is None else _bearing(held, feet, STOCK)
     for thickness in STOCK:
-        height = round(highest, 6) if underside is None else underside - thickness
+        height = underside - thickness
         if height < highest - PROUD:
             return None
-        # Where its height is free, it does not change with the thickness.
-        if held is None or underside is not None:
-            held = _screwed(surface, feet, replace(blank, position=(feet.x, 0.0, height)))
+        held = _screwed(replace(blank, position=(x, y, height)), patterns)
         if held is None:
             return None
-        plate = replace(held, thickness=thickness)
-        posts = plate.posts_use(feet.mass, feet.height) if _on_posts(plate) else 0.0
-        if plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY and posts <= 1.0:
+        plate = _bearing(held, feet, (thickness,))
+        if plate is not None:
             return plate
     return None
 
 
-def _screwed(surface: Surface, feet: Feet, plate: CarrierPlate) -> CarrierPlate | None:
-    """The plate with the widest pattern of screws that the trunk holds; None: there is none.
+def _bearing(held: CarrierPlate, feet: Feet, thicknesses: tuple[float, ...]) -> CarrierPlate | None:
+    """The plate in the first of some thicknesses [m] that bears the modules; None: in none."""
+    stresses = held.stresses(np.array(thicknesses), feet.mass, feet.height)
+    for thickness, stress in zip(thicknesses, stresses.tolist(), strict=True):
+        plate = replace(held, thickness=thickness)
+        if stress <= YIELD_STRENGTH / SAFETY and (
+            not _on_posts(plate) or plate.posts_use(feet.mass, feet.height) <= 1.0
+        ):
+            return plate
+    return None
 
-    Two in each arm, as far from its middle line on either side. Of three arms and more each may
-    share its screws with the next ones. Heads stay clear of the feet and of the next arm's.
-    Patterns without sleeves come first.
+
+@dataclass(frozen=True, eq=False)
+class _Patterns:
+    """Patterns of screws that are flat on the trunk under every screw.
+
+    Attributes:
+        along, across: of a screw from the middle line of its arm and from the plate's middle [m],
+            shape (n,).
+        shared: whether neighbouring arms share it, shape (n,).
+        widest: number of the plate at whose neck's edge it is; -1: of the grid that all have.
+        most: largest of `along` of each plate [m].
+        places: of the screws over the plate's middle [m], shape (n, m, 2).
+        top, low: of the trunk under each screw in B [m], shape (n, m).
     """
-    if len(plate.rows) > 1:
-        trunk: list[Point] = []
-        sleeves: list[float] = []
-        for ahead, each in zip(plate.rows, plate.each, strict=True):
-            row = _screwed(surface, feet, each)
-            if row is None:
-                return None
-            trunk += [(ahead + x, y) for x, y in row.trunk]
-            sleeves += row.sleeves
-        return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
-    radius = plate.sleeve_radius
-    x, _, z = plate.position
-    most = plate.neck - EDGE * plate.screw.clearance_hole
-    longest = POST_MAX if _on_posts(plate) else SLEEVE_MAX
-    step = max(_PATTERN_STEP, feet.reach / 40.0)
-    steps = [np.append(np.arange(SPREAD / 2.0, end, step), end) for end in (most, feet.y)]
-    along, across = (each.ravel() for each in np.meshgrid(*steps, indexing="ij"))
-    half = pi / feet.arms
+
+    along: FloatArray
+    across: FloatArray
+    shared: NDArray[np.bool_]
+    widest: NDArray[np.int64]
+    most: FloatArray
+    places: FloatArray
+    top: FloatArray
+    low: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.along)
+
+    def where(self, chosen: NDArray[np.bool_]) -> "_Patterns":
+        """Those that are chosen."""
+        own = (self.along, self.across, self.shared, self.widest)
+        along, across, shared, widest = (each[chosen] for each in own)
+        places, top, low = (each[chosen] for each in (self.places, self.top, self.low))
+        return _Patterns(along, across, shared, widest, self.most, places, top, low)
+
+    def of(self, index: int) -> "_Patterns":
+        """Those of the plate with this number."""
+        inside = (self.widest < 0) & (self.along < self.most[index])
+        return self.where(inside | (self.widest == index))
+
+
+def _flat_patterns(
+    surface: Surface, feet: Feet, row: float, plates: Sequence[CarrierPlate]
+) -> _Patterns:
+    """Patterns of screws at which the trunk is flat, whatever its height.
+
+    Two screws in each arm, as far from its middle line on either side. Of three arms and more each
+    may share its screws with the next ones. Heads stay clear of the feet and of the next arm's.
+
+    Args:
+        surface: of the trunk. feet: on it. row: of the plates' middle before that of the feet [m].
+        plates: that differ in their necks alone, the narrowest first.
+    """
+    grid = _pattern_grid(
+        feet.y,
+        max(_PATTERN_STEP, feet.reach / 40.0),
+        _apart(feet, plates[0].screw),
+        tuple(plate.neck - EDGE * plate.screw.clearance_hole for plate in plates),
+        feet.arms,
+    )
+    lands, middle = _disc((0.0, 0.0), plates[0].sleeve_radius), np.array([feet.x + row, 0.0])
+    some, kept = lands[:: max(1, len(lands) // 8)], np.arange(len(grid))
+    # Most patterns fail at a few points of their first screw already.
+    for screw_places in grid.places.swapaxes(0, 1):
+        top, low = _top_and_low(surface, screw_places[kept, None] + some + middle)
+        with np.errstate(invalid="ignore"):
+            kept = kept[top - low <= FLATNESS]
+        if not len(kept):
+            break
+    within = np.zeros(len(grid), dtype=bool)
+    within[kept] = True
+    found = grid.where(within)
+    top, low = _top_and_low(surface, found.places[:, :, None] + lands + middle)
+    with np.errstate(invalid="ignore"):
+        flat = (top - low <= FLATNESS).all(axis=1)
+    return replace(found, top=top, low=low).where(flat)
+
+
+def _top_and_low(surface: Surface, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Largest and least height of a trunk at the points of each disc [m], shape (..., m, 2)."""
+    heights = surface.height(points[..., 0], points[..., 1])
+    return heights.max(axis=-1), heights.min(axis=-1)
+
+
+@lru_cache(maxsize=8)
+def _pattern_grid(
+    aside: float, step: float, apart: float, most: tuple[float, ...], arms: int
+) -> _Patterns:
+    """Patterns of screws that stand clear of the feet, whatever is below them.
+
+    Args:
+        aside: of a foot's middle from that of its plate [m]. step: between patterns [m].
+        apart: least distance of a screw from the middle of a foot [m].
+        most: farthest of a screw from the middle line of its arm, for each plate [m].
+        arms: of each plate.
+    """
+    steps = np.concatenate([np.arange(SPREAD / 2.0, max(most), step), most])
+    widest = np.concatenate([np.full(len(steps) - len(most), -1), np.arange(len(most))])
+    order = np.argsort(steps, kind="stable")
+    steps, widest = steps[order], widest[order]
+    out = np.append(np.arange(SPREAD / 2.0, aside, step), aside)
+    along, across = (each.ravel() for each in np.meshgrid(steps, out, indexing="ij"))
+    half, edges = pi / arms, np.repeat(widest, len(out))
     shared = np.zeros(len(along), dtype=bool)
-    apart = across * sin(half) - along * cos(half) >= SPREAD / 2.0 - _SAME
-    if feet.arms > len(SENSES):
-        between = steps[0] / np.tan(half)
-        along, across = np.append(along, steps[0]), np.append(across, between)
+    clear = across * sin(half) - along * cos(half) >= SPREAD / 2.0 - _SAME
+    if arms > len(SENSES):
+        between = steps / np.tan(half)
+        along, across = np.append(along, steps), np.append(across, between)
         shared = np.append(shared, np.ones(len(between), dtype=bool))
-        apart = np.append(apart, shared[shared])
-    clear = apart & (np.hypot(along, feet.y - across) >= _apart(feet, plate.screw))
-    along, across, shared = along[clear], across[clear], shared[clear]
-    if not len(along):
-        return None
+        clear, edges = np.append(clear, shared[shared]), np.append(edges, widest)
+    clear &= np.hypot(along, aside - across) >= apart
     places = np.stack(
         [
-            np.stack([y * aside * along + x * across, y * across - x * aside * along], axis=1)
+            np.stack([y * side * along + x * across, y * across - x * side * along], axis=1)
             for sense in SENSES
-            for x, y in directions(feet.arms)
+            for x, y in directions(arms)
             # Of both arms of a pair the same side: forward.
-            for aside in (sense * y if feet.arms == len(SENSES) else sense,)
+            for side in (sense * y if arms == len(SENSES) else sense,)
         ],
         axis=1,
     )
-    lands = _disc((0.0, 0.0), radius)
-    # Most patterns fail at a few points already.
-    for some in (lands[:: max(1, len(lands) // 8)], lands):
-        points = places[:, :, None] + some + np.array([x, 0.0])
-        heights = surface.height(points[..., 0], points[..., 1])
-        top, low = heights.max(axis=2), heights.min(axis=2)
-        with np.errstate(invalid="ignore"):
-            flat = ((top - low <= FLATNESS) & (top <= z + PROUD)).all(axis=1)
-        along, across, shared, places = (each[flat] for each in (along, across, shared, places))
-        top, low = top[flat], low[flat]
-        if not len(along):
+    none = np.empty(places.shape[:2])
+    found = _Patterns(along, across, shared, edges, np.array(most), places, none, none)
+    return found.where(clear)
+
+
+def _screwed(plate: CarrierPlate, patterns: Sequence[_Patterns]) -> CarrierPlate | None:
+    """The plate with the widest pattern of screws that the trunk holds; None: there is none.
+
+    Patterns without sleeves come first.
+
+    Args:
+        plate: in its place. patterns: that are flat on the trunk, of each row.
+    """
+    z, longest = plate.position[2], POST_MAX if _on_posts(plate) else SLEEVE_MAX
+    trunk: list[Point] = []
+    sleeves: list[float] = []
+    for ahead, each in zip(plate.rows, patterns, strict=True):
+        reached = ((each.top <= z + PROUD) & (z - each.top <= longest)).all(axis=1)
+        if not reached.any():
             return None
-    ok = (z - top <= longest).all(axis=1)
-    if not ok.any():
-        return None
-    direct = (z - low <= FLATNESS).all(axis=1)
-    score = np.where(ok, np.minimum(along, across) + 0.1 * (along + across) + direct, -1.0)
-    best = int(score.argmax())
-    gaps = np.where(z - low[best] <= FLATNESS, 0.0, np.round(z - top[best], 5))
-    count = feet.arms if shared[best] else len(gaps)
-    return replace(
-        plate,
-        trunk=tuple((round(float(a), 6), round(float(b), 6)) for a, b in places[best][:count]),
-        sleeves=tuple(gaps[:count].tolist()),
-    )
+        direct = (z - each.low <= FLATNESS).all(axis=1)
+        spread = np.minimum(each.along, each.across) + 0.1 * (each.along + each.across)
+        best = int(np.where(reached, spread + direct, -1.0).argmax())
+        top, low = each.top[best], each.low[best]
+        gaps = np.where(z - low <= FLATNESS, 0.0, np.round(z - top, 5))
+        count = plate.arms if each.shared[best] else len(gaps)
+        trunk += [
+            (ahead + round(float(x), 6), round(float(y), 6)) for x, y in each.places[best][:count]
+        ]
+        sleeves += gaps[:count].tolist()
+    return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
 
 
 def _on_posts(plate: CarrierPlate) -> bool:

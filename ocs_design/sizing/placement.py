@@ -405,7 +405,9 @@ class Search:
 
     def is_free(self, place: Place) -> bool:
         """Whether the place is free, first in the nominal posture, which is quick, then in all."""
-        return self.is_clear(place) and self.blocker(place) is None
+        return self.is_clear(place) and not any(
+            self.touches(ball) for size in self.sizes.all() for ball in self._balls(place, size)
+        )
 
     def is_clear(self, place: Place) -> bool:
         """Whether the largest modules hit nothing in the nominal posture."""
@@ -413,10 +415,10 @@ class Search:
 
     def is_off(self, solids: Sequence[Ball | Drum]) -> bool:
         """Whether solids hit no limb in the nominal posture."""
-        nominal = self.collision.nominal
+        collision, pose, others = self.collision, self.collision.nominal, self._others
         return all(
-            self.collision.nearest(solid, nominal, self._others, within=-_ROUNDING) is None
-            for solid in solids
+            collision.nearest(solid, pose, others, within=-_ROUNDING) is None
+            for solid in collision.near(solids, pose, others, -_ROUNDING)
         )
 
     def blocker(self, place: Place) -> Part | None:
@@ -441,15 +443,25 @@ class Search:
                     spot = candidate
         return spot
 
-    def hit(self, ball: Ball | Drum) -> Nearest | None:
+    def hit(self, solid: Ball | Drum) -> Nearest | None:
         """What a solid touches, or would in some posture between those that were drawn."""
+        nearest = self._nearest(solid)
+        return nearest if nearest is not None and nearest.distance < -_ROUNDING else None
+
+    def touches(self, solid: Ball | Drum) -> bool:
+        """Whether a solid touches anything; see `hit`, which also looks for the nearest."""
+        nearest = self._nearest(solid, enough=-_ROUNDING)
+        return nearest is not None and nearest.distance < -_ROUNDING
+
+    def _nearest(self, solid: Ball | Drum, *, enough: float = -np.inf) -> Nearest | None:
+        """What comes nearest to a solid in landings, or nearer than `enough` [m]; None: far off."""
         # Thin tubes are looked at as closely as the modules on them.
-        gap = _NEAR * max(ball.radius, CLEARANCE * self.sizes.smallest.reach)
-        near = self.collision.nearest(ball, landing_poses(self.collision), self._others, within=gap)
+        gap = _NEAR * max(solid.radius, CLEARANCE * self.sizes.smallest.reach)
+        poses = landing_poses(self.collision)
+        near = self.collision.nearest(solid, poses, self._others, within=gap, enough=enough)
         if near is None:
             return None
-        nearest = descended(self.collision, ball, near, self._ranges)
-        return nearest if nearest.distance < -_ROUNDING else None
+        return descended(self.collision, solid, near, self._ranges, enough=enough)
 
     @cached_property
     def _ranges(self) -> Ranges:
@@ -460,9 +472,9 @@ class Search:
         return [Ball(center, CLEARANCE * size.reach) for center in place.centers(size)]
 
     @cached_property
-    def _others(self) -> list[Part]:
+    def _others(self) -> tuple[Part, ...]:
         """All but the trunk, whose box ends at the face that the modules stand on."""
-        return [part for part in self.collision.parts if part.limb]
+        return tuple(part for part in self.collision.parts if part.limb)
 
     def cost(self, place: Place) -> float:
         """What the largest module adds to the inertia about roll and pitch, over the robot's."""
