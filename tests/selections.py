@@ -13,7 +13,7 @@ from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.placement import Place
+from ocs_design.sizing.place import Place
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.search import search
 

@@ -38,6 +38,7 @@ from ocs_design.parts.joints import (
     tightening_torque,
 )
 from ocs_design.parts.pedestal import seat_compliance
+from ocs_design.parts.plate_strength import plate_frequency, plate_sway
 from ocs_design.parts.printed import BASE_THICKNESS
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import (
@@ -356,9 +357,9 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
             ("foot", 1.0 / sqrt(softer), lever),
         ]
     if device.plate is not None:
-        modes.insert(0, ("plate", device.plate.frequency(mass), 1.0))
+        modes.insert(0, ("plate", plate_frequency(device.plate, mass), 1.0))
         if device.plate.mast is None and device.plate.arms == 2:
-            sleeved = device.plate.sway(mass, foot.wheel_height)
+            sleeved = plate_sway(device.plate, mass, foot.wheel_height)
             modes.insert(1, ("sleeve", sleeved, 1.0))
     unbalance = balance_of(device).unbalance
     return tuple(

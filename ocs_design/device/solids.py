@@ -7,7 +7,8 @@ import numpy as np
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Module
-from ocs_design.parts.carrier_plate import CarrierPlate, directions
+from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of

@@ -19,7 +19,8 @@ from ocs_design.export.meshes import Mesh, merged, part_mesh
 from ocs_design.export.module_bodies import carrier_placement
 from ocs_design.export.stl import METRES, stl_bytes, wheel_stl
 from ocs_design.parts.cage import Cage, cage_part
-from ocs_design.parts.carrier_plate import CarrierPlate, directions, plate_bodies
+from ocs_design.parts.carrier_plate import CarrierPlate, plate_bodies
+from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part

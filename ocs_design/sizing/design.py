@@ -22,7 +22,7 @@ from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_sizing import size_device
-from ocs_design.sizing.footing import stand_on_trunk
+from ocs_design.sizing.footing.standing import stand_on_trunk
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
 from ocs_design.sizing.placement import specified_place

@@ -39,8 +39,11 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.robot.tree import Drum
-from ocs_design.sizing.footing import PROUD, SPREAD, FootContact, contacts_of
-from ocs_design.sizing.placement import device_size, place_free
+from ocs_design.sizing.footing.contact import FootContact, contacts_of
+from ocs_design.sizing.footing.lands import PROUD
+from ocs_design.sizing.footing.screws import SPREAD
+from ocs_design.sizing.place import device_size
+from ocs_design.sizing.placement import place_free
 
 
 @dataclass(frozen=True, eq=False)

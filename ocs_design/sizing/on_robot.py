@@ -14,7 +14,8 @@ from ocs_design.device.solids import foot_of
 from ocs_design.parts.foot import plate_thickness
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble_selected
-from ocs_design.sizing.footing import Footing, footing_under, stand_on_trunk
+from ocs_design.sizing.footing.feet import Footing
+from ocs_design.sizing.footing.standing import footing_under, stand_on_trunk
 from ocs_design.sizing.reserve import Reality, Reserve
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.result import Candidate, Selection, devices_by_mass, of_parts

@@ -1,148 +1,21 @@
-"""Places of the modules on the trunk: its faces, and the nearest place without collisions."""
+"""The nearest place on a face of the trunk where modules collide with nothing."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from ocs_design.actuation.motor import GearRoom
-from ocs_design.common.arrays import FloatArray, frozen, vector
-from ocs_design.device.device import Device
+from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.device.layout import PAIR, Direction, Layout
-from ocs_design.device.solids import motor_mount
-from ocs_design.parts.bell import HeldMotor
-from ocs_design.parts.foot import base_radius, larger, wheel_height
-from ocs_design.parts.housing import half_height, housing_outer_radius, plate_back
-from ocs_design.parts.motor_mount import Behind, mount_of
-from ocs_design.parts.printed import PLATE_THICKNESS
+from ocs_design.parts.motor_mount import Behind
 from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
 from ocs_design.robot.collision import CollisionModel, Nearest, Part, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Ball, Drum
-
-CLEARANCE = 1.1
-"""Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
-
-Real = TypeVar("Real", float, FloatArray)
-
-
-class Size(NamedTuple, Generic[Real]):
-    """How much room a module takes.
-
-    Attributes:
-        reach: radius that housing, motor and the foot's base stay within at any incidence [m].
-        standing: of the wheel's centre over what it stands on [m].
-    """
-
-    reach: Real
-    standing: Real
-
-
-def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
-    """Size of a bare wheel that turns freely over what carries it."""
-    reach = sphere_radius(outer_radius, height)
-    return Size(reach, CLEARANCE * reach)
-
-
-def module_size(
-    outer_radius: Real,
-    height: Real,
-    behind: Behind[Real] | Behind[float],
-    mount_reach: Real | float,
-    guard_wall: float = 0.0,
-    *,
-    foot_plate: Real | float = PLATE_THICKNESS,
-) -> Size[Real]:
-    """Size of a housing on its foot, around a wheel of this radius and height, with its motor.
-
-    All in metres; a guard ring in the housing makes that as much wider. What stands behind the
-    foot's plate, motor, gear and cage, goes so far back and so far to both sides: how high it
-    stands is no matter to a turn about the vertical.
-    """
-    outer_radius = outer_radius + guard_wall
-    half = half_height(height)
-    housing = (housing_outer_radius(outer_radius) ** 2 + half**2) ** 0.5
-    depth = larger(plate_back(half, foot_plate) + behind.depth, behind.from_wheel)
-    motor = (depth**2 + behind.radius**2) ** 0.5
-    base = base_radius(outer_radius, height, mount_reach, foot_plate)
-    return Size(larger(larger(housing, motor), base), wheel_height(outer_radius))
-
-
-def motor_size(
-    motor: HeldMotor,
-    room: GearRoom | None,
-    outer_radius: Real,
-    height: Real,
-    guard_wall: float = 0.0,
-    *,
-    foot_plate: float = PLATE_THICKNESS,
-    on_bell: bool = False,
-) -> Size[Real]:
-    """Size of a motor behind a gear of this room, as far as it is known."""
-    mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
-    behind = mount.behind(motor)
-    reach, height = mount.holes.reach, larger(height, mount.room)
-    return module_size(outer_radius, height, behind, reach, guard_wall, foot_plate=foot_plate)
-
-
-@dataclass(frozen=True)
-class Place:
-    """Centres of all modules as their size grows.
-
-    Attributes:
-        origins: of each, if it had no size, in B [m].
-        outward: how far each stands off, per radius of the sphere that it sweeps, in B.
-        upright: whether they stand on what is below them, and so as high as their feet make them.
-    """
-
-    origins: tuple[Direction, ...]
-    outward: tuple[Direction, ...]
-    upright: bool = False
-
-    @property
-    def stated(self) -> bool:
-        """Whether it is the same for modules of any size, as a stated one is (`place_at`)."""
-        return not (any(map(any, self.outward)) or self.upright)
-
-    def __call__(self, outer_radius: float, height: float) -> FloatArray:
-        """Centres of bare wheels in B for R and h [m], shape (n, 3)."""
-        return frozen(self.centers(wheel_size(outer_radius, height)))
-
-    def centers(self, size: Size[float] | Size[FloatArray]) -> FloatArray:
-        """Centres of the modules in B [m], shape (..., n, 3), for sizes of shape (...)."""
-        reach, standing = (np.asarray(each)[..., None] for each in size)
-        centers = np.array(self.origins) + reach[..., None] * np.array(self.outward)
-        if self.upright:
-            centers[..., 2] += standing
-        return np.asarray(centers)
-
-
-def device_size(device: Device) -> Size[float]:
-    """The room that each module takes."""
-    wheel, mount = device.flywheel, motor_mount(device)
-    if device.carrier.mass == 0.0:
-        return wheel_size(wheel.outer_radius, wheel.height)
-    behind = mount.behind(device.motor)
-    return module_size(
-        wheel.outer_radius,
-        max(wheel.height, mount.room),
-        behind,
-        mount.holes.reach,
-        device.guard_wall,
-        foot_plate=device.foot_plate,
-    )
-
-
-def sphere_radius(outer_radius: Real, height: Real) -> Real:
-    """Radius of the sphere around a cylinder, sqrt(R^2 + h^2 / 4) [m]."""
-    # No function of numpy: symbols know only operators.
-    square: Real = outer_radius**2 + height**2 / 4.0
-    reach: Real = square**0.5
-    return reach
+from ocs_design.sizing.place import CLEARANCE, Place, Size, around, module_size, place_at
 
 
 def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
@@ -156,30 +29,6 @@ def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
     # To the micrometre, so that no rounding error of the centre of mass reaches the files.
     forward = round(float(robot.com[0]), 6) + 0.0
     return around((forward, 0.0, round(trunk_top(robot.tree, robot.trunk), 6)), layout)
-
-
-def around(middle: Direction, layout: Layout, aside: float = 0.0) -> Place:
-    """Upright modules around a point of what they stand on, in B [m].
-
-    Args:
-        middle: that point. layout: of the modules.
-        aside: how much farther to its side than it must each stands [m].
-    """
-    x, y, z = middle
-    outward = tuple(vector(each) for each in np.array(layout.ring) * CLEARANCE)
-    origins = tuple((x, y + float(np.sign(out)) * aside, z) for _, out, _ in outward)
-    return Place(origins, outward, upright=True)
-
-
-def place_at(position: tuple[float, ...], layout: Layout = PAIR) -> Place:
-    """Modules at stated places in B [m]: three coordinates of each.
-
-    Of a pair only the left one's are stated, and the right one is mirrored in y.
-    """
-    places = np.reshape(position, (-1, 3))
-    if layout == PAIR:
-        places = np.concatenate([places, places * [1.0, -1.0, 1.0]])
-    return Place(tuple(vector(each) for each in places), ((0.0, 0.0, 0.0),) * len(places))
 
 
 FORWARD, LEFT, UP = np.eye(3)

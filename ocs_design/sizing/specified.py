@@ -42,7 +42,7 @@ from ocs_design.requirement.vocabulary import (
     STEEL,
 )
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.footing import footing_of
+from ocs_design.sizing.footing.standing import footing_of
 from ocs_design.sizing.limits import BUS_VOLTAGE
 from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
 

@@ -19,7 +19,7 @@ from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import export_snippets
 from ocs_design.export.stl import write as write_stl
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.footing import stand_on_trunk
+from ocs_design.sizing.footing.standing import stand_on_trunk
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "solo12.urdf"
 

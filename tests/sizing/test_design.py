@@ -22,7 +22,7 @@ from ocs_design.requirement.words import Kick
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing import on_robot
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.footing import Footing
+from ocs_design.sizing.footing.feet import Footing
 from ocs_design.workflows.pareto import read_task
 
 

@@ -24,15 +24,11 @@ from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
 from ocs_design.export.module_bodies import wheel_placement
-from ocs_design.parts.carrier_plate import (
-    MAST_YIELD,
-    SAFETY,
-    STOCK,
-    YIELD_STRENGTH,
-    plate_bodies,
-)
+from ocs_design.parts.carrier_plate import SAFETY, STOCK, YIELD_STRENGTH, plate_bodies
+from ocs_design.parts.mast import MAST_YIELD
 from ocs_design.parts.part import Part
 from ocs_design.parts.pedestal import drilled
+from ocs_design.parts.plate_strength import mast_screws_use, mast_stress, plate_stress, posts_use
 from ocs_design.parts.printed import TRUNK_SCREW
 from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder
@@ -47,16 +43,14 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.footing import (
-    ASIDE,
-    FLATNESS,
-    contacts_of,
-    feet_of,
-    footing_of,
-    stand_on_trunk,
-)
+from ocs_design.sizing.footing.contact import contacts_of
+from ocs_design.sizing.footing.feet import feet_of
+from ocs_design.sizing.footing.lands import FLATNESS
+from ocs_design.sizing.footing.on_top import ASIDE
+from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
-from ocs_design.sizing.placement import CLEARANCE, device_size, place_free, place_on_top
+from ocs_design.sizing.place import CLEARANCE, device_size
+from ocs_design.sizing.placement import place_free, place_on_top
 
 DEVICE = driven_device()
 FOOT = foot_of(DEVICE)
@@ -164,9 +158,9 @@ def test_on_a_narrow_trunk_a_plate_carries_both(boxed, width):
     assert all(contact.held for contact in contacts_of(robot, device))
     feet = feet_of(device)
     least = YIELD_STRENGTH / SAFETY
-    assert plate.stress(feet.mass, feet.height) <= least
+    assert plate_stress(plate, feet.mass, feet.height) <= least
     thinner = [replace(plate, thickness=each) for each in STOCK if each < plate.thickness]
-    assert all(each.stress(feet.mass, feet.height) > least for each in thinner)
+    assert all(plate_stress(each, feet.mass, feet.height) > least for each in thinner)
 
 
 @pytest.mark.parametrize("width", [0.1, 0.6])
@@ -218,7 +212,7 @@ def test_a_ring_of_modules_stands_on_one_plate(boxed, count):
     nearest = np.linalg.norm(screws[:, None] - np.array(holes), axis=2).min(axis=1)
     np.testing.assert_allclose(nearest, 0.0, atol=1e-6)
     feet = feet_of(device)
-    assert plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
+    assert plate_stress(plate, feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
     mounting = mounting_of(robot, device, (), robot.mass_properties)
     assert mounting_open_points(mounting) == ()
     assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
@@ -490,8 +484,8 @@ def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed, name):
     assert all(contact.held for contact in mounting.feet)
     check_device(device)
     feet = feet_of(device)
-    assert plate.posts_use(feet.mass, feet.height) <= 1.0
-    assert plate.stress(feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
+    assert posts_use(plate, feet.mass, feet.height) <= 1.0
+    assert plate_stress(plate, feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
     assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
     # Tubes of 17 mm by 9 mm are a part of what it weighs.
     tubes = 4 * layout.pairs * 0.1 * plate.density * pi / 4.0 * (0.017**2 - 0.009**2)
@@ -547,9 +541,9 @@ def test_where_nothing_stands_on_top_a_mast_carries_it(column, name):
     assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
     check_device(device)
     height = FOOT.wheel_height
-    assert plate.mast_stress(mass, height) <= MAST_YIELD
-    assert plate.stress(mass, height) <= MAST_YIELD
-    assert plate.screws_use(mass, height) <= 1.0
+    assert mast_stress(plate, mass, height) <= MAST_YIELD
+    assert plate_stress(plate, mass, height) <= MAST_YIELD
+    assert mast_screws_use(plate, mass, height) <= 1.0
     # Whatever way they turn, modules are clear of the upright between them and of the arms above.
     mast, reach = plate.mast, device_size(device).reach
     aside = plate.across - mast.side / 2.0

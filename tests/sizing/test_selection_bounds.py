@@ -13,7 +13,7 @@ from ocs_design.device.layout import PAIR, Layout, LayoutName
 from ocs_design.parts.moments import Carrier, MassMoments, point, round_body
 from ocs_design.requirement.requirement import ManeuverReserve
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.placement import Place, Size, around
+from ocs_design.sizing.place import Place, Size, around
 from ocs_design.sizing.selection.bounds import (
     Cell,
     RimFloor,

@@ -37,8 +37,10 @@ from ocs_design.export.drawing.sheet import (
 )
 from ocs_design.export.drawing.title_block import Entries, frame, numbered, title_block
 from ocs_design.export.drawing.wheel import plain
-from ocs_design.parts.carrier_plate import CarrierPlate, Mast, directions, mast_part, plate_part
+from ocs_design.parts.carrier_plate import CarrierPlate, mast_part, plate_part
+from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.flattening import flat_outline
+from ocs_design.parts.mast import Mast
 
 LEFT, TOP, RIGHT, _ = FRAME_BOX
 

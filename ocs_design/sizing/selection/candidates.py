@@ -43,7 +43,7 @@ from ocs_design.sizing.bound.rim_problem import (
     stretch_beside_holes,
 )
 from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
-from ocs_design.sizing.placement import Size, module_size
+from ocs_design.sizing.place import Size, module_size
 from ocs_design.sizing.selection.composite_inertia import Modules
 from ocs_design.sizing.selection.problem import SelectionProblem
 

@@ -11,7 +11,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.parts.moments import MassMoments
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.placement import Place, Size
+from ocs_design.sizing.place import Place, Size
 
 
 class Modules(NamedTuple):

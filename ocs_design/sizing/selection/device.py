@@ -25,7 +25,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.bound.rim_problem import RimLimits
 from ocs_design.sizing.lightest_module import ModuleShape
-from ocs_design.sizing.placement import motor_size
+from ocs_design.sizing.place import motor_size
 from ocs_design.sizing.selection.demand import held_by_rate, held_in_roll, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
 from ocs_design.sizing.selection.problem import SelectionProblem

@@ -27,7 +27,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import check_limits
 from ocs_design.sizing.limits import BUS_POWER, BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
-from ocs_design.sizing.placement import Place
+from ocs_design.sizing.place import Place
 
 
 @dataclass(frozen=True, eq=False)

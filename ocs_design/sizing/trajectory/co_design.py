@@ -24,7 +24,7 @@ from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import lightest_module_at
-from ocs_design.sizing.placement import motor_size
+from ocs_design.sizing.place import motor_size
 from ocs_design.sizing.selection.demand import UNDOES, held_by_rate
 from ocs_design.sizing.selection.device import binding_limits, braked
 from ocs_design.sizing.selection.problem import SelectionProblem

@@ -1,0 +1,186 @@
+"""The outline of a carrier plate: discs under the feet, and necks from its middle to them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import acos, asin, pi, sin, sqrt, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.moments import MassMoments
+from ocs_design.parts.outline import Outline
+from ocs_design.parts.shapes import flat
+
+FILLET = 10.0e-3
+"""Radius between neck and ends [m], or what there is room for: a cutter's, and no sharp notch."""
+
+
+def directions(arms: int) -> FloatArray:
+    """Unit vectors along so many arms, evenly around, the first one to the left, shape (n, 2)."""
+    angles = 2.0 * pi * np.arange(arms) / arms
+    # No sine of half a turn leaves rounding errors in the files.
+    return np.round(np.stack([-np.sin(angles), np.cos(angles)], axis=1), 15) + 0.0
+
+
+@dataclass(frozen=True)
+class DogBone:
+    """Discs evenly around a middle, with a neck from there to each, rounded where they meet.
+
+    Two have one neck between them, along y. With a neck as wide as the discs it is a rectangle with
+    half a disc at either end.
+
+    Attributes:
+        radius: of the discs [m].
+        half_length: from the middle to any end, that of the first disc along y [m].
+        neck: half of a neck's width, at most the radius [m].
+        x: of its middle [m].
+        arms: how many discs there are, two or more.
+    """
+
+    radius: float
+    half_length: float
+    neck: float
+    x: float = 0.0
+    arms: int = 2
+
+    @property
+    def across(self) -> float:
+        """Distance of any disc's middle from its own [m]."""
+        return self.half_length - self.radius
+
+    @property
+    def hub(self) -> float:
+        """How far along an arm its sides are those of the next ones [m]; 0: of two, in line."""
+        return 0.0 if self.arms == 2 else self.neck / tan(pi / self.arms)
+
+    @property
+    def fits(self) -> bool:
+        """Whether discs are clear of each other, and a neck is seen between them."""
+        return min(self.across * sin(pi / self.arms), self.across - self.hub) >= self.radius
+
+    @property
+    def fillet(self) -> float:
+        """Radius of the rounding, so that two of them have room on either side [m]."""
+        beyond = self.radius - self.neck
+        if beyond <= 0.0:
+            return FILLET
+        room = (self.across - self.hub) ** 2 - self.radius**2 + self.neck**2
+        return min(FILLET, 0.95 * room / (2.0 * beyond))
+
+    @property
+    def straight(self) -> float:
+        """Distance from the middle at which the neck's straight sides end [m]."""
+        reach, out = self.radius + self.fillet, self.neck + self.fillet
+        return self.across - sqrt(max(0.0, reach**2 - out**2))
+
+    @property
+    def meets(self) -> tuple[float, float]:
+        """Point where a rounding meets its disc, x and y [m]."""
+        share = self.radius / (self.radius + self.fillet)
+        out = self.neck + self.fillet
+        return share * out, self.across - share * (self.across - self.straight)
+
+    @property
+    def area(self) -> float:
+        """Area [m^2]."""
+        return self.moments.mass
+
+    @property
+    def moments(self) -> MassMoments[float]:
+        """Moments about the origin, of unit density: about its middle those of half an arm's.
+
+        int x dy, int x^3 / 3 dy and int x y^2 dy along the hub, x = w y / h, along the neck, x = w,
+        along the rounding, x = w + f - q(s) with s = y - y_0, and along the disc, x = q(s) with s =
+        y - c; see `_Circle`.
+        """
+        w, f, r, c, low = self.neck, self.fillet, self.radius, self.across, self.straight
+        _, top = self.meets
+        h = self.hub
+        area, cubes, second = w * (low - h / 2.0), w**3 * (low - 0.75 * h), w * low**3 / 3.0
+        second -= w * h**3 / 12.0
+        # The rounding: of its tangent's distance less a circle.
+        a, end, gone = w + f, top - low, _Circle(f, 0.0, top - low)
+        area += a * end - gone.one
+        cubes += a**3 * end - 3.0 * a**2 * gone.one - gone.cube
+        cubes += 3.0 * a * (f**2 * end - end**3 / 3.0)
+        second += a * ((low + end) ** 3 - low**3) / 3.0 - gone.about(low)
+        disc = _Circle(r, top - c, r)
+        area, cubes, second = area + disc.one, cubes + disc.cube, second + disc.about(c)
+        around = flat(2.0 * area, 2.0 / 3.0 * cubes, 2.0 * second).around(self.arms)
+        return around.moved(self.x, 0.0, 0.0)
+
+    def outline(self) -> Outline:
+        """The necks' sides, and the discs between their roundings."""
+        (x, y), low, middle = self.meets, self.straight, np.array([self.x, 0.0])
+        # The right side of the first arm, seen from the middle, and its disc up to the left side.
+        right, bulges = [[self.neck, low]], [1.0]
+        if self.neck < self.radius:
+            angle = acos((self.neck + self.fillet) / (self.radius + self.fillet))
+            inward, around = -tan(angle / 4.0), tan((pi + 2.0 * angle) / 4.0)
+            right, bulges = [[self.neck, low], [x, y]], [inward, around, inward]
+        arm, bulges = [*right, *([-off, along] for off, along in reversed(right))], [*bulges, 0.0]
+        if self.arms > 2:
+            # The corner that it shares with the next arm.
+            arm, bulges = [*arm, [-self.neck, self.hub]], [*bulges, 0.0]
+        corners = [
+            np.array(arm) @ np.array([[along, -off], [off, along]])
+            for off, along in directions(self.arms)
+        ]
+        return Outline(np.concatenate(corners) + middle, np.array(bulges * self.arms))
+
+    def holds(self, points: FloatArray) -> NDArray[np.bool_]:
+        """Whether points are within it, shape (n,); those are x and y [m], shape (n, 2)."""
+        found = np.zeros(len(points), dtype=bool)
+        for off, along in directions(self.arms):
+            out, aside = np.array([[off, along], [along, -off]]) @ (points - [self.x, 0.0]).T
+            found |= (out >= 0.0) & (np.abs(aside) <= self.half_width(out))
+        return found
+
+    def half_width(self, across: FloatArray) -> FloatArray:
+        """Half its width at some distances from its middle along y, 0 beyond its ends [m]."""
+        off, f = np.abs(across), self.fillet
+        _, top = self.meets
+        within = np.clip(off - self.straight, 0.0, f)
+        rounded = self.neck + f - np.sqrt(f**2 - within**2)
+        disc = np.sqrt(np.maximum(0.0, self.radius**2 - (off - self.across) ** 2))
+        return np.asarray(np.where(off < top, rounded, disc))
+
+
+@dataclass(frozen=True)
+class _Circle:
+    """Integrals along a piece of a circle, q(s) = sqrt(r^2 - s^2), in closed form.
+
+    Attributes:
+        radius: r [m]. low, high: between which s goes [m].
+    """
+
+    radius: float
+    low: float
+    high: float
+
+    @property
+    def one(self) -> float:
+        """Integral of q: (s q + r^2 asin(s/r)) / 2 [m^2]."""
+        return self._between(lambda s, q: (s * q + self.radius**2 * asin(s / self.radius)) / 2.0)
+
+    @property
+    def cube(self) -> float:
+        """Integral of q^3: s q^3 / 4 + 3/4 r^2 times that of q [m^4]."""
+        own = self._between(lambda s, q: s * q**3 / 4.0)
+        return own + 0.75 * self.radius**2 * self.one
+
+    def about(self, offset: float) -> float:
+        """Integral of (s + offset)^2 q [m^4].
+
+        That of s q is -q^3 / 3, that of s^2 q is -s q^3 / 4 and r^2 / 4 times that of q.
+        """
+        first = self._between(lambda _, q: -(q**3) / 3.0)
+        own = self._between(lambda s, q: -s * q**3 / 4.0) + self.radius**2 / 4.0 * self.one
+        return own + 2.0 * offset * first + offset**2 * self.one
+
+    def _between(self, primitive: Callable[[float, float], float]) -> float:
+        low, high = (
+            primitive(s, sqrt(max(0.0, self.radius**2 - s**2))) for s in (self.low, self.high)
+        )
+        return high - low

@@ -1,0 +1,169 @@
+"""Feet of a device before what holds them is known, and the footing that is found for them."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import ceil, copysign, log, sqrt
+
+import numpy as np
+
+from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.device import Device, Module
+from ocs_design.device.layout import Layout
+from ocs_design.device.solids import foot_of
+from ocs_design.parts.carrier_plate import CarrierPlate, Point
+from ocs_design.parts.dog_bone import directions
+from ocs_design.parts.pedestal import Pedestal
+from ocs_design.parts.printed import AROUND_SLOT
+from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.sizing.place import CLEARANCE, Place, Size, device_size
+
+SENSES = (1.0, -1.0)
+
+SAME = 1e-9
+"""Distance between places that are the same but for rounding [m]."""
+
+_ALIKE = 1.02
+"""Ratio of sizes, or of masses, of modules that are nearly equal."""
+
+
+@dataclass(frozen=True)
+class Feet:
+    """Feet of a device.
+
+    Attributes:
+        x: forward coordinate of what `bases` count from, in B [m].
+        bases: middles of the feet's bases over (x, 0) [m]; a pair's are left and right.
+        slopes: 1 where a base's screws are before it on its left, -1 on its right; empty where any
+            foot leans.
+        radius: of the bases [m].
+        slot_radius: of the circle that their screws are on [m].
+        reach: radius around each that its module stays within [m].
+        height: of the wheels' middles above their undersides [m].
+        mass: of one module [kg].
+    """
+
+    x: float
+    bases: tuple[Point, ...]
+    slopes: tuple[float, ...]
+    radius: float
+    slot_radius: float
+    reach: float
+    height: float
+    mass: float
+
+    @property
+    def middles(self) -> list[Point]:
+        """Middles of the bases in B [m]."""
+        return [(self.x + along, across) for along, across in self.bases]
+
+    @property
+    def lands(self) -> tuple[float, float]:
+        """Radii between which the lands of a foot's screws are, whatever the incidence [m]."""
+        return self.slot_radius - AROUND_SLOT, self.slot_radius + AROUND_SLOT
+
+    @property
+    def y(self) -> float:
+        """How far left the first base stands [m]."""
+        return self.bases[0][1]
+
+    @cached_property
+    def rows(self) -> tuple[float, ...]:
+        """How far before x the middle of each plate is [m]; none where no plate carries them.
+
+        A pair has one plate, and a ring of more.
+        """
+        if self.arms > 2:
+            return (0.0,)
+        pairs = list(zip(self.bases[::2], self.bases[1::2], strict=False))
+        mirrored = all(np.allclose(right, (x, -y), atol=SAME) for (x, y), right in pairs)
+        in_pairs = 2 * len(pairs) == len(self.bases) == len(self.slopes) and mirrored
+        return tuple(x for (x, _), _ in pairs) if in_pairs else ()
+
+    @cached_property
+    def arms(self) -> int:
+        """How many feet stand on each plate: all where they are evenly around, else pairs."""
+        count = len(self.bases)
+        upright = count > 2 and len(self.slopes) == count
+        ring = upright and np.allclose(self.y * directions(count), self.bases, atol=SAME)
+        return count if ring else len(SENSES)
+
+    @property
+    def screws(self) -> tuple[Point, ...]:
+        """Places of their screws over (x, 0) [m]: at 45 degrees to the lateral direction."""
+        off = self.slot_radius / sqrt(2.0)
+        return tuple(
+            (x + sense * off, y + sense * slope * off)
+            for (x, y), slope in zip(self.bases, self.slopes, strict=True)
+            for sense in SENSES
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Footing:
+    """Place and plate of modules before they are chosen.
+
+    Attributes:
+        place: of the modules by their size.
+        plate: what they would stand on, were they as large as they may be; None: the trunk.
+        pedestals: under those that lean.
+    """
+
+    place: Place
+    plate: CarrierPlate | None
+    pedestals: tuple[Pedestal, ...] = ()
+
+    def carried(self, robot: MassProperties) -> MassProperties:
+        """The robot with plate and pedestals, which the chosen device's own replace."""
+        under = [*(() if self.plate is None else (self.plate,)), *self.pedestals]
+        return combine([robot, *(each.mass_properties() for each in under)]) if under else robot
+
+
+def feet_of(device: Device) -> Feet:
+    """Feet of a device that has them."""
+    foot = foot_of(device)
+    places = np.array([module.position[:2] for module in device.modules])
+    x = float(places[:, 0].mean())
+    bases = tuple((float(along) - x, float(across)) for along, across in places)
+    mass = device.flywheel.mass + device.carrier.mass
+    size = device_size(device)
+    slopes = slopes_of(np.stack([module.axis for module in device.modules], axis=1))
+    base = foot.base_radius, foot.slot_radius, size.reach, size.standing
+    return Feet(x, bases, slopes, *base, mass)
+
+
+def ring_of(layout: Layout, reach: float) -> tuple[Point, ...]:
+    """Middles of the feet's bases of modules of this radius around theirs [m]."""
+    return tuple((CLEARANCE * reach * x, CLEARANCE * reach * y) for x, y, _ in layout.ring)
+
+
+def slopes_of(axes: FloatArray) -> tuple[float, ...]:
+    """Sides on which the screws of each foot are (`Feet`); axes in B, shape (3, n)."""
+    if np.abs(axes[2]).max() > OUT_OF_REACH:
+        return ()
+    return tuple(copysign(1.0, x * y) for x, y in axes[:2].T.tolist())
+
+
+def leans(module: Module) -> bool:
+    """Whether a module's foot does not stand upright."""
+    return float(module.frame[2, 2]) < 1.0 - OUT_OF_REACH
+
+
+def rough(feet: Feet, size: Size[float]) -> tuple[Feet, Size[float]]:
+    """Feet of modules that are nearly equal, wherever they stood, and their size."""
+    rough = replace(
+        feet,
+        x=0.0,
+        bases=(),
+        radius=_rounded_up(feet.radius),
+        slot_radius=_rounded_up(feet.slot_radius),
+        reach=_rounded_up(feet.reach),
+        height=_rounded_up(feet.height),
+        mass=_rounded_up(feet.mass),
+    )
+    return rough, Size(_rounded_up(size.reach), _rounded_up(size.standing))
+
+
+def _rounded_up(value: float) -> float:
+    """By up to a fiftieth, so that what is nearly equal is looked for once."""
+    return _ALIKE ** ceil(log(value, _ALIKE))

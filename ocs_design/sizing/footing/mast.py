@@ -1,0 +1,321 @@
+"""Pairs of modules behind the trunk, one above the other, on a mast."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+from itertools import product
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.actuation.fasteners import screw
+from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.device.layout import Layout
+from ocs_design.device.solids import mast_solids, plate_solids
+from ocs_design.parts.carrier_plate import EDGE, STOCK, CarrierPlate, Point, plate_part
+from ocs_design.parts.joints import pattern_use
+from ocs_design.parts.mast import MAST_YIELD, TUBES, Mast
+from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
+from ocs_design.parts.printed import AROUND_SLOT, SHOCK, TRUNK_SCREW
+from ocs_design.robot.collision import collision_model
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.surface import Surface, trunk_back
+from ocs_design.robot.tree import Drum
+from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, rough
+from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
+from ocs_design.sizing.footing.plate import WIDER, thick_enough
+from ocs_design.sizing.footing.screws import HEAD_ROOM, PATTERN_STEP, SLEEVE_MAX, SPREAD
+from ocs_design.sizing.place import CLEARANCE, Place, Size
+from ocs_design.sizing.placement import Search, Sizes
+
+MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
+
+SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
+"""Blocks between a mast and the trunk that are tried, where a limb is in its way [m]."""
+
+SPREAD_MAX = 0.15
+"""Largest distance of a mast's screws, up and down [m]."""
+
+_PATTERNS = 8
+"""Patterns of a mast's screws that are tried."""
+
+
+def footing_behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Footing | None:
+    """The place behind the trunk nearest to the robot's middle where a mast carries pairs.
+
+    They stand one above the other, on plates of one kind, by the lightest tube that bears them.
+    """
+    back, at = trunk_back(robot), _mast_spot(robot, *rough(feet, size), layout)
+    if back is None or at is None:
+        return None
+    feet = _stacked(feet, size, layout)
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    far, height, spacer = at
+    arms = _all_arms(feet, size, far=far)
+    masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms)
+    return next((footing for footing in masted if footing is not None), None)
+
+
+def _stacked(feet: Feet, size: Size[float], layout: Layout) -> Feet:
+    """Feet of pairs one above the other."""
+    out = CLEARANCE * size.reach
+    return replace(feet, bases=((0.0, out), (0.0, -out)) * layout.pairs)
+
+
+@lru_cache(maxsize=64)
+def _mast_spot(
+    robot: Robot, feet: Feet, size: Size[float], layout: Layout
+) -> tuple[bool, float, float] | None:
+    """Whether a mast's arms are long, height of its lowest plate and thickness of its block [m].
+
+    None: no mast holds them.
+    """
+    back = trunk_back(robot)
+    if back is None or not layout.pairs:
+        return None
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    feet = _stacked(feet, size, layout)
+    down, up = back.x_range
+    step = size.reach / 4.0
+    heights = np.arange(down - 2.0 * size.standing, up + size.standing, step).tolist()
+    arms = {far: list(_all_arms(feet, size, far=far)) for far in (False, True)}
+    if not all(arms.values()):
+        return None
+    face = back.farthest(down, up, arms[False][0].support)
+    spots = [
+        (_placed(back, plates[0], size, height, face + spacer), far, height, spacer)
+        for (far, plates), height, spacer in product(arms.items(), heights, SPACERS)
+    ]
+    # A block is heavier than a longer way up.
+    spots.sort(key=lambda each: (each[3], search.cost(each[0])))
+    for place, far, height, spacer in spots:
+        tubes = _tubes(arms[far][0], place.centers(size), height, face + spacer)
+        if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.touches, tubes)):
+            continue
+        masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms[far])
+        for footing in (each for each in masted if each is not None):
+            # A wider tube moves modules by less than what is kept free around them.
+            if not search.is_free(footing.place):
+                break
+            if not any(map(search.touches, plate_solids(footing.plate))):
+                return far, height, spacer
+    return None
+
+
+def _all_arms(feet: Feet, size: Size[float], *, far: bool) -> Iterator[CarrierPlate]:
+    """Plates on the arms of each tube in stock that bears them, as short as may be or longer.
+
+    On the shortest, pairs stand to both sides of the upright; on the longer ones behind it.
+    """
+    masts = (
+        Mast(side, wall, side + max(_between(side, size), side, feet.y * far), 0.0, 0.0, 0.0)
+        for side, wall in TUBES
+    )
+    return (plate for mast in masts if (plate := _on_arms(feet, mast)) is not None)
+
+
+def _on_arms(feet: Feet, mast: Mast) -> CarrierPlate | None:
+    """The lightest plate across the arms of a mast that bears a pair; None: there is none."""
+    edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
+    ring = feet.slot_radius + edge
+    blanks = (
+        CarrierPlate(
+            position=(0.0, 0.0, 0.0),
+            radius=ring,
+            half_length=feet.y + ring,
+            # A rounding that flat is none.
+            neck=neck if neck < ring - PATTERN_STEP else ring,
+            thickness=STOCK[0],
+            across=feet.y,
+            window=max(0.0, feet.slot_radius - edge),
+            feet=feet.screws,
+            trunk=(),
+            sleeves=(),
+            rows=feet.rows,
+            mast=mast,
+        )
+        for neck in (mast.side / 2.0 + wider for wider in WIDER)
+    )
+    # Thicker plates stand higher, which bends the arms more.
+    bearing = (
+        plate
+        for blank in blanks
+        if blank.shape.half_width(np.asarray(mast.side / 2.0)) <= mast.back
+        and (plate := next(thick_enough(blank, feet, MAST_YIELD), None)) is not None
+        and arm_stress(plate, feet.mass, feet.height) <= MAST_YIELD
+    )
+    return min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)
+
+
+def _tubes(
+    plate: CarrierPlate, centers: FloatArray, height: float, face: float
+) -> tuple[Drum, ...]:
+    """Upright and arms of the plates of modules whose centers these are, see `_placed`."""
+    mast, x = plate.mast, float(centers[0, 0])
+    assert mast is not None, "a plate on arms"
+    levels = tuple((centers[:: len(SENSES), 2] - centers[0, 2]).tolist())
+    upright = replace(mast, face=-face - x, below=mast.side, high=levels[-1])
+    return mast_solids(replace(plate, position=(x, 0.0, height), levels=levels, mast=upright))
+
+
+def _placed(
+    back: Surface, plate: CarrierPlate, size: Size[float], height: float, face: float
+) -> Place:
+    """Place of pairs behind the trunk, clear of it and of a mast's upright.
+
+    Args:
+        back: of the trunk. plate: on arms. size: of a module.
+        height: of the lowest plate in B [m]. face: how far back the upright's front is [m].
+    """
+    mast, out = plate.mast, CLEARANCE * size.reach
+    assert mast is not None, "a plate on arms"
+    # Arms reach down between the modules below, and these to both sides of the upright.
+    room = max(0.0, sqrt(2.0) * mast.side - out + _between(mast.side, size)) + plate.thickness
+    apart = size.standing / size.reach + CLEARANCE
+    rows = range(len(plate.rows))
+    top = height + rows[-1] * (room + apart * size.reach) + plate.thickness + size.standing + out
+    behind = max(back.farthest(height, top, 2.0 * out), face + mast.face - out)
+    x = -round(behind, 6)
+    origins = [(x, 0.0, height + plate.thickness + row * room) for row in rows]
+    sides = [(-CLEARANCE, sense * CLEARANCE) for sense in SENSES]
+    return Place(
+        tuple(origin for origin in origins for _ in SENSES),
+        tuple((*side, row * apart) for row in rows for side in sides),
+        upright=True,
+    )
+
+
+def _between(side: float, size: Size[float]) -> float:
+    """How far off a tube modules to both its sides must be to be clear of it [m].
+
+    It is as wide as across its corners.
+    """
+    aside = CLEARANCE * size.reach - side / sqrt(2.0)
+    return sqrt(max(0.0, size.reach**2 - aside**2))
+
+
+def _masted(
+    back: Surface,
+    feet: Feet,
+    plate: CarrierPlate,
+    search: Search,
+    at: tuple[float, float],
+) -> Footing | None:
+    """Pairs on a mast behind the trunk; None: it does not hold them there.
+
+    Args:
+        back, plate: see `_placed`. feet: of all modules. search: of the largest, and of limbs.
+        at: height of the lowest plate in B, and thickness of the block before the upright [m].
+    """
+    mast, (height, spacer) = plate.mast, at
+    assert mast is not None, "a plate on arms"
+    half, best, size = mast.side / 2.0, None, search.sizes.largest
+    centers = _placed(back, plate, size, height, 0.0).centers(size)[:: len(SENSES)]
+    levels = tuple((centers[:, 2] - centers[0, 2]).tolist())
+    # Where the strongest screws do not hold no others do, but they need the widest tube.
+    for held in reversed(MAST_SCREWS):
+        edge, blank, before = EDGE * held.clearance_hole, replace(plate, thread=held.name), best
+        for low, high, aside, pads in _patterns(back, feet, blank, (height, spacer, centers)):
+            bottom, top = min(low - edge, height - mast.side), max(high + edge, height + levels[-1])
+            # The block lies on what is farthest back beneath it.
+            plane = round(back.farthest(low - edge, high + edge, half), 6)
+            face = plane + spacer
+            if face < back.farthest(bottom, top, half) - PROUD:
+                continue
+            place = _placed(back, blank, size, height, face)
+            x = float(place.centers(size)[0, 0])
+            holes = [(y, z - height) for z in (low, high) for y in (aside, -aside)]
+            gaps = [
+                0.0 if plane - deep <= FLATNESS else round(plane - top, 5) for deep, top in pads
+            ]
+            arms = [height + level - half for level in levels]
+            own = replace(
+                mast,
+                face=-face - x,
+                below=height - bottom,
+                high=top - height,
+                overhang=max(0.0, *(max(arm - high, low - arm) for arm in arms)),
+                spacer=spacer,
+            )
+            masted = replace(
+                blank,
+                position=(x, 0.0, height),
+                levels=levels,
+                trunk=tuple(holes),
+                sleeves=tuple(gap for gap in gaps for _ in SENSES),
+                mast=own,
+            )
+            if (
+                mast_stress(masted, feet.mass, feet.height) <= MAST_YIELD
+                and mast_screws_use(masted, feet.mass, feet.height) <= 1.0
+                and search.is_off(plate_solids(masted))
+            ):
+                best = Footing(place, masted)
+                break
+        if best is before and best is not None:
+            break
+    return best
+
+
+def _patterns(
+    back: Surface, feet: Feet, plate: CarrierPlate, at: tuple[float, float, FloatArray]
+) -> list[tuple[float, float, float, tuple[Point, Point]]]:
+    """Patterns of four screws that a trunk's back takes and that bear, of the shortest mast first.
+
+    Lower and upper height, how far to both sides, and how far back the trunk is at both heights, at
+    the least and at the most.
+
+    Args:
+        back: of the trunk. feet: of all modules. plate: on arms.
+        at: height of the lowest plate, thickness of the block, centers of the wheels, a row each.
+    """
+    mast, held, (height, spacer, centers) = plate.mast, plate.screw, at
+    assert mast is not None, "a plate on arms"
+    least = held.head_diameter / 2.0 + HEAD_ROOM
+    most = mast.bore / 2.0 - plate.sleeve_radius
+    force = 2.0 * feet.mass * SHOCK * len(centers)
+    wheels, off, found = float(centers[:, 2].mean()), mast.face + spacer, []
+    for aside in np.arange(least, most, PATTERN_STEP).tolist():
+        z, pads, (low, high) = _pads(back, plate.sleeve_radius, aside)
+        half = (z[high] - z[low]) / 2.0
+        up = np.abs(wheels - (z[low] + z[high]) / 2.0)
+        used = pattern_use(held, force, (off, up), (half, np.asarray(aside)))
+        if not (used <= 1.0).any():
+            continue
+        longer = np.maximum(0.0, height - z[low]) + np.maximum(0.0, z[high] - centers[-1, 2])
+        longer = np.where(used <= 1.0, longer + 1e-3 * used, np.inf)
+        for index in np.argsort(longer, kind="stable")[:_PATTERNS].tolist():
+            one, two = low[index], high[index]
+            lower, upper = ((float(deep), float(far)) for deep, far in pads[[one, two]])
+            pattern = float(z[one]), float(z[two]), aside, (lower, upper)
+            if np.isfinite(longer[index]):
+                found.append((float(longer[index]), pattern))
+    return [pattern for _, pattern in sorted(found, key=lambda each: each[0])[:_PATTERNS]]
+
+
+@lru_cache(maxsize=256)
+def _pads(
+    back: Surface, radius: float, aside: float
+) -> tuple[FloatArray, FloatArray, tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Heights at which a trunk's back is flat under a sleeve on either side, and how far back [m].
+
+    That is a row of two: at the least and at the most. Last come the numbers of lower and upper
+    heights that are as far apart as screws may be.
+
+    Args:
+        back: of the trunk. radius: of the sleeves [m]. aside: of their middles to both sides [m].
+    """
+    down, up = back.x_range
+    z = np.arange(down, up, PATTERN_STEP)
+    lands = np.concatenate([disc_points((0.0, side * aside), radius) for side in SENSES])
+    behind = back.height(z[:, None] + lands[:, 0], lands[None, :, 1] + 0.0 * z[:, None])
+    top, low = behind.max(axis=1), behind.min(axis=1)
+    with np.errstate(invalid="ignore"):
+        flat = top - low <= FLATNESS
+    z, low, top = z[flat], low[flat], top[flat]
+    lower, upper = np.triu_indices(len(z), 1)
+    half = (z[upper] - z[lower]) / 2.0
+    near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
+    near &= np.abs(top[upper] - top[lower]) <= SLEEVE_MAX
+    return frozen(z), frozen(np.stack([low, top], axis=1)), (lower[near], upper[near])

@@ -1,0 +1,106 @@
+"""The nearest place on top of the trunk where feet are held and no limb comes near."""
+
+from dataclasses import replace
+from functools import lru_cache
+from math import copysign, isfinite
+
+import numpy as np
+
+from ocs_design.actuation.fasteners import Screw
+from ocs_design.device.layout import Layout
+from ocs_design.device.solids import plate_solids
+from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.robot.collision import collision_model
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.surface import Surface, trunk_surface
+from ocs_design.sizing.footing.feet import Feet, Footing, ring_of, rough
+from ocs_design.sizing.footing.lands import disc_points, highest_of
+from ocs_design.sizing.footing.plate import held_at, plate_of
+from ocs_design.sizing.footing.screws import PLATE_SCREW, POST_SCREW
+from ocs_design.sizing.place import Size, around
+from ocs_design.sizing.placement import Search, Sizes
+
+ASIDE = (0.04, 0.08)
+"""How much farther to both sides pairs are tried, where a limb lies over the trunk's middle [m]."""
+
+STEP = 4e-3
+"""Step between places along the trunk [m], or a sixteenth of a module's reach."""
+
+
+def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
+    """The nearest place of the feet, as near to each other as may be, or of pairs another way."""
+    found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
+    if found is None and search.layout.pairs:
+        way = _way(search.collision.robot, *rough(feet, search.sizes.largest), search.layout)
+        return None if way is None else _nearest_footing(surface, feet, search, *way)
+    return found
+
+
+@lru_cache(maxsize=64)
+def _way(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> tuple[float, Screw] | None:
+    """How much farther apart pairs stand than they must, and what screws hold their plate.
+
+    Farther apart first, then on posts, over what stands up from the trunk; None: neither does.
+    """
+    surface, x = trunk_surface(robot), round(float(robot.com[0]), 6) + 0.0
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    feet = replace(feet, x=x, bases=ring_of(layout, size.reach))
+    ways = [*((aside, PLATE_SCREW) for aside in ASIDE), (0.0, POST_SCREW)]
+    found = (way for way in ways if surface and _nearest_footing(surface, feet, search, *way))
+    return next(found, None)
+
+
+def _nearest_footing(
+    surface: Surface, feet: Feet, search: Search, aside: float, held_by: Screw
+) -> Footing | None:
+    """The nearest place to that of the feet where they are held and no leg comes near.
+
+    A longer sleeve is as bad as as far a way forward, and so is a plate as its thickness.
+
+    Args:
+        surface: of the trunk. feet: on it, as near to each other as may be. search: of places.
+        aside: how much farther to its side each stands [m]. held_by: screws of a plate.
+    """
+    bases = tuple((x, y + copysign(aside, y)) for x, y in feet.bases)
+    feet = replace(feet, bases=bases)
+    low, high = surface.x_range
+    step = max(STEP, feet.reach / 16.0)
+    steps = np.arange(np.ceil((low - feet.x) / step), (high - feet.x) / step)
+    waiting: list[tuple[float, Footing]] = []
+    for shift in (*sorted((steps * step).tolist(), key=abs), np.inf):
+        # Nothing farther away can be better than what is nearer than that.
+        while waiting and waiting[0][0] <= abs(shift):
+            _, footing = waiting.pop(0)
+            # Farther apart, modules leave room for a limb between them, but not a plate.
+            posts = held_by is POST_SCREW
+            between = plate_solids(footing.plate) if aside or posts else ()
+            if search.is_free(footing.place) and not any(map(search.touches, between)):
+                return footing
+        if shift == np.inf:
+            break
+        moved = replace(feet, x=feet.x + shift)
+        held = None
+        if not _in_the_way(surface, moved, search, aside):
+            held = held_at(surface, moved, held_by=held_by)
+        if held is not None:
+            plate = plate_of(held)
+            height = held.top if isinstance(held, CarrierPlate) else held
+            origin = round(feet.x + shift, 6) + 0.0, 0.0, height
+            lift = 0.0 if plate is None else plate.thickness + max(plate.sleeves)
+            place = around(origin, search.layout, aside)
+            waiting.append((abs(shift) + lift, Footing(place, plate)))
+            waiting.sort(key=lambda each: each[0])
+    return None
+
+
+def _in_the_way(surface: Surface, feet: Feet, search: Search, aside: float) -> bool:
+    """Whether a limb is where modules of several pairs would stand on the trunk itself.
+
+    A plate would lift them by its thickness only, and is long looked for.
+    """
+    if len(feet.rows) <= 1:
+        return False
+    bases = [disc_points(middle, feet.radius) for middle in feet.middles]
+    top = highest_of(surface, np.concatenate(bases))
+    standing = around((feet.x, 0.0, top), search.layout, aside)
+    return isfinite(top) and not search.is_clear(standing)

@@ -1,0 +1,111 @@
+"""What holds the feet of a device on its robot, before it is chosen and after."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ocs_design.common.arrays import frozen
+from ocs_design.device.device import Device
+from ocs_design.device.layout import ISOTROPIC, PAIR, Layout
+from ocs_design.device.solids import foot_of
+from ocs_design.parts.foot import Foot
+from ocs_design.parts.housing import Housing
+from ocs_design.requirement.froude import Envelope
+from ocs_design.robot.collision import collision_model
+from ocs_design.robot.robot import Robot
+from ocs_design.robot.surface import trunk_surface
+from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, feet_of, ring_of, slopes_of
+from ocs_design.sizing.footing.mast import footing_behind
+from ocs_design.sizing.footing.on_top import footing_on_top
+from ocs_design.sizing.footing.pedestals import footing_on_pedestals
+from ocs_design.sizing.footing.plate import held_at, plate_of
+from ocs_design.sizing.place import device_size, place_at
+from ocs_design.sizing.placement import Search, Sizes, place_free
+
+MODULE_SHARE = 0.1
+"""Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
+
+
+def footing_of(
+    robot: Robot,
+    envelope: Envelope,
+    position: tuple[float, ...] | None = None,
+    layout: Layout = PAIR,
+) -> Footing:
+    """Place of modules with feet, and the plate under them where the trunk does not hold them.
+
+    The nearest place on top of the trunk over the centre of mass where the largest module's feet
+    are held, by the trunk or by a plate, and where no leg comes near. Where there is none, or the
+    trunk's shapes are not known, it is that of `place_free`: a mast, whose place and mass go with
+    the modules', is looked for under a chosen device (`footing_under`). Plates are those
+    of pairs, and of rings of three and more.
+
+    Args:
+        robot: that carries them. envelope: room for a rim.
+        position: as stated in B [m] (`place_at`); None: free.
+        layout: of the modules.
+    """
+    sizes, surface = Sizes.of(envelope), trunk_surface(robot)
+    largest, mass = sizes.largest, MODULE_SHARE * robot.mass
+    foot = Foot(Housing(envelope.outer_radius_max, envelope.height_max))
+    base = foot.base_radius, foot.slot_radius, largest.reach, largest.standing
+    if position is not None:
+        place = place_at(position, layout)
+        if surface is None or layout != PAIR:
+            return Footing(place, None)
+        x, y, z = position
+        feet = Feet(x, ((0.0, y), (0.0, -y)), SENSES, *base, mass)
+        return Footing(place, plate_of(held_at(surface, feet, z - largest.standing)))
+    if surface is not None:
+        start = round(float(robot.com[0]), 6) + 0.0
+        slopes = slopes_of(layout.axes(ISOTROPIC if layout.angle is None else layout.angle))
+        feet = Feet(start, ring_of(layout, largest.reach), slopes, *base, mass)
+        found = footing_on_top(surface, feet, Search(collision_model(robot), sizes, layout))
+        if found is not None:
+            return found
+    return Footing(place_free(robot, envelope, layout).place, None)
+
+
+def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
+    """The device with its feet on the trunk, and a plate under them where they are not held.
+
+    Modules whose place is not stated go to the height of what they stand on, and forward or back
+    to the nearest place where they are held. Where there is none the device stays as it is: see
+    `contacts_of`.
+
+    Args:
+        device: as selected. robot: that carries it.
+        stated: whether the modules' places are.
+    """
+    found = footing_under(device, robot, stated=stated)
+    if found is None:
+        return device
+    centers = found.place.centers(device_size(device))
+    modules = (
+        replace(module, position=frozen(center))
+        for module, center in zip(device.modules, centers, strict=True)
+    )
+    return replace(device, modules=tuple(modules), plate=found.plate, pedestals=found.pedestals)
+
+
+def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | None:
+    """Footing of a chosen device; see `stand_on_trunk`. None: where it is, on nothing known."""
+    surface = trunk_surface(robot)
+    if device.carrier.mass == 0.0:
+        return None
+    feet, layout = feet_of(device), device.layout
+    if not feet.slopes:
+        return footing_on_pedestals(robot, surface, device, stated=stated)
+    if surface is None:
+        return None
+    if stated:
+        places = [module.position for module in device.modules]
+        if layout != PAIR:
+            return Footing(place_at(tuple(np.concatenate(places).tolist()), layout), None)
+        held = held_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
+        return Footing(place_at(tuple(places[0].tolist())), plate_of(held))
+    size = device_size(device)
+    feet = replace(feet, bases=ring_of(layout, size.reach))
+    search = Search(collision_model(robot), Sizes(size, size), layout)
+    found = footing_on_top(surface, feet, search)
+    return found or footing_behind(robot, feet, size, layout)
