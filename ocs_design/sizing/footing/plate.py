@@ -106,7 +106,7 @@ def _plate(
             beside = highest_of(surface, beneath) - STOCK[0]
         plate = replace(outline, position=(feet.x, 0.0, 0.0))
         level = max(highest_of(surface, plate_points(plate)), beside)
-        borne = _borne(feet, plate, patterns, underside, level)
+        borne = _borne(surface, feet, plate, patterns, (underside, level))
         if borne is not None and (mass := borne.mass) < lightest:
             best, lightest = borne, mass
         # What is wider and as thick is heavier.
@@ -151,31 +151,32 @@ def _outlines(feet: Feet, held_by: Screw) -> tuple[CarrierPlate, ...]:
 
 
 def _borne(
+    surface: Surface,
     feet: Feet,
     blank: CarrierPlate,
     patterns: Sequence[Patterns],
-    underside: float | None,
-    highest: float,
+    heights: tuple[float | None, float],
 ) -> CarrierPlate | None:
     """The thinnest plate of this outline that the trunk holds and that bears the modules.
 
     Args:
-        feet: on it. blank: the plate without screws.
-        patterns: of screws that are flat on the trunk, of each row.
-        underside: height of the feet in B, where it is stated [m].
-        highest: least height of the plate, for what is beneath and beside it [m].
+        surface: of the trunk. feet: on it. blank: the plate without screws.
+        patterns: of screws that may be flat on the trunk, of each row.
+        heights: of the feet in B, where it is stated, and the least one of the plate, for what is
+            beneath and beside it [m].
     """
+    underside, highest = heights
     if not np.isfinite(highest):
         return None
     x, y, _ = blank.position
     if underside is None:
-        held = screwed(replace(blank, position=(x, y, round(highest, 6))), patterns)
+        held = screwed(surface, replace(blank, position=(x, y, round(highest, 6))), patterns)
         return None if held is None else _bearing(held, feet, STOCK)
     for thickness in STOCK:
         height = underside - thickness
         if height < highest - PROUD:
             return None
-        held = screwed(replace(blank, position=(x, y, height)), patterns)
+        held = screwed(surface, replace(blank, position=(x, y, height)), patterns)
         if held is None:
             return None
         plate = _bearing(held, feet, (thickness,))

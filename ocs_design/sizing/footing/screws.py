@@ -39,9 +39,16 @@ PATTERN_STEP = 2e-3
 """Step between patterns of screws [m], or a fortieth of a module's reach."""
 
 
+_SOME = 8
+"""Points of each screw's land that are looked at first."""
+
+_AT_ONCE = 16
+"""Patterns whose lands are looked at whole at once."""
+
+
 @dataclass(frozen=True, eq=False)
 class Patterns:
-    """Patterns of screws that are flat on the trunk under every screw.
+    """Patterns of screws that may be flat on the trunk under every screw, by a few points of each.
 
     Attributes:
         along, across: of a screw from the middle line of its arm and from the plate's middle [m],
@@ -50,7 +57,7 @@ class Patterns:
         widest: number of the plate at whose neck's edge it is; -1: of the grid that all have.
         most: largest of `along` of each plate [m].
         places: of the screws over the plate's middle [m], shape (n, m, 2).
-        top, low: of the trunk under each screw in B [m], shape (n, m).
+        top, low: of the trunk at those points of each screw in B [m], shape (n, m).
     """
 
     along: FloatArray
@@ -65,7 +72,7 @@ class Patterns:
     def __len__(self) -> int:
         return len(self.along)
 
-    def where(self, chosen: NDArray[np.bool_]) -> "Patterns":
+    def where(self, chosen: NDArray[np.bool_] | NDArray[np.int64]) -> "Patterns":
         """Those that are chosen."""
         return Patterns(
             self.along[chosen],
@@ -87,7 +94,7 @@ class Patterns:
 def flat_patterns(
     surface: Surface, feet: Feet, row: float, plates: Sequence[CarrierPlate]
 ) -> Patterns:
-    """Patterns of screws at which the trunk is flat, whatever its height.
+    """Patterns of screws at which the trunk may be flat, whatever its height.
 
     Two screws in each arm, as far from its middle line on either side. Of three arms and more each
     may share its screws with the next ones. Heads stay clear of the feet and of the next arm's.
@@ -104,7 +111,7 @@ def flat_patterns(
         feet.arms,
     )
     lands, middle = disc_points((0.0, 0.0), plates[0].sleeve_radius), np.array([feet.x + row, 0.0])
-    some, kept = lands[:: max(1, len(lands) // 8)], np.arange(len(grid))
+    some, kept = lands[:: max(1, len(lands) // _SOME)], np.arange(len(grid))
     # Most patterns fail at a few points of their first screw already.
     for screw_places in grid.places.swapaxes(0, 1):
         top, low = _top_and_low(surface, screw_places[kept, None] + some + middle)
@@ -112,13 +119,8 @@ def flat_patterns(
             kept = kept[top - low <= FLATNESS]
         if not len(kept):
             break
-    within = np.zeros(len(grid), dtype=bool)
-    within[kept] = True
-    found = grid.where(within)
-    top, low = _top_and_low(surface, found.places[:, :, None] + lands + middle)
-    with np.errstate(invalid="ignore"):
-        flat = np.asarray((top - low <= FLATNESS).all(axis=1))
-    return replace(found, top=top, low=low).where(flat)
+    top, low = _top_and_low(surface, grid.places[kept, :, None] + some + middle)
+    return replace(grid.where(kept), top=top, low=low)
 
 
 def _top_and_low(surface: Surface, points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -169,32 +171,64 @@ def _pattern_grid(
     return found.where(clear)
 
 
-def screwed(plate: CarrierPlate, patterns: Sequence[Patterns]) -> CarrierPlate | None:
+def screwed(
+    surface: Surface, plate: CarrierPlate, patterns: Sequence[Patterns]
+) -> CarrierPlate | None:
     """The plate with the widest pattern of screws that the trunk holds; None: there is none.
 
     Patterns without sleeves come first.
 
     Args:
-        plate: in its place. patterns: that are flat on the trunk, of each row.
+        surface: of the trunk. plate: in its place. patterns: that may be flat, of each row.
     """
-    z, longest = plate.position[2], POST_MAX if on_posts(plate) else SLEEVE_MAX
     trunk: list[Point] = []
     sleeves: list[float] = []
     for ahead, each in zip(plate.rows, patterns, strict=True):
-        reached = ((each.top <= z + PROUD) & (z - each.top <= longest)).all(axis=1)
-        if not reached.any():
+        best = _widest(surface, plate, plate.position[0] + ahead, each)
+        if best is None:
             return None
-        direct = (z - each.low <= FLATNESS).all(axis=1)
-        spread = np.minimum(each.along, each.across) + 0.1 * (each.along + each.across)
-        best = int(np.where(reached, spread + direct, -1.0).argmax())
-        top, low = each.top[best], each.low[best]
-        gaps = np.where(z - low <= FLATNESS, 0.0, np.round(z - top, 5))
-        count = plate.arms if each.shared[best] else len(gaps)
+        index, gaps = best
+        count = plate.arms if each.shared[index] else len(gaps)
         trunk += [
-            (ahead + round(float(x), 6), round(float(y), 6)) for x, y in each.places[best][:count]
+            (ahead + round(float(x), 6), round(float(y), 6)) for x, y in each.places[index][:count]
         ]
         sleeves += gaps[:count].tolist()
     return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
+
+
+def _widest(
+    surface: Surface, plate: CarrierPlate, x: float, patterns: Patterns
+) -> tuple[int, FloatArray] | None:
+    """Number of the widest pattern that holds one row of a plate, and its sleeves [m].
+
+    Args:
+        surface, plate, patterns: see `screwed`, of one row. x: of its middle in B [m].
+    """
+    z, longest = plate.position[2], POST_MAX if on_posts(plate) else SLEEVE_MAX
+    spread = np.minimum(patterns.along, patterns.across) + 0.1 * (patterns.along + patterns.across)
+    may_reach = patterns.top <= z + PROUD
+    # What is flat is nowhere higher than a few of its points by more than that.
+    may_reach &= z - patterns.top <= longest + FLATNESS
+    at_most = spread + (z - patterns.low <= FLATNESS).all(axis=1)
+    order = np.flatnonzero(may_reach.all(axis=1))
+    order = order[np.argsort(-at_most[order], kind="stable")]
+    lands, middle = disc_points((0.0, 0.0), plate.sleeve_radius), np.array([x, 0.0])
+    best, score, found = -1, 0.0, np.empty(0)
+    for start in range(0, len(order), _AT_ONCE):
+        some = order[start : start + _AT_ONCE]
+        if at_most[some[0]] < score:
+            break
+        top, low = _top_and_low(surface, patterns.places[some, :, None] + lands + middle)
+        with np.errstate(invalid="ignore"):
+            held = (top - low <= FLATNESS) & (top <= z + PROUD) & (z - top <= longest)
+        direct = (z - low <= FLATNESS).all(axis=1)
+        scores = np.where(held.all(axis=1), spread[some] + direct, -1.0)
+        # Of equals the first one.
+        for one, index in enumerate(some.tolist()):
+            if scores[one] > score or (scores[one] == score and index < best):
+                best, score = index, float(scores[one])
+                found = np.where(z - low[one] <= FLATNESS, 0.0, np.round(z - top[one], 5))
+    return None if best < 0 else (best, found)
 
 
 def on_posts(plate: CarrierPlate) -> bool:
