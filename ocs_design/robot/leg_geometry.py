@@ -78,11 +78,16 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
             f"the legs do not hang along -z of the trunk frame '{trunk}' but along "
             f"{axis_name(-up)}, so roll and pitch are about other axes than they should: {cure}"
         ]
-    axes = [geometry.plane.axis for geometry in leg_geometries(tree, trunk, legs)]
-    if all(abs(axis[0]) > SIDEWAYS for axis in axes):
+    planes = [geometry.plane for geometry in leg_geometries(tree, trunk, legs)]
+    if all(abs(plane.axis[0]) > SIDEWAYS for plane in planes):
         return [
             f"the knees turn about the x axis of the trunk frame '{trunk}', so x seems to point "
             f"sideways, and roll and pitch are swapped: {cure}"
+        ]
+    if named_front(legs, [plane.hip for plane in planes])[0] < 0.0:
+        return [
+            f"the legs that are named as front ones are behind the others: x of the trunk frame "
+            f"'{trunk}' seems to point backwards, and flips go the other way round: {cure}"
         ]
     return []
 

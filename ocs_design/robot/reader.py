@@ -223,7 +223,8 @@ def read_robot(
         tree, mount, of_frame = with_base_frame(tree, name, found)
         base = name if mount is None else BASE_FRAME
     else:
-        base, mount = trunk, None
+        base, mount, of_frame = trunk, None, ()
+    if mount is None:
         of_frame = tuple(convention_warnings(tree, base, found))
     chosen = resolve_posture(tree, base, found, posture, joints or {})
     weighed = tree.locked_mass_properties(chosen.values, base)

@@ -1,6 +1,8 @@
 """A robot is the same robot, whichever way its trunk's frame points."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -78,6 +80,15 @@ def test_names_tell_front_from_back(names, front):
     legs = [replace(leg, name=name) for leg, name in zip(solo12.legs, names, strict=True)]
     hips = [np.array([x, y, 0.0]) for x in (0.2, -0.2) for y in (0.1, -0.1)]
     np.testing.assert_allclose(named_front(legs, hips), [0.4 * front, 0.0, 0.0], atol=1e-12)
+
+
+def test_an_x_that_points_backwards_is_told(tmp_path):
+    text = Path(SOLO12).read_text()
+    ends = {"FL_": "HL_", "FR_": "HR_", "HL_": "FL_", "HR_": "FR_"}
+    path = tmp_path / "backwards.urdf"
+    path.write_text(re.sub("|".join(ends), lambda match: ends[match[0]], text))
+    assert any("point backwards" in warning for warning in read_robot(path).warnings)
+    assert not any("point backwards" in warning for warning in read_robot(SOLO12).warnings)
 
 
 def test_a_usual_robot_keeps_its_trunk():
