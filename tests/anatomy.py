@@ -21,7 +21,7 @@ ANATOMY = {
     "anymal_b_simple_description/robots/anymal-kinova": ("base", 4),
     "anymal_b_simple_description/robots/anymal": ("base", 4),
     "anymal_c_simple_description/urdf/anymal": ("base", 4),
-    "asr_twodof_description/urdf/TwoDofs": ("world", 0),
+    "asr_twodof_description/urdf/TwoDofs": ("ground", 0),
     "b1_description/urdf/b1-z1": ("base", 4),
     "b1_description/urdf/b1": ("base", 4),
     "baxter_description/urdf/baxter": ("base", 0),
