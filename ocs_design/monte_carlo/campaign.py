@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
+import mujoco
 import numpy as np
 
 from ocs_design.common.errors import OcsError
@@ -75,8 +76,8 @@ class Campaign:
         """Every scenario of one robot."""
         return [self.built(sample, number) for number in range(len(self.flights))]
 
-    def built(self, sample: Sample, number: int) -> World:
-        """Scenario `number` of one robot."""
+    def built(self, sample: Sample, number: int, scratch: mujoco.MjData | None = None) -> World:
+        """Scenario `number` of one robot; `scratch`: see the function of that name."""
         return built(
             self.flights[number].world,
             sample,
@@ -84,6 +85,7 @@ class Campaign:
             air=self.air,
             limits=self.limits,
             period=self.hold * STEP,
+            scratch=scratch,
         )
 
     def judged(self, metrics: Metrics | None, number: int) -> Verdict:
@@ -174,7 +176,12 @@ def _flown_at_once(
 ) -> Outcomes:
     """Every scenario of these samples in one batch; its worlds are let go of with it."""
     samples = [campaign.sample(index) for index in indices]
-    worlds = [world for sample in samples for world in campaign.worlds(sample)]
+    scratch = [mujoco.MjData(flight.world.model) for flight in campaign.flights]
+    worlds = [
+        campaign.built(sample, number, own)
+        for sample in samples
+        for number, own in enumerate(scratch)
+    ]
     flights = fly(worlds, Options(hold=campaign.hold, threads=threads), progress)
     shape = (len(samples), len(campaign.flights))
     metrics, codes = np.full((*shape, len(METRICS)), np.nan), np.zeros(shape, dtype=np.int8)

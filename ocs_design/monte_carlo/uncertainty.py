@@ -168,6 +168,7 @@ def built(
     air: AirDrag,
     limits: MotorLimits,
     period: float,
+    scratch: mujoco.MjData | None = None,
 ) -> World:
     """Flight of one robot as it was built.
 
@@ -179,6 +180,8 @@ def built(
         limits: of a motor as designed, before friction takes its part. The law counts on them here,
             as one does that leaves the current of friction to the drive.
         period: of the wheel law [s].
+        scratch: to work with, of the world's model: to make one takes as long as the rest; None:
+            one is made.
     """
     model = copy.copy(world.model)
     # The robot's masses; the device is made and weighed with more care.
@@ -197,7 +200,7 @@ def built(
     # The real motor's limits are those of its drive; friction adds to them when it brakes.
     motors = list(world.addresses.motors)
     model.actuator_ctrllimited[motors] = model.actuator_forcelimited[motors] = 0
-    mujoco.mj_setConst(model, mujoco.MjData(model))
+    mujoco.mj_setConst(model, mujoco.MjData(model) if scratch is None else scratch)
 
     # What friction is drawn is taken off once, from what the motor gives.
     law = replace(

@@ -187,3 +187,16 @@ def test_a_push_off_leaves_the_rate_that_is_drawn(solo12, period):
     np.testing.assert_allclose(flown.impulse[-1, 0], expected, rtol=1e-3, atol=1e-6)
     gained = flown.momentum[-1, 0] - flown.momentum[0, 0]
     np.testing.assert_allclose(gained, flown.impulse[-1, 0], atol=1e-9)
+
+
+def test_data_that_others_have_worked_with_change_no_bit(solo12):
+    """One sample after the other with the same data to work with, and each with its own."""
+    campaign = short_campaign(solo12, UncertaintySection(), drop_only=True)
+    scratch = mujoco.MjData(campaign.flights[0].world.model)
+    for index in range(3):
+        sample = campaign.sample(index)
+        alone, shared = (campaign.built(sample, 0, own).model for own in (None, scratch))
+        for name in dir(alone):
+            found = getattr(alone, name)
+            if isinstance(found, np.ndarray):
+                np.testing.assert_array_equal(found, getattr(shared, name), err_msg=name)
