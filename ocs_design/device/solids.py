@@ -11,9 +11,15 @@ from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing, housing_outer_radius
-from ocs_design.parts.motor_mount import DriveSolid, MotorMount, drive_cylinders, mount_of
+from ocs_design.parts.motor_mount import (
+    DriveSolid,
+    MotorMount,
+    drive_cylinders,
+    motor_front,
+    mount_of,
+)
 from ocs_design.parts.pedestal import FLANGE, Pedestal, strengthened
-from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, LID_SCREW, TRUNK_SCREW, WALL
+from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, WALL
 from ocs_design.robot.tree import BACKWARDS, Drum
 
 PLATE_DISCS = 0.5
@@ -50,6 +56,23 @@ def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
     # Files of older versions do not know where the motor is behind a gear.
     unknown = motor.gear != DIRECT.name and motor.gear_room is None
     return tuple(solid for solid in found if not (unknown and solid.name == "motor"))
+
+
+def shaft_cut(device: Device) -> tuple[float, float]:
+    """What is left of a motor's shaft before its front, and what is cut off it [m].
+
+    One that would come nearer to the lid than `CLEARANCE`, and beyond the hub, is cut flush with
+    the hub. Nothing is cut where the length is not known; a ring's housing has room for all of it.
+    """
+    mounting, web = device.motor.mounting, device.flywheel.web
+    length = 0.0 if mounting is None else mounting.shaft_length or 0.0
+    if web is None or length == 0.0 or device.motor.gear != DIRECT.name:
+        return length, 0.0
+    housing = housing_of(device)
+    front = motor_front(motor_mount(device), housing.rim_height)
+    hub = web.hub.height / 2.0 - front
+    clear = housing.half_height - PANEL - CLEARANCE - front
+    return (length, 0.0) if length <= max(hub, clear) else (hub, length - hub)
 
 
 def pedestal_of(device: Device, module: Module, plane: float | None = None) -> Pedestal:

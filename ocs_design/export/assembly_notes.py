@@ -9,7 +9,7 @@ from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.joints import DAMPING, resonances_of
-from ocs_design.device.solids import drive_solids, motor_mount
+from ocs_design.device.solids import drive_solids, motor_mount, shaft_cut
 from ocs_design.export.device_parts import foot_holes, printed_foot, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
 from ocs_design.parts.bell import BELL_SHARE
@@ -129,6 +129,13 @@ def _on_bell(device: Device) -> Iterator[str]:
 
 def _driven(mounting: Mounting, device: Device) -> Iterator[str]:
     """Notes on how the wheel is driven: by the shaft, or by threads behind plate and floor."""
+    left, off = shaft_cut(device)
+    if off > 0.0:
+        yield (
+            f"the shaft would run into the lid: cut {format_quantity(off, 'mm', digits=3)} off its "
+            f"end, so that {format_quantity(left, 'mm', digits=3)} stand out of the motor, before "
+            "the motor is built in and with its bearings covered"
+        )
     web, mount = device.flywheel.web, motor_mount(device)
     # In a cage it reaches through plate and floor to the hub.
     if web is None or (mount.cage is not None and mounting.rotor is not None):

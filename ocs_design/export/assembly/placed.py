@@ -13,7 +13,7 @@ import numpy as np
 from ocs_design.actuation.fasteners import Fastening, Screw
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
-from ocs_design.device.solids import drive_solids, motor_mount
+from ocs_design.device.solids import drive_solids, motor_mount, shaft_cut
 from ocs_design.export.device_parts import (
     foot_holes,
     foot_screws,
@@ -127,10 +127,10 @@ def _shaft(device: Device, solid: DriveSolid) -> tuple[Revolution, ...]:
     mounting, web = device.motor.mounting, device.flywheel.web
     if solid.name != "motor" or mounting is None or not mounting.shaft_diameter:
         return ()
-    length = mounting.shaft_length
-    if length is None and web is not None and mounting.rotor is None:
+    length, _ = shaft_cut(device)
+    if mounting.shaft_length is None and web is not None and mounting.rotor is None:
         length = web.hub.height / 2.0 - solid.high
-    if not length or length <= 0.0:
+    if length <= 0.0:
         return ()
     end = solid.high + length
     return (hollow_cylinder(0.0, mounting.shaft_diameter / 2.0, solid.high, end),)

@@ -1,5 +1,7 @@
 """The pieces of a module in their places, against what the device weighs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from built import DEVICES
@@ -7,9 +9,10 @@ from manifold3d import Manifold, Mesh64
 
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
+from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.parts.housing import LID_SCREWS
-from ocs_design.parts.printed import TRUNK_SCREWS
+from ocs_design.parts.printed import CLEARANCE, TRUNK_SCREWS
 
 BUILT = ("caged", "by its face", "unknown threads", "in a guard ring")
 
@@ -78,6 +81,29 @@ def test_a_shaft_reaches_into_the_hub_that_is_bonded_on_it():
     assert shaft.profile[:, 0].max() == pytest.approx(wheel.web.hub.bore_radius, rel=1e-6)
     assert shaft.profile[:, 1].min() == pytest.approx(body.profile[:, 1].max())
     assert shaft.profile[:, 1].max() == pytest.approx(wheel.web.hub.height / 2.0)
+
+
+@pytest.mark.parametrize("length", [0.003, 0.009, 0.05])
+def test_a_shaft_is_cut_where_it_would_run_into_the_lid(length):
+    """Whatever its length it is clear of the lid, and one that is cut still fills the hub."""
+    device = DEVICES["by its face"]
+    mounting = replace(device.motor.mounting, shaft_length=length)
+    device = replace(device, motor=replace(device.motor, mounting=mounting))
+    pieces = {piece.name: piece for piece in module_pieces(device)}
+    tip = pieces["motor"].mesh.vertices[:, 2].max()
+    lid = pieces["lid"].mesh.vertices[:, 2].min()
+    hub = device.flywheel.web.hub.height / 2.0
+    assert tip < lid
+    front = placed_parts(device)["motor"][0].joined[0].profile[:, 1].max()
+    cut = length - (tip - front)
+    told = [note for note in drive_notes(device) if "run into the lid" in note]
+    if front + length <= lid - CLEARANCE:
+        assert cut == pytest.approx(0.0, abs=1e-9)
+        assert not told
+    else:
+        assert tip == pytest.approx(hub)
+        (note,) = told
+        assert f"cut {1e3 * cut:.3g} mm off" in note
 
 
 def test_the_screws_heads_stand_on_what_they_hold():
