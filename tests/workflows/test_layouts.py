@@ -14,6 +14,7 @@ from ocs_design.requirement.reading import parse_specification, specification_of
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.vocabulary import LAYOUTS
 from ocs_design.sizing.design import CannotSurvive, design_device
+from ocs_design.sizing.selection.bounds import RimFloor
 from ocs_design.sizing.specified import selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
 from ocs_design.workflows.layouts import compare_layouts
@@ -238,6 +239,28 @@ def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
         assert found[turn.name].share < 1.0
         (demand,) = designed.choice.chosen.demands
         assert demand.spin_inertia == pytest.approx(designed.device.flywheel.spin_inertia, rel=2e-2)
+
+
+def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
+    """No bound on the wheels of a turn about z alone is above zero, and no rim is that small."""
+    asked = specification_from_options(
+        {
+            "robot.mass": "50kg",
+            "robot.inertia": "2.129,3.311,2.602",
+            "ocs.layout": "orthogonal",
+            "requirement.turn": "yaw 45deg in 10s",
+            "requirement.gravity": "orbit",
+            "supply.voltage": "28V",
+        }
+    )
+    task = read_task(asked, package_paths={}, strict=False)
+    chosen = design_device(asked, task.robot, task.resolved).choice.chosen
+    (demand,) = chosen.demands
+    assert demand.spin_inertia <= chosen.spin_inertia
+    problem = selection_problem(asked, task.robot, task.resolved)
+    least = RimFloor.of(problem).mass
+    assert np.isfinite(least[:, 0]).all()
+    assert (np.diff(np.nan_to_num(least, posinf=1e9), axis=1) >= 0.0).all()
 
 
 @pytest.mark.slow

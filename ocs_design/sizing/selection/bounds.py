@@ -159,7 +159,9 @@ class RimFloor:
         mass = lightest_module(inertia, limits, shell, _DIGITS).mass
         mass = _SURELY * np.nan_to_num(mass, nan=np.inf)
         inertia, mass = (each.reshape(webs, materials, _RIMS) for each in (inertia, mass))
-        return cls(inertia[0], mass.min(axis=0), problem.web_densities, len(problem.layout))
+        # What needs little may have more: the smallest rims may not fit around any hub.
+        mass = np.minimum.accumulate(mass.min(axis=0)[:, ::-1], axis=1)[:, ::-1]
+        return cls(inertia[0], mass, problem.web_densities, len(problem.layout))
 
     def at(self, spin_inertia: FloatArray) -> FloatArray:
         """Mass of no more spin inertia than that [kg], both of shape (materials, n)."""
