@@ -314,7 +314,9 @@ class CollisionModel:
         axes, box = poses.axes[rows, geoms].reshape(-1, 3, 3), self._model.geom_aabb[geoms]
         own = np.einsum("nji,nj->ni", axes, apart[rows, columns]) - box[:, :3]
         off = np.maximum(np.abs(own) - box[:, 3:], 0.0)
-        boxed = np.sqrt((off * off).sum(axis=1)) - probe.reach - _SLACK
+        far = np.sqrt((off * off).sum(axis=1))
+        # What is within the box may be deeper than it is large.
+        boxed = np.where(far > 0.0, far - probe.reach - _SLACK, -np.inf)
         bounds = np.maximum(bounds, boxed)
         near = bounds < within
         return rows[near], geoms[near], bounds[near]

@@ -152,3 +152,42 @@ def test_a_limb_that_touches_in_the_nominal_posture_with_a_joint_at_its_limit():
     (reach,) = (each for each in reaches(collision, [ball]) if each.part == calf.name)
     assert reach.joints
     assert reach.joints.items() <= collision.robot.posture.items(), "nothing has to move"
+
+
+@pytest.mark.parametrize("name", [SOLO12, A1])
+@pytest.mark.parametrize("within", [0.01, 0.05, 10.0])
+def test_what_is_left_out_as_far_off_is_no_nearer(name, within):
+    """Each part in each posture alone, where neither boxes nor bounds leave anything out."""
+    collision, random = collision_model(name), np.random.default_rng(5)
+    ranges = full_ranges(collision.robot, collision.robot.tree.joints)
+    poses = collision.poses(drawn(ranges, 24))
+    for _ in range(4):
+        center, axis = random.normal(scale=0.15, size=3), random.normal(size=3)
+        for probe in (Ball(center, 0.03), Drum(center, axis / np.linalg.norm(axis), 0.02, 0.1)):
+            alone = [
+                collision.nearest(probe, poses[index], [part], within=within)
+                for index in range(len(poses.postures))
+                for part in collision.parts
+            ]
+            least = min((each.distance for each in alone if each is not None), default=None)
+            found = collision.nearest(probe, poses, collision.parts, within=within)
+            assert (found is None) == (least is None)
+            if found is not None:
+                assert found.distance == pytest.approx(least, abs=1e-7)
+            single = poses[0]
+            near = collision.nearest(probe, single, collision.parts, within=within)
+            kept = collision.near([probe], single, collision.parts, within)
+            assert near is None or kept == [probe]
+
+
+def test_postures_may_start_from_another_one():
+    collision = collision_model(SOLO12)
+    ranges = full_ranges(collision.robot, collision.robot.tree.joints)
+    start, *others = drawn(ranges, 4)
+    changed = [{name: each[name] for name in list(each)[:2]} for each in others]
+    part = collision.parts[-1]
+    whole = collision.poses([{**start, **each} for each in changed])
+    found = collision.poses(changed, [part], start=start)
+    assert list(found.postures) == list(whole.postures)
+    np.testing.assert_array_equal(found.positions[:, part.geoms], whole.positions[:, part.geoms])
+    np.testing.assert_array_equal(found.axes[:, part.geoms], whole.axes[:, part.geoms])
