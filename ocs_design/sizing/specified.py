@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf, isfinite
 
 import numpy as np
 
+from ocs_design.actuation.drive import speed_limit
 from ocs_design.actuation.motor import DIRECT, Motor, Mounting
 from ocs_design.catalogue.materials import material, strong_materials
 from ocs_design.common.arrays import vector
@@ -23,6 +25,7 @@ from ocs_design.parts.rim import (
 from ocs_design.requirement.choices import BUS_VOLTAGES, MotorChoice, any_motors
 from ocs_design.requirement.device_sections import FlywheelSection
 from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import TurnTo
@@ -67,7 +70,7 @@ def selection_problem(
         requirement=replace(resolved.requirement, maneuvers=maneuvers),
         envelope=resolved.envelope,
         place=footing.place,
-        motors=_held(specification, choice),
+        motors=_held(specification, resolved, choice),
         gears=choice.gears,
         materials=choice.materials,
         supply=choice.supply,
@@ -120,7 +123,7 @@ def other_construction(
     if problem.on_bell:
         return replace(
             problem,
-            motors=_held(specification, choice),
+            motors=_held(specification, resolved, choice),
             gears=choice.gears,
             web=True,
             on_bell=False,
@@ -139,11 +142,22 @@ _SPANS = 1e-3
 """Least singular value of axes that reach roll, pitch and yaw."""
 
 
-def _held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...]:
+def _held(
+    specification: Specification, resolved: Resolved, choice: MotorChoice
+) -> tuple[Motor, ...]:
     """Motors to choose from: of those that nobody named, the ones that are held and hold a wheel.
 
-    All of them where none is, whose open points then say why.
+    All of them where none is, whose open points then say why. Where a brake stops the wheels, each
+    turns no faster than its joint takes.
     """
+    climbs = (each for each in resolved.requirement.maneuvers if isinstance(each, StandUp))
+    stop = min((each.stop for each in climbs if each.braked), default=inf)
+    motors = _motors_held(specification, choice)
+    return tuple(_slowed(each, stop) for each in motors) if isfinite(stop) else motors
+
+
+def _motors_held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...]:
+    """Motors to choose from, each up to its own speed."""
     stated = specification.motor
     if stated.any or stated.name not in {None, AUTO} or any(gear.room for gear in choice.gears):
         return choice.motors
@@ -153,9 +167,25 @@ def _held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...
 
 def _holds_wheel(motor: Motor) -> bool:
     """True if the joint of hub and motor carries its peak torque with what is to spare."""
-    mounting = motor.mounting or Mounting()
-    carried = hub_joint(mounting, hub_height(mounting) - 2.0 * LARGEST_CHAMFER)
+    carried = _carried(motor)
     return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
+
+
+def _slowed(motor: Motor, stop: float) -> Motor:
+    """The motor up to the speed from which a brake on its wheel may stop its rotor in a time [s].
+
+    The rotor's torque J W / t goes through the joint of hub and motor.
+    """
+    carried, speed, rotor = _carried(motor), speed_limit(motor), motor.rotor_inertia
+    if carried is None or speed is None or not rotor:
+        return motor
+    return replace(motor, speed_max=min(speed, carried * stop / (SERVICE * rotor)))
+
+
+def _carried(motor: Motor) -> float | None:
+    """Torque that the joint of hub and motor carries [N m]; None: nothing that is known does."""
+    mounting = motor.mounting or Mounting()
+    return hub_joint(mounting, hub_height(mounting) - 2.0 * LARGEST_CHAMFER)
 
 
 def specified_lightenings(stated: FlywheelSection) -> tuple[int, ...]:

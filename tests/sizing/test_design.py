@@ -7,17 +7,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from designed import MOTOR, designed
+from robots import SOLO12
 from wheels import braked_inertia
 
+from ocs_design.actuation.drive import speed_limit
+from ocs_design.catalogue.motors import motor
 from ocs_design.common.errors import Infeasible
-from ocs_design.device.joints import burst_of
+from ocs_design.device.joints import SHAFT_JOINT, burst_of, joints_of
 from ocs_design.device.solids import foot_of
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.parts.foot import stem_shock
 from ocs_design.parts.printed import CLEARANCE, SHOCK
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.sections import RequirementSection, RobotSection
-from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.specification import Specification, specification_from_options
 from ocs_design.requirement.words import Kick
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing import on_robot
@@ -33,6 +36,25 @@ def test_the_total_is_robot_and_device_braked(motor):
     assert found.sized.total.mass == pytest.approx(expected.mass, rel=1e-12)
     np.testing.assert_allclose(found.sized.total.com, expected.com, rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(found.sized.total.inertia, expected.inertia, rtol=1e-7, atol=1e-12)
+
+
+def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
+    """J W / t of the rotor goes through it; the motor alone would turn faster than that."""
+    asked = specification_from_options(
+        {
+            "robot.file": str(SOLO12),
+            "requirement.pivot": "0,0,-0.272 along left",
+            "requirement.stand_up": "pitch 20deg by brake",
+        }
+    )
+    task = read_task(asked, package_paths={}, strict=False)
+    (climb,) = task.resolved.requirement.maneuvers
+    found = design_device(asked, task.robot, task.resolved).device
+    joint = next(each for each in joints_of(found) if each.name == SHAFT_JOINT)
+    drive = found.motor
+    most = joint.capacity * climb.stop / (1.5 * drive.rotor_inertia)
+    assert drive.speed_max <= most * (1.0 + 1e-9)
+    assert most < min(drive.no_load_speed, speed_limit(motor(drive.name)))
 
 
 def test_what_was_minimised_is_the_device_or_one_rim():
