@@ -153,7 +153,7 @@ def _notes(change: _Change, found: Candidate, asked: SelectionProblem) -> Iterat
     gaps = build_gaps(found.motor)
     if gaps:
         yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
-    elif found.motor not in asked.motors:
+    elif found.motor.name not in {motor.name for motor in asked.motors}:
         yield "not buildable: its threads or shaft do not hold the wheel or the motor"
     if change.note:
         yield change.note

@@ -165,6 +165,12 @@ def _motors_held(specification: Specification, choice: MotorChoice) -> tuple[Mot
     return tuple(held) or choice.motors
 
 
+def _and_others(motors: Sequence[Motor], others: Sequence[Motor]) -> tuple[Motor, ...]:
+    """Motors as they may be used (`_slowed`), and others beside them, in the order of these."""
+    usable = {motor.name: motor for motor in motors}
+    return tuple(usable.get(motor.name, motor) for motor in others)
+
+
 def _holds_wheel(motor: Motor) -> bool:
     """True if the joint of hub and motor carries its peak torque with what is to spare."""
     carried = _carried(motor)
@@ -291,7 +297,7 @@ def relaxations(specification: Specification, asked: SelectionProblem) -> Iterat
             "any motor of the catalogue",
             "--motors-any, not buildable",
             lambda s: replace(s, motor=replace(s.motor, any=True)),
-            lambda p: replace(p, motors=any_motors(specification)),
+            lambda p: replace(p, motors=_and_others(p.motors, any_motors(specification))),
         )
     more = min((v for v in BUS_VOLTAGES.values() if v > asked.bus_voltage), default=None)
     if more is not None:
