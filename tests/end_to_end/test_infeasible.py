@@ -15,7 +15,7 @@ TOO_TIGHT = {
     "stress": ("--wheel-speed-max", "50000rpm", "--r-min", "40mm"),
     "room": ("--wall-min", "40mm", "--r-min", "20mm"),
     "thin room": ("--r-max", "49mm", "--r-min", "48mm"),
-    "rate": ("--rate-change", "30", "--r-max", "30mm"),
+    "rate": ("--rate-change", "30rad/s", "--r-max", "30mm"),
 }
 WHEELS_ALONE = ("--motor", "none", "--no-validate")
 TOO_WEAK = "Antigravity 4004 KV300"

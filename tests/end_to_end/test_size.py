@@ -96,7 +96,8 @@ def test_the_drive_is_the_motors_data_sheet_at_the_bus(document):
 def test_the_choice_says_what_it_looked_at(document):
     selection = document["selection"]
     masses = [entry["mass"] for entry in selection["ranking"]]
-    assert masses == sorted(masses)
+    # What differs by less is as heavy, and the stronger goes first.
+    assert (np.diff(masses) > -1e-5 * np.array(masses[1:])).all()
     assert len(masses) >= 10
     assert len({entry["motor"] for entry in selection["ranking"]}) >= 5
     # Each motor with a gear in a rim of each of the five steels, at one incidence.
