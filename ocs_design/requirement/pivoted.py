@@ -127,7 +127,7 @@ class Pivoted(Maneuver):
     body: MassProperties | None = None
 
     def calmer(self) -> Self:
-        """The same maneuver by nearly the least torque, for motors that have no more."""
+        """This maneuver by nearly the least torque, for motors that have no more."""
         return replace(self, slower=4.0 / self._longest)
 
     def on(self, body: MassProperties) -> Self:

@@ -79,7 +79,7 @@ class Uniform(Distribution):
         return self.low + part * (self.high - self.low)
 
     def times(self, factor: float) -> "Uniform":
-        """Both ends scaled (`Distribution.times`)."""
+        """Uniform between the scaled ends (`Distribution.times`)."""
         return Uniform(factor * self.low, factor * self.high)
 
     def written(self, quantity: Callable[[float], str] = repr) -> str:

@@ -290,7 +290,7 @@ class CollisionModel:
     def near(
         self, probes: Sequence[Probe], pose: Poses, parts: Sequence[Part], within: float
     ) -> list[Probe]:
-        """Those solids that may be so near to parts in a single posture, for `nearest` to tell."""
+        """Solids that may be so near to parts in a single posture, for `nearest` to tell."""
         geoms = self._geoms(tuple(parts))
         centers = np.array([probe.center for probe in probes]).reshape(-1, 1, 3)
         reach = np.array([probe.reach for probe in probes]).reshape(-1, 1)

@@ -164,7 +164,7 @@ _REAR = re.compile(r"rear|hind|back|(?<![a-z])(?:[bhr][lr]|[lr]h)(?![a-z])", re.
 
 
 def named_front(legs: Sequence[Leg], hips: Sequence[FloatArray]) -> FloatArray:
-    """From the hips of legs named as hind ones to those of front ones [m], shape (3,).
+    """Way from the hips of legs named as hind ones to those of front ones [m], shape (3,).
 
     Zero where not both are named.
     """

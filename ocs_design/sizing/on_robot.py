@@ -200,7 +200,7 @@ class NeverHeld(Infeasible):
 
 
 def _never_held(mass: float, best: Candidate) -> NeverHeld:
-    """That error for a device and the mass of what holds it [kg]."""
+    """The error for a device and the mass of what holds it [kg]."""
     held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
     return NeverHeld(
         f"A device of {device} can be held on the trunk by a mast of {held}, but to turn robot and "

@@ -92,7 +92,7 @@ class Placed:
     taken: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
 
     def telling(self, taken: tuple[tuple[str, ...], tuple[str, ...]]) -> "Placed":
-        """The same, with what was taken among its assumptions and warnings."""
+        """This device, with what was taken among its assumptions and warnings."""
         assumptions, warnings = taken
         resolved = replace(self.resolved, assumptions=(*assumptions, *self.resolved.assumptions))
         return replace(self, resolved=resolved, warnings=(*warnings, *self.warnings), taken=taken)

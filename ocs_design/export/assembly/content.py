@@ -209,7 +209,7 @@ class Assembly:
         )
 
     def _where(self, name: str) -> str:
-        """Where the trunk's screws of this length go, where there are several lengths [mm]."""
+        """Places of the trunk's screws of this length [mm]; empty if all are of one length."""
         plate = self.device.plate
         if (
             plate is None

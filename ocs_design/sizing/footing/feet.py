@@ -165,5 +165,5 @@ def rough(feet: Feet, size: Size[float]) -> tuple[Feet, Size[float]]:
 
 
 def _rounded_up(value: float) -> float:
-    """By up to a fiftieth, so that what is nearly equal is looked for once."""
+    """A size or mass that is up to a fiftieth larger: what is nearly equal is looked for once."""
     return _ALIKE ** ceil(log(value, _ALIKE))

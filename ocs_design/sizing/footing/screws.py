@@ -73,7 +73,7 @@ class Patterns:
         return len(self.along)
 
     def where(self, chosen: NDArray[np.bool_] | NDArray[np.int64]) -> "Patterns":
-        """Those that are chosen."""
+        """The chosen patterns, by a mask or by their indices."""
         return Patterns(
             self.along[chosen],
             self.across[chosen],
@@ -86,7 +86,7 @@ class Patterns:
         )
 
     def of(self, index: int) -> "Patterns":
-        """Those of the plate with this number."""
+        """The patterns of the plate with this index."""
         inside = (self.widest < 0) & (self.along < self.most[index])
         return self.where(inside | (self.widest == index))
 

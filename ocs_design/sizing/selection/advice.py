@@ -309,7 +309,7 @@ def _default_hint(field: Field) -> str:
 
 
 def unasked(maneuvers: Sequence[Maneuver]) -> str:
-    """That these are the default, and how to ask for others."""
+    """Sentences that tell that these are the default, and how to ask for others."""
     names = listed([each.name for each in maneuvers])
     return (
         f"Nobody asked for {names}: they are the default. State what you need with --jump-height, "

@@ -53,7 +53,7 @@ _AROUND = 0.7
 
 
 class Optimum(NamedTuple):
-    """Where SLSQP ended.
+    """The point at which SLSQP ended.
 
     Attributes:
         point: see `coordinates`. value: logarithm of the mass of a module [log kg].
