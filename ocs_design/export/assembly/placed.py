@@ -32,7 +32,6 @@ from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
 from ocs_design.parts.part import Part
-from ocs_design.parts.pedestal import SEAT_SCREWS
 from ocs_design.parts.printed import BASE_THICKNESS, LID_SCREW, ear_axis
 from ocs_design.parts.solids import HERE, Revolution, hollow_cylinder, revolved
 from ocs_design.robot.tree import Placement
@@ -242,18 +241,19 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
     """Screws of the foot from above, through its slots; into what each foot stands on."""
     foot = printed_foot(device)
     feet = [foot_screws(device, module) for module in device.modules]
+    holes = foot_holes(device)
     for held in dict.fromkeys(feet):
-        if held is SEAT_SCREWS:
-            # A pedestal's holes are where the slots of a foot end that is not turned on it.
+        module = device.modules[feet.index(held)]
+        if module.name in holes:
+            # The holes stay, the foot is turned over them.
+            places = list(holes[module.name])
+            place = (wheel_placement(module) @ carrier_placement(module)).inverse()
+            under = float(module.position[2]) - foot.wheel_height
+        else:
+            # What leans is not turned on its foot, whose slots end where its pedestal has holes.
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
-        else:
-            # The holes stay, the foot is turned over them.
-            module = device.modules[feet.index(held)]
-            places = list(foot_holes(device)[module.name])
-            place = (wheel_placement(module) @ carrier_placement(module)).inverse()
-            under = float(module.position[2]) - foot.wheel_height
         one = solid_mesh(_screw(held.screw, held.length), 24)
         heads = [one.moved(np.array([x, y, under + BASE_THICKNESS])) for x, y in places]
         screws = _placed(merged(heads), place)
