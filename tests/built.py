@@ -2,11 +2,12 @@
 
 from dataclasses import replace
 
+import numpy as np
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 
 from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
-from ocs_design.device.device import Device, Web
+from ocs_design.device.device import Device, Module, Web
 from ocs_design.export.device_parts import printed_foot
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import standing
@@ -69,3 +70,10 @@ DEVICES = {
     "on a plate": on_a_plate(CAGED_DEVICE),
     "wheels alone": paper_device(),
 }
+
+
+def around(layout):
+    """Modules of that layout around the middle of the trunk, all on the trunk."""
+    places = 0.04 * np.array(layout.ring) + [0.0, 0.0, CAGED_DEVICE.modules[0].position[2]]
+    modules = map(Module, layout.names, layout.axes(layout.angle).T, places)
+    return replace(CAGED_DEVICE, modules=tuple(modules), layout=layout, incidence=layout.angle)

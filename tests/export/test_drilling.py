@@ -6,10 +6,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from built import CAGED_DEVICE, DEVICES
+from built import CAGED_DEVICE, DEVICES, around
 from wheels import paper_device
 
-from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.drawing.sheet import HEIGHT, Area, Circle, Line, Text
@@ -19,13 +18,6 @@ from ocs_design.export.formats import Subject
 
 def subject(device):
     return Subject("dog", device, SimpleNamespace(trunk="trunk", mount=None), None)
-
-
-def around(layout):
-    """Modules of that layout around the middle of the trunk, all on the trunk."""
-    places = 0.04 * np.array(layout.ring) + [0.0, 0.0, CAGED_DEVICE.modules[0].position[2]]
-    modules = map(Module, layout.names, layout.axes(layout.angle).T, places)
-    return replace(CAGED_DEVICE, modules=tuple(modules), layout=layout, incidence=layout.angle)
 
 
 TRIAD = around(Layout(LayoutName.TRIAD))

@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from built import DEVICES
+from built import DEVICES, around
 from manifold3d import Manifold, Mesh64
 
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import bill_rows
+from ocs_design.export.device_parts import foot_holes
 from ocs_design.parts.housing import LID_SCREWS
 from ocs_design.parts.printed import CLEARANCE, TRUNK_SCREWS
 
@@ -39,6 +41,14 @@ def test_as_many_screws_as_in_the_bill(name):
     rows = [row for row in bill_rows(device) if row.part.startswith("screw")]
     counted = sum(each.fastening.count * (1 if each.shared else 2) for each in drawn)
     assert counted == sum(row.quantity for row in rows)
+
+
+def test_wheels_that_lean_on_nothing_have_the_screws_of_their_feet():
+    """No drilling sheet has holes for them, and the booklet is written all the same."""
+    device = around(Layout(LayoutName.PYRAMID))
+    assert not foot_holes(device)
+    (feet,) = (each for each in module_pieces(device) if each.fastening is TRUNK_SCREWS)
+    assert feet.modules == len(device.modules)
 
 
 def test_a_gear_has_a_wheel_at_either_axis():
