@@ -13,18 +13,18 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.layout import Layout
 from ocs_design.device.solids import mast_solids, plate_solids
-from ocs_design.parts.carrier_plate import EDGE, STOCK, CarrierPlate, Point, plate_part
+from ocs_design.parts.carrier_plate import EDGE, CarrierPlate, Point, plate_part
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.mast import MAST_YIELD, TUBES, Mast
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
-from ocs_design.parts.printed import AROUND_SLOT, SHOCK, TRUNK_SCREW
+from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
 from ocs_design.robot.tree import Drum
 from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, rough
 from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
-from ocs_design.sizing.footing.plate import WIDER, thick_enough
+from ocs_design.sizing.footing.plate import SLOT_EDGE, WIDER, blank_plate, thick_enough
 from ocs_design.sizing.footing.screws import HEAD_ROOM, PATTERN_STEP, SLEEVE_MAX, SPREAD
 from ocs_design.sizing.place import CLEARANCE, Place, Size
 from ocs_design.sizing.placement import Search, Sizes
@@ -117,32 +117,16 @@ def _all_arms(feet: Feet, size: Size[float], *, far: bool) -> Iterator[CarrierPl
 
 def _on_arms(feet: Feet, mast: Mast) -> CarrierPlate | None:
     """The lightest plate across the arms of a mast that bears a pair; None: there is none."""
-    edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
-    ring = feet.slot_radius + edge
+    ring = feet.slot_radius + SLOT_EDGE
     blanks = (
-        CarrierPlate(
-            position=(0.0, 0.0, 0.0),
-            radius=ring,
-            half_length=feet.y + ring,
-            # A rounding that flat is none.
-            neck=neck if neck < ring - PATTERN_STEP else ring,
-            thickness=STOCK[0],
-            across=feet.y,
-            window=max(0.0, feet.slot_radius - edge),
-            feet=feet.screws,
-            trunk=(),
-            sleeves=(),
-            rows=feet.rows,
-            mast=mast,
-        )
-        for neck in (mast.side / 2.0 + wider for wider in WIDER)
+        replace(blank_plate(feet, ring, mast.side / 2.0 + wider), mast=mast) for wider in WIDER
     )
     # Thicker plates stand higher, which bends the arms more.
     bearing = (
         plate
-        for blank in blanks
-        if blank.shape.half_width(np.asarray(mast.side / 2.0)) <= mast.back
-        and (plate := next(thick_enough(blank, feet, MAST_YIELD), None)) is not None
+        for each in blanks
+        if each.shape.half_width(np.asarray(mast.side / 2.0)) <= mast.back
+        and (plate := next(thick_enough(each, feet, MAST_YIELD), None)) is not None
         and arm_stress(plate, feet.mass, feet.height) <= MAST_YIELD
     )
     return min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)

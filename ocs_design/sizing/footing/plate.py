@@ -42,6 +42,9 @@ from ocs_design.sizing.footing.screws import (
     screwed,
 )
 
+SLOT_EDGE = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
+"""Least width of a plate on either side of the circle of a foot's slots [m]."""
+
 WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
 """Steps by which half a neck's width may grow, to find where the trunk takes its screws or to bear
 what the narrowest does not [m]."""
@@ -115,11 +118,32 @@ def _plate(
     return best
 
 
+def blank_plate(feet: Feet, radius: float, neck: float) -> CarrierPlate:
+    """Plate of the thinnest stock under feet around the origin, without screws.
+
+    Args:
+        feet: that stand on it. radius: of its ends [m]. neck: half the width between them [m].
+    """
+    return CarrierPlate(
+        position=(0.0, 0.0, 0.0),
+        radius=radius,
+        half_length=feet.y + radius,
+        # A rounding this flat is none.
+        neck=neck if neck < radius - PATTERN_STEP else radius,
+        thickness=STOCK[0],
+        across=feet.y,
+        window=max(0.0, feet.slot_radius - SLOT_EDGE),
+        feet=feet.screws,
+        trunk=(),
+        sleeves=(),
+        rows=feet.rows,
+    )
+
+
 @lru_cache(maxsize=8)
 def _outlines(feet: Feet, held_by: Screw) -> tuple[CarrierPlate, ...]:
     """Plates of all necks under feet around the origin, without screws, the narrowest first."""
-    edge = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
-    ring = feet.slot_radius + edge
+    ring = feet.slot_radius + SLOT_EDGE
     # Heads stand clear of the feet, before and behind where these are nearest to each other.
     inside = max(0.0, feet.y - SPREAD / 2.0)
     off = room_to_foot(feet, held_by)
@@ -128,20 +152,9 @@ def _outlines(feet: Feet, held_by: Screw) -> tuple[CarrierPlate, ...]:
     plates = []
     for neck in (least + wider for wider in WIDER):
         radius = max(ring, neck)
-        plate = CarrierPlate(
-            position=(0.0, 0.0, 0.0),
-            radius=radius,
-            half_length=feet.y + radius,
-            # A rounding this flat is none.
-            neck=neck if neck < radius - PATTERN_STEP else radius,
-            thickness=STOCK[0],
-            across=feet.y,
-            window=max(0.0, feet.slot_radius - edge),
-            feet=feet.screws,
-            trunk=(),
-            sleeves=(),
+        plate = replace(
+            blank_plate(feet, radius, neck),
             thread=held_by.name,
-            rows=feet.rows,
             arms=feet.arms,
             sleeve_wall=SLEEVE_WALL if held_by is PLATE_SCREW else POST_WALL,
         )
