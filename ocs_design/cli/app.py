@@ -225,21 +225,28 @@ def _design(
         )
         output.give(answer, print_layouts)
         return
-    with steps.step("load the solver and the simulator"), _quick_imports():
-        from ocs_design.report.text.size import print_design, print_outcome, print_solution
-        from ocs_design.report.text.summary import print_summary
-        from ocs_design.workflows.size import design_ocs, load_solvers
+    from ocs_design.common.beside import Beside
+    from ocs_design.requirement.vocabulary import NO_MOTOR
 
-        load_solvers(specification)
-    outcome = design_ocs(
-        specification,
-        out=out,
-        package_paths=package_paths,
-        force=output.force,
-        strict=output.strict,
-        progress=steps,
-        command=typed_command(),
-    )
+    chosen = specification.motor.name != NO_MOTOR
+    # It imports while this process does.
+    with Beside("ocs_design.sizing.alternatives" if chosen else None) as beside:
+        with steps.step("load the solver and the simulator"), _quick_imports():
+            from ocs_design.report.text.size import print_design, print_outcome, print_solution
+            from ocs_design.report.text.summary import print_summary
+            from ocs_design.workflows.size import design_ocs, load_solvers
+
+            load_solvers(specification)
+        outcome = design_ocs(
+            specification,
+            out=out,
+            package_paths=package_paths,
+            force=output.force,
+            strict=output.strict,
+            progress=steps,
+            command=typed_command(),
+            beside=beside,
+        )
 
     def show(console: "Console", design: "OcsDesign") -> None:
         """All figures, or the story on one screen."""

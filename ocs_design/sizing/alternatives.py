@@ -26,7 +26,7 @@ from ocs_design.sizing.on_robot import with_plate
 from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import lightest_below
-from ocs_design.sizing.sized import Choice, Designed
+from ocs_design.sizing.sized import Choice
 from ocs_design.sizing.specified import other_construction, relaxations
 
 MORE_ROOM, MORE_TIME = 1.2, 1.1
@@ -51,18 +51,28 @@ class _Change:
     note: str = ""
 
 
+def lighter_otherwise(
+    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
+) -> tuple[tuple[Alternative, ...], Owed | None]:
+    """What each relaxation would save, and to which maneuver the mass is owed.
+
+    Args: see `alternatives` and `owed_to`.
+    """
+    found = alternatives(specification, resolved, choice, robot)
+    return found, owed_to(choice, robot)
+
+
 def alternatives(
-    specification: Specification, resolved: Resolved, designed: Designed, robot: Robot
+    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
 ) -> tuple[Alternative, ...]:
     """What each relaxation of the defaults and of the limits would save; empty without a motor.
 
     Args:
         specification: what was stated: what it relaxes already is not offered again.
         resolved: the same with nothing left open.
-        designed: the device, and what it was chosen from.
+        choice: the device, and what it was chosen from; None: it has no motor.
         robot: that carries it.
     """
-    choice = designed.choice
     if choice is None:
         return ()
     below = (1.0 - _WORTH) * choice.chosen.modules_mass
@@ -94,13 +104,13 @@ def alternatives(
     return (*found, *_constructions(specification, resolved, choice, robot))
 
 
-def owed_to(designed: Designed, robot: Robot) -> Owed | None:
+def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
     """The maneuver without which the device would be lightest; None: none is asked for.
 
     Args:
-        designed: the device, and what it was chosen from. robot: that carries it.
+        choice: the device, and what it was chosen from; None: it has no motor.
+        robot: that carries it.
     """
-    choice = designed.choice
     if choice is None:
         return None
     chosen, asked = choice.chosen, choice.problem.requirement

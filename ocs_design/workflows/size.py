@@ -1,17 +1,18 @@
 """`ocs-design size` on one page: read, require, size, plan, fly, export, record, report."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 
+from ocs_design.common.beside import Beside
 from ocs_design.common.errors import UsageError
 from ocs_design.common.files import AnyPath, safe_name, to_json
 from ocs_design.device.device import Device
 from ocs_design.device.naming import require_no_device
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.flights import falls_short
-from ocs_design.device.records.selection import Lighter, Owed
+from ocs_design.device.records.selection import Alternative, Lighter, Owed
 from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
@@ -33,7 +34,7 @@ from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scenario import Run
-from ocs_design.sizing.alternatives import alternatives, owed_to
+from ocs_design.sizing.alternatives import lighter_otherwise
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import mass_without_survival
 from ocs_design.sizing.lighter import lighter_by
@@ -94,6 +95,7 @@ def design_ocs(
     strict: bool = False,
     progress: Steps | Tell | None = None,
     command: str = "",
+    beside: Beside | None = None,
 ) -> Outcome:
     """Size a device for a robot, write it, fly it, and record all of it in one folder.
 
@@ -107,6 +109,8 @@ def design_ocs(
         progress: function that is told the name of the step that runs and what part of it is done,
             0..1; None: a notebook shows it below the cell, and a script is silent.
         command: that was typed, for the report.
+        beside: process that looks for what would be lighter while the device is planned
+            and flown; None: this one does, afterwards.
 
     Raises:
         OcsError: see `exceptions`; nothing is written then.
@@ -132,10 +136,12 @@ def design_ocs(
     steps.doubt(robot.warnings)
     placed = size_or_advise(specification, robot, steps, strict=strict)
     placed = size_for_turns(placed, steps, strict=strict)
-    specification = placed.specification
+    specification, beside = placed.specification, beside or Beside()
+    otherwise = None if stated.certify else _otherwise(placed, beside)
     proof = prove(placed, stated, steps)
     if proof.runs and stated.certify:
         placed, proof = certify(placed, proof, steps, strict=strict)
+    otherwise = otherwise or _otherwise(placed, beside)
     device, runs = placed.designed.device, proof.runs
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
@@ -148,8 +154,7 @@ def design_ocs(
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         unfilmed = _write_flights(placed, proof, staging, steps)
         with steps.step("look for what would be lighter otherwise"):
-            lighter = alternatives(specification, placed.resolved, placed.designed, placed.robot)
-            owed = owed_to(placed.designed, placed.robot)
+            lighter, owed = otherwise()
         conceded = _what_must_give(placed, owed, steps)
         forget_collision_model()
         control = control_of(stated, robot)
@@ -194,6 +199,19 @@ def load_solvers(specification: Specification) -> None:
         load_solver()
     else:
         import_module("ocs_design.sizing.trajectory.plans")
+
+
+def _otherwise(
+    placed: Placed, beside: Beside
+) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
+    """Begin to look for what would be lighter otherwise than this device."""
+    return beside.call(
+        lighter_otherwise,
+        placed.specification,
+        placed.resolved,
+        placed.designed.choice,
+        placed.robot,
+    )
 
 
 def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> tuple[str, ...]:

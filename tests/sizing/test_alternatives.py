@@ -30,7 +30,7 @@ STATED = Specification(motor=MotorSection(name=MOTORS))
 def compared(specification):
     """The task, the device, and what would be lighter by change."""
     task, designed = design_of(specification)
-    found = alternatives(task.specification, task.resolved, designed, task.robot)
+    found = alternatives(task.specification, task.resolved, designed.choice, task.robot)
     return task, designed, {each.change: each for each in found}
 
 

@@ -24,7 +24,7 @@ def made(**asked):
     """The task for Solo12's figures, its device, and what its mass is owed to."""
     specification = Specification(motor=MOTORS, requirement=RequirementSection(**asked))
     task, designed = design_of(specification)
-    return task, designed, owed_to(designed, task.robot)
+    return task, designed, owed_to(designed.choice, task.robot)
 
 
 def mass_of(task, specification):

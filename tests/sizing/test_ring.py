@@ -156,7 +156,7 @@ def test_each_construction_tells_of_the_other():
     sides, alone = {}, {"alpha": 0.6}
     for wheel in ("disc", "ring"):
         task, designed = made(wheel, **alone)
-        found = alternatives(task.specification, task.resolved, designed, task.robot)
+        found = alternatives(task.specification, task.resolved, designed.choice, task.robot)
         (sides[wheel],) = (each for each in found if each.note.startswith("--wheel"))
     for wheel, other in (("disc", "ring"), ("ring", "disc")):
         assert sides[wheel].note == f"--wheel {other}"
