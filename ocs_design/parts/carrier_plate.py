@@ -309,21 +309,26 @@ def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
     """The mast's tubes, welded, with the holes for its screws, in the plate's frame."""
     half, bore = mast.side / 2.0, mast.side / 2.0 - mast.wall
     tube, inside = (Rectangle(-each, each, -each, each) for each in (half, bore))
-    upright = Placement(np.eye(3), np.array([mast.face - half, 0.0, 0.0]))
+    # Faces that meet are one to the last bit, or meshes come apart there and holes stay closed.
+    face, far = mast.face, mast.side - mast.wall
+    upright = Rectangle(mast.back, face, -half, half)
+    within = Rectangle(face - far, face - mast.wall, -bore, bore)
     levels = [Placement(BACKWARDS, np.array([mast.back, 0.0, z - half])) for z in plate.heights]
     arm = mast.back + plate.neck
-    solids = [Prism(tube, mast.low, mast.high, upright)]
+    solids = [Prism(upright, mast.low, mast.high)]
     solids += [Prism(tube, 0.0, arm, level) for level in levels]
-    holes = [Prism(inside, mast.low, mast.high, upright)]
+    holes = [Prism(within, mast.low, mast.high)]
     holes += [Prism(inside, 0.0, arm, level) for level in levels]
-    walls = (0.0, mast.spacer + mast.wall), (plate.clamped - mast.wall, plate.clamped)
+    walls = (-mast.spacer, mast.wall), (far, mast.side)
     if mast.spacer > 0.0:
         block = Rectangle(*plate.block, -half, half)
-        front = Placement(BACKWARDS, np.array([mast.face + mast.spacer, 0.0, 0.0]))
-        solids.append(Prism(block, 0.0, mast.spacer, front))
+        front = Placement(BACKWARDS, np.array([face, 0.0, 0.0]))
+        solids.append(Prism(block, -mast.spacer, 0.0, front))
     drilled = Disc(plate.screw.clearance_hole / 2.0)
     holes += [
-        Prism(drilled, low, high, place) for place in plate.screw_places for low, high in walls
+        Prism(drilled, low, high, Placement(BACKWARDS, np.array([face, y, z])))
+        for y, z in plate.trunk
+        for low, high in walls
     ]
     return Part("mast", plate.density, tuple(solids), tuple(holes))
 

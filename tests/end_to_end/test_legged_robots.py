@@ -8,6 +8,7 @@ from pathlib import Path
 from time import sleep
 
 import pytest
+import trimesh
 from anatomy import ANATOMY
 from anatomy import LEGGED as WALKING
 from commands import PROGRAM, environment
@@ -107,7 +108,11 @@ def test_a_humanoid_carries_them_on_its_back(tmp_path):
     assert document["buildable"] == {"yes": True, "open": []}
     assert code == 0
     assert document["ocs"]["plate"]["mast"]["side"] in {side for side, _ in TUBES}
-    assert {"mast.stl", "plate.stl"} <= {each.name for each in tmp_path.glob("out/cad/*")}
+    written = {each.name: trimesh.load_mesh(each) for each in tmp_path.glob("out/cad/*.stl")}
+    assert {"mast.stl", "plate.stl"} <= set(written)
+    for name, mesh in written.items():
+        assert mesh.is_watertight, name
+        assert mesh.body_count == 1, name
 
 
 def check_refusal(error):

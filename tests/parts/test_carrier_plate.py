@@ -1,17 +1,20 @@
 """The plate under the feet: its mass is that of its mesh, its thickness what bending asks for."""
 
+import io
 from dataclasses import replace
 from math import pi
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive_outline import flat_figures, green
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.export.assembly.tightening import tightened
-from ocs_design.export.meshes import part_manifold
+from ocs_design.export.meshes import part_manifold, part_mesh
+from ocs_design.export.stl import MILLIMETRES, stl_bytes
 from ocs_design.parts.carrier_plate import (
     DENSITY,
     MODULUS,
@@ -24,7 +27,7 @@ from ocs_design.parts.carrier_plate import (
 )
 from ocs_design.parts.dog_bone import FILLET, DogBone, directions
 from ocs_design.parts.joints import screw_use
-from ocs_design.parts.mast import Mast
+from ocs_design.parts.mast import TUBES, Mast
 from ocs_design.parts.plate_strength import (
     bending_stress,
     mast_screws_use,
@@ -289,6 +292,25 @@ def test_a_mast_weighs_what_its_mesh_does(pairs, spacer):
     (first, *_) = plate.screw_places
     assert first.position[0] == plate.mast.face + spacer
     np.testing.assert_allclose(first.rotation[:, 2], [-1.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("spacer", [0.0, 0.02, 0.04])
+def test_a_masts_stl_is_one_closed_body_drilled_through(spacer):
+    """Its genus: the upright, open at both ends, and four screws through two walls each."""
+    rng = np.random.default_rng(0)
+    for side, wall in TUBES:
+        low, face, apart = rng.uniform((-0.05, 0.1, 0.2), (0.05, 0.2, 0.3))
+        own = masted(pairs=2, spacer=spacer, side=side, wall=wall)
+        trunk = tuple((s * 0.3 * side, low + up) for up in (0.0, 0.03) for s in (1, -1))
+        # The upper arm is flush with the upright's end, as where no screw is above it.
+        mast = replace(own.mast, face=face, below=max(side, 0.02 - low), high=apart)
+        plate = replace(own, thread="M4", trunk=trunk, levels=(0.0, apart), mast=mast)
+        mesh = part_mesh(mast_part(plate, mast))
+        written = io.BytesIO(stl_bytes(mesh, "mast", units_per_metre=MILLIMETRES))
+        found = trimesh.load_mesh(written, file_type="stl")
+        assert found.is_watertight and found.is_winding_consistent
+        assert found.body_count == 1
+        assert (2 - found.euler_number) // 2 == 1 + 8
 
 
 def test_a_square_tube_by_hand():
