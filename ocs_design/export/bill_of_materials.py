@@ -34,7 +34,10 @@ from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import CLEARANCE, PANEL, TRUNK_SCREW, WALL
 
-COLUMNS = ("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]", "source")
+COLUMNS = (
+    *("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]"),
+    *("remark", "source"),
+)
 
 _ALLOWANCE = 2e-3
 """Allowance of stock on finished diameter and length, to turn clean and to part off [m]."""
@@ -59,7 +62,8 @@ class BillRow:
         material: name.
         stock: to cut it from, with its sizes [mm].
         mass: of one [kg]; 0: not known.
-        source: where it is from, or what to observe.
+        remark: how it is made, what it is for, what to observe.
+        source: of its figures; empty: they are computed here.
     """
 
     part: str
@@ -67,7 +71,8 @@ class BillRow:
     material: str
     stock: str
     mass: float
-    source: str
+    remark: str
+    source: str = ""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -92,11 +97,11 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         supply = [] if motor.bus_voltage is None else [f"on {motor.bus_voltage:g} V"]
         if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
             supply.append(f"rated for {motor.rated_voltage:g} V: ask its maker before you buy")
-        source = "; ".join([*supply, motor.source, *drive_notes(device)])
-        rows.append(BillRow(f"motor {motor.full_name}", count, "", "", motor.mass, source))
+        remark, name = "; ".join([*supply, *drive_notes(device)]), f"motor {motor.full_name}"
+        rows.append(BillRow(name, count, "", "", motor.mass, remark, motor.source))
     if motor.gear != DIRECT.name:
-        source = f"ratio {motor.gear_ratio:g}; see `ocs-design catalogue gears -v`"
-        rows.append(BillRow(f"gear {motor.gear}", count, "", "", motor.gear_mass, source))
+        remark, source = f"ratio {motor.gear_ratio:g}", "`ocs-design catalogue gears -v`"
+        rows.append(BillRow(f"gear {motor.gear}", count, "", "", motor.gear_mass, remark, source))
     printed = device.carrier.mass - motor.mass - motor.gear_mass - motor.controller_mass
     if printed > _MASSLESS:
         foot, mount = printed_foot(device), motor_mount(device)
@@ -123,12 +128,11 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
             rows.append(BillRow("guard ring", count, "mild steel (S235)", size, ring.mass(), made))
         # The screws of wheel and motor only where the catalogue has their threads.
         screwed = (each.fastening for each in mount.screwed)
-        counted = f"mass: steel of {STEEL:g} kg/m^3 of its ISO 4762 dimensions"
         feet = [foot_screws(device, module) for module in device.modules]
         held = dict.fromkeys((*screwed, LID_SCREWS), count) | {
             each: feet.count(each) for each in feet
         }
-        rows += [_screws(each, of, f"{each.purpose}; {counted}") for each, of in held.items()]
+        rows += [_screws(each, of) for each, of in held.items()]
     plate = () if device.plate is None else _plate_rows(device.plate)
     return [*rows, *plate, *_pedestal_rows(device), *_electrics(device, margins), *_used_up(device)]
 
@@ -145,7 +149,7 @@ def _pedestal_rows(device: Device) -> Iterator[BillRow]:
         size = " x ".join(map(_mm, one.sizes))
         whose = " and ".join(each.module for each in kind)
         yield BillRow(f"pedestal of {whose}", count, "PETG", size, parts[name].mass(), made)
-        yield _screws(screws[name], count, screws[name].purpose)
+        yield _screws(screws[name], count)
 
 
 def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
@@ -179,13 +183,14 @@ def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
         count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
         yield BillRow(f"sleeve under the {under}", count, plate.material, stock, mass, made)
     for held in plate.fastenings:
-        yield _screws(held, 1, held.purpose)
+        yield _screws(held, 1)
 
 
-def _screws(held: Fastening, modules: int, source: str) -> BillRow:
+def _screws(held: Fastening, modules: int) -> BillRow:
     """Equal screws of that many modules."""
-    name = f"screw {held.designation}"
-    return BillRow(name, modules * held.count, "steel", "", held.screw.mass(held.length), source)
+    name, count = f"screw {held.designation}", modules * held.count
+    source = f"mass: steel of {STEEL:g} kg/m^3 of its ISO 4762 dimensions"
+    return BillRow(name, count, "steel", "", held.screw.mass(held.length), held.purpose, source)
 
 
 def _electrics(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:
@@ -195,8 +200,8 @@ def _electrics(device: Device, margins: Sequence[MarginRecord]) -> Iterator[Bill
     if controller:
         mass = device.motor.controller_mass
         counted = "of your choice; mass by a rule over its current" if mass else left_out
-        source = f"{controller}; {counted}"
-        yield BillRow("motor controller", ratings.controllers, "", "", mass, source)
+        remark = f"{controller}; {counted}"
+        yield BillRow("motor controller", ratings.controllers, "", "", mass, remark)
     if battery:
         yield BillRow("battery", 1, "", "", 0.0, f"{battery}; {left_out}")
         braking = "switches on above the full battery, below the controllers' limit"
@@ -235,14 +240,15 @@ def export_bill_of_materials(
         writer.writerow(COLUMNS)
         for row in rows:
             masses = [_grams(row.mass), _grams(row.quantity * row.mass)] if row.mass else ["", ""]
-            cells = [row.part, str(row.quantity), row.material, row.stock, *masses, row.source]
+            cells = [row.part, str(row.quantity), row.material, row.stock, *masses]
+            cells += [row.remark, row.source]
             writer.writerow([plain(cell) for cell in cells])
         total = sum(row.quantity * row.mass for row in rows)
         # Designs of versions before 0.2 count no screws, and not all that holds the motor.
         remark = "as designed"
         if abs(total - device.mass) > _MASSLESS:
             remark = f"the design counts {_grams(device.mass)} g: size it again"
-        writer.writerow(["total", "", "", "", "", _grams(total), remark])
+        writer.writerow(["total", "", "", "", "", _grams(total), remark, ""])
     return path
 
 

@@ -138,13 +138,13 @@ def test_screws_fill_the_holes_and_weigh_what_iso_4762_says(sized):
     }
     found = dict.fromkeys(expected, 0)
     for each in sized.rows:
-        if not each["part"].startswith("screw") or each["source"].startswith("wheel"):
+        if not each["part"].startswith("screw") or each["remark"].startswith("wheel"):
             continue
         name, length = re.fullmatch(r"screw ISO 4762 (M\d) x (\d+)", each["part"]).groups()
         assert float(each["mass each [g]"]) == pytest.approx(
             screw_mass(name, int(length)), abs=6e-4
         )
-        purpose = next(key for key in expected if each["source"].startswith(key))
+        purpose = next(key for key in expected if each["remark"].startswith(key))
         found[purpose] += int(each["quantity"])
         _, through, depth = expected[purpose]
         needed = [least + depth * ISO_4762[name][0] for least in through]
@@ -172,7 +172,7 @@ def test_sums_are_those_of_design_and_screen(sized):
     around = re.search(r"rim ([\d.]+), web ([\d.]+), motor .* housing ([\d.]+) g", shown).groups()
     web = grams(sized, "flywheel") - rim
     printed = [r for r in parts if not r["part"].startswith(("flywheel", "motor", "plate", "slee"))]
-    housing = sum(float(r["mass [g]"]) for r in printed if "plate on" not in r["source"]) / 2.0
+    housing = sum(float(r["mass [g]"]) for r in printed if "plate on" not in r["remark"]) / 2.0
     assert [float(each) for each in around] == pytest.approx([rim, web, housing], abs=0.06)
 
 
@@ -181,7 +181,7 @@ def _plate(sized):
     return sum(
         float(r["mass [g]"])
         for r in sized.rows
-        if r["part"].startswith(("plate", "sleeve")) or r["source"].startswith("plate on trunk")
+        if r["part"].startswith(("plate", "sleeve")) or r["remark"].startswith("plate on trunk")
     )
 
 

@@ -46,7 +46,7 @@ def test_all_parts_together_weigh_what_the_device_weighs(tmp_path):
     assert sum(masses) == pytest.approx(device.mass, rel=1e-12)
     *parts, total = rows_of(export_bill_of_materials(device, tmp_path / "bill.csv"))
     assert float(total["mass [g]"]) == pytest.approx(1e3 * device.mass, abs=1e-3)
-    assert total["source"] == "as designed"
+    assert total["remark"] == "as designed"
     assert sum(float(part["mass [g]"]) for part in parts) == pytest.approx(
         float(total["mass [g]"]), abs=3e-3
     )
@@ -61,7 +61,7 @@ def test_a_rim_on_its_web_is_two_parts_that_weigh_the_wheel():
     rim, web = bill_rows(replace(paper_device(), flywheel=wheel))
     assert rim.mass == pytest.approx(PAPER_WHEEL.mass, rel=1e-12)
     assert (web.mass, web.material, web.stock) == (WEB.mass, WEB.material, "round bar 46 x 7")
-    assert "no bolt circle" in web.source
+    assert "no bolt circle" in web.remark
 
 
 def test_a_wheel_of_one_material_is_one_part():
@@ -69,15 +69,15 @@ def test_a_wheel_of_one_material_is_one_part():
     wheel = replace(PAPER_WHEEL, material=WEB.material, web=replace(WEB, hub=hub))
     (row,) = bill_rows(replace(paper_device(), flywheel=wheel))
     assert (row.mass, row.stock) == (wheel.mass, "round bar 62 x 12")
-    assert "4 holes 3.20 on a circle of 16.00" in row.source
-    assert "lightening" not in row.source
+    assert "4 holes 3.20 on a circle of 16.00" in row.remark
+    assert "lightening" not in row.remark
 
 
 def test_lightening_holes_are_drilled():
     web = replace(WEB, holes=WebHoles(6, 0.0233, 0.0095))
     wheel = replace(PAPER_WHEEL, material=WEB.material, web=web)
     (row,) = bill_rows(replace(paper_device(), flywheel=wheel))
-    assert "web 1.50 with 6 lightening holes 19.00 on a circle of 46.60" in row.source
+    assert "web 1.50 with 6 lightening holes 19.00 on a circle of 46.60" in row.remark
 
 
 def test_only_what_the_device_holds_is_listed():
@@ -114,7 +114,8 @@ def test_any_name_stays_in_its_cell_and_on_its_line(tmp_path):
     path = export_bill_of_materials(driven_device(drive=drive), tmp_path / "bill.csv")
     motor = rows_of(path)[1]
     assert motor["part"] == 'motor a "b", c'
-    assert motor["source"].startswith("on 24 V; d e; the motor's threads are not in the catalogue")
+    assert motor["source"] == "d e"
+    assert motor["remark"].startswith("on 24 V; the motor's threads are not in the catalogue")
     assert list(motor) == list(COLUMNS)
 
 
@@ -129,8 +130,8 @@ def test_motor_controllers_are_listed_without_a_mass(tmp_path):
     (row,) = (part for part in parts if part["part"] == "motor controller")
     assert (row["quantity"], row["mass [g]"]) == ("2", "")
     # As sines 12.5 A / (sqrt(3) / 2) of amplitude, and 12.5 A / sqrt(3/2) rms; 1.2 x 24 V.
-    assert "at least 13 A through two lines" in row["source"]
-    assert "15 A of amplitude or 11 A rms of a phase; rated for 29 V" in row["source"]
+    assert "at least 13 A through two lines" in row["remark"]
+    assert "15 A of amplitude or 11 A rms of a phase; rated for 29 V" in row["remark"]
     weighed = sum(float(part["mass [g]"] or 0.0) for part in parts)
     assert float(total["mass [g]"]) == pytest.approx(weighed, abs=3e-3)
 
@@ -149,13 +150,13 @@ def test_the_battery_gives_and_takes_what_the_flights_asked(tmp_path):
     device = driven_device(drive=replace(EC45, bus_voltage=24.0))
     path = export_bill_of_materials(device, tmp_path / "bill.csv", margins)
     (battery,) = (row for row in rows_of(path) if row["part"] == "battery")
-    assert battery["source"].startswith(
+    assert battery["remark"].startswith(
         "gives at least 29 A (677 W) and takes back at least 22 A (528 W) at 24 V; a maneuver "
         "takes at most 137 J out"
     )
     assert "brake resistor with switch" in {row["part"] for row in rows_of(path)}
     power = (*margins, margin("bus power", 600.0, "W"))
-    assert "29 A (600 W)" in bill_rows(device, power)[-2].source
+    assert "29 A (600 W)" in bill_rows(device, power)[-2].remark
 
 
 def test_without_flights_there_is_no_battery_line():
@@ -177,4 +178,4 @@ def test_a_motor_on_more_volts_than_it_is_rated_for_is_told_where_it_is_bought(r
     bought = next(
         row for row in bill_rows(replace(device, motor=motor)) if row.part.startswith("motor")
     )
-    assert ("rated for 16.8 V: ask its maker before you buy" in bought.source) is told
+    assert ("rated for 16.8 V: ask its maker before you buy" in bought.remark) is told

@@ -53,7 +53,7 @@ def housed(mounting, outer_radius=0.04):
 def screws(device):
     """Length by what they hold."""
     rows = [row for row in bill_rows(device) if row.part.startswith("screw")]
-    return {row.source.split(";")[0]: (row.part, row.quantity) for row in rows}
+    return {row.remark.split(";")[0]: (row.part, row.quantity) for row in rows}
 
 
 @pytest.mark.parametrize("mounting", [None, FLAT, MN5212.mounting, Mounting(0.004)])
@@ -62,7 +62,7 @@ def test_parts_and_screws_together_weigh_what_the_device_weighs(tmp_path, mounti
     rows = bill_rows(device)
     assert sum(row.quantity * row.mass for row in rows) == pytest.approx(device.mass, rel=1e-12)
     lines = export_bill_of_materials(device, tmp_path / "bill.csv").read_text().splitlines()
-    assert lines[-1] == f"total,,,,,{1e3 * device.mass:.3f},as designed"
+    assert lines[-1] == f"total,,,,,{1e3 * device.mass:.3f},as designed,"
 
 
 def test_a_design_that_counts_no_screws_is_told_from_one_that_does(tmp_path):

@@ -136,7 +136,7 @@ def test_what_stands_still_has_the_mass_properties_of_its_parts_in_their_places(
     middle = np.array([0.0, 0.0, (body.min() + body.max()) / 2.0])
     still = combine([still, point.moved(np.eye(3), middle)])
     screws = [row for row in bill_rows(device) if row.part.startswith("screw")]
-    own = sum(row.quantity * row.mass for row in screws if "plate on trunk" not in row.source)
+    own = sum(row.quantity * row.mass for row in screws if "plate on trunk" not in row.remark)
     own /= len(device.modules)
     carrier = device.carrier.mass_properties()
     assert carrier.mass == pytest.approx(still.mass + own, rel=1e-9)
