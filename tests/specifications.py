@@ -10,12 +10,12 @@ from ocs_design.requirement.device_sections import (
     SupplySection,
 )
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
+from ocs_design.requirement.phrases import About, Climb, Kick, Pivot, Tilt
 from ocs_design.requirement.pivoted import Balance, StandUp
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.uncertainty import UncertaintySection, Uniform, spreads
-from ocs_design.requirement.words import About, Climb, Kick, Pivot, Tilt
 
 MANEUVERS = (
     Disturbance(

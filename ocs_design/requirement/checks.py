@@ -1,7 +1,6 @@
 """Keys of a specification that contradict each other, or cannot be meant for the robot."""
 
-from collections.abc import Iterable, Iterator
-from itertools import chain
+from collections.abc import Iterable, Iterator, Mapping
 from math import pi
 
 import numpy as np
@@ -53,15 +52,7 @@ FEWEST_HOLES, MOST_HOLES = 3, 100
 def contradictions(specification: Specification) -> Iterator[str]:
     """What no single key shows: keys that do not go together, one line each."""
     flywheel, robot = specification.flywheel, specification.robot
-    bore, radius = flywheel.r_min, flywheel.r_max
-    if bore is not None and radius is not None and bore >= radius:
-        most, least = format_quantity(radius, "mm"), format_quantity(bore, "mm")
-        yield f"flywheel: r_max, {most}, leaves no room over r_min, {least}"
-    low, high = flywheel.h_min, flywheel.h_max
-    if low is not None and high is not None and low > high:
-        most, least = format_quantity(high, "mm"), format_quantity(low, "mm")
-        yield f"flywheel: h_max, {most}, is below h_min, {least}"
-
+    yield from _empty_room(flywheel, vars(flywheel))
     if (robot.mass is None) != (robot.inertia is None):
         yield "robot: mass and inertia come together"
     if robot.file is not None and robot.mass is not None:
@@ -69,9 +60,8 @@ def contradictions(specification: Specification) -> Iterator[str]:
     if robot.human is not None and (robot.file is not None or robot.mass is not None):
         yield "robot: human is in place of a file, and of mass and inertia"
 
-    yield from without_motor(specification)
-    yield from _axes_and_places(specification.ocs)
-    yield from _of_a_pair(specification)
+    yield from _without_motor(specification)
+    yield from _of_layouts(specification)
     holes = flywheel.balancing_holes
     if holes is not None and holes != 0 and not FEWEST_HOLES <= holes <= MOST_HOLES:
         yield f"flywheel.balancing_holes: {holes} is not {FEWEST_HOLES} to {MOST_HOLES}, or 0"
@@ -83,11 +73,16 @@ def contradictions(specification: Specification) -> Iterator[str]:
             f"flywheel.lightening: a web of {ALUMINIUM_WEB} that a rim is shrunk on has no holes: "
             "it is pressed together"
         )
-    yield from _of_a_ring(specification)
+    if specification.ocs.wheel == RING:
+        no_web = "a ring around the motor's bell has no web (ocs.wheel)"
+        yield from _pointless(specification, "flywheel", ("web", "lightening"), no_web)
+        if specification.motor.gear not in {None, DIRECT.name}:
+            yield "motor.gear: a ring turns with the motor's bell, without a gear (ocs.wheel)"
+        if specification.ocs.co_design:
+            yield "ocs.co_design: changes the bore, which the motor's bell sets (ocs.wheel)"
     if flywheel.web == NO_WEB:
-        for key in OF_WEBS:
-            if getattr(flywheel, key) is not None:
-                yield f"flywheel.{key}: has no effect where flywheel.web is {NO_WEB!r}"
+        spokes = f"has no effect where flywheel.web is {NO_WEB!r}"
+        yield from _pointless(specification, "flywheel", OF_WEBS, spokes)
 
     if specification.maneuvers and specification.requirement.maneuvers is not None:
         yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
@@ -95,17 +90,28 @@ def contradictions(specification: Specification) -> Iterator[str]:
     yield from _too_short_flights(specification.maneuvers)
 
 
-def _of_a_ring(specification: Specification) -> Iterator[str]:
-    """What a ring around the motor's bell has nothing of, one line each."""
-    if specification.ocs.wheel != RING:
-        return
-    for key in ("web", "lightening"):
-        if getattr(specification.flywheel, key) is not None:
-            yield f"flywheel.{key}: a ring around the motor's bell has no web (ocs.wheel)"
-    if specification.motor.gear not in {None, DIRECT.name}:
-        yield "motor.gear: a ring turns with the motor's bell, without a gear (ocs.wheel)"
-    if specification.ocs.co_design:
-        yield "ocs.co_design: changes the bore, which the motor's bell sets (ocs.wheel)"
+def _pointless(
+    specification: Specification, table: str, keys: Iterable[str], why: str
+) -> Iterator[str]:
+    """Keys of a section that are stated where they mean nothing, one line each."""
+    section = getattr(specification, table)
+    return (f"{table}.{key}: {why}" for key in keys if getattr(section, key) is not None)
+
+
+def _empty_room(stated: FlywheelSection, limits: Mapping[str, float | None]) -> Iterator[str]:
+    """Limits of a rim by their keys, stated or assumed, that leave no room between them."""
+
+    def limit(key: str) -> str:
+        """Key and figure, with a note where it was assumed."""
+        note = " (assumed: state it too)" if getattr(stated, key) is None else ""
+        return f"{key}, {format_quantity(limits[key] or 0.0, 'mm')}{note}"
+
+    bore, radius = limits["r_min"], limits["r_max"]
+    if bore is not None and radius is not None and bore >= radius:
+        yield f"flywheel: {limit('r_max')}, leaves no room over {limit('r_min')}"
+    low, high = limits["h_min"], limits["h_max"]
+    if low is not None and high is not None and low > high:
+        yield f"flywheel: {limit('h_max')}, is below {limit('h_min')}"
 
 
 def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
@@ -162,8 +168,9 @@ def _without_gravity(specification: Specification) -> Iterator[str]:
             yield f"maneuver.{maneuver.name}.jump_height: {told}"
 
 
-def _axes_and_places(stated: OcsSection) -> Iterator[str]:
-    """Axes by hand that are none, and places that are not one for each wheel, one line each."""
+def _of_layouts(specification: Specification) -> Iterator[str]:
+    """Axes that are none, places that are not one per wheel, and what only pairs have."""
+    stated = specification.ocs
     places = 1 if stated.layout in {None, PAIR, ALL_LAYOUTS} else WHEELS[stated.layout]
     if stated.axes is not None:
         if stated.layout is not None:
@@ -177,11 +184,6 @@ def _axes_and_places(stated: OcsSection) -> Iterator[str]:
             f"ocs.position: {3 * places} coordinates state the places of this layout's wheels, "
             f"not {len(stated.position)}"
         )
-
-
-def _of_a_pair(specification: Specification) -> Iterator[str]:
-    """What only two incident wheels have, where other axes are asked for, one line each."""
-    stated = specification.ocs
     if stated.co_design and specification.requirement.notices is not None:
         yield "ocs.co_design: plans with all wheels, and requirement.survives wants one left out"
     layout = stated.layout if stated.axes is None else "by hand"
@@ -196,12 +198,12 @@ def _of_a_pair(specification: Specification) -> Iterator[str]:
         yield f"ocs.co_design: of a pair only, and ocs.layout is {layout!r}"
     if specification.motor.name == NO_MOTOR:
         yield f"ocs.layout: {layout!r} needs a motor: motor.name is {NO_MOTOR!r}"
-    for maneuver in specification.maneuvers:
-        if maneuver.incidence is not None and not pairs:
-            yield (
-                f"maneuver.{maneuver.name}: only pairs are turned to another incidence by hand, "
-                f"and ocs.layout is {layout!r}"
-            )
+    yield from (
+        f"maneuver.{maneuver.name}: only pairs are turned to another incidence by hand, "
+        f"and ocs.layout is {layout!r}"
+        for maneuver in specification.maneuvers
+        if maneuver.incidence is not None and not pairs
+    )
 
 
 def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
@@ -224,30 +226,27 @@ def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
             )
 
 
-def without_motor(specification: Specification) -> Iterator[str]:
+def _without_motor(specification: Specification) -> Iterator[str]:
     """What only a motor gives a meaning to, where none is wanted, one line each."""
     if specification.motor.name != NO_MOTOR:
         return
-    of_motors = {
+    of_motors: Mapping[str, Iterable[str]] = {
         "motor": ("gear", "any", "motors", "with_catalogue", "gears"),
         "flywheel": OF_WEBS,
         "ocs": ("guard", "wheel"),
+        "supply": vars(specification.supply),
     }
+    where = f"motor.name is {NO_MOTOR!r}"
     for table, keys in of_motors.items():
-        for key in keys:
-            if getattr(getattr(specification, table), key) is not None:
-                yield f"{table}.{key}: has no effect where motor.name is {NO_MOTOR!r}"
-    for key, stated in vars(specification.supply).items():
-        if stated is not None:
-            yield f"supply.{key}: has no effect where motor.name is {NO_MOTOR!r}"
-    if specification.ocs.alpha_criterion == LIGHTEST:
-        yield f"ocs.alpha_criterion: {LIGHTEST!r} needs a motor: motor.name is {NO_MOTOR!r}"
-    if specification.ocs.lighter_by is not None:
-        yield f"ocs.lighter_by: needs a motor: motor.name is {NO_MOTOR!r}"
-    if specification.requirement.notices is not None:
-        yield f"requirement.survives: needs a motor: motor.name is {NO_MOTOR!r}"
-    if specification.ocs.co_design:
-        yield f"ocs.co_design: needs a motor: motor.name is {NO_MOTOR!r}"
+        yield from _pointless(specification, table, keys, f"has no effect where {where}")
+    asked = specification.ocs
+    needs = {
+        f"ocs.alpha_criterion: {LIGHTEST!r}": asked.alpha_criterion == LIGHTEST,
+        "ocs.lighter_by:": asked.lighter_by is not None,
+        "requirement.survives:": specification.requirement.notices is not None,
+        "ocs.co_design:": asked.co_design,
+    }
+    yield from (f"{what} needs a motor: {where}" for what, holds in needs.items() if holds)
 
 
 def unfit_for_robot(
@@ -270,19 +269,19 @@ def unfit_for_robot(
             f"ocs.position: y = {format_quantity(position[1], 'mm')} is not on the left side: "
             "the left wheel needs y > 0"
         )
-    yield from _empty_room(specification.flywheel, envelope)
+    limits = {key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()}
+    yield from _empty_room(specification.flywheel, limits)
     yield from _impossible(requirement, robot)
-    pivoted = (each for each in requirement.maneuvers if isinstance(each, Pivoted))
-    yield from chain.from_iterable(_off_its_pivot(each, stated) for each in pivoted)
-    yield from _overfed(specification)
-    yield from _starved(specification, robot)
+    for each in requirement.maneuvers:
+        if isinstance(each, Pivoted):
+            yield from _off_its_pivot(each, stated)
+    yield from _misfed(specification, robot)
     try:
         if name not in {None, STEEL, AUTO}:
             material(name)
     except SpecificationError as error:
         yield f"flywheel.material: {error.message}. {error.hint}"
     yield from unknown_names(specification)
-    yield from without_motor(specification)
 
 
 def _oversized(specification: Specification, robot: Robot, size: float) -> Iterator[str]:
@@ -300,12 +299,6 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
                 f"ocs.position: {axis} = {coordinate:g} m is off the robot ({size:.2g} m): "
                 f"did you mean {coordinate:g}mm?"
             )
-    less = specification.ocs.lighter_by
-    if less is not None and less > robot.mass:
-        yield (
-            f"ocs.lighter_by: {less:g} kg is more than the robot ({robot.mass:.3g} kg): did you "
-            f"mean {less:g}g?"
-        )
     for kick in specification.requirement.kick or ():
         if not isinstance(kick.point, str) and max(map(abs, kick.point)) > size:
             yield (
@@ -335,19 +328,6 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
 OVERFED = 2.0
 """Times the highest voltage of any motor on offer: more was meant with its point elsewhere."""
 
-
-def _overfed(specification: Specification) -> Iterator[str]:
-    """A voltage that no motor on offer comes near."""
-    voltage, rated = specification.supply.voltage, highest_rated_voltage(specification)
-    if voltage is None or rated is None or voltage <= OVERFED * rated:
-        return
-    meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= rated)
-    yield (
-        f"supply.voltage: {voltage:g} V, and no motor on offer is rated for more than {rated:g} V: "
-        f"did you mean {meant:g}V?"
-    )
-
-
 EMPTY_CELL = 3.0
 """[V] of one empty lithium cell: no robot is fed with less."""
 
@@ -355,9 +335,16 @@ LEAST_POWER = 1.0
 """[W] per kg of the robot; less turns no wheel in time, so kilowatts were meant."""
 
 
-def _starved(specification: Specification, robot: Robot) -> Iterator[str]:
-    """A voltage or a power with which nothing turns: meant with its point or unit elsewhere."""
+def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
+    """A voltage that no motor on offer comes near, and a supply with which nothing turns."""
     voltage, power = specification.supply.voltage, specification.supply.power_max
+    rated = highest_rated_voltage(specification)
+    if voltage is not None and rated is not None and voltage > OVERFED * rated:
+        meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= rated)
+        yield (
+            f"supply.voltage: {voltage:g} V, and no motor on offer is rated for more than "
+            f"{rated:g} V: did you mean {meant:g}V?"
+        )
     if voltage is not None and voltage < EMPTY_CELL:
         meant = next(volts for place in range(1, 99) if (volts := voltage * 10**place) > EMPTY_CELL)
         yield (
@@ -369,21 +356,6 @@ def _starved(specification: Specification, robot: Robot) -> Iterator[str]:
             f"supply.power_max: {power:g} W is less than {LEAST_POWER:g} W per kg of the robot "
             f"({robot.mass:.3g} kg): did you mean {power:g}kW?"
         )
-
-
-def _empty_room(specified: FlywheelSection, envelope: Envelope) -> Iterator[str]:
-    """Limits, specified or assumed, that leave no room between them."""
-
-    def limit(key: str) -> str:
-        """Key and figure, with a note where it was assumed."""
-        figure = format_quantity(getattr(envelope, LIMIT_OF_KEY[key]), "mm")
-        note = " (assumed: state it too)" if getattr(specified, key) is None else ""
-        return f"{key}, {figure}{note}"
-
-    if envelope.inner_radius_min >= envelope.outer_radius_max:
-        yield f"flywheel: {limit('r_max')}, leaves no room over {limit('r_min')}"
-    if envelope.height_min > envelope.height_max:
-        yield f"flywheel: {limit('h_max')}, is below {limit('h_min')}"
 
 
 def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:

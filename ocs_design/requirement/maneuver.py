@@ -5,6 +5,7 @@ the paper: a jump that is disturbed, a shove, a drop and a flip.
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import sqrt
@@ -265,8 +266,8 @@ class Disturbance(Unforeseen):
         forward, upward = self.takeoff_velocity
         told = (
             f"lift-off at {forward:.3g} m/s forward and {upward:.3g} m/s up, "
-            f"{_torque(self.torque)} on the trunk for {self.duration:.3g} s, {self.onset:.3g} s "
-            f"after it"
+            f"{row_text(self.torque)} N m on the trunk for {self.duration:.3g} s, "
+            f"{self.onset:.3g} s after it"
         )
         if any(self.velocity_change):
             told += f", which changes its velocity by {row_text(self.velocity_change)} m/s"
@@ -303,18 +304,25 @@ class Shove(Unforeseen):
         """Torque and time."""
         does = f"trots on the spot, {self.stride:.3g} s a stride" if self.stride else "stands"
         return (
-            f"{does}; {_torque(self.torque)} on the trunk for {self.duration:.3g} s, "
+            f"{does}; {row_text(self.torque)} N m on the trunk for {self.duration:.3g} s, "
             f"to be at rest {self.settling:.3g} s after it"
         )
 
 
-def _torque(torque: Vector3) -> str:
-    return f"{row_text(torque)} N m"
+def row_text(values: Iterable[float], factor: float = 1.0) -> str:
+    """Row of numbers for people, each times a factor, as in `(0, 0.2, 0)`."""
+    return f"({', '.join(f'{factor * value:.3g}' for value in values)})"
 
 
-def row_text(values: Vector3) -> str:
-    """Row of numbers for people, as in `(0, 0.2, 0)`."""
-    return f"({', '.join(f'{value:.3g}' for value in values)})"
+def rates_text(rates: Vector3) -> str:
+    """Row of rates [rad/s] for people, as in `(0, 30, 0) deg/s`."""
+    return f"{row_text(np.degrees(rates))} deg/s"
+
+
+def angles_text(**angles: float) -> str:
+    """Angles by name [rad] for people but those that are zero, as in `roll 5 deg and yaw 2 deg`."""
+    told = (f"{name} {format_quantity(angle, 'deg')}" for name, angle in angles.items() if angle)
+    return " and ".join(told)
 
 
 class Reorientation(Maneuver):

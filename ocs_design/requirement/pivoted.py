@@ -21,6 +21,8 @@ from ocs_design.requirement.maneuver import (
     Spin,
     Tilt,
     Time,
+    angles_text,
+    rates_text,
     row_text,
 )
 from ocs_design.requirement.values import Choice, Quantities, Vector3
@@ -88,11 +90,6 @@ def swing(stiffness: float, inertia: float, tilt: float, rate: float, time: floa
     turned = min(max(turned, 1.0), end)
     asked = hypot(1.0 - 2.0 / turned + 1.0 / end, 1.0 - 2.0 * turned + end)
     return Swing(stiffness * hypot(x, y) / asked, log(turned) / quickness)
-
-
-def _millimetres(point: Vector3) -> str:
-    x, y, z = point
-    return row_text((1e3 * x, 1e3 * y, 1e3 * z))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -273,14 +270,13 @@ class Pivoted(Maneuver):
     @property
     def _place(self) -> str:
         """Pivot and tilt, for people."""
-        point = _millimetres(self.pivot)
+        point = row_text(self.pivot, 1e3)
         on = f"stands on a point at {point} mm"
         if self.axis is not None:
-            on = f"stands on an edge at {point} mm along {row_text(tuple(self.axis.tolist()))}"
-        angles = {"roll": self.roll, "pitch": self.pitch}
-        tilted = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
+            on = f"stands on an edge at {point} mm along {row_text(self.axis)}"
+        tilted = angles_text(roll=self.roll, pitch=self.pitch) or "upright"
         spun = f" with wheels at {rpm(self.wheel_speed)}"
-        return f"{on}, {' and '.join(tilted) or 'upright'}{spun if self.wheel_speed else ''}"
+        return f"{on}, {tilted}{spun if self.wheel_speed else ''}"
 
 
 _STRAIGHT = 1e-6
@@ -324,7 +320,7 @@ class Balance(Pivoted):
         angles = {"roll": self.roll, "pitch": self.pitch}
         told = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
         if any(self.rate):
-            told.append(f"a rate of {row_text(tuple(np.degrees(self.rate).tolist()))} deg/s")
+            told.append(f"a rate of {rates_text(self.rate)}")
         if any(self.impulse):
             told.append(f"an impulse of {row_text(self.impulse)} N s")
         return " and ".join(filter(None, (", ".join(told[:-1]), *told[-1:])))
@@ -334,10 +330,9 @@ class Balance(Pivoted):
         """Pivot, tilt, rate and impulse."""
         hit = ""
         if any(self.rate):
-            hit += f", turning at {row_text(tuple(np.degrees(self.rate).tolist()))} deg/s"
+            hit += f", turning at {rates_text(self.rate)}"
         if any(self.impulse):
-            at = _millimetres(self.point)
-            hit += f", hit by {row_text(self.impulse)} N s at {at} mm"
+            hit += f", hit by {row_text(self.impulse)} N s at {row_text(self.point, 1e3)} mm"
         return f"{self._place}{hit}; upright and at rest after {self.duration:.3g} s"
 
 

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from reprlib import repr as shortened
 from typing import Any
@@ -14,7 +13,7 @@ from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.keys import Faults, keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.specification import SECTIONS, Specification
+from ocs_design.requirement.specification import SECTIONS, Specification, with_files
 from ocs_design.requirement.values import Text, Value
 
 # A specification takes a few thousand bytes.
@@ -37,18 +36,7 @@ def read_specification(path: AnyPath) -> Specification:
             hint=f"give the robot without --spec: ocs-design size {path} --spec mine.toml",
         )
     specification = parse_specification(content, str(path))
-    robot, motor, reality = specification.robot, specification.motor, specification.reality
-    return replace(
-        specification,
-        robot=replace(robot, file=_beside(path, robot.file)),
-        motor=replace(motor, motors=_beside(path, motor.motors), gears=_beside(path, motor.gears)),
-        reality=replace(reality, file=_beside(path, reality.file)),
-    )
-
-
-def _beside(path: Path, file: str | None) -> str | None:
-    """A file that the specification at `path` names; `-` is standard input."""
-    return file if file is None or file == "-" else str(path.parent / file)
+    return with_files(specification, lambda file: str(path.parent / file))
 
 
 def parse_specification(text: str, name: str) -> Specification:

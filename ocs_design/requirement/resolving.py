@@ -56,7 +56,7 @@ from ocs_design.requirement.vocabulary import (
     RING,
     STEEL,
 )
-from ocs_design.requirement.worded import Worded, worded_maneuvers
+from ocs_design.requirement.worded_maneuvers import Worded, worded_maneuvers
 from ocs_design.robot.manual import person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot

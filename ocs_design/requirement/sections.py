@@ -9,24 +9,7 @@ from dataclasses import dataclass, replace
 
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.keys import keyed
-from ocs_design.requirement.values import (
-    HEIGHT,
-    TRUNK_RATE,
-    WHEEL_SPEED,
-    Chance,
-    Choice,
-    Count,
-    JointValues,
-    LinkNames,
-    Number,
-    Quantities,
-    Quantity,
-    Several,
-    Switch,
-    Text,
-)
-from ocs_design.requirement.vocabulary import DETECTION, NONE_STOPS, PROJECTIONS, SURVIVED
-from ocs_design.requirement.words import (
+from ocs_design.requirement.phrases import (
     CATCH_TEXT,
     FLIP,
     GRAVITY,
@@ -44,6 +27,23 @@ from ocs_design.requirement.words import (
     TiltText,
     UpsetText,
 )
+from ocs_design.requirement.values import (
+    HEIGHT,
+    TRUNK_RATE,
+    WHEEL_SPEED,
+    Chance,
+    Choice,
+    Count,
+    JointValues,
+    LinkNames,
+    Number,
+    Quantities,
+    Quantity,
+    Several,
+    Switch,
+    Text,
+)
+from ocs_design.requirement.vocabulary import DETECTION, NONE_STOPS, PROJECTIONS, SURVIVED
 
 _LENGTH, _MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
 
@@ -137,7 +137,7 @@ WORDS = (
     "balance",
     "stand_up",
 )
-"""Keys of `[requirement]` that ask for a maneuver (`worded.worded_maneuvers`)."""
+"""Keys of `[requirement]` that ask for a maneuver (`worded_maneuvers`)."""
 
 TURNS = ("turn", "catch")
 """Those of them that need no gravity."""

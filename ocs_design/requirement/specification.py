@@ -1,6 +1,6 @@
 """The specification: everything that a user stated, in the file or by options, as one value."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any, TypeVar, get_type_hints
@@ -91,12 +91,11 @@ def merge(base: Specification, override: Specification) -> Specification:
     A robot by file replaces one by hand, and the other way round. Maneuvers that are asked for in
     words replace all that `base` asks for: they are the requirement.
     """
-    if override.robot.file is not None:
-        base = replace(base, robot=replace(base.robot, mass=None, inertia=None, human=None))
-    elif override.robot.mass is not None or override.robot.inertia is not None:
-        base = replace(base, robot=replace(base.robot, file=None, human=None))
-    elif override.robot.human is not None:
-        base = replace(base, robot=replace(base.robot, file=None, mass=None, inertia=None))
+    for named in (("file",), ("mass", "inertia"), ("human",)):
+        if any(getattr(override.robot, key) is not None for key in named):
+            others = {"file", "mass", "inertia", "human"} - set(named)
+            base = replace(base, robot=replace(base.robot, **dict.fromkeys(others)))
+            break
     if override.requirement.is_worded:
         asked = replace(base.requirement.without_words(), maneuvers=None)
         base = replace(base, requirement=asked, maneuvers=())
@@ -104,6 +103,22 @@ def merge(base: Specification, override: Specification) -> Specification:
         name: merge_section(getattr(base, name), getattr(override, name)) for name in SECTIONS
     }
     return Specification(**sections, maneuvers=override.maneuvers or base.maneuvers)
+
+
+def with_files(specification: Specification, renamed: Callable[[str], str]) -> Specification:
+    """Specification with other names of the files that it names; `-` is standard input."""
+
+    def path(file: str | None) -> str | None:
+        """Path under its new name."""
+        return file if file is None or file == "-" else renamed(file)
+
+    robot, motor, reality = specification.robot, specification.motor, specification.reality
+    return replace(
+        specification,
+        robot=replace(robot, file=path(robot.file)),
+        motor=replace(motor, motors=path(motor.motors), gears=path(motor.gears)),
+        reality=replace(reality, file=path(reality.file)),
+    )
 
 
 def merge_section(base: Section, override: Section) -> Section:

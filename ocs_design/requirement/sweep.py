@@ -131,7 +131,7 @@ class ManeuverSweep(Sweep):
 
     Attributes:
         figure: of one maneuver; None where it has none.
-        scaled: the maneuver with its figure times a ratio.
+        scaled: a maneuver that has one, with its figure times a ratio.
         maneuver: which one varies alone; empty: all in one ratio, and the first gives the value.
     """
 
@@ -192,52 +192,28 @@ class ManeuverSweep(Sweep):
 
 def _time(maneuver: Maneuver, standing_height: float) -> float | None:
     """Time of the fall or of the turn [s]."""
-    match maneuver:
-        case Drop():
-            return maneuver.time(standing_height)
-        case Flip():
-            return maneuver.duration
-        case _:
-            return None
+    return maneuver.time(standing_height) if isinstance(maneuver, Drop | Flip) else None
 
 
 def _with_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
     """Maneuver that takes so many times as long: a fall from higher, a turn in a longer jump."""
-    match maneuver:
-        case Drop():
-            return slower(maneuver, ratio, standing_height)
-        case Flip():
-            return replace(
-                maneuver,
-                duration=maneuver.duration * ratio,
-                jump_height=maneuver.jump_height * ratio**2,
-            )
-        case _:
-            return maneuver
+    if isinstance(maneuver, Flip):
+        height = maneuver.jump_height * ratio**2
+        return replace(maneuver, duration=maneuver.duration * ratio, jump_height=height)
+    return slower(maneuver, ratio, standing_height)
 
 
-def _angle(maneuver: Maneuver, standing_height: float) -> float | None:
+def _angle(maneuver: Maneuver, _: float) -> float | None:
     """Angle of the tilt or of the turn [rad], without its sign."""
-    del standing_height
-    match maneuver:
-        case Drop():
-            return hypot(maneuver.roll, maneuver.pitch)
-        case Flip():
-            return abs(maneuver.angle)
-        case _:
-            return None
+    if isinstance(maneuver, Flip):
+        return abs(maneuver.angle)
+    return hypot(maneuver.roll, maneuver.pitch) if isinstance(maneuver, Drop) else None
 
 
-def _with_angle(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
+def _with_angle(maneuver: Maneuver, ratio: float, _: float) -> Maneuver:
     """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
-    del standing_height
-    match maneuver:
-        case Drop():
-            return replace(maneuver, roll=maneuver.roll * ratio, pitch=maneuver.pitch * ratio)
-        case Flip():
-            return replace(maneuver, angle=maneuver.angle * ratio)
-        case _:
-            return maneuver
+    turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
+    return replace(maneuver, **{name: getattr(maneuver, name) * ratio for name in turned})
 
 
 _SWEEPS = (

@@ -9,7 +9,7 @@ import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.units import format_quantity, rpm
+from ocs_design.common.units import rpm
 from ocs_design.requirement.maneuver import (
     End,
     Height,
@@ -19,7 +19,8 @@ from ocs_design.requirement.maneuver import (
     Spin,
     Time,
     Turn,
-    row_text,
+    angles_text,
+    rates_text,
 )
 from ocs_design.requirement.values import YAW, Choice
 
@@ -141,11 +142,9 @@ class TurnTo(Reorientation):
     @property
     def summary(self) -> str:
         """Attitude, rate, time, jump and gravity."""
-        angles = {"roll": self.roll, "pitch": self.pitch, "yaw": self.yaw}
-        asked = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
-        told = f"turns to {' and '.join(asked) or 'level'}"
+        told = f"turns to {angles_text(roll=self.roll, pitch=self.pitch, yaw=self.yaw) or 'level'}"
         if any(self.rate):
-            told += f" from rates of {row_text(tuple(np.degrees(self.rate).tolist()))} deg/s"
+            told += f" from rates of {rates_text(self.rate)}"
         if self.wheel_speed:
             told += f" with wheels at {rpm(self.wheel_speed)}"
         where = "in orbit"

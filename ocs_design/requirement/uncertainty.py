@@ -15,7 +15,7 @@ from math import inf, isfinite, pi, sqrt
 from pathlib import Path
 from statistics import NormalDist
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Self
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.errors import QuantityError, SpecificationError
@@ -31,20 +31,21 @@ _STANDARD = NormalDist()
 _TAIL = _STANDARD.cdf(-CUT)
 
 
+@dataclass(frozen=True)
 class Distribution(ABC):
-    """Distribution of one quantity (SI)."""
+    """Distribution of one quantity; its fields are in the quantity's unit (SI)."""
 
     @abstractmethod
     def at(self, part: float) -> float:
         """The value that a `part` of all, 0..1, lie below."""
 
-    @abstractmethod
-    def times(self, factor: float) -> "Distribution":
+    def times(self, factor: float) -> Self:
         """The distribution of `factor` > 0 times the quantity."""
+        return replace(self, **{name: factor * value for name, value in vars(self).items()})
 
-    @abstractmethod
     def written(self, quantity: Callable[[float], str] = repr) -> str:
         """Text such as `normal(0.0, 0.01)`, each number as `quantity` writes it."""
+        return f"{type(self).__name__.lower()}({', '.join(map(quantity, vars(self).values()))})"
 
 
 @dataclass(frozen=True)
@@ -57,10 +58,6 @@ class Constant(Distribution):
         """The value."""
         del part
         return self.value
-
-    def times(self, factor: float) -> "Constant":
-        """The product (`Distribution.times`)."""
-        return Constant(factor * self.value)
 
     def written(self, quantity: Callable[[float], str] = repr) -> str:
         """The bare quantity."""
@@ -78,14 +75,6 @@ class Uniform(Distribution):
         """Linear."""
         return self.low + part * (self.high - self.low)
 
-    def times(self, factor: float) -> "Uniform":
-        """Uniform between the scaled ends (`Distribution.times`)."""
-        return Uniform(factor * self.low, factor * self.high)
-
-    def written(self, quantity: Callable[[float], str] = repr) -> str:
-        """Text of the distribution (`Distribution.written`)."""
-        return f"uniform({quantity(self.low)}, {quantity(self.high)})"
-
 
 @dataclass(frozen=True)
 class Normal(Distribution):
@@ -97,14 +86,6 @@ class Normal(Distribution):
     def at(self, part: float) -> float:
         """The inverse of the cut normal distribution function."""
         return self.mean + self.deviation * _STANDARD.inv_cdf(_TAIL + part * (1.0 - 2.0 * _TAIL))
-
-    def times(self, factor: float) -> "Normal":
-        """Mean and deviation scaled (`Distribution.times`)."""
-        return Normal(factor * self.mean, factor * self.deviation)
-
-    def written(self, quantity: Callable[[float], str] = repr) -> str:
-        """Text of the distribution (`Distribution.written`)."""
-        return f"normal({quantity(self.mean)}, {quantity(self.deviation)})"
 
 
 _FORM = re.compile(r"\s*(normal|uniform)\s*\(([^,()]*),([^,()]*)\)\s*")

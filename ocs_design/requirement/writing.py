@@ -6,8 +6,7 @@ What a key is, how it is read and why one would state it stand with the key, in 
 
 import json
 import os
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from enum import Enum, auto
 from functools import partial
 from math import isclose
@@ -23,10 +22,10 @@ from ocs_design.common.units import (
 from ocs_design.requirement.keys import Key, keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS, field_note, kind_of
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.specification import SECTIONS, Specification, all_keys
+from ocs_design.requirement.phrases import About, Climb, Kick, Person, Pivot, Tilt
+from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, with_files
 from ocs_design.requirement.uncertainty import Distribution, Spread
 from ocs_design.requirement.values import ONE_TURN, Quantities, Quantity, Several, Value, WordOr
-from ocs_design.requirement.words import About, Climb, Kick, Person, Pivot, Tilt
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
@@ -70,28 +69,12 @@ def specification_to_toml(specification: Specification, comment: str = "") -> st
 
 def with_absolute_files(specification: Specification) -> Specification:
     """Specification whose files are found from any folder: their paths are made absolute."""
-    return _with_files(specification, lambda file: str(Path(file).absolute()))
+    return with_files(specification, lambda file: str(Path(file).absolute()))
 
 
 def with_files_from(specification: Specification, folder: Path) -> Specification:
     """Specification whose files are found from `folder`, also after both were moved together."""
-    return _with_files(specification, lambda file: os.path.relpath(file, folder))
-
-
-def _with_files(specification: Specification, renamed: Callable[[str], str]) -> Specification:
-    """Specification whose files are renamed; `-` is standard input, and stays."""
-
-    def path(file: str | None) -> str | None:
-        """Path under its new name."""
-        return file if file is None or file == "-" else renamed(file)
-
-    robot, motor, reality = specification.robot, specification.motor, specification.reality
-    return replace(
-        specification,
-        robot=replace(robot, file=path(robot.file)),
-        motor=replace(motor, motors=path(motor.motors), gears=path(motor.gears)),
-        reality=replace(reality, file=path(reality.file)),
-    )
+    return with_files(specification, lambda file: os.path.relpath(file, folder))
 
 
 def _fields(specified: object, values: Mapping[str, Value[Any]]) -> Iterator[str]:

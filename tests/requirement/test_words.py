@@ -16,13 +16,7 @@ from ocs_design.common.errors import OcsError, SpecificationError, UsageError
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Disturbance
-from ocs_design.requirement.reading import parse_specification
-from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.sections import RequirementSection
-from ocs_design.requirement.specification import Specification, merge, specification_from_options
-from ocs_design.requirement.sweep import SWEEPS, Task
-from ocs_design.requirement.worded import worded_maneuvers
-from ocs_design.requirement.words import (
+from ocs_design.requirement.phrases import (
     CATCH_TEXT,
     FLIP,
     GRAVITY,
@@ -35,6 +29,12 @@ from ocs_design.requirement.words import (
     Tilt,
     TiltText,
 )
+from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification, merge, specification_from_options
+from ocs_design.requirement.sweep import SWEEPS, Task
+from ocs_design.requirement.worded_maneuvers import worded_maneuvers
 from ocs_design.requirement.writing import specification_to_toml
 from ocs_design.robot.reader import read_robot
 

@@ -10,10 +10,10 @@ from specifications import FULL, same
 
 from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.kinds import MANEUVER_KINDS
+from ocs_design.requirement.phrases import Person
 from ocs_design.requirement.reading import parse_specification, read_specification
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import SECTIONS, Specification
-from ocs_design.requirement.words import Person
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 
 

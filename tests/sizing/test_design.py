@@ -19,9 +19,9 @@ from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.parts.foot import stem_shock
 from ocs_design.parts.printed import CLEARANCE, SHOCK
 from ocs_design.requirement.device_sections import MotorSection
+from ocs_design.requirement.phrases import Kick
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification, specification_from_options
-from ocs_design.requirement.words import Kick
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing import on_robot
 from ocs_design.sizing.design import design_device

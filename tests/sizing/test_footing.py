@@ -34,10 +34,10 @@ from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder
 from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.froude import default_envelope
+from ocs_design.requirement.phrases import Tilt
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.words import Tilt
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.meshes import size

@@ -7,9 +7,9 @@ from robots import SOLO12
 
 from ocs_design.requirement import turns
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
+from ocs_design.requirement.phrases import About
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.words import About
 from ocs_design.workflows import rounds as rounds_of
 from ocs_design.workflows import size
 
