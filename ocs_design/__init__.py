@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ocs_design.robot.manual import robot_by_hand
     from ocs_design.robot.reader import read_robot
     from ocs_design.robot.robot import Robot
-    from ocs_design.simulation.scenario import Run
+    from ocs_design.simulation.run import Run
     from ocs_design.workflows.export import export_design
     from ocs_design.workflows.pareto import pareto_front
     from ocs_design.workflows.size import Outcome, design_ocs
@@ -57,7 +57,7 @@ _MODULES = {
     "OcsError": "common.errors",
     "Outcome": "workflows.size",
     "Robot": "robot.robot",
-    "Run": "simulation.scenario",
+    "Run": "simulation.run",
     "Specification": "requirement.specification",
     "Validation": "workflows.validate",
     # What values below the report show themselves by in a notebook.

@@ -16,7 +16,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.requirement.bound import bound_curve
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Run
 
 WITH, WITHOUT, THIRD, GREY = "#0072b2", "#d55e00", "#009e73", "#767676"
 """Told apart by colour-blind eyes too (Okabe and Ito)."""

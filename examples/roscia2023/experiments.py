@@ -16,9 +16,9 @@ from ocs_design import design_ocs, read_specification
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.metrics import Metrics
 from ocs_design.simulation.reference import Step
-from ocs_design.simulation.scenario import Options, Run, run_scenarios
+from ocs_design.simulation.run import Metrics, Run
+from ocs_design.simulation.scenario import Options, run_scenarios
 from ocs_design.simulation.scene import robot_scene
 
 SPECIFICATION = Path(__file__).resolve().parents[1] / "solo12.toml"

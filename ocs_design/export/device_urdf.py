@@ -59,7 +59,7 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
     Args:
         device: to write.
         parent: link that carries it; its frame is the base frame B.
-        mesh: reference to the wheel's mesh in metres, with those of `carrier_meshes` beside it;
+        mesh: reference to the wheel's mesh in metres, with those of `still_meshes` beside it;
             without one all looks like cylinders and boxes.
     """
     look = plain_carrier_visuals if mesh is None else carrier_visuals

@@ -11,21 +11,17 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray
 from ocs_design.device.naming import IMU
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.meshes import Mesh, primitive_mesh
+from ocs_design.export.meshes import Color, Mesh
 from ocs_design.export.robot_model import model_of
-from ocs_design.export.visuals import Color
-from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP, quaternion
+from ocs_design.export.snapshot import geom_mesh, shown_color
+from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.tree import Placement
 
 _UPRIGHT = Placement(np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]), np.zeros(3))
 """Base frame B in the frame of glTF, whose y is up and whose front is z."""
-
-_PLAIN: Color = (0.5, 0.5, 0.5, 1.0)
-"""Colour of MuJoCo's defaults; a geom that has it has the colour of its material."""
 
 _FLOAT, _UINT16, _UINT32 = 5126, 5123, 5125
 _VERTICES, _INDICES = 34962, 34963
@@ -114,31 +110,6 @@ class _ModelScene:
                 return None
             self._surfaces[key] = self._scene.add_surface(found)
         return self._surfaces[key]
-
-
-def shown_color(model: mujoco.MjModel, geom: int) -> Color | None:
-    """Colour of a geom; None where viewers do not show it."""
-    color, material = _rgba(model.geom_rgba[geom]), model.geom_matid[geom]
-    if material >= 0 and color == _PLAIN:
-        color = _rgba(model.mat_rgba[material])
-    return None if model.geom_group[geom] >= HIDDEN_GROUP or color[3] == 0.0 else color
-
-
-def geom_mesh(model: mujoco.MjModel, geom: int) -> Mesh | None:
-    """Surface of a geom in its own frame; None where it has none of its own."""
-    if int(model.geom_type[geom]) not in {mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF}:
-        return primitive_mesh(int(model.geom_type[geom]), model.geom_size[geom])
-    mesh = model.geom_dataid[geom]
-    vertex, face = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
-    return Mesh(
-        model.mesh_vert[vertex : vertex + model.mesh_vertnum[mesh]],
-        model.mesh_face[face : face + model.mesh_facenum[mesh]],
-    )
-
-
-def _rgba(values: FloatArray) -> Color:
-    red, green, blue, opacity = (round(float(value), 6) for value in values)
-    return red, green, blue, opacity
 
 
 class Scene:

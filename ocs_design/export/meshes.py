@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, product
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,9 @@ from ocs_design.robot.tree import Placement
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
+
+Color: TypeAlias = tuple[float, float, float, float]
+"""Red, green, blue and opacity, 0..1, as screens take them (sRGB)."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,18 +14,10 @@ from ocs_design.export.attach import STEEL
 from ocs_design.export.device_parts import printed_foot, printed_parts
 from ocs_design.export.film import Take, add_white_sky, drawn
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.meshes import Mesh, part_mesh, solid_mesh
+from ocs_design.export.meshes import Color, Mesh, part_mesh, solid_mesh
 from ocs_design.export.robot_model import RobotModel, model_of
 from ocs_design.export.stl import wheel_meshes
-from ocs_design.export.visuals import (
-    ALUMINIUM,
-    GEAR,
-    MOTOR,
-    PRINT,
-    SHELL,
-    Color,
-    cage_placement,
-)
+from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, SHELL, cage_placement
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.solids import hollow_cylinder
 from ocs_design.robot.robot import Robot

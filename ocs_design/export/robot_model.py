@@ -21,7 +21,8 @@ from ocs_design.export.physics import (
     stand,
     standing_torques,
 )
-from ocs_design.export.visuals import WHEEL_MESH, carrier_visuals, device_meshes, plate_visuals
+from ocs_design.export.stl import device_meshes
+from ocs_design.export.visuals import WHEEL_MESH, carrier_visuals, plate_visuals
 from ocs_design.robot.links import unused_name
 from ocs_design.robot.mjcf_spec import compiled
 from ocs_design.robot.mujoco_bodies import GEOM_TYPES, HIDDEN_GROUP, VISUAL_GROUP, quaternion

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.export.glb import geom_mesh, shown_color
+from ocs_design.export.meshes import Color, Mesh, primitive_mesh
+from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
 
 WIDTH, HEIGHT = 800, 500
 """Size of the picture [pixels]."""
@@ -34,6 +35,9 @@ _CHUNK = 1 << 9
 _DEPTHS = float(2**38)
 """Steps of nearness that are told apart."""
 
+_PLAIN: Color = (0.5, 0.5, 0.5, 1.0)
+"""Colour of MuJoCo's defaults; a geom that has it has the colour of its material."""
+
 
 def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.uint8]:
     """Picture of a robot in MuJoCo; see `picture`.
@@ -50,6 +54,31 @@ def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.uint8]:
             corners.append(mesh.corners @ turn.T + data.geom_xpos[geom])
             colors.append(np.tile(color, (len(mesh.triangles), 1)))
     return picture(np.concatenate(corners), np.concatenate(colors))
+
+
+def shown_color(model: mujoco.MjModel, geom: int) -> Color | None:
+    """Colour of a geom; None where viewers do not show it."""
+    color, material = _rgba(model.geom_rgba[geom]), model.geom_matid[geom]
+    if material >= 0 and color == _PLAIN:
+        color = _rgba(model.mat_rgba[material])
+    return None if model.geom_group[geom] >= HIDDEN_GROUP or color[3] == 0.0 else color
+
+
+def _rgba(values: FloatArray) -> Color:
+    red, green, blue, opacity = (round(float(value), 6) for value in values)
+    return red, green, blue, opacity
+
+
+def geom_mesh(model: mujoco.MjModel, geom: int) -> Mesh | None:
+    """Surface of a geom in its own frame; None where it has none of its own."""
+    if int(model.geom_type[geom]) not in {mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF}:
+        return primitive_mesh(int(model.geom_type[geom]), model.geom_size[geom])
+    mesh = model.geom_dataid[geom]
+    vertex, face = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
+    return Mesh(
+        model.mesh_vert[vertex : vertex + model.mesh_vertnum[mesh]],
+        model.mesh_face[face : face + model.mesh_facenum[mesh]],
+    )
 
 
 def picture(corners: FloatArray, colors: FloatArray) -> NDArray[np.uint8]:

@@ -50,8 +50,9 @@ from ocs_design.export.device_parts import (
     wheel_pieces,
 )
 from ocs_design.export.formats import Notes, Subject
+from ocs_design.export.meshes import Color
 from ocs_design.export.module_bodies import carrier_placement, wheel_placement
-from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, Color
+from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.part import Part

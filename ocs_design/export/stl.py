@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.device.device import Flywheel
+from ocs_design.device.device import Device, Flywheel
 from ocs_design.export.device_parts import metal_pieces, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh, merged, part_mesh
+from ocs_design.export.visuals import WHEEL_MESH, still_meshes
 
 METRES = 1.0
 MILLIMETRES = 1000.0
@@ -41,6 +42,15 @@ def wheel_stl(flywheel: Flywheel, *, units_per_metre: float) -> bytes:
     """STL of the whole wheel, its centre at the origin and its spin axis along z."""
     whole = merged(list(wheel_meshes(flywheel).values()))
     return stl_bytes(whole, "flywheel", units_per_metre=units_per_metre)
+
+
+def device_meshes(device: Device) -> Mapping[Path, bytes]:
+    """STL of wheel and of what stands still in metres, by their places beside the robot file."""
+    still = {
+        path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
+        for path, mesh in still_meshes(device).items()
+    }
+    return {Path(WHEEL_MESH): wheel_stl(device.flywheel, units_per_metre=METRES), **still}
 
 
 def stl_bytes(mesh: Mesh, name: str, *, units_per_metre: float) -> bytes:

@@ -16,8 +16,9 @@ from ocs_design.device.device import Device
 from ocs_design.device.naming import carrier_names, flywheel_names, joint_names, require_free
 from ocs_design.export.device_urdf import UNLIMITED, device_urdf, mount_urdf
 from ocs_design.export.formats import Notes, Subject
+from ocs_design.export.stl import device_meshes
 from ocs_design.export.templates import in_comment, numbers
-from ocs_design.export.visuals import WHEEL_MESH, device_meshes
+from ocs_design.export.visuals import WHEEL_MESH
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.links import unused_name
 from ocs_design.robot.robot import Format, Robot

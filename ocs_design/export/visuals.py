@@ -8,16 +8,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 from math import cos, pi, sin
 from pathlib import Path
-from typing import TypeAlias
 
 import numpy as np
 
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import printed_foot
-from ocs_design.export.meshes import Mesh, merged, part_mesh
+from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
 from ocs_design.export.module_bodies import carrier_placement
-from ocs_design.export.stl import METRES, stl_bytes, wheel_stl
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.carrier_plate import CarrierPlate, plate_bodies
 from ocs_design.parts.dog_bone import directions
@@ -42,9 +40,6 @@ PLATE_MESH = Path("meshes/ocs_plate.stl")
 PEDESTAL_MESH = Path("meshes/ocs_pedestals.stl")
 """All pedestals under the feet, in the base frame B, likewise."""
 
-Color: TypeAlias = tuple[float, float, float, float]
-"""Red, green, blue and opacity, 0..1, as screens take them (sRGB)."""
-
 SHELL: Color = (0.25, 0.45, 0.75, 0.3)
 PRINT: Color = (0.25, 0.45, 0.75, 1.0)
 MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
@@ -66,7 +61,7 @@ class Visual:
         name: housing, foot, cage, motor, gear, plate or pedestal.
         kind, size: see `ShapeKind`: box, cylinder or mesh.
         place: of the shape's frame in that of the module's wheel.
-        mesh: of `carrier_meshes`; None for the other kinds.
+        mesh: of `still_meshes`; None for the other kinds.
     """
 
     name: str
@@ -81,48 +76,46 @@ class Visual:
         return _COLORS[self.name]
 
 
-def carrier_meshes(device: Device) -> Mapping[Path, Mesh]:
-    """Meshes that `carrier_visuals` name; none where the carrier weighs nothing."""
-    if device.carrier.mass == 0.0:
-        return {}
-    return _meshes(printed_foot(device), motor_mount(device).cage)
-
-
-def device_meshes(device: Device) -> Mapping[Path, bytes]:
-    """STL of wheel and carrier in metres, by their places beside the robot file."""
-    wheel = {Path(WHEEL_MESH): wheel_stl(device.flywheel, units_per_metre=METRES)}
-    carrier = {
-        path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
-        for path, mesh in carrier_meshes(device).items()
-    }
-    under = {
-        path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
-        for path, mesh in _under_meshes(device)
-    }
-    return {**wheel, **carrier, **under}
-
-
-def _under_meshes(device: Device) -> Iterator[tuple[Path, Mesh]]:
-    """Plate and pedestals, those there are."""
+def still_meshes(device: Device) -> Mapping[Path, Mesh]:
+    """Meshes of carrier, plate and pedestals that visuals name; none of a weightless carrier."""
+    found: dict[Path, Mesh] = {}
+    if device.carrier.mass > 0.0:
+        found |= _carrier_meshes(printed_foot(device), motor_mount(device).cage)
     if device.plate is not None:
-        yield PLATE_MESH, plate_mesh(device.plate)
+        found[PLATE_MESH] = merged(
+            [part_mesh(part, _SECTIONS).placed(at) for part, at in plate_bodies(device.plate)]
+        )
     if device.pedestals:
-        meshes = [
-            part_mesh(drilled(each), _SECTIONS).placed(each.placement) for each in device.pedestals
-        ]
-        yield PEDESTAL_MESH, merged(meshes)
+        found[PEDESTAL_MESH] = merged(
+            [
+                part_mesh(drilled(each), _SECTIONS).placed(each.placement)
+                for each in device.pedestals
+            ]
+        )
+    return found
 
 
-def plate_mesh(plate: CarrierPlate) -> Mesh:
-    """The plate with its sleeves and its mast, in its own frame."""
-    return merged([part_mesh(part, _SECTIONS).placed(place) for part, place in plate_bodies(plate)])
+@lru_cache(maxsize=1)
+def _carrier_meshes(foot: Foot, cage: Cage | None) -> Mapping[Path, Mesh]:
+    """Meshes by their files; every robot file asks for them."""
+    drum, lid = housing_parts(foot.housing)
+    # As one, for faces that they share would be seen through the shell.
+    housing = Part("housing", drum.density, drum.joined + lid.joined, drum.cut + lid.cut)
+    parts = {HOUSING_MESH: housing, FOOT_MESH: foot_part(foot)}
+    if cage is not None:
+        parts[CAGE_MESH] = cage_part(cage)
+    meshes = {path: part_mesh(part, _SECTIONS) for path, part in parts.items()}
+    if foot.housing.guard_wall:
+        ring = part_mesh(guard_ring(foot.housing), _SECTIONS)
+        meshes[HOUSING_MESH] = merged([meshes[HOUSING_MESH], ring])
+    return meshes
 
 
 def plate_visuals(device: Device) -> tuple[Visual, ...]:
     """What is under the feet as a mesh, in its own frame; none where they stand on the trunk."""
-    names = {PLATE_MESH: "plate", PEDESTAL_MESH: "pedestal"}
     here = _shifted(0.0, 0.0, 0.0)
-    return tuple(_mesh(names[path], path, here) for path, _ in _under_meshes(device))
+    plate = () if device.plate is None else (_mesh("plate", PLATE_MESH, here),)
+    return (*plate, _mesh("pedestal", PEDESTAL_MESH, here)) if device.pedestals else plate
 
 
 def plain_plate_visuals(device: Device) -> tuple[Visual, ...]:
@@ -181,22 +174,6 @@ def _plain_mast(plate: CarrierPlate) -> Iterator[Visual]:
         for level in plate.heights:
             place = _shifted(mast.back - arm, 0.0, level - half)
             yield Visual("plate", ShapeKind.BOX, (arm, half, half), place)
-
-
-@lru_cache(maxsize=1)
-def _meshes(foot: Foot, cage: Cage | None) -> Mapping[Path, Mesh]:
-    """Meshes by their files; every robot file asks for them."""
-    drum, lid = housing_parts(foot.housing)
-    # As one, for faces that they share would be seen through the shell.
-    housing = Part("housing", drum.density, drum.joined + lid.joined, drum.cut + lid.cut)
-    parts = {HOUSING_MESH: housing, FOOT_MESH: foot_part(foot)}
-    if cage is not None:
-        parts[CAGE_MESH] = cage_part(cage)
-    meshes = {path: part_mesh(part, _SECTIONS) for path, part in parts.items()}
-    if foot.housing.guard_wall:
-        ring = part_mesh(guard_ring(foot.housing), _SECTIONS)
-        meshes[HOUSING_MESH] = merged([meshes[HOUSING_MESH], ring])
-    return meshes
 
 
 def carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:

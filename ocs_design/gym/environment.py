@@ -22,8 +22,9 @@ from ocs_design.report.text.console import Steps
 from ocs_design.requirement.maneuver import End, Maneuver, Shove
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation.metrics import Metrics, measure
+from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.piloted import PilotedFlight
+from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import landing_attitude
 from ocs_design.workflows.flying import read_task
 from ocs_design.workflows.validate import Request, campaign_of

@@ -25,9 +25,10 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import Progress, scaled
 from ocs_design.simulation.imperfections import AirDrag, air_drag
-from ocs_design.simulation.metrics import Metrics, objection
+from ocs_design.simulation.metrics import objection
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.scenario import Options, Run, fly, world_builder
+from ocs_design.simulation.run import Metrics, Run
+from ocs_design.simulation.scenario import Options, fly, world_builder
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world import World

@@ -21,7 +21,7 @@ from ocs_design.common.errors import OutputError
 from ocs_design.common.files import to_json
 from ocs_design.device.answers import RESULT_FILE
 from ocs_design.export.folder import output_error, whole_file
-from ocs_design.simulation.metrics import Metrics
+from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
 
 BLOCK = 32

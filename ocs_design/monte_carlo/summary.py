@@ -22,8 +22,9 @@ from ocs_design.device.answers import (
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
 from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
+from ocs_design.simulation.run import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import Options, fly
-from ocs_design.simulation.verdict import LANDING_TOLERANCE, Fault, landing_attitude
+from ocs_design.simulation.verdict import Fault, landing_attitude
 from ocs_design.simulation.world import World
 
 

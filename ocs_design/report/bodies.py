@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.export.meshes import Color
 from ocs_design.export.snapshot import picture
-from ocs_design.export.visuals import Color
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.tree import Placement
 

@@ -12,8 +12,7 @@ from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
 from ocs_design.report.quantities import degrees, degrees_number, grams
 from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air, was_on_pivot
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
-from ocs_design.simulation.metrics import UPRIGHT_TILT
-from ocs_design.simulation.verdict import LANDING_TOLERANCE
+from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT
 
 WORSE = np.radians(1.0)
 """A swing on the ground with the device is reported if it is larger by this than without [rad]."""

@@ -18,9 +18,7 @@ from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.time_series import series_file
 from ocs_design.report.bodies import ShownBody, read_bodies
-from ocs_design.simulation.engine import Poses
-from ocs_design.simulation.metrics import Metrics
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Metrics, Poses, Run
 
 RunMetrics: TypeAlias = Mapping[str, float | bool | None]
 """Metrics of a recorded run by their names, SI."""

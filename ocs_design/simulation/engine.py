@@ -7,17 +7,16 @@ control step for threads to wake up, which took as long as the physics of a few 
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from threading import Event
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import processors
 from ocs_design.export.physics import STEP
 from ocs_design.simulation.batch import Batch, Recording, joined
+from ocs_design.simulation.run import Poses
 from ocs_design.simulation.scene import ANCHOR
 from ocs_design.simulation.world import World
 
@@ -110,28 +109,6 @@ def _ignore(_done: float) -> None:
 
 POSE_RATE = 60.0
 """Poses per second of a replay on a screen [1/s]."""
-
-
-@dataclass(frozen=True, eq=False)
-class Poses:
-    """What a model looked like, again and again.
-
-    Attributes:
-        time: [s], shape (n,).
-        qpos: of the simulated model, free joint first as (x, y, z) [m] and quaternion (w, x, y, z),
-            then joints [rad or m]; shape (n, nq).
-        bodies: names of the model's b bodies, the world left out.
-        position: of their frames in the world [m], shape (n, b, 3).
-        attitude: of their frames in the world, quaternions (w, x, y, z), shape (n, b, 4).
-        wheel_angle: of each wheel, all turns counted [rad], shape (n, wheels).
-    """
-
-    time: FloatArray
-    qpos: FloatArray
-    bodies: tuple[str, ...]
-    position: FloatArray
-    attitude: FloatArray
-    wheel_angle: FloatArray
 
 
 def poses_of(recording: Recording, index: int, world: World) -> Poses | None:

@@ -13,7 +13,7 @@ from ocs_design.device.records.device import MarginRecord
 from ocs_design.parts.joints import SERVICE, Margin
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Run
 from ocs_design.sizing.margins import (
     BRAKE_TORQUE,
     BRAKED_SHAFT,

@@ -3,9 +3,6 @@
 What shows in the figures of a run, momentum and wheels that are too fast, is for the `verdict`.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
 import mujoco
 import numpy as np
 
@@ -13,10 +10,8 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.export.physics import lowest_point
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.batch import Recording
+from ocs_design.simulation.run import UPRIGHT_TILT, Metrics, Series
 from ocs_design.simulation.world import World
-
-UPRIGHT_TILT = np.radians(45.0)
-"""Largest angle between the trunk's z axis and the vertical of a robot that stands [rad]."""
 
 UPRIGHT_HEIGHT = 0.5
 """Smallest height of the trunk of a robot that stands, over its standing height."""
@@ -24,123 +19,8 @@ UPRIGHT_HEIGHT = 0.5
 _SLOW = np.radians(1.0)
 """Rate below which a flight counts as one without any turning [rad/s]."""
 
-
 _AT_REST = np.radians(1.0)
 """How near to where it ends a trunk must stay to have settled [rad]."""
-
-
-@dataclass(frozen=True, eq=False)
-class Series:
-    """Time series of one run with n wheels; every array has the instants first.
-
-    Attributes:
-        time: [s], shape (k,).
-        com: centre of mass in the world [m], (k, 3).
-        roll, pitch, yaw: of the trunk [rad], pitch and yaw unwrapped, (k,).
-        rate: of the trunk in B [rad/s], (k, 3).
-        wheel_speed: relative to the trunk [rad/s], (k, n).
-        wheel_torque: of the motors [N m], (k, n).
-        torque_lowest, torque_highest: that the motors can give at these speeds [N m], (k, n); None
-            where that is not limited.
-        contact: whether anything touches the floor, (k,).
-        wheels: their names.
-        bus_power: of all motors together, drawn (+) or fed back (-), where it is largest in size
-            from this instant to the next [W], (k,); None: the winding or the supply is not known.
-        bus_current: likewise, at the voltage of the supply [A], (k,).
-    """
-
-    time: FloatArray
-    com: FloatArray
-    roll: FloatArray
-    pitch: FloatArray
-    yaw: FloatArray
-    rate: FloatArray
-    wheel_speed: FloatArray
-    wheel_torque: FloatArray
-    torque_lowest: FloatArray | None
-    torque_highest: FloatArray | None
-    contact: FloatArray
-    wheels: tuple[str, ...]
-    bus_power: FloatArray | None = None
-    bus_current: FloatArray | None = None
-
-    def columns(self) -> Mapping[str, FloatArray]:
-        """Each scalar by name and unit, as in a CSV file."""
-        axes = "xyz"
-        return {
-            "time_s": self.time,
-            **{f"com_{axis}_m": self.com[:, i] for i, axis in enumerate(axes)},
-            "roll_rad": self.roll,
-            "pitch_rad": self.pitch,
-            "yaw_rad": self.yaw,
-            **{f"rate_{axis}_rad_s": self.rate[:, i] for i, axis in enumerate(axes)},
-            **self._of_wheels("wheel_speed_{}_rad_s", self.wheel_speed),
-            **self._of_wheels("wheel_torque_{}_nm", self.wheel_torque),
-            **self._of_wheels("wheel_torque_lowest_{}_nm", self.torque_lowest),
-            **self._of_wheels("wheel_torque_highest_{}_nm", self.torque_highest),
-            **_known("bus_power_w", self.bus_power),
-            **_known("bus_current_a", self.bus_current),
-            "contact": self.contact,
-        }
-
-    def _of_wheels(self, name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
-        """One column a wheel; none where there is nothing to tell."""
-        if values is None:
-            return {}
-        return {name.format(wheel): values[:, i] for i, wheel in enumerate(self.wheels)}
-
-
-def _known(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
-    """One column; none where there is nothing to tell."""
-    return {} if values is None else {name: values}
-
-
-@dataclass(frozen=True)
-class Metrics:
-    """Figures of one run; None where there is nothing to measure.
-
-    Attributes:
-        touchdown_time: of the last instant in free flight [s], or when a robot on a pivot is to be
-            upright and at rest; None: it never touches the floor.
-        touchdown_roll, touchdown_pitch: of the trunk against level at that instant, within half a
-            turn [rad]; of a robot on a pivot against where it balances, here and below.
-        touchdown_rate: of roll and pitch together at that instant [rad/s].
-        turned_angle: of pitch since lift-off, whole turns counted [rad].
-        heading_drift: about the vertical since lift-off [rad].
-        peak_wheel_speed: in flight [rad/s]. peak_wheel_torque: in flight [N m].
-        momentum_error: largest change of angular momentum in flight that no outer torque explains,
-            over the largest momentum of wheels and trunk in that flight.
-        upright_at_end: trunk within 45 deg of upright and above half its standing height.
-        final_roll, final_pitch: at the end, within half a turn [rad].
-        roll_swing, pitch_swing: peak to peak after touchdown [rad].
-        settling_time: from touchdown until roll and pitch stay within 1 deg of where they end [s].
-        lift_off_time: of the first instant in free flight [s], or of the torque that hits a robot
-            that stands; None: it never leaves the ground.
-        rise: of the centre of mass from lift-off to its highest [m].
-        final_wheel_speed: of the faster wheel at the end [rad/s].
-        nutation: largest angle per physics step by which the spinning wheels make the trunk
-            nutate in flight [rad].
-    """
-
-    touchdown_time: float | None
-    touchdown_roll: float
-    touchdown_pitch: float
-    touchdown_rate: float
-    turned_angle: float
-    heading_drift: float
-    peak_wheel_speed: float
-    peak_wheel_torque: float
-    momentum_error: float
-    upright_at_end: bool
-    final_roll: float
-    final_pitch: float
-    roll_swing: float
-    pitch_swing: float
-    settling_time: float
-    lift_off_time: float | None
-    rise: float
-    final_wheel_speed: float
-    nutation: float
 
 
 def series_of(recording: Recording, index: int, world: World) -> Series:

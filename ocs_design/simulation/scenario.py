@@ -17,16 +17,10 @@ from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.batch import Recording
-from ocs_design.simulation.engine import Poses, Progress, poses_of, simulate
-from ocs_design.simulation.metrics import (
-    Metrics,
-    Series,
-    breakdown,
-    measure,
-    objection,
-    series_of,
-)
+from ocs_design.simulation.engine import Progress, poses_of, simulate
+from ocs_design.simulation.metrics import breakdown, measure, objection, series_of
 from ocs_design.simulation.reference import Profile, Quintic
+from ocs_design.simulation.run import Metrics, Poses, Run, Series
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.verdict import (
@@ -64,36 +58,6 @@ class Options:
     desaturate: bool = False
     threads: int | None = None
     pose_rate: float | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Run:
-    """One flight.
-
-    Attributes:
-        scenario: name of the maneuver. ocs: with the device, or the bare robot.
-        passed: True, False, or None where it cannot be judged. reason: one sentence.
-        metrics: None if the simulation became unstable.
-        series: of time. note: see `World`.
-        poses: to show the flight again; None if none were recorded.
-        can_stand: whether the legs bear a level landing from this flight, see `judge`.
-        level, stands: see `Verdict`.
-    """
-
-    scenario: str
-    ocs: bool
-    passed: bool | None
-    reason: str
-    metrics: Metrics | None
-    series: Series
-    note: str
-    can_stand: bool | None
-    poses: Poses | None = None
-    level: bool | None = None
-    stands: bool | None = None
-
-    def __repr__(self) -> str:
-        return f"<Run {self.scenario} {'with' if self.ocs else 'without'} device: {self.reason}>"
 
 
 @dataclass(frozen=True, eq=False)

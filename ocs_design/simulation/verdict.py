@@ -12,11 +12,8 @@ from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.metrics import UPRIGHT_TILT, Metrics
+from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT, Metrics
 from ocs_design.sizing.trajectory.boundary import boundary
-
-LANDING_TOLERANCE = np.radians(5.0)
-"""Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
 
 REST_RATE = np.radians(5.0)
 """Largest rate of a robot that stands at rest before it is shoved [rad/s]."""

@@ -26,7 +26,8 @@ from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.uncertainty import UncertaintySection, uncertainty_of_texts
 from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.scenario import Options, Run, fly_stopped, run_scenarios
+from ocs_design.simulation.run import Run
+from ocs_design.simulation.scenario import Options, fly_stopped, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation, Gains
 from ocs_design.simulation.world import wheel_gains
 from ocs_design.sizing.trajectory.flight import Trajectory

@@ -44,7 +44,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Run
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.sizing.selection.refinement import mass_prices
 from ocs_design.sizing.sized import Choice, Designed, Sized

@@ -40,7 +40,7 @@ from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import POSE_RATE
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Run
 from ocs_design.simulation.trotting import require_trot
 from ocs_design.sizing.design import CannotSurvive, design_device, survivors
 from ocs_design.sizing.fallbacks import (

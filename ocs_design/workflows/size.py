@@ -33,7 +33,7 @@ from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Run
 from ocs_design.sizing.alternatives import lighter_otherwise
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import mass_without_survival

@@ -26,7 +26,8 @@ from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.simulation.engine import POSE_RATE
-from ocs_design.simulation.scenario import Run, refusal
+from ocs_design.simulation.run import Run
+from ocs_design.simulation.scenario import refusal
 from ocs_design.workflows.flying import Task, flown_hash, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 

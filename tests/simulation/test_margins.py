@@ -8,8 +8,7 @@ from designed import MOTOR, designed
 
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.simulation.margins import record_margins
-from ocs_design.simulation.metrics import Metrics, Series
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Metrics, Run, Series
 from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.plans import Reference
 

@@ -5,7 +5,7 @@ import pytest
 
 from ocs_design.requirement.maneuver import Drop, Flip, Shove
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation.metrics import Metrics
+from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import comes_down_well, judge, stands
 
 GOOD = Metrics(

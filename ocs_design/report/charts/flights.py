@@ -13,7 +13,7 @@ from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark,
 from ocs_design.report.charts.scales import Axis
 from ocs_design.report.quantities import in_unit
 from ocs_design.report.story import Flight
-from ocs_design.simulation.verdict import LANDING_TOLERANCE
+from ocs_design.simulation.run import LANDING_TOLERANCE
 
 _HEIGHT, _HISTOGRAM = 236.0, 200.0
 """Heights of the charts [px]."""

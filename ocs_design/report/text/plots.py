@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.report.flights import off_level
-from ocs_design.simulation.metrics import Series
+from ocs_design.simulation.run import Series
 
 BARS = " ▁▂▃▄▅▆▇█"
 """Eighths of a character's height, and none."""

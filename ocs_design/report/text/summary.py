@@ -34,7 +34,7 @@ from ocs_design.report.text.plots import tilt_plots
 from ocs_design.report.text.validation import print_headline
 from ocs_design.report.verdict import headline
 from ocs_design.report.warnings import all_warnings
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Run
 
 MOST_MARGINS, MOST_MINDED, MOST_CHANGES = 4, 3, 3
 

@@ -16,8 +16,7 @@ from ocs_design.report.flights import off_level
 from ocs_design.report.quantities import degrees
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.engine import Poses
-from ocs_design.simulation.scenario import Run
+from ocs_design.simulation.run import Poses, Run
 
 EXTRA = extra_command("video")
 

@@ -13,9 +13,9 @@ from ocs_design.device.naming import PREFIX, flywheels_among
 from ocs_design.report.bodies import ShownBody
 from ocs_design.report.story import Flight
 from ocs_design.robot.mujoco_bodies import quaternion
-from ocs_design.simulation.engine import Poses
 from ocs_design.simulation.quaternions import from_axis_angle
 from ocs_design.simulation.quaternions import product as hamilton
+from ocs_design.simulation.run import Poses
 
 Record = dict[str, Any]
 """Value that becomes an object of JSON."""
