@@ -4,16 +4,12 @@ It is attached to the robot's own model, not pasted into its text; simulations a
 """
 
 import mujoco
-import numpy as np
 
 from ocs_design.device.device import Device
 from ocs_design.device.naming import (
     IMU,
-    PLATE,
     PREFIX,
-    carrier_name,
     carrier_names,
-    flywheel_name,
     flywheel_names,
     imu_sensors,
     joint_name,
@@ -23,22 +19,14 @@ from ocs_design.device.naming import (
     torque_sensor,
     velocity_sensor,
 )
-from ocs_design.export.module_bodies import (
-    WHEEL_CONTACT_BIT,
-    carrier_inertial,
-    flywheel_inertial,
-    largest_torque,
-    under_feet,
-    wheel_placement,
-)
-from ocs_design.robot.mass import MassProperties
+from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, device_bodies, largest_torque
 from ocs_design.robot.mujoco_bodies import inertial, quaternion
 from ocs_design.robot.mujoco_model import trunk_body
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Placement
 
 STEEL = (0.55, 0.57, 0.6, 1.0)
 _JOINT, _SITE = mujoco.mjtObj.mjOBJ_JOINT, mujoco.mjtObj.mjOBJ_SITE
+_TO_JOINT = mujoco.mjtTrn.mjTRN_JOINT
 
 
 def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
@@ -56,59 +44,48 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
     require_free("geom", (geom.name for geom in spec.geoms), bodies)
     trunk, base = trunk_body(spec, robot)
-    wheels = mujoco.MjSpec()
-    frame = wheels.worldbody.add_frame()
+    attached = mujoco.MjSpec()
+    frame = attached.worldbody.add_frame()
     limit = largest_torque(device.motor)
-    for module in device.modules:
-        place = base @ wheel_placement(module)
-        name, joint = flywheel_name(module), joint_name(module).removeprefix(PREFIX)
-        wheel = _add_body(wheels, name, flywheel_inertial(device), place)
-        wheel.set_frame(frame)
-        wheel.add_joint(
+    for each in device_bodies(device):
+        body = inertial(each.own)
+        place = base @ each.place
+        # Attaching puts the prefix in front of the names.
+        made = attached.worldbody.add_body(
+            name=each.name.removeprefix(PREFIX),
+            pos=place.position,
+            quat=quaternion(place.rotation),
+            mass=body.mass,
+            ipos=body.position,
+            iquat=body.quaternion,
+            inertia=body.moments,
+            explicitinertial=True,
+        )
+        made.set_frame(frame)
+        if not each.joint:
+            continue
+        joint = each.joint.removeprefix(PREFIX)
+        made.add_joint(
             name=joint,
             type=mujoco.mjtJoint.mjJNT_HINGE,
             axis=(0.0, 0.0, 1.0),
             armature=device.motor.armature,
         )
-        wheel.add_geom(
-            name=wheel.name,
+        made.add_geom(
+            name=made.name,
             type=mujoco.mjtGeom.mjGEOM_CYLINDER,
             size=(device.flywheel.outer_radius, device.flywheel.height / 2.0, 0.0),
             contype=0,
             conaffinity=WHEEL_CONTACT_BIT,
             rgba=STEEL,
         )
-        actuator = wheels.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        actuator = attached.add_actuator(name=joint, target=joint, trntype=_TO_JOINT)
         actuator.set_to_motor()
         if limit is not None:
             actuator.ctrllimited = True
             actuator.ctrlrange = (-limit, limit)
-        carrier = carrier_inertial(device, module)
-        if carrier is not None:
-            _add_body(wheels, carrier_name(module), carrier, place).set_frame(frame)
-    under = under_feet(device)
-    if under is not None:
-        own, position = under
-        _add_body(wheels, PLATE, own, base @ Placement(np.eye(3), position)).set_frame(frame)
     # Bodies added in any other way shift the values of keyframes to wrong joints.
     trunk.attach_frame(frame, PREFIX, "")
-
-
-def _add_body(
-    spec: mujoco.MjSpec, name: str, raw: MassProperties, placement: Placement
-) -> mujoco.MjsBody:
-    """Add a body of these mass properties; attaching puts the prefix in front of its name."""
-    body = inertial(raw)
-    return spec.worldbody.add_body(
-        name=name.removeprefix(PREFIX),
-        pos=placement.position,
-        quat=quaternion(placement.rotation),
-        mass=body.mass,
-        ipos=body.position,
-        iquat=body.quaternion,
-        inertia=body.moments,
-        explicitinertial=True,
-    )
 
 
 def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:

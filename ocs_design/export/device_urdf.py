@@ -5,23 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 
 from ocs_design.device.device import Device, Flywheel
-from ocs_design.device.naming import PLATE, carrier_name, flywheel_name, joint_name
 from ocs_design.export.formats import Seat
-from ocs_design.export.module_bodies import (
-    carrier_inertial,
-    flywheel_inertial,
-    largest_torque,
-    under_feet,
-    wheel_rpy,
-)
+from ocs_design.export.module_bodies import DeviceBody, device_bodies, largest_torque
 from ocs_design.export.templates import fill, numbers, quoted
-from ocs_design.export.visuals import (
-    Visual,
-    carrier_visuals,
-    plain_carrier_visuals,
-    plain_plate_visuals,
-    plate_visuals,
-)
+from ocs_design.export.visuals import Visual, plain_visuals, still_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Mount
@@ -62,52 +49,29 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
         mesh: reference to the wheel's mesh in metres, with those of `still_meshes` beside it;
             without one all looks like cylinders and boxes.
     """
-    look = plain_carrier_visuals if mesh is None else carrier_visuals
-    solid = cylinder_urdf(device.flywheel)
-    elements = []
-    for module in device.modules:
-        place = {
-            "parent": quoted(parent),
-            "position": numbers(module.position),
-            "rpy": numbers(wheel_rpy(module.axis)),
-        }
-        wheel = {
-            **place,
-            **inertial_values(flywheel_inertial(device)),
-            "link": flywheel_name(module),
-            "joint": joint_name(module),
-            "limit": limit_urdf(device),
-            "visual": solid if mesh is None else f'<mesh filename="{quoted(mesh)}"/>',
-            "collision": solid,
-        }
-        elements.append(fill("flywheel.urdf", wheel))
-        inertial = carrier_inertial(device, module)
-        if inertial is not None:
-            carrier = {
-                **place,
-                **inertial_values(inertial),
-                "link": carrier_name(module),
-                "visuals": visuals_urdf(look(device, module)),
-            }
-            elements.append(fill("carrier.urdf", carrier))
-    if device.under:
-        shown = plain_plate_visuals(device) if mesh is None else plate_visuals(device)
-        elements.append(fill("carrier.urdf", plate_urdf(device, parent, visuals_urdf(shown))))
+    looks = plain_visuals if mesh is None else still_visuals
+    solid, elements = cylinder_urdf(device.flywheel), []
+    for body in device_bodies(device):
+        values = body_values(body, quoted(parent))
+        if body.joint:
+            values["limit"], values["collision"] = limit_urdf(device), solid
+            values["visual"] = solid if mesh is None else f'<mesh filename="{quoted(mesh)}"/>'
+            elements.append(fill("flywheel.urdf", values))
+        else:
+            values["visuals"] = visuals_urdf(looks(device, body))
+            elements.append(fill("carrier.urdf", values))
     return "".join(elements)
 
 
-def plate_urdf(device: Device, parent: str, visuals: str) -> dict[str, str]:
-    """Values of what is under the feet, for the template of what stands still."""
-    under = under_feet(device)
-    assert under is not None, "a device with a plate or pedestals"
-    own, position = under
+def body_values(body: DeviceBody, parent: str) -> dict[str, str]:
+    """Names, place and mass properties of a body, for templates."""
     return {
-        **inertial_values(own),
-        "link": PLATE,
-        "parent": quoted(parent),
-        "position": numbers(position),
-        "rpy": numbers(np.zeros(3)),
-        "visuals": visuals,
+        **inertial_values(body.own),
+        "link": body.name,
+        "joint": body.joint,
+        "parent": parent,
+        "position": numbers(body.position),
+        "rpy": numbers(body.rpy),
     }
 
 

@@ -1,4 +1,4 @@
-"""Bodies of a module in robot files: the wheel, its carrier, and the limits of its motor.
+"""Bodies of the device in robot files: wheels, carriers, what is under feet; limits of motors.
 
 Braked, a module is its wheel and its carrier, the rotor held still within the motor. Turning, the
 wheel's body carries all momentum about the spin axis, the rotor's through the gear included: h =
@@ -7,11 +7,15 @@ pendulum would say of the braked module. For direct drive this is the rotor itse
 the carrier keeps J_r - s N J_r of it, and the joint's armature holds the rest of its energy.
 """
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+
 import numpy as np
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Module
+from ocs_design.device.naming import PLATE, carrier_name, flywheel_name, joint_name
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.rotations import rotation_from_rpy
 from ocs_design.robot.tree import Placement
@@ -62,16 +66,6 @@ def carrier_placement(module: Module) -> Placement:
     return Placement(np.where(np.abs(turn - whole) < _ROUNDING, whole, turn), np.zeros(3))
 
 
-def under_feet(device: Device) -> tuple[MassProperties, FloatArray] | None:
-    """Plate and pedestals as one body, and its place in B [m]; None where there are none."""
-    plate = device.plate
-    if plate is not None:
-        return plate.own_mass_properties(), np.array(plate.position)
-    if not device.pedestals:
-        return None
-    return combine(each.mass_properties() for each in device.pedestals), np.zeros(3)
-
-
 def largest_torque(motor: Drive) -> float | None:
     """Torque that the motor gives at rest [N m]; None if it is not limited."""
     limits = [limit for limit in (motor.torque_limit, motor.stall_torque) if limit is not None]
@@ -109,3 +103,46 @@ def carrier_inertial(device: Device, module: Module) -> MassProperties | None:
     left = MassProperties(carrier.mass, carrier.mass_properties().com, inertia)
     turn = carrier_placement(module).rotation @ _FROM_MODULE
     return left.moved(turn, np.zeros(3))
+
+
+@dataclass(frozen=True, eq=False)
+class DeviceBody:
+    """A body of the device in robot files.
+
+    Attributes:
+        name: of its link or body.
+        own: mass properties in its own frame.
+        position, rpy: of that frame in the base frame B [m], [rad].
+        module: that it belongs to; None: it is what is under all feet.
+        joint: by which it turns about its z axis; empty: it is fixed to the trunk.
+    """
+
+    name: str
+    own: MassProperties
+    position: FloatArray
+    rpy: tuple[float, float, float]
+    module: Module | None
+    joint: str = ""
+
+    @property
+    def place(self) -> Placement:
+        """The same frame in the base frame B."""
+        return Placement(rotation_from_rpy(*self.rpy), self.position)
+
+
+def device_bodies(device: Device) -> Iterator[DeviceBody]:
+    """Wheel and carrier of each module, then what is under their feet; nothing without mass."""
+    for module in device.modules:
+        at, turn = module.position, wheel_rpy(module.axis)
+        wheel = flywheel_inertial(device)
+        yield DeviceBody(flywheel_name(module), wheel, at, turn, module, joint_name(module))
+        carrier = carrier_inertial(device, module)
+        if carrier is not None:
+            yield DeviceBody(carrier_name(module), carrier, at, turn, module)
+    under, level = device.plate, (0.0, 0.0, 0.0)
+    if under is not None:
+        at = np.array(under.position)
+        yield DeviceBody(PLATE, under.own_mass_properties(), at, level, None)
+    elif device.pedestals:
+        own = combine(each.mass_properties() for each in device.pedestals)
+        yield DeviceBody(PLATE, own, np.zeros(3), level, None)

@@ -9,9 +9,10 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
-from ocs_design.device.naming import PLATE, PREFIX, carrier_name, flywheel_names, require_free
+from ocs_design.device.naming import PREFIX, flywheel_names, require_free
 from ocs_design.export.attach import add_sensors, attach_device
 from ocs_design.export.formats import Subject
+from ocs_design.export.module_bodies import device_bodies
 from ocs_design.export.physics import (
     add_drives,
     flight_options,
@@ -22,7 +23,7 @@ from ocs_design.export.physics import (
     standing_torques,
 )
 from ocs_design.export.stl import device_meshes
-from ocs_design.export.visuals import WHEEL_MESH, carrier_visuals, plate_visuals
+from ocs_design.export.visuals import WHEEL_MESH, still_visuals
 from ocs_design.robot.links import unused_name
 from ocs_design.robot.mjcf_spec import compiled
 from ocs_design.robot.mujoco_bodies import GEOM_TYPES, HIDDEN_GROUP, VISUAL_GROUP, quaternion
@@ -98,12 +99,9 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
         solid.group = HIDDEN_GROUP
         mesh, kind = PurePath(WHEEL_MESH).stem, mujoco.mjtGeom.mjGEOM_MESH
         spec.body(name).add_geom(type=kind, meshname=mesh, rgba=solid.rgba, **quiet)
-    shown = [
-        (carrier_name(module), visual)
-        for module in device.modules
-        for visual in carrier_visuals(device, module)
-    ]
-    for body, visual in (*shown, *((PLATE, visual) for visual in plate_visuals(device))):
+    still = [body for body in device_bodies(device) if not body.joint]
+    shown = [(body.name, visual) for body in still for visual in still_visuals(device, body)]
+    for body, visual in shown:
         geom = spec.body(body).add_geom(
             type=GEOM_TYPES[visual.kind],
             pos=visual.place.position,

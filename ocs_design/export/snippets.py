@@ -1,20 +1,17 @@
 """Device alone, to paste, include or attach: URDF, xacro, ros2_control, MJCF and SDF."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from textwrap import indent
 
 import numpy as np
 
-from ocs_design.device.device import Device, Module
+from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR
 from ocs_design.device.naming import (
     IMU,
-    PLATE,
     PREFIX,
-    carrier_name,
     carrier_names,
-    flywheel_name,
     flywheel_names,
     imu_sensors,
     joint_name,
@@ -25,31 +22,33 @@ from ocs_design.device.naming import (
 )
 from ocs_design.export.device_urdf import (
     MOCK_PLUGIN,
+    body_values,
     cylinder_urdf,
     device_urdf,
     inertial_values,
     limit_urdf,
     mount_urdf,
-    plate_urdf,
     ros2_control_urdf,
     trunk_link,
+    visual_values,
     visuals_urdf,
 )
 from ocs_design.export.formats import Notes, Seat, Subject
 from ocs_design.export.module_bodies import (
     WHEEL_CONTACT_BIT,
+    DeviceBody,
     carrier_inertial,
+    device_bodies,
     flywheel_inertial,
     largest_torque,
-    under_feet,
-    wheel_placement,
     wheel_rpy,
 )
-from ocs_design.export.sdf import export_snippet_sdf
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
-from ocs_design.export.visuals import Visual, plain_carrier_visuals, plain_plate_visuals
+from ocs_design.export.visuals import plain_carrier_visuals, plain_visuals
+from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.rotations import rpy_from_rotation
+from ocs_design.robot.tree import ShapeKind
 
 _MACRO_PLACE = {
     "link": "${prefix}ocs_${side}_motor",
@@ -99,6 +98,19 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
     joints = [f"${{prefix}}{joint}" for joint in joint_names(device)]
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
+    # What is under the feet stands on the macro's own base.
+    under = [
+        fill(
+            "carrier.urdf",
+            {
+                **body_values(body, "${prefix}ocs_base"),
+                "link": f"${{prefix}}{body.name}",
+                "visuals": visuals_urdf(plain_visuals(device, body)),
+            },
+        )
+        for body in device_bodies(device)
+        if body.module is None
+    ]
     values = {
         **_names(seat),
         "base_rpy": numbers(rpy_from_rotation(rotation)),
@@ -107,7 +119,7 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
         "carrier": indent(_macro_carrier(device), "  "),
-        "plate": indent(_macro_plate(device), "  "),
+        "plate": indent("".join(under), "  "),
         "plugin": MOCK_PLUGIN,
         "ros2_control": indent(control, "    "),
     }
@@ -175,15 +187,6 @@ def _macro_carrier(device: Device) -> str:
     return fill("carrier.urdf", {**_MACRO_PLACE, **sided, "visuals": visuals})
 
 
-def _macro_plate(device: Device) -> str:
-    """What is under the feet, on the macro's own base."""
-    if not device.under:
-        return ""
-    values = plate_urdf(device, "", visuals_urdf(plain_plate_visuals(device)))
-    named = {"link": "${prefix}" + PLATE, "parent": "${prefix}ocs_base"}
-    return fill("carrier.urdf", {**values, **named})
-
-
 def export_snippet_ros2_control(device: Device, path: Path) -> Path:
     """Write the wheels' motors for ros2_control, to paste into a URDF that has the device."""
     element = ros2_control_urdf(device, joint_names(device))
@@ -217,8 +220,7 @@ def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
         "speed": velocity_sensor(device.modules[0]),
         "torque": torque_sensor(device.modules[0]),
         "base_quaternion": numbers(quaternion(rotation)),
-        "modules": "".join(_module_mjcf(device, module) for module in device.modules)
-        + _plate_mjcf(device),
+        "modules": "".join(_body_mjcf(device, body) for body in device_bodies(device)),
         "motors": "".join(f"    {motor}\n" for motor in motors),
         "imu": imu,
         "sensors": "".join(f"    {sensor}\n" for sensor in sensors),
@@ -226,64 +228,90 @@ def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
     return _write(path, fill("ocs.xml", values))
 
 
-def _module_mjcf(device: Device, module: Module) -> str:
-    placement, wheel = wheel_placement(module), device.flywheel
-    carrier = carrier_inertial(device, module)
-    place = {
-        "position": numbers(placement.position),
-        "quaternion": numbers(quaternion(placement.rotation)),
-    }
-    turning = fill(
-        "flywheel.xml",
-        {
-            **place,
-            **inertial_values(flywheel_inertial(device)),
-            "body": flywheel_name(module).removeprefix(PREFIX),
-            "joint": joint_name(module).removeprefix(PREFIX),
-            "armature": numbers(device.motor.armature),
-            "size": numbers((wheel.outer_radius, wheel.height / 2.0)),
-            "contact_bit": str(WHEEL_CONTACT_BIT),
-        },
-    )
-    if carrier is None:
-        return turning
-    name = carrier_name(module).removeprefix(PREFIX)
-    geoms = _geoms(plain_carrier_visuals(device, module))
-    values = {**place, **inertial_values(carrier), "body": name, "geoms": geoms}
-    return turning + fill("carrier.xml", values)
-
-
-def _plate_mjcf(device: Device) -> str:
-    """What is under the feet; empty where they stand on the trunk."""
-    under = under_feet(device)
-    if under is None:
-        return ""
-    own, position = under
+def _body_mjcf(device: Device, body: DeviceBody) -> str:
     values = {
-        "position": numbers(position),
-        "quaternion": numbers(quaternion(np.eye(3))),
-        **inertial_values(own),
-        "body": PLATE.removeprefix(PREFIX),
-        "geoms": _geoms(plain_plate_visuals(device)),
+        **inertial_values(body.own),
+        "body": body.name.removeprefix(PREFIX),
+        "position": numbers(body.position),
+        "quaternion": numbers(quaternion(body.place.rotation)),
     }
+    if body.joint:
+        wheel = device.flywheel
+        values["joint"] = body.joint.removeprefix(PREFIX)
+        values["armature"] = numbers(device.motor.armature)
+        values["size"] = numbers((wheel.outer_radius, wheel.height / 2.0))
+        values["contact_bit"] = str(WHEEL_CONTACT_BIT)
+        return fill("flywheel.xml", values)
+    geoms = (
+        {
+            "type": visual.kind.value,
+            "position": numbers(visual.place.position),
+            "quaternion": numbers(quaternion(visual.place.rotation)),
+            "size": numbers(visual.size),
+            "color": numbers(visual.color),
+        }
+        for visual in plain_visuals(device, body)
+    )
+    values["geoms"] = "".join(fill("visual.xml", geom) for geom in geoms)
     return fill("carrier.xml", values)
 
 
-def _geoms(visuals: Iterable[Visual]) -> str:
-    """Geoms to look at, of a body."""
-    return "".join(
-        fill(
-            "visual.xml",
-            {
-                "type": visual.kind.value,
-                "position": numbers(visual.place.position),
-                "quaternion": numbers(quaternion(visual.place.rotation)),
-                "size": numbers(visual.size),
-                "color": numbers(visual.color),
-            },
-        )
-        for visual in visuals
-    )
+def export_snippet_sdf(device: Device, seat: Seat, path: Path) -> Path:
+    """Write links and joints to paste into an SDF model; arguments as in `export_snippet_urdf`."""
+    link = trunk_link(seat)
+    place = {"parent": quoted(link), "frame": quoted(link if seat.mount is None else BASE_FRAME)}
+    base = ""
+    if seat.mount is not None:
+        # The frame with x forward and z up, where the robot's own link has none.
+        at = seat.mount.placement
+        pose = numbers([*at.position, *rpy_from_rotation(at.rotation)])
+        parent = quoted(seat.mount.link)
+        base = fill("base_frame.sdf", {"frame": BASE_FRAME, "parent": parent, "pose": pose})
+    bodies = "".join(_body_sdf(device, body, place) for body in device_bodies(device))
+    values = {**place, "parent_in_comment": in_comment(link), "device": base + bodies}
+    return _write(path, fill("ocs.sdf", values))
+
+
+def _body_sdf(device: Device, body: DeviceBody, place: dict[str, str]) -> str:
+    values = {
+        **place,
+        **inertial_values(body.own),
+        "link": body.name,
+        # Unlike in URDF, a link and a joint of a model may not share a name.
+        "joint": body.joint or f"{body.name}_fixed",
+        "pose": numbers([*body.position, *body.rpy]),
+    }
+    if body.joint:
+        values["radius"] = numbers(device.flywheel.outer_radius)
+        values["length"] = numbers(device.flywheel.height)
+        values["limit"] = _limit_sdf(device)
+        return fill("flywheel.sdf", values)
+    visuals = []
+    for index, visual in enumerate(plain_visuals(device, body)):
+        if visual.kind is ShapeKind.BOX:
+            geometry = f"<box><size>{numbers(2.0 * np.array(visual.size))}</size></box>"
+        else:
+            radius, length = numbers(visual.size[0]), numbers(2.0 * visual.size[1])
+            geometry = f"<cylinder><radius>{radius}</radius><length>{length}</length></cylinder>"
+        look = {
+            **visual_values(visual),
+            "name": f"{visual.name}_{index}",
+            "geometry": geometry,
+            "transparency": numbers(1.0 - visual.color[3]),
+        }
+        visuals.append(fill("visual.sdf", look))
+    return fill("carrier.sdf", {**values, "visuals": "".join(visuals)})
+
+
+def _limit_sdf(device: Device) -> str:
+    """Limits of the motor; SDF has no armature."""
+    torque, speed = largest_torque(device.motor), device.motor.top_speed
+    effort = "" if torque is None else f"<effort>{numbers(torque)}</effort>"
+    velocity = f"<velocity>{numbers(speed)}</velocity>" if np.isfinite(speed) else ""
+    limit = f"<limit>{effort}{velocity}</limit>" if effort or velocity else ""
+    if device.motor.armature == 0.0:
+        return limit
+    return f"{limit}\n        <!-- armature {numbers(device.motor.armature)} kg m^2 is left out -->"
 
 
 def _names(seat: Seat) -> dict[str, str]:

@@ -15,7 +15,7 @@ from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import drive_solids, motor_mount
 from ocs_design.export.device_parts import printed_foot
 from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
-from ocs_design.export.module_bodies import carrier_placement
+from ocs_design.export.module_bodies import DeviceBody, carrier_placement
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.carrier_plate import CarrierPlate, plate_bodies
 from ocs_design.parts.dog_bone import directions
@@ -208,6 +208,20 @@ def plain_carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
         *_drive(device, turn, {"cage"}),
         *_drive(device, turn, {"motor", "gear"}),
     )
+
+
+def still_visuals(device: Device, body: DeviceBody) -> tuple[Visual, ...]:
+    """Shapes of a body that stands still, of meshes where there are any."""
+    if body.module is None:
+        return plate_visuals(device)
+    return carrier_visuals(device, body.module)
+
+
+def plain_visuals(device: Device, body: DeviceBody) -> tuple[Visual, ...]:
+    """The same of boxes and cylinders, for files that stand alone."""
+    if body.module is None:
+        return plain_plate_visuals(device)
+    return plain_carrier_visuals(device, body.module)
 
 
 def cage_placement(foot: Foot, cage: Cage) -> Placement:

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from seats import TRUNK, TrunkOnly
 from wheels import EC45_BODY, driven_device, geared, paper_device
 
-from ocs_design.export.sdf import export_snippet_sdf
+from ocs_design.export.snippets import export_snippet_sdf
 from ocs_design.robot.reader import read_robot
 
 

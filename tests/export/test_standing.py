@@ -20,9 +20,9 @@ from ocs_design.export.glb import export_robot_glb
 from ocs_design.export.meshes import part_mesh
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
-from ocs_design.export.sdf import export_snippet_sdf
 from ocs_design.export.snippets import (
     export_snippet_mjcf,
+    export_snippet_sdf,
     export_snippet_urdf,
     export_snippet_xacro,
 )
