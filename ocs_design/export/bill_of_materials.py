@@ -22,7 +22,7 @@ from ocs_design.export.device_parts import (
     printed_parts,
     ring_fixture,
 )
-from ocs_design.export.electrics import electrics
+from ocs_design.export.electrics import Electrics
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import (
     CarrierPlate,
@@ -195,13 +195,13 @@ def _screws(held: Fastening, modules: int) -> BillRow:
 
 def _electrics(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:
     """Controllers and battery, which are not chosen."""
-    ratings, left_out = electrics(device, margins), "of your choice; not in the device's mass"
+    ratings, left_out = Electrics(device, margins), "of your choice; not in the device's mass"
     controller, battery = ratings.controller(), ratings.battery()
     if controller:
         mass = device.motor.controller_mass
         counted = "of your choice; mass by a rule over its current" if mass else left_out
         remark = f"{controller}; {counted}"
-        yield BillRow("motor controller", ratings.controllers, "", "", mass, remark)
+        yield BillRow("motor controller", len(device.modules), "", "", mass, remark)
     if battery:
         yield BillRow("battery", 1, "", "", 0.0, f"{battery}; {left_out}")
         braking = "switches on above the full battery, below the controllers' limit"

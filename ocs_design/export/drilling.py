@@ -7,14 +7,12 @@ paper forward is up. What is wider than a sheet goes on several, to be joined ed
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.export.device_parts import foot_holes, printed_foot, trunk_reach
 from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
 from ocs_design.export.drawing.sheet import (
-    CENTRE,
     HEIGHT,
     THIN,
     WIDTH,
@@ -25,6 +23,7 @@ from ocs_design.export.drawing.sheet import (
     Point,
     Polyline,
     Text,
+    cross,
     outline,
     rectangle,
 )
@@ -110,13 +109,9 @@ class Drilling:
         return self.screw.tapping_drill
 
 
-def write_drilling(subject: Subject, folder: Path) -> None:
-    """Write `drilling.pdf`; nothing for wheels without feet."""
-    drilling = drilling_of(subject)
-    if drilling is not None:
-        (folder / "drilling.pdf").write_bytes(
-            pdf_of_pages(pages(drilling), f"Drilling template of {drilling.robot}")
-        )
+def drilling_pdf(drilling: Drilling) -> bytes:
+    """The template on A4 sheets."""
+    return pdf_of_pages(pages(drilling), f"Drilling template of {drilling.robot}")
 
 
 def drilling_of(subject: Subject) -> Drilling | None:
@@ -140,18 +135,18 @@ def drilling_of(subject: Subject) -> Drilling | None:
         _, y, z = plate.position
         holes = _millimetres([(z + up, y + across) for across, up in plate.trunk])
     radius = MILLIMETRES * thread.tapping_drill / 2.0
-    marks: list[Item] = [*_cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
+    marks: list[Item] = [*cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
     marks.append(Text((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
     for hole in holes:
         words = Text(
             (hole[0] + radius, hole[1] - radius - 1.0), f"{hole[0]:.1f}, {hole[1]:.1f}", 1.8
         )
-        marks += [Circle(hole, radius), *_cross(hole, radius + CROSS), words]
+        marks += [Circle(hole, radius), *cross(hole, radius + CROSS), words]
     items: list[Item] = []
     for module in (each for each in device.modules if each.name in standing and mast is None):
         (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
         base = MILLIMETRES * foot.base_radius
-        items += [Circle(middle, base, THIN), *_cross(middle, CROSS)]
+        items += [Circle(middle, base, THIN), *cross(middle, CROSS)]
         items.append(Text((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5))
     for each in device.pedestals:
         side, near, far = each.width / 2.0, -FLANGE, each.length + FLANGE
@@ -194,12 +189,6 @@ def drilling_of(subject: Subject) -> Drilling | None:
 
 def _millimetres(places: Iterable[Point] | list[list[float]]) -> tuple[Point, ...]:
     return tuple((MILLIMETRES * x, MILLIMETRES * y) for x, y in places)
-
-
-def _cross(place: Point, half: float) -> Iterator[Item]:
-    (x, y) = place
-    yield Line((x - half, y), (x + half, y), CENTRE)
-    yield Line((x, y - half), (x, y + half), CENTRE)
 
 
 def pages(drilling: Drilling) -> Iterator[list[Item]]:

@@ -15,47 +15,26 @@ VOLTAGE_RESERVE = 1.2
 voltage, and braking wheels lift it by the current through its resistance."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Electrics:
-    """Ratings of controllers and battery; None is what is not known.
+    """Ratings from the motor's limits and, where flights were recorded, from what they asked.
 
     Attributes:
-        controllers: how many.
-        voltage: of the bus [V].
-        motor_current: largest through two lines of one motor (six-step) [A].
-        saturates: whether the motor takes more than that, because its k_t falls off.
-        drawn, fed_back: largest current of the bus, of all motors together [A].
-        power_drawn, power_fed_back: likewise [W].
-        energy_drawn, energy_fed_back: of the dearest maneuver [J].
-        supply_current, supply_power: limits of the supply that the design keeps to [A], [W].
-        counted: whether the controllers are in the device's mass.
+        device: whose motors are driven.
+        margins: of the design; empty: not known.
     """
 
-    controllers: int
-    voltage: float | None
-    motor_current: float | None
-    saturates: bool = False
-    drawn: float | None = None
-    fed_back: float | None = None
-    power_drawn: float | None = None
-    power_fed_back: float | None = None
-    energy_drawn: float | None = None
-    energy_fed_back: float | None = None
-    supply_current: float | None = None
-    supply_power: float | None = None
-    counted: bool = False
-
-    @property
-    def controller_voltage(self) -> float | None:
-        """Voltage that a controller is rated for, at least [V]."""
-        return None if self.voltage is None else VOLTAGE_RESERVE * self.voltage
+    device: Device
+    margins: Sequence[MarginRecord]
 
     def controller(self) -> str:
         """Rating of each controller; empty where it is not known."""
-        current, voltage = self.motor_current, self.controller_voltage
+        motor = self.device.motor
+        current, voltage = motor_current(motor), motor.bus_voltage
         if current is None or voltage is None:
             return ""
-        more = "more than " if self.saturates else ""
+        # A motor takes more where its k_t falls off.
+        more = "more than " if _saturates(motor) else ""
         amplitude, effective = (
             current / six_step_current(1.0, kind)
             for kind in (TorqueConstantConvention.FOC, TorqueConstantConvention.FOC_RMS)
@@ -63,40 +42,46 @@ class Electrics:
         return (
             f"at least {more}{_up(current)} A through two lines (six-step), which field-oriented "
             f"control counts as {_up(amplitude)} A of amplitude or {_up(effective)} A rms of a "
-            f"phase; rated for {_up(voltage)} V or more"
+            f"phase; rated for {_up(VOLTAGE_RESERVE * voltage)} V or more"
         )
 
     def battery(self) -> str:
         """What the battery gives and takes back; empty where nothing of it is known."""
-        parts = [
-            f"{does} at least {_up(current)} A{'' if power is None else f' ({_up(power)} W)'}"
-            for does, current, power in (
-                ("gives", self.drawn, self.power_drawn),
-                ("takes back", self.fed_back, self.power_fed_back),
+        voltage, parts = self.device.motor.bus_voltage, []
+        for does, way in (("gives", "drawn"), ("takes back", "fed back")):
+            # What is drawn may be recorded as all that there is.
+            whole = ("",) if way == "drawn" else ()
+            current, power = (
+                demand_of(self.margins, *(f"bus {what}{end}" for end in (*whole, f", {way}")))
+                for what in ("current", "power")
             )
-            if current is not None
-        ]
-        at = "" if self.voltage is None else f" at {self.voltage:g} V"
+            if current is not None:
+                power = power or (None if voltage is None else current * voltage)
+                watts = "" if power is None else f" ({_up(power)} W)"
+                parts.append(f"{does} at least {_up(current)} A{watts}")
+        at = "" if voltage is None else f" at {voltage:g} V"
         energies = [
             f"{significant(energy, 3)} J {way}"
-            for way, energy in (("out", self.energy_drawn), ("back", self.energy_fed_back))
-            if energy is not None
+            for way, name in (("out", "energy from the bus"), ("back", "energy fed back"))
+            if (energy := demand_of(self.margins, name)) is not None
         ]
-        energy = f"; a maneuver takes at most {' and '.join(energies)}" if energies else ""
-        return f"{' and '.join(parts)}{at}{energy}" if parts else ""
+        most = f"; a maneuver takes at most {' and '.join(energies)}" if energies else ""
+        return f"{' and '.join(parts)}{at}{most}" if parts else ""
 
     def sentences(self) -> Iterator[str]:
         """What to tell a builder."""
         rating, battery = self.controller(), self.battery()
-        if self.voltage is None:
+        motor, supply, count = self.device.motor, self.device.supply, len(self.device.modules)
+        counted = "are" if motor.controller_mass > 0.0 else "are not either"
+        if motor.bus_voltage is None:
             return
         yield (
-            f"Battery ({self.voltage:g} V) - fuse and switch - one bus for all - "
-            f"{self.controllers} controllers, each next to its motor - three wires to "
+            f"Battery ({motor.bus_voltage:g} V) - fuse and switch - one bus for all - "
+            f"{count} controllers, each next to its motor - three wires to "
             "each motor. Keep the bus short: its inductance adds to every spike."
         )
         if rating:
-            yield f"Controllers, {self.controllers}: {rating}. They take torque (current) commands."
+            yield f"Controllers, {count}: {rating}. They take torque (current) commands."
         yield (
             "design.json has the wheel law's gains and period (`control`); validation/*.csv has "
             "torque and speed of each wheel over time, to hold the first flights against."
@@ -106,15 +91,15 @@ class Electrics:
             "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
             "holds torque at low speed without one. No part here holds a sensor: see that the "
             "motor has one, or fit it before the motor is screwed in. Sensors and cables are not "
-            f"in the device's mass, controllers {'are' if self.counted else 'are not either'}."
+            f"in the device's mass, controllers {counted}."
         )
         if battery:
             yield f"The battery, for all motors together, {battery}. Cables and fuse stand as much."
         limits = []
-        if self.supply_current is not None:
-            limits.append(f"{significant(self.supply_current, 3)} A")
-        if self.supply_power is not None:
-            limits.append(f"{significant(self.supply_power, 4)} W")
+        if supply is not None and math.isfinite(supply.current_max):
+            limits.append(f"{significant(supply.current_max, 3)} A")
+        if supply is not None and math.isfinite(supply.power_max):
+            limits.append(f"{significant(supply.power_max, 4)} W")
         if limits:
             yield (
                 f"The design keeps to a supply of {' and '.join(limits)}, drawn or fed back: set "
@@ -126,34 +111,6 @@ class Electrics:
             "breaks. Put a brake resistor with its switch on the bus, set below the controllers' "
             "voltage limit, and never let the battery's protection cut the bus while wheels turn."
         )
-
-
-def electrics(device: Device, margins: Sequence[MarginRecord]) -> Electrics:
-    """Ratings from the motor's limits and, where flights were recorded, from what they asked.
-
-    Args:
-        device: whose motors are driven.
-        margins: of the design; empty: not known.
-    """
-    motor, supply = device.motor, device.supply
-    drawn = demand_of(margins, "bus current", "bus current, drawn")
-    fed_back = demand_of(margins, "bus current, fed back")
-    voltage = motor.bus_voltage
-    return Electrics(
-        controllers=len(device.modules),
-        voltage=voltage,
-        motor_current=motor_current(motor),
-        saturates=_saturates(motor),
-        drawn=drawn,
-        fed_back=fed_back,
-        power_drawn=demand_of(margins, "bus power", "bus power, drawn") or _times(drawn, voltage),
-        power_fed_back=demand_of(margins, "bus power, fed back") or _times(fed_back, voltage),
-        energy_drawn=demand_of(margins, "energy from the bus"),
-        energy_fed_back=demand_of(margins, "energy fed back"),
-        counted=motor.controller_mass > 0.0,
-        supply_current=None if supply is None else _finite(supply.current_max),
-        supply_power=None if supply is None else _finite(supply.power_max),
-    )
 
 
 def demand_of(margins: Sequence[MarginRecord], *names: str) -> float | None:
@@ -186,11 +143,3 @@ def controller_rating(motor: Drive) -> str:
 def _up(figure: float) -> int:
     """Next whole number; what is one but for rounding stays."""
     return math.ceil(round(figure, 6))
-
-
-def _times(current: float | None, voltage: float | None) -> float | None:
-    return None if current is None or voltage is None else current * voltage
-
-
-def _finite(limit: float) -> float | None:
-    return limit if math.isfinite(limit) else None

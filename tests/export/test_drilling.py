@@ -12,7 +12,7 @@ from wheels import paper_device
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.drawing.sheet import HEIGHT, Area, Circle, Line, Text
-from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages, write_drilling
+from ocs_design.export.drilling import CHECK, SHEET, drilling_of, drilling_pdf, pages
 from ocs_design.export.formats import Subject
 
 
@@ -47,10 +47,9 @@ def test_screws_of_the_feet_are_within_reach_of_their_slots():
             assert (along >= np.sqrt(0.5) - 1e-12).all()
 
 
-def test_on_paper_the_holes_are_in_full_size_with_forward_up(device, tmp_path):
+def test_on_paper_the_holes_are_in_full_size_with_forward_up(device):
     """A PDF's unit is a 72nd of an inch."""
-    write_drilling(subject(device), tmp_path)
-    content = (tmp_path / "drilling.pdf").read_bytes().decode("latin-1")
+    content = drilling_pdf(drilling_of(subject(device))).decode("latin-1")
     box = re.search(r"/MediaBox \[ 0 0 (\S+) (\S+) \]", content)
     assert [float(each) * 25.4 / 72.0 for each in box.groups()] == pytest.approx([297.0, 210.0])
     (scale,) = re.findall(r"([\d.]+) 0 0 ([\d.]+) 0 0 cm", content.replace("1 0 0 1 0 0 cm", ""))
@@ -129,9 +128,8 @@ def test_one_sheet_is_enough_where_it_has_room_for_the_holes():
     assert len(shown) == len(drilling.holes)
 
 
-def test_wheels_alone_have_none(tmp_path):
-    write_drilling(subject(paper_device()), tmp_path)
-    assert list(tmp_path.iterdir()) == []
+def test_wheels_alone_have_none():
+    assert drilling_of(subject(paper_device())) is None
 
 
 def test_a_module_that_does_not_stand_has_no_screws_in_the_trunk():

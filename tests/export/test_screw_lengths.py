@@ -11,7 +11,7 @@ from ocs_design.actuation.fasteners import (
     screw,
 )
 from ocs_design.catalogue.motors import known_motors
-from ocs_design.export.assembly.tightening import tightened
+from ocs_design.export.assembly.content import tightened
 from ocs_design.parts.cage import FLOOR
 from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import LID_SCREWS

@@ -70,10 +70,17 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     texts = chapters(assembly)
     bodies = [_first_page(assembly), *_text_pages(assembly, texts)]
     identity = f"design {device_hash(assembly.device)} · ocs-design {__version__}"
-    return [
-        [*frame(), *_heading(assembly.robot, identity, number, len(bodies)), *body]
-        for number, body in enumerate(bodies, start=1)
-    ]
+    title, y = fitted(f"Assembly, {assembly.robot}", 130.0, _TITLE), TOP + 7.0
+    pages: list[list[Item]] = []
+    for number, body in enumerate(bodies, start=1):
+        sheet = f"{identity} · sheet {number} / {len(bodies)}"
+        heading: list[Item] = [
+            Text((LEFT + _INSET, y), title, _TITLE),
+            Text((RIGHT - _INSET, y), sheet, _TEXT, Anchor.END),
+            Line((LEFT, TOP + 10.0), (RIGHT, TOP + 10.0)),
+        ]
+        pages.append([*frame(), *heading, *body])
+    return pages
 
 
 @lru_cache(maxsize=1)
@@ -117,23 +124,11 @@ def _around(items: Iterable[Item]) -> Box:
     return (min(across) - margin, min(down) - margin, max(across) + margin, max(down) + margin)
 
 
-def _heading(robot: str, identity: str, number: int, count: int) -> Iterator[Item]:
-    """Title and number of a page, within the frame."""
-    y = TOP + 7.0
-    yield Text((LEFT + _INSET, y), fitted(f"Assembly, {robot}", 130.0, _TITLE), _TITLE)
-    text = f"{identity} · sheet {number} / {count}"
-    yield Text((RIGHT - _INSET, y), text, _TEXT, Anchor.END)
-    yield Line((LEFT, TOP + 10.0), (RIGHT, TOP + 10.0))
-
-
 def _first_page(assembly: Assembly) -> list[Item]:
     """Exploded view, and below it the pieces by their numbers."""
     view, scale = _exploded(assembly)
     items = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
-    rows = list(assembly.piece_rows())
-    cells = [
-        (str(row.number), str(row.quantity), row.name, row.made, row.file or "") for row in rows
-    ]
+    cells = [tuple(map(str, row)) for row in assembly.piece_rows()]
     top = EXPLODED_BOX[3] + 3.0
     half = (len(cells) + 1) // 2
     width = (RIGHT - LEFT - 2.0 * _INSET - _GUTTER) / 2.0
@@ -150,7 +145,11 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
     items: list[Item] = []
     for drawn, scale, what, box in _sections(assembly):
         items += [*drawn, *_scale(what, scale, box)]
-    table, bottom = _screw_table(assembly)
+    rows = [tuple(map(str, row)) for row in assembly.screw_rows()]
+    header = ("No.", "Qty", "Screw", "What it holds", "Thread that holds", "Torque", "Set by")
+    widths = (6.0, 8.0, 28.0, 0.0, 26.0, 18.0, 78.0)
+    across = (LEFT + _INSET, TOP + 14.0, RIGHT - _INSET)
+    table, bottom = _table(header, rows, widths, across) if rows else ([], TOP + 15.0)
     pages = [items, table]
     columns = [(0, (_SECTION_BOX[2] + _GUTTER, TOP + 15.0, RIGHT - _INSET, BOTTOM - 3.0))]
     columns += [(1, each) for each in _halves(bottom + 6.0)]
@@ -213,17 +212,6 @@ class _Block:
         if self.heading:
             return [self.text]
         return wrapped(self.text, width - (_NUMBER if self.number else 0.0), _TEXT)
-
-
-def _screw_table(assembly: Assembly) -> tuple[list[Item], float]:
-    """Screws with lengths and torques over the whole width, and where the table ends."""
-    rows = [row.cells for row in assembly.screw_rows()]
-    if not rows:
-        return [], TOP + 15.0
-    header = ("No.", "Qty", "Screw", "What it holds", "Thread that holds", "Torque", "Set by")
-    widths = (6.0, 8.0, 28.0, 0.0, 26.0, 18.0, 78.0)
-    box = (LEFT + _INSET, TOP + 14.0, RIGHT - _INSET)
-    return _table(header, rows, widths, box)
 
 
 def _scale(what: str, scale: Scale, box: Box) -> Iterator[Item]:

@@ -7,13 +7,13 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from math import pi, sqrt
+from typing import NamedTuple
 
-from ocs_design.actuation.fasteners import IN_PLASTIC
+from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device
-from ocs_design.device.joints import (
-    burst_of,
-)
+from ocs_design.device.joints import burst_of
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import (
@@ -22,10 +22,12 @@ from ocs_design.export.assembly.placed import (
     holds_wheel,
     module_pieces,
 )
-from ocs_design.export.assembly.tightening import Tightened, tightened
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
 from ocs_design.export.formats import Subject
 from ocs_design.parts.guard import Containment
+from ocs_design.parts.joints import preload as joint_preload
+from ocs_design.parts.joints import tightening_torque
+from ocs_design.parts.printed import STRENGTH
 
 _LABELS = {
     "flywheel": "flywheel",
@@ -45,40 +47,100 @@ _LABELS = {
 }
 
 
-@dataclass(frozen=True)
-class PieceRow:
+STRIP_SHARE = 1.0 / 3.0
+"""Preload of a screw in a print over the one that strips its thread: prints shear along layers, and
+creep."""
+
+PRESSURE_SHARE = 0.5
+"""Pressure under a head on a print over its yield strength: it creeps little then."""
+
+ALUMINIUM_SHEAR = 207e6
+"""Shear strength of 6061-T6 [Pa] (ASM), for motors' bells and trunks whose alloy is not known."""
+
+THREAD_SHARE = 0.5
+"""Preload of a screw in aluminium over the one that strips its thread."""
+
+
+class PieceRow(NamedTuple):
     """A piece, or equal screws, as the pictures number them.
 
     Attributes:
-        number: in the pictures. name: for people. quantity: in the whole device.
+        number: in the pictures. quantity: in the whole device. name: for people.
         made: "bought", "turned" or "printed", and of what.
         file: to make it from; empty: none.
     """
 
     number: int
-    name: str
     quantity: int
+    name: str
     made: str
     file: str
 
 
-@dataclass(frozen=True)
-class ScrewRow:
+class ScrewRow(NamedTuple):
     """Equal screws: number in the pictures, what they are, and how they are tightened."""
 
     number: int
-    designation: str
     quantity: int
+    designation: str
     purpose: str
     engagement: str
     torque: str
     rule: str
 
-    @property
-    def cells(self) -> tuple[str, ...]:
-        """What a table shows of it."""
-        told = (self.designation, self.purpose, self.engagement, self.torque, self.rule)
-        return (str(self.number), str(self.quantity), *told)
+
+@dataclass(frozen=True)
+class Tightened:
+    """Screws with the torque to tighten them with.
+
+    Attributes:
+        fastening: what they are.
+        torque: [N m].
+        rule: what limits it.
+        engagement: length of thread that holds, at least [m].
+        on_print: whether their heads press on a print, and they go through it.
+    """
+
+    fastening: Fastening
+    torque: float
+    rule: str
+    engagement: float
+    on_print: bool = False
+
+
+def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = True) -> Tightened:
+    """Torque of screws.
+
+    Those of the wheel as their joint is computed (`parts.joints`). Others, of class 8.8, with the
+    least of: 90 % of the screw's yield strength (VDI 2230); half of the force that shears off a
+    thread in aluminium, or a third of it in a print, on half of the thread's cylinder; under a head
+    on a print, half the print's yield strength as pressure. A print's shear strength is its tensile
+    one over sqrt(3).
+
+    Args:
+        fastening: what they are.
+        on_metal: whether they hold the wheel, metal on metal.
+        head_on_print: whether their heads press on a print, not on metal.
+    """
+    screw, engagement = fastening.screw, fastening.length - fastening.thickness
+    sheared = pi * screw.diameter * engagement / 2.0
+    if on_metal:
+        strength = fastening.strength
+        share = joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
+        rule = f"the joint, as computed; {share:.0%} of what strips a thread in 6061-T6"
+        return Tightened(fastening, tightening_torque(screw, strength), rule, engagement)
+    limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
+    if head_on_print:
+        pressed = PRESSURE_SHARE * STRENGTH * screw.head_area
+        limits.append((pressed, "head on PETG at half its yield strength"))
+    if fastening.depth >= IN_PLASTIC:
+        stripped = STRIP_SHARE * sheared * STRENGTH / sqrt(3.0)
+        limits.append((stripped, "thread in PETG at a third of what strips it"))
+    else:
+        stripped = THREAD_SHARE * sheared * ALUMINIUM_SHEAR
+        limits.append((stripped, "thread in aluminium at half of what strips it"))
+    preload, rule = min(limits)
+    return Tightened(fastening, screw.torque(preload), rule, engagement, head_on_print)
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,11 +210,11 @@ class Assembly:
             number, count = self.numbers[piece.name], self._count(piece)
             if piece.fastening is not None:
                 what = piece.fastening.designation
-                yield PieceRow(number, f"screw, {short(piece.name)}", count, f"bought: {what}", "")
+                yield PieceRow(number, count, f"screw, {short(piece.name)}", f"bought: {what}", "")
             else:
                 label = _LABELS.get(piece.name, piece.name.replace("_", " "))
                 made, file = _made(self.device, piece.name, bill)
-                yield PieceRow(number, label, count, made, file)
+                yield PieceRow(number, count, label, made, file)
 
     def screw_rows(self) -> Iterator[ScrewRow]:
         """Screws with their torques."""
@@ -165,8 +227,8 @@ class Assembly:
             )
             yield ScrewRow(
                 self.numbers[name],
-                held.designation,
                 self._count(piece),
+                held.designation,
                 held.purpose,
                 depth,
                 f"{found.torque:.2g} N m",

@@ -10,7 +10,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Fastening, Screw
+from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, motor_mount, shaft_cut
@@ -141,7 +141,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     Wheels alone have no other pieces.
     """
     parts = {
-        name: Piece(name, _placed(part_mesh(part, SECTIONS), place))
+        name: Piece(name, part_mesh(part, SECTIONS).placed(place))
         for name, (part, place) in placed_parts(device).items()
     }
     wheel = [parts.pop(name.removeprefix("flywheel_")) for name in wheel_pieces(device.flywheel)]
@@ -204,10 +204,10 @@ def bonding_pieces(device: Device) -> tuple[Piece, ...]:
     )
     down = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
     parts = placed_parts(device)
-    pieces = [Piece("ring_fixture", _placed(part_mesh(fixture, SECTIONS), down))]
+    pieces = [Piece("ring_fixture", part_mesh(fixture, SECTIONS).placed(down))]
     for name in ("motor", "flywheel"):
         part, place = parts[name]
-        pieces.append(Piece(name, _placed(part_mesh(part, SECTIONS), down @ front @ place)))
+        pieces.append(Piece(name, part_mesh(part, SECTIONS).placed(down @ front @ place)))
     return tuple(pieces)
 
 
@@ -227,13 +227,12 @@ def _ring(
         along: along the wheel's axis [m].
         towards: 1: their tips point outward, -1: to the motor.
     """
-    one = solid_mesh(_screw(fastening.screw, fastening.length), 24)
-    flip = np.diag([1.0, -towards, -towards])
+    one, flip = _screw(fastening), np.diag([1.0, -towards, -towards])
     meshes = []
     for index in range(fastening.count):
         angle = first + 2.0 * pi * index / fastening.count
         place = np.array([radius * cos(angle), radius * sin(angle), along])
-        meshes.append(Mesh(one.vertices @ flip.T + place, one.triangles))
+        meshes.append(one.placed(Placement(flip, place)))
     return Piece(fastening.purpose, merged(meshes), fastening)
 
 
@@ -254,9 +253,8 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
-        one = solid_mesh(_screw(held.screw, held.length), 24)
-        heads = [one.moved(np.array([x, y, under + BASE_THICKNESS])) for x, y in places]
-        screws = _placed(merged(heads), place)
+        heads = [_screw(held).moved(np.array([x, y, under + BASE_THICKNESS])) for x, y in places]
+        screws = merged(heads).placed(place)
         apart = -_APART * foot.housing.radius
         yield Piece(held.purpose, screws, held, drop=apart, modules=feet.count(held))
 
@@ -268,9 +266,8 @@ def _pedestal_pieces(device: Device) -> Iterator[Piece]:
     for name, kind in pedestal_kinds(device).items():
         one, held = kind[0], screws[name]
         place = foot.placement @ one.seat.inverse()
-        screw = solid_mesh(_screw(held.screw, held.length), 24)
-        heads = merged([screw.moved(np.array([x, y, one.base])) for x, y in one.holes])
-        heads, mesh = (_placed(each, place) for each in (heads, part_mesh(parts[name], SECTIONS)))
+        heads = merged([_screw(held).moved(np.array([x, y, one.base])) for x, y in one.holes])
+        heads, mesh = (each.placed(place) for each in (heads, part_mesh(parts[name], SECTIONS)))
         along = np.concatenate([heads.vertices[:, 2], mesh.vertices[:, 2]])
         aside = min(0.0, beside - apart - float(along.max()))
         beside = aside + float(along.min())
@@ -290,13 +287,12 @@ def _plate_pieces(device: Device) -> Iterator[Piece]:
     lowest = 1.5 * apart + max(plate.screw_lengths)
     head = Placement(np.eye(3), np.array([0.0, 0.0, plate.clamped]))
     for held in plate.fastenings:
-        one = solid_mesh(_screw(held.screw, held.length), 24)
         own = zip(plate.screw_places, plate.screw_lengths, strict=True)
-        heads = [_placed(one, at @ head) for at, length in own if length == held.length]
-        yield Piece(held.purpose, _placed(merged(heads), place), held, drop=apart, shared=True)
+        heads = [_screw(held).placed(at @ head) for at, length in own if length == held.length]
+        yield Piece(held.purpose, merged(heads).placed(place), held, drop=apart, shared=True)
     bodies: dict[str, list[Mesh]] = {}
     for part, at in plate_bodies(plate):
-        bodies.setdefault(part.name, []).append(_placed(part_mesh(part, SECTIONS), place @ at))
+        bodies.setdefault(part.name, []).append(part_mesh(part, SECTIONS).placed(place @ at))
     sleeves = bodies.pop("sleeve", [])
     if sleeves:
         down = lowest + apart
@@ -305,13 +301,9 @@ def _plate_pieces(device: Device) -> Iterator[Piece]:
         yield Piece(name, merged(meshes), drop=lowest, shared=True)
 
 
-def _screw(screw: Screw, length: float) -> Revolution:
+def _screw(held: Fastening) -> Mesh:
     """A screw with its head above z = 0 and its tip below."""
+    screw, length = held.screw, held.length
     thread, head, top = screw.diameter / 2.0, screw.head_diameter / 2.0, screw.head_height
-    return revolved(
-        [(0.0, -length), (thread, -length), (thread, 0.0), (head, 0.0), (head, top), (0.0, top)]
-    )
-
-
-def _placed(mesh: Mesh, place: Placement) -> Mesh:
-    return Mesh(mesh.vertices @ place.rotation.T + place.position, mesh.triangles)
+    profile = [(0.0, -length), (thread, -length), (thread, 0.0), (head, 0.0), (head, top)]
+    return solid_mesh(revolved([*profile, (0.0, top)]), 24)

@@ -8,7 +8,6 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.assembly.line_art import section_lines, view_of, visible_lines
 from ocs_design.export.assembly.placed import Piece
-from ocs_design.export.drawing.cut_faces import hatching
 from ocs_design.export.drawing.sheet import (
     CENTRE,
     OUTLINE,
@@ -22,6 +21,7 @@ from ocs_design.export.drawing.sheet import (
     Polyline,
     Scale,
     Text,
+    hatching,
     largest_scale,
 )
 from ocs_design.export.meshes import Mesh
@@ -204,8 +204,17 @@ def _balloons(
     ordered = sorted(marks, key=lambda mark: mark[1][axis])
     places = spread([at[axis] for _, at in ordered], 2.0 * BALLOON + 1.5, room)
     items: list[Item] = []
-    for (number, at), along in zip(ordered, places, strict=True):
-        items += _balloon(number, (level, along) if axis else (along, level), at)
+    for (number, to), along in zip(ordered, places, strict=True):
+        at = (level, along) if axis else (along, level)
+        # A number in a circle, with a line to what it names.
+        away = np.subtract(to, at)
+        start = np.add(at, away * BALLOON / max(float(np.linalg.norm(away)), BALLOON))
+        items += [
+            Circle(at, BALLOON, THIN),
+            Line((float(start[0]), float(start[1])), to, THIN),
+            Circle(to, 0.4, THIN),
+            Text((at[0], at[1] + 1.25), str(number), 2.5, Anchor.MIDDLE),
+        ]
     return items
 
 
@@ -219,15 +228,3 @@ def spread(wanted: Sequence[float], least: float, room: tuple[float, float]) -> 
         places[index] = min(places[index], end)
         end = places[index] - least
     return places
-
-
-def _balloon(number: int, at: tuple[float, float], to: tuple[float, float]) -> list[Item]:
-    """A number in a circle, with a line to what it names."""
-    away = np.subtract(to, at)
-    start = np.add(at, away * BALLOON / max(float(np.linalg.norm(away)), BALLOON))
-    return [
-        Circle(at, BALLOON, THIN),
-        Line((float(start[0]), float(start[1])), to, THIN),
-        Circle(to, 0.4, THIN),
-        Text((at[0], at[1] + 1.25), str(number), 2.5, Anchor.MIDDLE),
-    ]

@@ -31,6 +31,7 @@ from ocs_design.export.drawing.sheet import (
     Polyline,
     Scale,
     Text,
+    cross,
     largest_scale,
     outline,
     rectangle,
@@ -83,9 +84,7 @@ def plate_sheets(device: Device, robot: str, identity: str, tool: str) -> list[l
         identity,
         f"1 / {count}",
     )
-    sheets = [
-        [*frame(), *view, *numbered(list(_plate_notes(plate))), *title_block(entries.cells())]
-    ]
+    sheets = [[*frame(), *view, *numbered(list(_plate_notes(plate))), *title_block(entries)]]
     if plate.mast is not None:
         scale, view = _mast_views(plate, plate.mast)
         entries = Entries(
@@ -101,7 +100,7 @@ def plate_sheets(device: Device, robot: str, identity: str, tool: str) -> list[l
             f"2 / {count}",
         )
         words = numbered(list(_mast_notes(plate, plate.mast)))
-        sheets.append([*frame(), *view, *words, *title_block(entries.cells())])
+        sheets.append([*frame(), *view, *words, *title_block(entries)])
     return sheets
 
 
@@ -145,7 +144,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     for name, (_, size, places) in zip("ABC", _kinds(plate), strict=False):
         for number, (x, y) in enumerate(places, start=1):
             at, radius = place(x, y), scale(size) / 2.0
-            items += [Circle(at, radius), *_cross(at, radius + 2.0)]
+            items += [Circle(at, radius), *cross(at, radius + 2.0)]
             # The name of a window stands in it, that of a hole beside it.
             aside = 1.0 if radius > 5.0 else radius + 0.8
             items.append(Text((at[0] + aside, at[1] - aside), f"{name}{number}", 1.8))
@@ -248,7 +247,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
         items += _box(side(mast.face + mast.spacer, up), side(mast.face, low))
     radius = scale(plate.screw.clearance_hole) / 2.0
     for y, z in plate.trunk:
-        items += [Circle(back(y, z), radius), *_cross(back(y, z), radius + 2.0)]
+        items += [Circle(back(y, z), radius), *cross(back(y, z), radius + 2.0)]
     for z in sorted({z for _, z in plate.trunk}):
         (near, along), (far, _) = side(mast.face + mast.spacer, z), side(mast.back, z)
         items.append(Line((near - 3.0, along), (far + 3.0, along), CENTRE))
@@ -312,12 +311,6 @@ def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
 def _box(corner: Point, other: Point) -> list[Item]:
     (x0, y0), (x1, y1) = corner, other
     return outline(rectangle(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)))
-
-
-def _cross(at: Point, half: float) -> Iterator[Item]:
-    (x, y) = at
-    yield Line((x - half, y), (x + half, y), CENTRE)
-    yield Line((x, y - half), (x, y + half), CENTRE)
 
 
 def _tall(label: str, edge: float, ends: tuple[float, float]) -> Iterator[Item]:

@@ -1,5 +1,6 @@
 """Sheet of paper with lines, circles and texts [mm], x from its left edge, y down from its top."""
 
+import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,6 +20,11 @@ FRAME_BOX = (MARGIN_LEFT, MARGIN, WIDTH - MARGIN, HEIGHT - MARGIN)
 
 FONT = "Helvetica"
 """Typeface of all texts; every PDF reader has it."""
+
+SPACING = 2.0
+"""Distance of the hatching's lines [mm]."""
+
+_DIAGONAL = math.sqrt(0.5)
 
 ENCODING = "cp1252"
 """WinAnsiEncoding of PDF, which has what drawings need, as in `Ø8 H7 ±0.05`."""
@@ -194,6 +200,50 @@ def outline(corners: Sequence[Point], pen: Pen = OUTLINE) -> list[Item]:
 def rectangle(left: float, top: float, right: float, bottom: float) -> tuple[Point, ...]:
     """Corners of a rectangle, clockwise as seen."""
     return (left, top), (right, top), (right, bottom), (left, bottom)
+
+
+def cross(at: Point, half: float) -> list[Item]:
+    """Centre lines of a hole, so far to each side [mm]."""
+    x, y = at
+    return [Line((x - half, y), (x + half, y), CENTRE), Line((x, y - half), (x, y + half), CENTRE)]
+
+
+def hatching(
+    corners: Sequence[Point], *others: Sequence[Point], mirrored: bool = False
+) -> list[Item]:
+    """Thin lines at 45 degrees inside a polygon (ISO 128-3).
+
+    All polygons of a sheet share one grid, so that faces of one part are hatched as one.
+
+    Args:
+        corners: of a simple polygon [mm]. others: further ones of the part, or holes in it.
+        mirrored: leaning to the left, for the part beside the first.
+    """
+    side = -_DIAGONAL if mirrored else _DIAGONAL
+    rings = [
+        [(_DIAGONAL * x - side * y, side * x + _DIAGONAL * y) for x, y in ring]
+        for ring in (corners, *others)
+    ]
+    across = [v for ring in rings for _, v in ring]
+    first, last = math.ceil(min(across) / SPACING), math.floor(max(across) / SPACING)
+    lines: list[Item] = []
+    for v in (SPACING * row for row in range(first, last + 1)):
+        # Parts of a level line inside the polygons, by the even-odd rule.
+        crossings = sorted(
+            u0 + (u1 - u0) * (v - v0) / (v1 - v0)
+            for ring in rings
+            for (u0, v0), (u1, v1) in zip(ring, [*ring[1:], ring[0]], strict=True)
+            if (v0 <= v) != (v1 <= v)
+        )
+        lines += [
+            Line(
+                (_DIAGONAL * a + side * v, -side * a + _DIAGONAL * v),
+                (_DIAGONAL * b + side * v, -side * b + _DIAGONAL * v),
+                THIN,
+            )
+            for a, b in zip(crossings[::2], crossings[1::2], strict=True)
+        ]
+    return lines
 
 
 def printable(text: str) -> str:

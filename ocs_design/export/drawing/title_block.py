@@ -1,7 +1,7 @@
 """Frame, title block, list of parts and notes of a wheel's drawing (ISO 5457, ISO 7200)."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ocs_design.device import joints
@@ -37,7 +37,6 @@ from ocs_design.export.drawing.wheel import (
 )
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.joints import GRADE
-from ocs_design.parts.wheel import Wheel
 
 _, _, RIGHT, BOTTOM = FRAME_BOX
 BLOCK_WIDTH, ROW_HEIGHT, ROWS = 180.0, 9.0, 4
@@ -61,24 +60,6 @@ RUN_OUT = 1e3 * joints.RUN_OUT
 """Permissible run-out of the rim to the bore [mm]."""
 
 
-@dataclass(frozen=True)
-class Cell:
-    """A field of the title block.
-
-    Attributes:
-        row: from the top. left, width: in the block [mm].
-        caption, value: its two texts.
-        height: of the value's letters [mm].
-    """
-
-    row: int
-    left: float
-    width: float
-    caption: str
-    value: str
-    height: float = 2.5
-
-
 def frame() -> list[Item]:
     """Frame around the drawing, with a mark at the middle of each side."""
     left, top, right, bottom = FRAME_BOX
@@ -92,28 +73,6 @@ def frame() -> list[Item]:
     return [
         *outline(rectangle(left, top, right, bottom), FRAME),
         *(Line(start, end, FRAME) for start, end in marks),
-    ]
-
-
-def title_block(cells: Iterable[Cell]) -> list[Item]:
-    """Fields of the title block, and the symbol of first-angle projection."""
-    items = outline(rectangle(BLOCK_LEFT, BLOCK_TOP, RIGHT, BOTTOM), FRAME)
-    for cell in cells:
-        left, top = BLOCK_LEFT + cell.left, BLOCK_TOP + cell.row * ROW_HEIGHT
-        items += outline(rectangle(left, top, left + cell.width, top + ROW_HEIGHT), THIN)
-        room, height = cell.width - 3.0, cell.height
-        items.append(Text((left + 1.5, top + 2.9), fitted(cell.caption, room, 1.8), 1.8))
-        items.append(Text((left + 1.5, top + 7.5), fitted(cell.value, room, height), height))
-    # A truncated cone in first-angle projection: its side, and right of it its small end.
-    x, y = BLOCK_LEFT + 167.0, BLOCK_TOP + 4.5
-    cone = ((x - 9.0, y - 1.5), (x - 2.0, y - 3.0), (x - 2.0, y + 3.0), (x - 9.0, y + 1.5))
-    return [
-        *items,
-        *outline(cone),
-        Circle((x + 5.0, y), 3.0),
-        Circle((x + 5.0, y), 1.5),
-        Line((x - 10.0, y), (x + 9.0, y), CENTRE),
-        Line((x + 5.0, y - 4.0), (x + 5.0, y + 4.0), CENTRE),
     ]
 
 
@@ -138,25 +97,57 @@ class Entries:
     identity: str
     sheet: str = "1 / 1"
 
-    def cells(self) -> tuple[Cell, ...]:
-        """Fields row by row. Checker and date are written by hand."""
-        return (
-            Cell(0, 0.0, 64.0, "Title", self.title, 3.5),
-            Cell(0, 64.0, 64.0, "Robot", self.robot, 3.5),
-            Cell(0, 128.0, 26.0, "Scale", str(self.scale), 3.5),
-            Cell(0, 154.0, 26.0, "", ""),
-            Cell(1, 0.0, 64.0, "Material", self.material),
-            Cell(1, 64.0, 32.0, "Mass", f"{1e3 * self.mass:.4g} g"),
-            Cell(1, 96.0, 58.0, *self.figure),
-            Cell(1, 154.0, 26.0, "Dimensions", "all in mm"),
-            Cell(2, 0.0, 40.0, "General tolerances", "ISO 2768-mK"),
-            Cell(2, 40.0, 64.0, "Surface texture", self.texture),
-            Cell(2, 104.0, 50.0, "Drawn by", self.tool),
-            Cell(2, 154.0, 26.0, "Sheet", f"{self.sheet}, A4"),
-            Cell(3, 0.0, 104.0, "Design", self.identity),
-            Cell(3, 104.0, 40.0, "Checked by", ""),
-            Cell(3, 144.0, 36.0, "Date", ""),
-        )
+
+def title_block(entries: Entries) -> list[Item]:
+    """Fields row by row, and the symbol of first-angle projection.
+
+    Checker and date are written by hand.
+    """
+    rows = (
+        (
+            (64.0, "Title", entries.title, 3.5),
+            (64.0, "Robot", entries.robot, 3.5),
+            (26.0, "Scale", str(entries.scale), 3.5),
+            (26.0, "", "", 2.5),
+        ),
+        (
+            (64.0, "Material", entries.material, 2.5),
+            (32.0, "Mass", f"{1e3 * entries.mass:.4g} g", 2.5),
+            (58.0, *entries.figure, 2.5),
+            (26.0, "Dimensions", "all in mm", 2.5),
+        ),
+        (
+            (40.0, "General tolerances", "ISO 2768-mK", 2.5),
+            (64.0, "Surface texture", entries.texture, 2.5),
+            (50.0, "Drawn by", entries.tool, 2.5),
+            (26.0, "Sheet", f"{entries.sheet}, A4", 2.5),
+        ),
+        (
+            (104.0, "Design", entries.identity, 2.5),
+            (40.0, "Checked by", "", 2.5),
+            (36.0, "Date", "", 2.5),
+        ),
+    )
+    items = outline(rectangle(BLOCK_LEFT, BLOCK_TOP, RIGHT, BOTTOM), FRAME)
+    for row, cells in enumerate(rows):
+        left, top = BLOCK_LEFT, BLOCK_TOP + row * ROW_HEIGHT
+        for width, caption, value, height in cells:
+            items += outline(rectangle(left, top, left + width, top + ROW_HEIGHT), THIN)
+            room = width - 3.0
+            items.append(Text((left + 1.5, top + 2.9), fitted(caption, room, 1.8), 1.8))
+            items.append(Text((left + 1.5, top + 7.5), fitted(value, room, height), height))
+            left += width
+    # A truncated cone in first-angle projection: its side, and right of it its small end.
+    x, y = BLOCK_LEFT + 167.0, BLOCK_TOP + 4.5
+    cone = ((x - 9.0, y - 1.5), (x - 2.0, y - 3.0), (x - 2.0, y + 3.0), (x - 9.0, y + 1.5))
+    return [
+        *items,
+        *outline(cone),
+        Circle((x + 5.0, y), 3.0),
+        Circle((x + 5.0, y), 1.5),
+        Line((x - 10.0, y), (x + 9.0, y), CENTRE),
+        Line((x + 5.0, y - 4.0), (x + 5.0, y + 4.0), CENTRE),
+    ]
 
 
 def wheel_entries(drawing: WheelDrawing, scale: Scale) -> Entries:
@@ -243,7 +234,21 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
         f"Inertia of the rim within ±{_percent(rim_inertia_error(wheel))} over its tolerances; "
         "the motor's rotor not included."
     )
-    yield _edges(wheel)
+    chamfer, broken = (
+        wheel.rim.made_chamfer,
+        f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
+    )
+    if chamfer > 0.0 and wheel.hub is not None and wheel.hub.chamfer > 0.0:
+        yield (
+            f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
+            "others deburred."
+        )
+    elif chamfer > 0.0:
+        yield f"Edges of the rim {plain(chamfer)}~×~45°; {broken}."
+    else:
+        mass, share = lost_by_breaking(wheel)
+        lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
+        yield f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."
     if drawing.yield_strength is not None:
         yield (
             f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
@@ -278,23 +283,6 @@ def _sentences(drawing: WheelDrawing) -> Iterator[str]:
             yield "No bolt circle: bonded on the motor's shaft."
         elif not drawing.on_shaft:
             yield "Bore: a pilot hole and the datum; open it where the rotor has a boss."
-
-
-def _edges(wheel: Wheel) -> str:
-    chamfer, broken = (
-        wheel.rim.made_chamfer,
-        f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
-    )
-    if chamfer > 0.0 and wheel.hub is not None and wheel.hub.chamfer > 0.0:
-        return (
-            f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
-            "others deburred."
-        )
-    if chamfer > 0.0:
-        return f"Edges of the rim {plain(chamfer)}~×~45°; {broken}."
-    mass, share = lost_by_breaking(wheel)
-    lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
-    return f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."
 
 
 def _percent(part: float) -> str:

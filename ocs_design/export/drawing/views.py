@@ -3,8 +3,8 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TypeAlias
 
-from ocs_design.export.drawing.cut_faces import Profile, cut_faces, half_width, hatching, is_cut
 from ocs_design.export.drawing.dimensioning import (
     Callout,
     extension,
@@ -27,6 +27,7 @@ from ocs_design.export.drawing.sheet import (
     Point,
     Scale,
     Text,
+    hatching,
     largest_scale,
     outline,
 )
@@ -39,7 +40,7 @@ from ocs_design.export.drawing.wheel import (
     widest,
 )
 from ocs_design.parts.joints import Grade
-from ocs_design.parts.wheel import HoleRing, Wheel
+from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
 
 AXIS_Y = 82.0
 """y of the wheel's axis in both views [mm]."""
@@ -86,6 +87,9 @@ _BEYOND = 3.0
 """Length of centre lines beyond the front view's outline [mm]."""
 
 _ABOVE, _BELOW = -1.0, 1.0
+
+Profile: TypeAlias = list[Point]
+"""Polygon of z and radius [m] in one half of the section."""
 
 
 @dataclass(frozen=True)
@@ -231,6 +235,74 @@ def _width(
     )
     text_x = x + max(half + PAST_ARROWS, aside)
     yield from level_dimension(label, left=x - half, right=x + half, y=y, text_x=text_x)
+
+
+def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
+    """Faces of one half of the section, each with whether it is hatched the other way.
+
+    Args:
+        wheel: to cut.
+        above: the half that points straight up; else the one straight down.
+    """
+    rim, hub = rim_profile(wheel.rim, above=above), wheel.hub
+    if hub is None:
+        yield rim, False
+        return
+    *inner, outermost = _hub_profiles(hub, wheel.rim.inner_radius, above=above)
+    if wheel.one_piece:
+        # One polygon of both: the rim goes where the web's outer end was.
+        end = max(range(len(outermost)), key=lambda i: (outermost[i][1], outermost[i][0]))
+        outermost = [*outermost[: end + 1], *rim[1:], rim[0], *outermost[end + 1 :]]
+    else:
+        yield rim, True
+    for profile in (*inner, outermost):
+        yield profile, False
+
+
+def is_cut(ring: HoleRing, *, above: bool) -> bool:
+    """Whether the section cuts a hole; the first one is straight up."""
+    return above or ring.count % 2 == 0
+
+
+def half_width(hub: Hub, radius: float) -> float:
+    """Half the thickness of web or hub at a radius [m]."""
+    return (hub.height if radius < hub.radius else hub.web_thickness) / 2.0
+
+
+def rim_profile(rim: Rim, *, above: bool) -> Profile:
+    """Outline of the rim from the left end of its bore, around its blind holes."""
+    r, R, half, c = rim.inner_radius, rim.outer_radius, rim.height / 2.0, rim.made_chamfer
+    notch: Profile = []
+    ring = rim.balancing
+    if ring is not None and is_cut(ring, above=above):
+        bottom = half - ring.depth
+        inside, outside = ring.radius - ring.hole_radius, ring.radius + ring.hole_radius
+        notch = [(half, inside), (bottom, inside), (bottom, outside), (half, outside)]
+    right = [(half - c, r), (half, r + c), *notch, (half, R - c), (half - c, R)]
+    left = [(-z, radius) for z, radius in reversed(right)]
+    return _distinct([left[-1], *right, *left[:-1]])
+
+
+def _hub_profiles(hub: Hub, seat_radius: float, *, above: bool) -> list[Profile]:
+    """Web and hub up to the rim's bore, in pieces where holes are cut."""
+    rings = [ring for ring in (hub.bolts, hub.lightening) if ring is not None]
+    cuts = [ring for ring in rings if is_cut(ring, above=above)]
+    starts = [hub.bore_radius, *(ring.radius + ring.hole_radius for ring in cuts)]
+    ends = [*(ring.radius - ring.hole_radius for ring in cuts), seat_radius]
+    profiles, edge = [], hub.chamfer
+    for inner, outer in zip(starts, ends, strict=True):
+        low, high = half_width(hub, inner), half_width(hub, outer)
+        at_bore = [(low - edge, inner), (low, inner + edge)]
+        start = at_bore if inner == hub.bore_radius else [(low, inner)]
+        step = [(low, hub.radius - edge), (low - edge, hub.radius), (high, hub.radius)]
+        right = [*start, *(step if inner < hub.radius < outer else []), (high, outer)]
+        profiles.append(_distinct([*right, *[(-z, radius) for z, radius in reversed(right)]]))
+    return profiles
+
+
+def _distinct(profile: Profile) -> Profile:
+    """Profile without corners that repeat the one before them, as where there is no chamfer."""
+    return [b for a, b in zip([profile[-1], *profile], profile, strict=False) if a != b]
 
 
 def front_view(wheel: Wheel, layout: Layout) -> list[Item]:

@@ -13,7 +13,7 @@ from ocs_design.device.device import Device
 from ocs_design.device.joints import rim_fit
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.plate_sheet import plate_sheets
-from ocs_design.export.drawing.sheet import Item
+from ocs_design.export.drawing.sheet import HEIGHT, WIDTH, Item
 from ocs_design.export.drawing.title_block import (
     frame,
     notes,
@@ -23,8 +23,8 @@ from ocs_design.export.drawing.title_block import (
 )
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import WheelDrawing
-from ocs_design.export.drawing.writers import pdf_bytes, pdf_of_pages, svg_bytes
-from ocs_design.export.drilling import write_drilling
+from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
+from ocs_design.export.drilling import drilling_of, drilling_pdf
 
 if TYPE_CHECKING:
     from ocs_design.export.formats import Notes, Subject
@@ -41,7 +41,8 @@ def write(subject: "Subject", folder: Path) -> "Notes":
     if sheets := plate_sheets(subject.device, subject.name, *identity):
         title = f"Plate under the feet of {subject.name}"
         (folder / "plate.pdf").write_bytes(pdf_of_pages(sheets, title))
-    write_drilling(subject, folder)
+    if drilling := drilling_of(subject):
+        (folder / "drilling.pdf").write_bytes(drilling_pdf(drilling))
     return ()
 
 
@@ -82,11 +83,12 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
         *front_view(drawing.wheel, layout),
         *notes(drawing),
         *parts_list(drawing),
-        *title_block(wheel_entries(drawing, layout.scale).cells()),
+        *title_block(wheel_entries(drawing, layout.scale)),
     ]
 
 
 def draw_wheel(drawing: WheelDrawing) -> dict[str, bytes]:
     """Files of the drawing by the suffixes `svg` and `pdf`; the same bytes every time."""
     items, title = wheel_sheet(drawing), f"Flywheel of {drawing.robot}"
-    return {"svg": svg_bytes(items, title), "pdf": pdf_bytes(items, title)}
+    picture = svg_text(items, title, (0.0, 0.0, WIDTH, HEIGHT)) + "\n"
+    return {"svg": picture.encode(), "pdf": pdf_of_pages([items], title)}

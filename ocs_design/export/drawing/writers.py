@@ -27,11 +27,6 @@ FONTS = "Helvetica, Arial, 'Liberation Sans', sans-serif"
 POINTS_PER_MM = 72.0 / 25.4
 
 
-def pdf_bytes(items: Iterable[Item], title: str) -> bytes:
-    """PDF of the sheet, one A4 page."""
-    return pdf_of_pages([items], title)
-
-
 def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: bool = False) -> bytes:
     """PDF of several sheets, each one A4 page; compressed where there is more than a drawing."""
     buffer = BytesIO()
@@ -89,11 +84,6 @@ def _draw(canvas: Canvas, item: Item) -> None:
 def _take(canvas: Canvas, pen: Pen) -> None:
     canvas.setLineWidth(pen.width)
     canvas.setDash(list(pen.dashes))
-
-
-def svg_bytes(items: Iterable[Item], title: str) -> bytes:
-    """SVG of the sheet at its size, A4."""
-    return (svg_text(items, title, (0.0, 0.0, WIDTH, HEIGHT)) + "\n").encode()
 
 
 def svg_text(items: Iterable[Item], title: str, box: Box) -> str:

@@ -66,7 +66,7 @@ _SCREWS = (
     *("No.", "quantity", "<screw", "<what it holds", "<thread that holds"),
     *("<torque", "<set by"),
 )
-"""Columns of `ScrewRow.cells`."""
+"""Columns of `ScrewRow`."""
 
 _LIBRARIES = ("numpy", "scipy", "cvxpy", "clarabel", "casadi", "mujoco", "trimesh")
 
@@ -277,11 +277,10 @@ def assembly_section(story: Story) -> Markup:
     assembly = story.assembly or Assembly(
         design.robot.name, ocs.device(design.supply), design.margins, ocs.fitting
     )
-    rows = list(assembly.piece_rows())
-    pieces = tuple(
-        (str(row.number), str(row.quantity), row.name, row.made, row.file) for row in rows
+    pieces, screws = (
+        tuple(tuple(map(str, row)) for row in rows)
+        for rows in (assembly.piece_rows(), assembly.screw_rows())
     )
-    screws = tuple(row.cells for row in assembly.screw_rows())
     return section(
         "assembly",
         "Assembly: how to build, balance, test and wire it",

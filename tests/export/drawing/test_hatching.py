@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ocs_design.export.drawing.cut_faces import SPACING, hatching
+from ocs_design.export.drawing.sheet import SPACING, hatching
 
 LETTER_T = [(1, 2), (31, 2), (31, 12), (21, 12), (21, 42), (11, 42), (11, 12), (1, 12)]
 

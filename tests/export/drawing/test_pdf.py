@@ -10,7 +10,7 @@ from drawn_wheels import FLAT
 
 from ocs_design.export.drawing.sheet import OUTLINE, Circle, Line
 from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_sheet
-from ocs_design.export.drawing.writers import pdf_bytes
+from ocs_design.export.drawing.writers import pdf_of_pages
 
 PDF = draw_wheel(FLAT)["pdf"]
 NUMBER = rb"-?\d*\.?\d+"
@@ -33,7 +33,7 @@ def test_the_page_is_a4_and_there_is_one():
 
 
 def test_circles_are_round():
-    content = pdf_bytes([Circle((100.0, 60.0), 40.0, OUTLINE)], "")
+    content = pdf_of_pages([[Circle((100.0, 60.0), 40.0, OUTLINE)]], "")
     curves = re.findall(rb"((?:%b ){6})c\b" % NUMBER, content)
     start = np.array(re.search(rb"n\s(%b) (%b) m\s" % (NUMBER, NUMBER), content).groups(), float)
     first = start
