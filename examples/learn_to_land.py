@@ -22,8 +22,7 @@ from pathlib import Path
 import gymnasium
 import numpy as np
 
-from ocs_design.report.charts.chart import Chart, Ink, Line, Rule
-from ocs_design.report.charts.scales import Axis
+from ocs_design.report.charts.chart import Axis, Chart, Ink, Line, Rule
 from ocs_design.report.charts.svg import svg_file
 
 MANEUVER = "drop"

@@ -8,7 +8,7 @@ from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Device, Module, Web
-from ocs_design.export.device_parts import printed_foot
+from ocs_design.device.solids import foot_of
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
@@ -47,7 +47,7 @@ def behind_a_gear() -> Device:
 
 def on_a_plate(device: Device) -> Device:
     """The device on a plate, three of whose screws have sleeves, two of them of one length."""
-    (x, y, z), foot = device.modules[0].position.tolist(), printed_foot(device)
+    (x, y, z), foot = device.modules[0].position.tolist(), foot_of(device)
     radius, screws = foot.slot_radius + 0.0045, foot.slot_radius / 2**0.5
     plate = CarrierPlate(
         position=(x, 0.0, z - foot.wheel_height - 0.003), radius=radius, half_length=y + radius,

@@ -232,8 +232,12 @@ def _design(
     # It imports while this process does.
     with Beside("ocs_design.sizing.alternatives" if chosen else None) as beside:
         with steps.step("load the solver and the simulator"), _quick_imports():
-            from ocs_design.report.text.size import print_design, print_outcome, print_solution
-            from ocs_design.report.text.summary import print_summary
+            from ocs_design.report.text.size import (
+                print_design,
+                print_outcome,
+                print_solution,
+                print_summary,
+            )
             from ocs_design.workflows.size import design_ocs, load_solvers
 
             load_solvers(specification)

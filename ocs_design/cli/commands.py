@@ -35,7 +35,7 @@ def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
     What each thing is for is told. Packages are imported and pictures drawn to see that they can
     be. Exit codes: 0 all that is required works, 5 something required does not.
     """
-    from ocs_design.report.text.doctor import print_examination
+    from ocs_design.report.text.answers import print_examination
     from ocs_design.workflows.doctor import examination_to_json, examine
 
     output = Output(as_json, no_color)

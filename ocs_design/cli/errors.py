@@ -133,7 +133,7 @@ def _report(error: OcsError, *, as_json: bool, color: bool) -> int:
         _print_panel(lines, error.hint, color=color)
         if isinstance(error, Infeasible):
             from ocs_design.report.text.console import make_console
-            from ocs_design.report.text.summary import print_assumed
+            from ocs_design.report.text.size import print_assumed
 
             print_assumed(make_console(color=color, stderr=True), error.assumptions)
     return error.exit_code

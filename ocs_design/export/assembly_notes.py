@@ -9,8 +9,8 @@ from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.joints import DAMPING, resonances_of
-from ocs_design.device.solids import drive_solids, motor_mount, shaft_cut
-from ocs_design.export.device_parts import foot_holes, printed_foot, wheel_geometry
+from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
+from ocs_design.export.device_parts import foot_holes, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
 from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
@@ -44,7 +44,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
     """Notes on motor and printed parts, one sentence each; none for wheels without motors."""
     if device.carrier.mass == 0.0:
         return ()
-    motor, foot = device.motor, printed_foot(device)
+    motor, foot = device.motor, foot_of(device)
     if motor.gear != DIRECT.name:
         return (*_geared(motor), *_apart(device, foot))
     mounting = motor.mounting or Mounting()
@@ -94,7 +94,7 @@ def _held(mounting: Mounting, device: Device) -> Iterator[str]:
             "cage does not fit the housing's floor: make a bracket for it"
         )
     elif mount.holes.screws is None:
-        room = format_quantity(2.0 * printed_foot(device).housing.inner_radius, "mm")
+        room = format_quantity(2.0 * foot_of(device).housing.inner_radius, "mm")
         yield (
             f"the motor's screws, {stator}, do not fit the housing's floor of {room}: {_UNDRILLED}"
         )
@@ -245,7 +245,7 @@ def _trunk_holes(device: Device) -> str:
         return (
             f"the trunk needs threads {TRUNK_SCREW.name} for the feet's screws, which stand at 45 "
             "degrees to the lateral direction on a circle of "
-            f"{format_quantity(2.0 * printed_foot(device).slot_radius, 'mm', digits=3)}; their "
+            f"{format_quantity(2.0 * foot_of(device).slot_radius, 'mm', digits=3)}; their "
             "places in the base frame are on cad/drilling.pdf"
         )
     x, y, z = plate.position

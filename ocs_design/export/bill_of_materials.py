@@ -11,14 +11,13 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
 from ocs_design.device.joints import joints_of
 from ocs_design.device.records.device import MarginRecord
-from ocs_design.device.solids import motor_mount
+from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import (
     foot_screws,
     pedestal_kinds,
     pedestal_pieces,
     pedestal_screws,
-    printed_foot,
     printed_parts,
     ring_fixture,
 )
@@ -104,7 +103,7 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         rows.append(BillRow(f"gear {motor.gear}", count, "", "", motor.gear_mass, remark, source))
     printed = device.carrier.mass - motor.mass - motor.gear_mass - motor.controller_mass
     if printed > _MASSLESS:
-        foot, mount = printed_foot(device), motor_mount(device)
+        foot, mount = foot_of(device), motor_mount(device)
         drum, lid, base, *caged = (part.mass_properties().mass for part in printed_parts(device))
         size = f"{_mm(2.0 * foot.housing.radius)} x {_mm(2.0 * foot.housing.half_height)}"
         made = (

@@ -13,7 +13,7 @@ from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.bell import fixture_part
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import mast_part, plate_part
-from ocs_design.parts.foot import Foot, foot_part
+from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
 from ocs_design.parts.pedestal import SEAT_SCREWS, Pedestal, drilled
@@ -79,11 +79,6 @@ def plate_pieces(device: Device) -> Mapping[str, Part]:
     return {"plate": plate_part(plate.each[0]), "mast": mast_part(plate, plate.mast)}
 
 
-def printed_foot(device: Device) -> Foot:
-    """Foot of one module, with the housing that it carries."""
-    return foot_of(device)
-
-
 def ring_fixture(device: Device) -> Part | None:
     """What centres a ring on its bell while the glue sets; None: no ring is bonded on."""
     bell, wheel = motor_mount(device).bell, device.flywheel
@@ -94,7 +89,7 @@ def metal_pieces(device: Device) -> Mapping[str, Part]:
     """Plate under the feet and guard ring by the names of their files, where there are any."""
     if not device.guard_wall:
         return plate_pieces(device)
-    return {**plate_pieces(device), "guard_ring": guard_ring(printed_foot(device).housing)}
+    return {**plate_pieces(device), "guard_ring": guard_ring(foot_of(device).housing)}
 
 
 def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
@@ -103,7 +98,7 @@ def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
     They stand at 45 degrees to the lateral direction, on the wheel axis's side of it. Modules that
     do not stand upright have none.
     """
-    off, found = printed_foot(device).slot_radius / sqrt(2.0), {}
+    off, found = foot_of(device).slot_radius / sqrt(2.0), {}
     stands = device.layout.stands(device.incidence)
     for module in compress(device.modules, stands):
         slope = copysign(1.0, float(module.axis[0] * module.axis[1]))
@@ -172,6 +167,6 @@ def printed_parts(device: Device) -> tuple[Part, ...]:
     Raises:
         PartError: they cannot be made.
     """
-    foot, cage = printed_foot(device), motor_mount(device).cage
+    foot, cage = foot_of(device), motor_mount(device).cage
     caged = () if cage is None else (cage_part(cage),)
     return (*housing_parts(foot.housing), foot_part(foot), *caged)

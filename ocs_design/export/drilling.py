@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 
 from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
-from ocs_design.export.device_parts import foot_holes, printed_foot, trunk_reach
+from ocs_design.device.solids import foot_of
+from ocs_design.export.device_parts import foot_holes, trunk_reach
 from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
 from ocs_design.export.drawing.sheet import (
     HEIGHT,
@@ -119,7 +120,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
     device = subject.device
     if device.carrier.mass == 0.0:
         return None
-    plate, foot, standing = device.plate, printed_foot(device), foot_holes(device)
+    plate, foot, standing = device.plate, foot_of(device), foot_holes(device)
     feet = [place for places in standing.values() for place in places]
     pedestals = [place for each in device.pedestals for place in each.in_base(each.holes)]
     if not feet and not pedestals:

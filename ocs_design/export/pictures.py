@@ -9,9 +9,9 @@ import numpy as np
 
 from ocs_design.common.errors import MissingToolError
 from ocs_design.device.device import Device
-from ocs_design.device.solids import drive_solids, motor_mount
+from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.attach import STEEL
-from ocs_design.export.device_parts import printed_foot, printed_parts
+from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.film import Take, add_white_sky, drawn
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color, Mesh, part_mesh, solid_mesh
@@ -99,7 +99,7 @@ def parts_take(shown: Sequence[Shown]) -> Take:
 
 def _carrier(device: Device) -> Iterator[Shown]:
     """Motor and gear, where their sizes are known, and what is printed around them."""
-    foot, (drum, lid, base, *_) = printed_foot(device), printed_parts(device)
+    foot, (drum, lid, base, *_) = foot_of(device), printed_parts(device)
     colors = {"motor": MOTOR, "gear": GEAR}
     for solid in drive_solids(device):
         if solid.name in colors:

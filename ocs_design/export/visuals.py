@@ -12,8 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.device.device import Device, Module
-from ocs_design.device.solids import drive_solids, motor_mount
-from ocs_design.export.device_parts import printed_foot
+from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
 from ocs_design.export.module_bodies import DeviceBody, carrier_placement
 from ocs_design.parts.cage import Cage, cage_part
@@ -80,7 +79,7 @@ def still_meshes(device: Device) -> Mapping[Path, Mesh]:
     """Meshes of carrier, plate and pedestals that visuals name; none of a weightless carrier."""
     found: dict[Path, Mesh] = {}
     if device.carrier.mass > 0.0:
-        found |= _carrier_meshes(printed_foot(device), motor_mount(device).cage)
+        found |= _carrier_meshes(foot_of(device), motor_mount(device).cage)
     if device.plate is not None:
         found[PLATE_MESH] = merged(
             [part_mesh(part, _SECTIONS).placed(at) for part, at in plate_bodies(device.plate)]
@@ -180,7 +179,7 @@ def carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
     """Housing, foot and cage as meshes, and motor and gear where their sizes are known."""
     if device.carrier.mass == 0.0:
         return ()
-    foot, turn, cage = printed_foot(device), carrier_placement(module), motor_mount(device).cage
+    foot, turn, cage = foot_of(device), carrier_placement(module), motor_mount(device).cage
     visuals = [
         _mesh("housing", HOUSING_MESH, turn),
         _mesh("foot", FOOT_MESH, turn @ foot.placement),
@@ -194,7 +193,7 @@ def plain_carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
     """Carrier of boxes and cylinders, for files that stand alone."""
     if device.carrier.mass == 0.0:
         return ()
-    foot, turn = printed_foot(device), carrier_placement(module)
+    foot, turn = foot_of(device), carrier_placement(module)
     half_base, half_plate = BASE_THICKNESS / 2.0, device.foot_plate / 2.0
     half_height, behind = (foot.wheel_height - BASE_THICKNESS) / 2.0, half_plate - foot.back
     base = turn @ foot.placement @ _shifted(0.0, 0.0, half_base)

@@ -103,7 +103,10 @@ class _Reading:
                 points = self._values(part["attributes"]["POSITION"]).reshape(-1, 3)
                 moved = points.astype(np.float64) @ place.rotation.T + place.position
                 faces = self._values(part["indices"]).reshape(-1, 3).astype(np.int64)
-                by_color.setdefault(self._color(part["material"]), []).append((moved, faces))
+                look = self._document["materials"][part["material"]]["pbrMetallicRoughness"]
+                red, green, blue, opacity = look["baseColorFactor"]
+                color = _screen(red), _screen(green), _screen(blue), opacity
+                by_color.setdefault(color, []).append((moved, faces))
         for color, pieces in by_color.items():
             counts = np.cumsum([0, *(len(points) for points, _ in pieces)])
             shifted = [faces + first for (_, faces), first in zip(pieces, counts, strict=False)]
@@ -116,11 +119,6 @@ class _Reading:
         first = view["byteOffset"]
         content = self._buffer[first : first + view["byteLength"]]
         return np.frombuffer(content, dtype=_TYPES[entry["componentType"]])
-
-    def _color(self, material: int) -> Color:
-        look = self._document["materials"][material]["pbrMetallicRoughness"]
-        red, green, blue, opacity = look["baseColorFactor"]
-        return _screen(red), _screen(green), _screen(blue), opacity
 
 
 def _placement(node: Mapping[str, Any]) -> Placement:

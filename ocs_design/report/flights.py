@@ -9,6 +9,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm, rpm_number
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
+from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.quantities import degrees, degrees_number, grams
 from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air, was_on_pivot
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
@@ -16,6 +17,9 @@ from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT
 
 WORSE = np.radians(1.0)
 """A swing on the ground with the device is reported if it is larger by this than without [rad]."""
+
+SAME_ANGLE = 1e-9
+"""Incidences that differ by less are equal [rad]."""
 
 SPENT = 0.95
 """Share of its top speed from which a wheel takes up next to nothing more."""
@@ -134,6 +138,23 @@ def flight_remarks(design: OcsDesign) -> Iterator[str]:
         if run.note:
             about.setdefault(run.note, []).append(run.scenario)
     yield from (f"{', '.join(names)}: {note}" for note, names in about.items())
+
+
+def turned_by_hand(design: OcsDesign) -> tuple[str, ...]:
+    """Maneuvers for which somebody has to turn the modules first."""
+    demands = design.requirement.demands
+    return tuple(filter(None, (hand_turn(demand, design) for demand in demands)))
+
+
+def hand_turn(demand: DemandRecord, design: OcsDesign) -> str:
+    """How the modules are turned for a maneuver; empty: they stay as they are."""
+    own = design.ocs.incidence
+    if abs(demand.incidence - own) <= SAME_ANGLE:
+        return ""
+    return (
+        f"{demand.source}: sized and flown with the modules turned by hand to "
+        f"{degrees(demand.incidence)}; the files have them at {degrees(own)}"
+    )
 
 
 SURVIVAL_TITLE = "A drive stops: degrees off in the end, by the share of the flight until then"

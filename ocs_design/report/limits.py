@@ -124,20 +124,14 @@ def margin_table(margins: tuple[Margin, ...]) -> Table:
                 margin.name,
                 quantity(margin.demand, margin.unit),
                 "-" if margin.capacity is None else quantity(margin.capacity, margin.unit),
-                _factor(margin.factor),
+                factor if factor == "-" or float(factor) >= 1.0 else Toned(factor, Tone.OPEN),
                 margin.scenario,
             )
             for margin in margins
+            # What is shown as 1.00 is kept.
+            for factor in ("-" if margin.factor is None else floored(margin.factor, 2),)
         ),
     )
-
-
-def _factor(factor: float | None) -> Cell:
-    if factor is None:
-        return "-"
-    text = floored(factor, 2)
-    # What is shown as 1.00 is kept.
-    return text if float(text) >= 1.0 else Toned(text, Tone.OPEN)
 
 
 def margin_notes(margins: tuple[Margin, ...]) -> tuple[str, ...]:
@@ -152,10 +146,14 @@ def tightest(design: OcsDesign) -> Rows:
         if margin.factor is not None and not _heats(margin):
             percent = int(ceiled(100.0 / margin.factor, 0))
             used.setdefault((percent, margin.scenario), []).append(margin)
-    return tuple(
-        (f"{percent:>3}%", f"{listed([each.name for each in found])}{_told(found, percent)}")
-        for (percent, scenario), found in sorted(used.items(), key=lambda item: -item[0][0])
-    )
+    rows = []
+    for (percent, scenario), found in sorted(used.items(), key=lambda item: -item[0][0]):
+        # The place where it is so, and what helps where it is too much.
+        notes = [each.note for each in found] if percent > _ROUNDED else []
+        told = "; ".join(filter(None, [scenario, *notes]))
+        names = listed([each.name for each in found])
+        rows.append((f"{percent:>3}%", f"{names} ({told})" if told else names))
+    return tuple(rows)
 
 
 def _heats(margin: Margin) -> bool:
@@ -171,13 +169,6 @@ def heat(design: OcsDesign) -> str:
         f"(continuous rating {quantity(each.capacity or 0.0, each.unit)}), {each.note}"
         for each in hot
     )
-
-
-def _told(margins: Sequence[Margin], percent: int) -> str:
-    """Place where it is so, and what helps where it is too much."""
-    notes = [each.note for each in margins] if percent > _ROUNDED else []
-    told = "; ".join(filter(None, [margins[0].scenario, *notes]))
-    return f" ({told})" if told else ""
 
 
 def assumed(sentences: Sequence[str]) -> Rows:
@@ -332,24 +323,19 @@ def reserve_note(kept: ReserveRecord, mass: float) -> str:
         + (f" with a roll of {degrees(each.undone)}/s at lift-off" if each.undone else "")
         for each in kept.maneuvers
     )
+    masses, curve = [each for _, each in kept.curve], ""
+    if masses and max(masses) - min(masses) < _NOTHING:
+        most = f"{100.0 * kept.curve[-1][0]:g} %"
+        curve = f"The nominal device already has it: nothing up to {most}."
+    elif masses:
+        each = ", ".join(f"{grams(mass)} for {100.0 * level:g} %" for level, mass in kept.curve)
+        curve = f"The same motor and material weigh {each}."
     return (
         f"{100.0 * kept.reliability:g} % of robots need these factors on what maneuvers ask: "
         f"{factors}; up to 1 the nominal device has it to spare. By the closed forms "
         f"{100.0 * kept.predicted:.1f} % pass; the reserve costs "
-        f"{grams(max(mass - kept.nominal, 0.0))}. "
-        f"{_curve(kept)}"
+        f"{grams(max(mass - kept.nominal, 0.0))}. {curve}"
     )
-
-
-def _curve(kept: ReserveRecord) -> str:
-    """How the mass goes with the reliability; one sentence where it does not."""
-    masses = [mass for _, mass in kept.curve]
-    if not masses:
-        return ""
-    if max(masses) - min(masses) < _NOTHING:
-        return f"The nominal device already has it: nothing up to {100.0 * kept.curve[-1][0]:g} %."
-    curve = ", ".join(f"{grams(mass)} for {100.0 * level:g} %" for level, mass in kept.curve)
-    return f"The same motor and material weigh {curve}."
 
 
 def _rim_limits(design: OcsDesign) -> Iterator[tuple[Cell, ...]]:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ocs_design.common.units import ceiled, floored
-from ocs_design.device.answers import MonteCarloRecord, Share, Spread
+from ocs_design.device.answers import MonteCarloRecord, Share
 from ocs_design.device.records.flights import ReliabilityRecord
 from ocs_design.report.table import Table, columns
 
@@ -93,17 +93,13 @@ def spread_table(record: MonteCarloRecord) -> Table:
         for spread, (quantity, factor, form) in zip(spreads, _SPREAD, strict=True):
             if spread is not None:
                 values = (format(factor * value, form) for value in spread.quantiles[1:])
-                rows.append((name, quantity, *values, _histogram(spread)))
+                # Bins as bars, one character each; whatever is not empty shows.
+                parts = (count / max(spread.counts) for count in spread.counts)
+                bars = "".join(_BARS[int(np.ceil(part * (len(_BARS) - 1)))] for part in parts)
+                rows.append((name, quantity, *values, bars))
                 name = ""
     heads = columns("<scenario", "<in flight", "5 %", "median", "95 %", "most", "least to most")
     return Table(heads, tuple(rows))
-
-
-def _histogram(spread: Spread) -> str:
-    """Bins as bars, one character each; whatever is not empty shows."""
-    most = max(spread.counts)
-    heights = (int(np.ceil(count / most * (len(_BARS) - 1))) for count in spread.counts)
-    return "".join(_BARS[height] for height in heights)
 
 
 def campaign_remarks(record: MonteCarloRecord) -> Iterator[str]:

@@ -53,24 +53,6 @@ class _View:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class _Figure:
-    """What is drawn.
-
-    Attributes:
-        robot: in its posture. legs: in colour.
-        places: of the robot's bodies in B.
-        feet: points of the legs in B [m], by name.
-        corners: of the box around the trunk in B [m].
-    """
-
-    robot: Robot
-    legs: Sequence[Leg]
-    places: Sequence[Placement]
-    feet: Mapping[str, FloatArray]
-    corners: Sequence[FloatArray]
-
-
 def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str:
     """An SVG of a robot in its posture, from the right, the front and above.
 
@@ -100,8 +82,7 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str
     ]
     width = _EDGE + len(views) * (_SIDE + _EDGE)
     height = 2.0 * _EDGE + _SIDE + 18.0 * len(words)
-    figure = _Figure(robot, legs, places, feet, corners)
-    marks = [mark for view in views for mark in _drawn(view, figure)]
+    marks = [mark for view in views for mark in _drawn(view, robot, legs, feet, corners)]
     for row, line in enumerate(words):
         marks.append(_text(_EDGE, 2.0 * _EDGE + _SIDE + 18.0 * row, line, size=13))
     return (
@@ -126,23 +107,35 @@ def _trunk_corners(robot: Robot, places: Sequence[Placement]) -> list[FloatArray
     return [np.array(corner) for corner in np.stack(np.meshgrid(*ends), axis=-1).reshape(-1, 3)]
 
 
-def _drawn(view: _View, figure: _Figure) -> Iterator[str]:
-    robot, legs, places = figure.robot, figure.legs, figure.places
+def _drawn(
+    view: _View,
+    robot: Robot,
+    legs: Sequence[Leg],
+    feet: Mapping[str, FloatArray],
+    corners: Sequence[FloatArray],
+) -> Iterator[str]:
+    """One view; `feet` by the names of their legs, `corners` of the box around the trunk."""
+    places = robot.tree.placements_from(robot.trunk, robot.posture)
     yield _text(view.left, _EDGE - 10.0, view.name, size=14)
-    if figure.corners:
-        spots = np.array([view.place(corner) for corner in figure.corners])
+    if corners:
+        spots = np.array([view.place(corner) for corner in corners])
         (x, y), (far, low) = spots.min(axis=0), spots.max(axis=0)
         yield (
             f'<rect x="{x:.1f}" y="{y:.1f}" width="{far - x:.1f}" height="{low - y:.1f}" '
             f'fill="#dddddd" stroke="#555555"/>'
         )
-    color = _colors(robot, legs)
+    color = {}
+    for number, leg in enumerate(legs):
+        place = leg.body
+        while place not in (leg.base, -1):
+            color[place] = _COLORS[number % len(_COLORS)]
+            place = robot.tree.bodies[place].parent
     for index, body in enumerate(robot.tree.bodies):
         if body.parent >= 0:
             ends = view.place(places[body.parent].position), view.place(places[index].position)
             yield _line(*ends, color.get(index, "#999999"), 3.0 if index in color else 1.5)
     for number, leg in enumerate(legs):
-        ankle, foot = view.place(places[leg.body].position), view.place(figure.feet[leg.name])
+        ankle, foot = view.place(places[leg.body].position), view.place(feet[leg.name])
         paint = _COLORS[number % len(_COLORS)]
         radius = max(3.5, view.scale * leg.foot_radius)
         yield _line(ankle, foot, paint, 3.0)
@@ -152,22 +145,7 @@ def _drawn(view: _View, figure: _Figure) -> Iterator[str]:
         )
         # From the front and above, feet one behind the other would be named on one spot.
         yield _text(foot[0] + 5.0, foot[1] + 12.0 * (1 + number % 2), leg.name, size=10, fill=paint)
-    yield from _axes(view, robot, legs)
-
-
-def _colors(robot: Robot, legs: Sequence[Leg]) -> Mapping[int, str]:
-    """Colour of each body of a leg."""
-    found = {}
-    for number, leg in enumerate(legs):
-        body = leg.body
-        while body not in (leg.base, -1):
-            found[body] = _COLORS[number % len(_COLORS)]
-            body = robot.tree.bodies[body].parent
-    return found
-
-
-def _axes(view: _View, robot: Robot, legs: Sequence[Leg]) -> Iterator[str]:
-    """Arrows from the trunk's origin: forward, left and up."""
+    # Arrows from the trunk's origin: forward, left and up.
     up = up_axis(robot.tree, robot.trunk, legs) if legs else np.array([0.0, 0.0, 1.0])
     directions = {"forward": np.eye(3)[0], "left": np.eye(3)[1], "up": up}
     start = view.place(np.zeros(3))

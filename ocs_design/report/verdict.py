@@ -4,12 +4,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.device import Buildable
 from ocs_design.device.records.flights import ReliabilityRecord, SurvivalRecord, ValidationRecord
-from ocs_design.report.flights import falls, survival_sentence
+from ocs_design.report.flights import falls, survival_sentence, turned_by_hand
 from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned
-from ocs_design.report.warnings import turned_by_hand
 
 SEPARATOR = "  \N{MIDDLE DOT}  "
 """Text between the parts of the line."""
@@ -42,7 +40,13 @@ class Headline:
 def headline(design: OcsDesign) -> Headline:
     """Verdict on a design and its flights."""
     runs = [run for run in design.validation if run.ocs]
-    first = _buildable(design)
+    yes, without_shapes = design.buildable.yes, "buildable: not known, for the robot has no shapes"
+    if yes is not None:
+        first = Toned("buildable" if yes else "NOT buildable", Tone.PASS if yes else Tone.FAIL)
+    elif design.ocs.motor.bus_voltage is None:
+        first = Toned("no motor chosen yet", Tone.OPEN)
+    else:
+        first = Toned("buildable: not known" if design.robot.sha256 else without_shapes, Tone.OPEN)
     flights = (*_flights(runs), *_survives(design.survival), *_certified(design.reliability))
     if design.buildable.yes is False and design.buildable.open:
         point = design.buildable.open[0]
@@ -83,19 +87,6 @@ def _certified(found: ReliabilityRecord | None) -> Iterator[Toned]:
     if found is not None:
         tones = {"certified": Tone.PASS, "falls short": Tone.FAIL, "undecided": Tone.OPEN}
         yield Toned(f"{100.0 * found.asked:.4g} % {found.verdict}", tones[found.verdict])
-
-
-def _buildable(design: OcsDesign) -> Toned:
-    found: Buildable = design.buildable
-    if found.yes is True:
-        return Toned("buildable", Tone.PASS)
-    if found.yes is False:
-        return Toned("NOT buildable", Tone.FAIL)
-    if design.ocs.motor.bus_voltage is None:
-        return Toned("no motor chosen yet", Tone.OPEN)
-    if not design.robot.sha256:
-        return Toned("buildable: not known, for the robot has no shapes", Tone.OPEN)
-    return Toned("buildable: not known", Tone.OPEN)
 
 
 def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:

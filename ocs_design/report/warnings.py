@@ -10,16 +10,13 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import OcsRecord
-from ocs_design.device.records.requirement import DemandRecord, ManeuverRecord
+from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.export.electrics import controller_rating
-from ocs_design.report.flights import flight_remarks
+from ocs_design.report.flights import flight_remarks, hand_turn
 from ocs_design.report.quantities import degrees, inertia
 from ocs_design.report.table import counted
 from ocs_design.requirement.bound import AXES, authority
 from ocs_design.sizing.margins import MOTOR_TORQUE
-
-SAME_ANGLE = 1e-9
-"""Incidences that differ by less are equal [rad]."""
 
 WORTH_TELLING = 0.02
 """Coupling below this share of what the turn alone asks is left out.
@@ -70,26 +67,21 @@ def unchecked_stress(ocs: OcsRecord) -> str:
 def device_warnings(design: OcsDesign) -> tuple[str, ...]:
     """Warnings beside the device's facts: what can hit it, how it is assembled, its motor."""
     ocs = design.ocs
+    kept = None if design.selection is None else design.selection.kept
+    # What ends off level about an axis that its incidence leaves out of reach.
+    drifting = (
+        f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
+        "axis that the wheels do not reach at its incidence: state a larger one, or none"
+        for each in (() if kept is None else kept.maneuvers)
+        if kept is not None and each.lost > 1.0 - kept.reliability
+    )
     return (
         *_reachable(ocs),
         *ocs.fitting,
         *_overvoltage(ocs.motor),
         *_motor_notes(design),
-        *_drifting(design),
+        *drifting,
     )
-
-
-def _drifting(design: OcsDesign) -> Iterator[str]:
-    """Maneuvers that end off level about an axis that their incidence leaves out of reach."""
-    kept = None if design.selection is None else design.selection.kept
-    if kept is None:
-        return
-    for each in kept.maneuvers:
-        if each.lost > 1.0 - kept.reliability:
-            yield (
-                f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
-                "axis that the wheels do not reach at its incidence: state a larger one, or none"
-            )
 
 
 def _reachable(ocs: OcsRecord) -> Iterator[str]:
@@ -159,22 +151,7 @@ def shortfalls(design: OcsDesign) -> Iterator[str]:
             )
         if specified is not None and demand.spin_inertia > specified:
             yield f"{demand.source}: asks for more than the {inertia(specified)} specified"
-        yield from _turned_by_hand(demand, design)
-
-
-def turned_by_hand(design: OcsDesign) -> tuple[str, ...]:
-    """Maneuvers for which somebody has to turn the modules first."""
-    return tuple(
-        each for demand in design.requirement.demands for each in _turned_by_hand(demand, design)
-    )
-
-
-def _turned_by_hand(demand: DemandRecord, design: OcsDesign) -> Iterator[str]:
-    if abs(demand.incidence - design.ocs.incidence) > SAME_ANGLE:
-        yield (
-            f"{demand.source}: sized and flown with the modules turned by hand to "
-            f"{degrees(demand.incidence)}; the files have them at {degrees(design.ocs.incidence)}"
-        )
+        yield from filter(None, [hand_turn(demand, design)])
 
 
 def coupling_notes(design: OcsDesign) -> Iterator[str]:
@@ -183,8 +160,27 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
     whole = TiltInertia.of(design.ocs.total_inertia)
     for demand in design.requirement.demands:
         axis = _only_axis(maneuvers.get(demand.source))
-        if axis is not None and design.ocs.axes == PAIR:
-            yield from _coupling(demand, axis, float(whole.drift[1 - axis]))
+        if axis is None or design.ocs.axes != PAIR:
+            continue
+        shares, about, across = authority(demand.incidence), AXES[axis], AXES[1 - axis]
+        if shares[1 - axis] <= OUT_OF_REACH:
+            drift = float(whole.drift[1 - axis])
+            if drift > WORTH_TELLING:
+                yield (
+                    f"{demand.source}: at {degrees(demand.incidence)} the wheels cannot turn the "
+                    f"robot in {across}. Robot and device are not symmetric, and drift by "
+                    f"{drift:.2f} deg of {across} per degree of {about}, there and back in a whole "
+                    "turn"
+                )
+            continue
+        asked = np.array([demand.roll_momentum, demand.pitch_momentum]) / shares
+        more = asked[1 - axis] / asked[axis]
+        if more > WORTH_TELLING:
+            yield (
+                f"{demand.source}: robot and device are not symmetric: to {about} alone takes "
+                f"momentum about {across} too, {more:.0%} more from the busier wheel at "
+                f"{degrees(demand.incidence)}; the device is sized for it"
+            )
 
 
 def _only_axis(maneuver: ManeuverRecord | None) -> int | None:
@@ -195,25 +191,3 @@ def _only_axis(maneuver: ManeuverRecord | None) -> int | None:
     if maneuver.kind == "flip":
         pitch = True
     return None if roll == pitch else int(pitch)
-
-
-def _coupling(demand: DemandRecord, axis: int, drift: float) -> Iterator[str]:
-    """What a turn about one axis takes of the other one."""
-    shares = authority(demand.incidence)
-    about, across = AXES[axis], AXES[1 - axis]
-    if shares[1 - axis] <= OUT_OF_REACH:
-        if drift > WORTH_TELLING:
-            yield (
-                f"{demand.source}: at {degrees(demand.incidence)} the wheels cannot turn the robot "
-                f"in {across}. Robot and device are not symmetric, and drift by {drift:.2f} deg of "
-                f"{across} per degree of {about}, there and back in a whole turn"
-            )
-        return
-    asked = np.array([demand.roll_momentum, demand.pitch_momentum]) / shares
-    more = asked[1 - axis] / asked[axis]
-    if more > WORTH_TELLING:
-        yield (
-            f"{demand.source}: robot and device are not symmetric: to {about} alone takes momentum "
-            f"about {across} too, {more:.0%} more from the busier wheel at "
-            f"{degrees(demand.incidence)}; the device is sized for it"
-        )

@@ -218,7 +218,7 @@ def finishing(names: Collection[str], command: str) -> Finish | None:
         """Write charts and report."""
         # They need the simulator's values, which parts and snippets do without.
         from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
-        from ocs_design.report.charts.files import write_charts  # noqa: PLC0415
+        from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
         from ocs_design.report.html.page import write_report  # noqa: PLC0415
         from ocs_design.report.story import story_in  # noqa: PLC0415
 

@@ -17,7 +17,7 @@ from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
 from ocs_design.report.charts.figures import FOLDER, all_charts
-from ocs_design.report.charts.files import write_svgs
+from ocs_design.report.charts.svg import write_svgs
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.html.page import write_report
 from ocs_design.report.story import flights_of, story_in

@@ -15,7 +15,8 @@ from seats import TRUNK, TrunkOnly, expanded
 from wheels import EC45, driven_device, geared, paper_device
 
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting
-from ocs_design.export.device_parts import printed_foot, printed_parts
+from ocs_design.device.solids import foot_of
+from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.glb import export_robot_glb
 from ocs_design.export.meshes import part_mesh
 from ocs_design.export.mjcf import export_robot_mjcf
@@ -34,7 +35,7 @@ ALPHA, LENGTH = np.radians(25.0), 0.021
 FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
 DRIVE = replace(EC45, diameter=0.043, length=LENGTH, mounting=FLAT)
 DEVICE = driven_device(ALPHA, DRIVE)
-FOOT = printed_foot(DEVICE)
+FOOT = foot_of(DEVICE)
 LEFT, RIGHT = DEVICE.modules
 MIRROR = np.array([1.0, -1.0, 1.0])
 

@@ -13,9 +13,8 @@ from rich.console import Console
 
 from ocs_design.common.files import to_json
 from ocs_design.report.charts.chart import Points
-from ocs_design.report.charts.files import png_file
 from ocs_design.report.charts.front import COLUMNS, front_chart, front_csv, write_front
-from ocs_design.report.charts.svg import svg_file
+from ocs_design.report.charts.svg import png_file, svg_file
 from ocs_design.report.text.front import NONE, OWN, print_front
 
 BRAILLE = {chr(code) for code in range(0x2800, 0x2900)}

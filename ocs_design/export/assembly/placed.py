@@ -13,14 +13,13 @@ import numpy as np
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
-from ocs_design.device.solids import drive_solids, motor_mount, shaft_cut
+from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import (
     foot_holes,
     foot_screws,
     pedestal_kinds,
     pedestal_pieces,
     pedestal_screws,
-    printed_foot,
     printed_parts,
     ring_fixture,
     wheel_pieces,
@@ -86,7 +85,7 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
     }
     if device.carrier.mass == 0.0:
         return found
-    foot, cage = printed_foot(device), motor_mount(device).cage
+    foot, cage = foot_of(device), motor_mount(device).cage
     if device.guard_wall:
         found["guard"] = guard_ring(foot.housing), HERE
     places = {"foot": foot.placement}
@@ -147,7 +146,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     wheel = [parts.pop(name.removeprefix("flywheel_")) for name in wheel_pieces(device.flywheel)]
     if device.carrier.mass == 0.0:
         return tuple(wheel)
-    foot, mount = printed_foot(device), motor_mount(device)
+    foot, mount = foot_of(device), motor_mount(device)
     floor = -foot.housing.half_height
     screws = [
         (
@@ -238,7 +237,7 @@ def _ring(
 
 def _foot_screws(device: Device) -> Iterator[Piece]:
     """Screws of the foot from above, through its slots; into what each foot stands on."""
-    foot = printed_foot(device)
+    foot = foot_of(device)
     feet = [foot_screws(device, module) for module in device.modules]
     holes = foot_holes(device)
     for held in dict.fromkeys(feet):
@@ -261,7 +260,7 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
 
 def _pedestal_pieces(device: Device) -> Iterator[Piece]:
     """A pedestal of each kind under the foot, with the screws of its flanges."""
-    foot, parts, screws = printed_foot(device), pedestal_pieces(device), pedestal_screws(device)
+    foot, parts, screws = foot_of(device), pedestal_pieces(device), pedestal_screws(device)
     apart, beside = _APART * foot.housing.radius, np.inf
     for name, kind in pedestal_kinds(device).items():
         one, held = kind[0], screws[name]
@@ -283,7 +282,7 @@ def _plate_pieces(device: Device) -> Iterator[Piece]:
         return
     on_trunk = Placement(np.eye(3), np.array(plate.position))
     place = wheel_placement(device.modules[0]).inverse() @ on_trunk
-    apart = _APART * printed_foot(device).housing.radius
+    apart = _APART * foot_of(device).housing.radius
     lowest = 1.5 * apart + max(plate.screw_lengths)
     head = Placement(np.eye(3), np.array([0.0, 0.0, plate.clamped]))
     for held in plate.fastenings:

@@ -12,6 +12,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
 from ocs_design.device.layout import PAIR
 from ocs_design.device.naming import joint_name
+from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.content import Assembly, places
 from ocs_design.export.assembly.trials import balance, safety, spin_test
 from ocs_design.export.assembly_notes import drive_notes
@@ -19,7 +20,6 @@ from ocs_design.export.device_parts import (
     foot_holes,
     pedestal_holes,
     pedestal_kinds,
-    printed_foot,
     wheel_geometry,
 )
 from ocs_design.export.drawing.title_block import RUN_OUT
@@ -86,7 +86,7 @@ def _steps(assembly: Assembly) -> Iterator[str]:
     device, wheel = assembly.device, wheel_geometry(assembly.device.flywheel)
     if "drum" in assembly.numbers:
         caged = "cage" in assembly.numbers
-        hole = printed_foot(device).housing.mount.pilot_radius
+        hole = foot_of(device).housing.mount.pilot_radius
         supports = "no supports"
         if sqrt(2.0) * hole > FREE_SPAN:
             supports += f" but in the hole of {2e3 * hole:.0f} mm of the standing foot"
@@ -176,9 +176,7 @@ def _joint(assembly: Assembly) -> Iterator[str]:
     screwed = any(name.startswith("wheel") for name in assembly.screws)
     for joint in joints_of(assembly.device):
         if joint.name == SHAFT_JOINT and not screwed:
-            room = (
-                printed_foot(assembly.device).housing.rim_height - assembly.device.flywheel.height
-            )
+            room = foot_of(assembly.device).housing.rim_height - assembly.device.flywheel.height
             yield (
                 f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
                 f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its "
@@ -207,7 +205,7 @@ def _direction(assembly: Assembly) -> str:
 
 def _on_the_trunk(assembly: Assembly) -> Iterator[str]:
     """How trunk, plate, mast, feet and pedestals come together."""
-    foot = printed_foot(assembly.device)
+    foot = foot_of(assembly.device)
     standing = foot_holes(assembly.device)
     drilled = [
         f"{part_name('foot', module)} {' and '.join(places(ends))}"
@@ -299,7 +297,7 @@ def _on_the_trunk(assembly: Assembly) -> Iterator[str]:
 
 def _turned(assembly: Assembly, standing: Sequence[str]) -> str:
     """How the feet of these modules are turned to the incidence by their scales."""
-    foot = printed_foot(assembly.device)
+    foot = foot_of(assembly.device)
     screws, found = next(
         each
         for each in assembly.screws.items()

@@ -1,17 +1,111 @@
-"""A chart as a value: lines, areas, points and rules on two axes, in the units of the axes."""
+"""A chart as a value: lines, areas, points and rules on two axes, and where ticks stand."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from math import ceil, floor, log10
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.report.charts.scales import Axis
+
+_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+"""Distances between ticks, times a power of ten."""
+
+_ANGLES = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
+"""Distances between ticks of degrees, from the first one on."""
+
+_MOST_DECADES = 6
+
+_BEYOND_MEASURE = 1e100
+"""Largest value that stretches an axis: a run that breaks down may end with NaN or more."""
+
+_FLAT = 1e-6
+"""Spread of values, relative to the largest, below which they are equal: rounding is not drawn."""
+
+_FAR = 1e3
+"""Lengths of an axis beyond its ends, where lines leave the chart for good."""
 
 MOST_POINTS = 320
 """Points of a line: more than there are pixels."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One direction of a chart.
+
+    Attributes:
+        label: what is measured. unit: of its values, empty for plain numbers.
+        low, high: ends. log: equal ratios at equal distances.
+    """
+
+    label: str
+    unit: str
+    low: float
+    high: float
+    log: bool = False
+
+    @classmethod
+    def around(
+        cls, label: str, unit: str, values: Iterable[float], *, room: float = 0.06
+    ) -> "Axis":
+        """Axis over all values that can be drawn, with room at both ends."""
+        found = np.array([value for value in values if abs(value) < _BEYOND_MEASURE])
+        low, high = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
+        spread = high - low
+        span = spread if spread > _FLAT * abs(high) else abs(high) or 1.0
+        return cls(label, unit, low - room * span, high + room * span)
+
+    @property
+    def title(self) -> str:
+        """Label and unit as under an axis."""
+        return f"{self.label} [{self.unit}]" if self.unit else self.label
+
+    def parts(self, values: FloatArray) -> FloatArray:
+        """Places along the axis, 0 at the low and 1 at the high end."""
+        if self.log:
+            low, high = log10(self.low), log10(self.high)
+            positive = np.where(np.asarray(values) > 0.0, values, self.low * 1e-3)
+            return np.asarray((np.log10(positive) - low) / (high - low))
+        parts = (np.asarray(values) - self.low) / (self.high - self.low)
+        return np.asarray(np.clip(parts, -_FAR, _FAR))
+
+    def ticks(self, most: int = 7) -> list[float]:
+        """Round values between the ends."""
+        if self.log:
+            first, last = ceil(log10(self.low) - 1e-9), floor(log10(self.high) + 1e-9)
+            stride = max(1, (last - first) // _MOST_DECADES)
+            powers = [10.0**power for power in range(first, last + 1, stride)]
+            if len(powers) > 2:
+                return powers
+            decades = [10.0**power for power in range(first - 1, last + 1)]
+            finer = (digit * decade for decade in decades for digit in (1, 2, 5))
+            return [value for value in finer if self.low <= value <= self.high]
+        least = (self.high - self.low) / most
+        if self.unit == "deg" and least > _ANGLES[0] / 2.0:
+            whole = 360.0 * ceil(least / 360.0)
+            step = next((step for step in _ANGLES if step >= least), whole)
+        else:
+            power = 10.0 ** floor(log10(least))
+            step = next(step * power for step in _STEPS if step * power >= least * (1.0 - 1e-9))
+        first, last = ceil(self.low / step - 1e-9), floor(self.high / step + 1e-9)
+        return [round(index * step, 12) for index in range(first, last + 1)]
+
+
+def tick_text(value: float) -> str:
+    """A tick's number: plain where that is short, else as a power of ten."""
+    if value == 0.0:
+        return "0"
+    size = abs(value)
+    if 1e-3 <= size < 1e5:
+        text = f"{value:,.6g}" if size >= 1e4 else f"{value:.6g}"
+        return text.replace("-", "\N{MINUS SIGN}").replace(",", "\N{THIN SPACE}")
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    factor = "" if mantissa == "1.0" else f"{mantissa.removesuffix('.0')}·"
+    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{factor}10{raised}".replace("-", "\N{MINUS SIGN}")
 
 
 class Ink(StrEnum):

@@ -1,7 +1,7 @@
 """Mass of the lightest device against one figure of the specification: charts, and a folder."""
 
 import csv
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from io import StringIO
 from pathlib import Path
@@ -13,9 +13,8 @@ from ocs_design.common.files import to_json
 from ocs_design.device.answers import Front, FrontPoint
 from ocs_design.device.records.selection import ReserveRecord
 from ocs_design.export.folder import FRONT_FILE, staged_folder
-from ocs_design.report.charts.chart import SERIES, Chart, Ink, Line, Mark, Points, Rule
-from ocs_design.report.charts.files import write_charts
-from ocs_design.report.charts.scales import Axis
+from ocs_design.report.charts.chart import SERIES, Axis, Chart, Ink, Line, Mark, Points, Rule
+from ocs_design.report.charts.svg import write_charts
 from ocs_design.report.quantities import in_unit
 
 _HEIGHT = 300.0
@@ -42,7 +41,16 @@ def front_chart(front: Front) -> Chart:
     values = _values(front, front.points)
     masses = np.array([1e3 * p.device.mass if p.device else np.nan for p in front.points])
     y = Axis.around("mass of the device", "g", masses, room=0.1)
-    marks: list[Mark] = [Line(values, masses, Ink.FAINT), *_drives(front)]
+    marks: list[Mark] = [Line(values, masses, Ink.FAINT)]
+    drives: dict[str, list[FrontPoint]] = {}
+    for point in front.feasible:
+        if point.device is not None:
+            drives.setdefault(f"{point.device.motor}, {point.device.gear}", []).append(point)
+    for index, (name, points) in enumerate(drives.items()):
+        # Once all colours are taken, rings.
+        hollow, ink = index // len(SERIES) % 2 == 1, SERIES[index % len(SERIES)]
+        heights = np.array([1e3 * point.device.mass for point in points if point.device])
+        marks.append(Points(_values(front, points), heights, ink, name, hollow=hollow))
     without = [point for point in front.points if point.device is None]
     if without:
         # Rings at the foot.
@@ -61,19 +69,6 @@ def front_chart(front: Front) -> Chart:
         marks=tuple(marks),
         height=_HEIGHT,
     )
-
-
-def _drives(front: Front) -> Iterator[Points]:
-    """Points of each motor and gear; once all colours are taken, as rings."""
-    drives: dict[str, list[FrontPoint]] = {}
-    for point in front.feasible:
-        if point.device is not None:
-            drives.setdefault(f"{point.device.motor}, {point.device.gear}", []).append(point)
-    for index, (name, points) in enumerate(drives.items()):
-        hollow = index // len(SERIES) % 2 == 1
-        masses = np.array([1e3 * point.device.mass for point in points if point.device])
-        ink = SERIES[index % len(SERIES)]
-        yield Points(_values(front, points), masses, ink, name, hollow=hollow)
 
 
 def reliability_chart(kept: ReserveRecord) -> Chart:

@@ -11,8 +11,7 @@ from ocs_design.device.answers import PostureLine
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.parts.module import part_name
-from ocs_design.report.charts.chart import SERIES, Area, Chart, Ink, Line, Mark, Points, Rule
-from ocs_design.report.charts.scales import Axis
+from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Points, Rule
 from ocs_design.report.quantities import degrees, in_unit
 from ocs_design.report.story import Story
 from ocs_design.requirement.bound import AXES, bound_curve

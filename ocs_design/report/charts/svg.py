@@ -1,15 +1,19 @@
-"""Charts as SVG: inside a page, where the page's style sheet colours them, or as files."""
+"""Charts as SVG, inside a page, whose style sheet colours them, or as files; PNG of the files."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import MissingToolError, extra_command
+from ocs_design.export.templates import template_file
 from ocs_design.report.charts.chart import (
     Area,
+    Axis,
     Chart,
     Ink,
     Line,
@@ -17,8 +21,8 @@ from ocs_design.report.charts.chart import (
     Points,
     Rule,
     thinned,
+    tick_text,
 )
-from ocs_design.report.charts.scales import Axis, tick_text
 
 WIDTH = 440.0
 """Width of every chart [px]: legible without zooming on a telephone."""
@@ -216,15 +220,12 @@ class _Drawing:
                 words = zip(places, labels, strict=True)
                 return "".join(self._beside(x, y, text) for (x, y), text in words)
             case Rule(label=label, upright=True) if label:
-                return self._along(self._rule(mark)[0], label)
+                # Below, above or in between, where no curve is in the way.
+                x, low, high = self._rule(mark)[0], self._bottom - 9.0, self._top + 9.0
+                heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
+                free = (y for y in heights if self._free(self._box(x, y, label)))
+                return self._beside(x, next(free, low), label)
         return ""
-
-    def _along(self, x: float, text: str) -> str:
-        """A word at an upright rule: below, above or in between, where no curve is in the way."""
-        low, high = self._bottom - 9.0, self._top + 9.0
-        heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
-        free = (y for y in heights if self._free(self._box(x, y, text)))
-        return self._beside(x, next(free, low), text)
 
     def _beside(self, x: float, y: float, text: str) -> str:
         """A word right of a place, or left of it where there is no room.
@@ -335,4 +336,57 @@ def _straight(look: str, x1: float, y1: float, x2: float, y2: float) -> str:
 def _word(look: str, x: float, y: float, text: str, anchor: str) -> str:
     return (
         f'<text class="{look}" x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{escape(text)}</text>'
+    )
+
+
+_FONTS = tuple(f"report/fonts/Roboto-{weight}.ttf" for weight in ("Regular", "Bold"))
+"""Our own fonts: a machine may have none, and pictures are the same everywhere."""
+
+_FAMILY = "Roboto"
+
+_ZOOM = 2
+"""Pixels for each of the SVG's."""
+
+
+def write_svgs(charts: Sequence[Chart], folder: Path) -> None:
+    """Write each chart as `<name>.svg`."""
+    folder.mkdir(exist_ok=True)
+    for chart in charts:
+        (folder / f"{chart.name}.svg").write_bytes(svg_file(chart))
+
+
+def write_charts(charts: Sequence[Chart], folder: Path) -> tuple[str, ...]:
+    """Write each chart as SVG, and as PNG where resvg is installed; gives remarks."""
+    write_svgs(charts, folder)
+    try:
+        for chart in charts:
+            (folder / f"{chart.name}.png").write_bytes(png_file(chart))
+    except MissingToolError as error:
+        return (f"{error.message}: {error.hint}",)
+    return ()
+
+
+def png_file(chart: Chart) -> bytes:
+    """The SVG file as a picture, twice as many pixels wide and high.
+
+    Raises:
+        MissingToolError: resvg is not installed.
+    """
+    try:
+        # An extra.
+        from resvg_py import svg_to_bytes  # noqa: PLC0415
+    except ImportError as error:
+        raise MissingToolError(
+            "figures are not written as PNG, because resvg-py is not installed",
+            hint=extra_command("plot"),
+        ) from error
+    return bytes(
+        svg_to_bytes(
+            svg_string=svg_file(chart).decode(),
+            zoom=_ZOOM,
+            font_files=[str(template_file(font)) for font in _FONTS],
+            font_family=_FAMILY,
+            sans_serif_family=_FAMILY,
+            skip_system_fonts=True,
+        )
     )

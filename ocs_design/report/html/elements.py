@@ -6,7 +6,7 @@ from html import escape
 
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import inline_svg
-from ocs_design.report.table import Cell, Column, Table, Toned, tied
+from ocs_design.report.table import Table, Toned, tied
 
 _ESCAPED = {
     "<": "\\u003c",
@@ -63,19 +63,24 @@ def table(caption: str, content: Table) -> Markup:
     for index, column in enumerate(content.columns):
         name = column.name.replace("\n", " ").strip()
         head = f"{name} [{column.unit.strip()}]" if column.unit else name
-        looks.append(_look(column, [row[index] for row in content.rows]))
+        cells = (row[index] for row in content.rows)
+        texts = (cell.text if isinstance(cell, Toned) else cell for cell in cells)
+        # A long text keeps some width on a narrow screen.
+        long = column.words and max(map(len, texts), default=0) > _LONG
+        looks.append("word long" if long else "word" if column.words else "number")
         heads.append(element("th", head, scope="col", class_="word" if column.words else "number"))
     body = []
     for row in content.rows:
-        cells = []
-        for cell, look in zip(row, looks, strict=True):
-            text = (
-                element("span", cell.text, class_=f"mark {cell.tone}")
-                if isinstance(cell, Toned)
-                else tied(cell)
-            )
-            cells.append(element("td", text, class_=look))
-        body.append(element("tr", *cells))
+        shown = (
+            element("span", cell.text, class_=f"mark {cell.tone}")
+            if isinstance(cell, Toned)
+            else tied(cell)
+            for cell in row
+        )
+        row_cells = (
+            element("td", cell, class_=look) for cell, look in zip(shown, looks, strict=True)
+        )
+        body.append(element("tr", *row_cells))
     whole = element(
         "table",
         element("caption", caption),
@@ -84,16 +89,6 @@ def table(caption: str, content: Table) -> Markup:
     )
     # Wide tables scroll by themselves on a narrow screen, and by keys too.
     return element("div", whole, class_="scroll", tabindex="0", role="region", aria_label=caption)
-
-
-def _look(column: Column, cells: Iterable[Cell]) -> str:
-    """Class of the cells of a column: a long text keeps some width on a narrow screen."""
-    if not column.words:
-        return "number"
-    longest = max(
-        (len(cell.text if isinstance(cell, Toned) else cell) for cell in cells), default=0
-    )
-    return "word long" if longest > _LONG else "word"
 
 
 def section(name: str, title: str, *content: str) -> Markup:

@@ -48,24 +48,22 @@ def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
     kinds = {each.name: each.kind for each in design.requirement.maneuvers}
     mass = f"{grams(design.ocs.mass_total)}, {share_of_robot(design)}"
     title = f"{device_title(design)} for {design.robot.name}, {mass}"
+    glb = None if folder is None else folder / f"robot/{safe_name(design.robot.name)}_ocs.glb"
+    if glb is None or not glb.is_file():
+        shown = _image("svg+xml", svg_file(ellipsoid_chart(design)), "wheel axes and inertia")
+    else:
+        picture = png_bytes(still(read_bodies(glb.read_bytes())))
+        shown = _image("png", picture, f"{design.robot.name} with its device")
     return (
         _head(title, headline(design)),
         element(
             "div",
-            _picture(design, folder),
+            shown,
             table("Device", Table(columns("<", "<"), rows)),
             style="display: flex; gap: 1em; align-items: center",
         ),
         _flights(design.validation, kinds),
     )
-
-
-def _picture(design: OcsDesign, folder: Path | None) -> Markup:
-    glb = None if folder is None else folder / f"robot/{safe_name(design.robot.name)}_ocs.glb"
-    if glb is None or not glb.is_file():
-        return _image("svg+xml", svg_file(ellipsoid_chart(design)), "wheel axes and inertia")
-    picture = png_bytes(still(read_bodies(glb.read_bytes())))
-    return _image("png", picture, f"{design.robot.name} with its device")
 
 
 def _image(kind: str, content: bytes, name: str) -> Markup:

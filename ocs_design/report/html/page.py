@@ -14,15 +14,15 @@ from ocs_design.export.folder import REPORT_FILE
 from ocs_design.export.templates import template_text
 from ocs_design.report.charts.figures import scenario_charts
 from ocs_design.report.device import has_motor, layout_text, share_of_robot
+from ocs_design.report.flights import turned_by_hand
 from ocs_design.report.html import sections
+from ocs_design.report.html.decimation import decimated
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.view import view, view_data
 from ocs_design.report.limits import recorded_margins
 from ocs_design.report.quantities import degrees, grams, inertia, tenths
 from ocs_design.report.story import Story
 from ocs_design.report.verdict import headline
-from ocs_design.report.viewer.decimation import decimated
-from ocs_design.report.warnings import turned_by_hand
 from ocs_design.sizing.margins import HOOP_STRESS
 
 MOST_TRIANGLES = 30_000
@@ -125,6 +125,13 @@ def _tiles(design: OcsDesign) -> Markup:
     drive = f"at {ocs.motor.bus_voltage:g} V" if has_motor(design) else "no motor chosen"
     if ocs.motor.gear != DIRECT.name:
         drive += f", {ocs.motor.gear}"
+    # As in the table of margins, else at the design's speed.
+    stress = next((each for each in recorded_margins(design) if each.name == HOOP_STRESS), None)
+    if stress is not None and stress.factor is not None:
+        bears = f"stress margin {stress.factor:.2f} {stress.note}"
+    else:
+        margin = wheel.stress_margin
+        bears = "stress not checked" if margin is None else f"stress margin {margin:.2f}"
     tiles = (
         ("Total mass", grams(ocs.mass_total), share_of_robot(design)),
         ("Incidence α*", degrees(ocs.incidence), ocs.incidence_criterion)
@@ -133,7 +140,7 @@ def _tiles(design: OcsDesign) -> Markup:
         ("Motor", ocs.motor.full_name, drive),
         ("Rim R / r / h", f"{lengths} mm", wheel.material),
         ("Spin inertia", inertia(ocs.spin_inertia), "of each wheel"),
-        ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), _stress(design)),
+        ("Wheel speed, by design", rpm(design.requirement.wheel_speed_max), bears),
     )
     looks = (("span", "name"), ("strong", "value"), ("span", "note"))
     return element(
@@ -150,15 +157,6 @@ def _tiles(design: OcsDesign) -> Markup:
         ),
         class_="tiles",
     )
-
-
-def _stress(design: OcsDesign) -> str:
-    """Margin of the hoop stress: as in the table of margins, else at the design's speed."""
-    stress = next((each for each in recorded_margins(design) if each.name == HOOP_STRESS), None)
-    if stress is not None and stress.factor is not None:
-        return f"stress margin {stress.factor:.2f} {stress.note}"
-    margin = design.ocs.flywheel.stress_margin
-    return "stress not checked" if margin is None else f"stress margin {margin:.2f}"
 
 
 def _policy(style: str, script: str) -> Markup:

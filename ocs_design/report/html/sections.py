@@ -11,7 +11,7 @@ from ocs_design.catalogue.materials import materials
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.assembly.booklet import exploded_svg, section_svgs
 from ocs_design.export.assembly.content import Assembly
-from ocs_design.export.assembly.steps import Chapter, chapters
+from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
     bore_diameter,
@@ -132,6 +132,16 @@ def limits_section(story: Story) -> Markup:
         else Markup("")
     )
     otherwise = limits.alternatives_table(design)
+    kept = None if design.selection is None else design.selection.kept
+    reserve = (
+        ()
+        if kept is None
+        else (
+            table("What is uncertain, and what it costs", limits.reserve_table(kept)),
+            figures(reserve_charts(story)),
+            element("p", limits.reserve_note(kept, design.ocs.mass_total), class_="note"),
+        )
+    )
     return section(
         "limits",
         "Active limits, and what moving them saves",
@@ -140,23 +150,13 @@ def limits_section(story: Story) -> Markup:
         table("Each limit moved alone", limits.saving_table(design)),
         element("p", limits.saving_notes(design), class_="note"),
         more,
-        *_reserve(story),
+        *reserve,
         table("What would be lighter otherwise", otherwise) if otherwise.rows else "",
         element("p", limits.alternatives_note(design), class_="note"),
         table(f"What must give for {grams(design.lighter.by)} less", limits.lighter_table(design))
         if design.lighter is not None
         else "",
     )
-
-
-def _reserve(story: Story) -> Iterator[Markup]:
-    """What is uncertain, and what it costs."""
-    design = story.design
-    if design.selection is not None and design.selection.kept is not None:
-        kept = design.selection.kept
-        yield table("What is uncertain, and what it costs", limits.reserve_table(kept))
-        yield figures(reserve_charts(story))
-        yield element("p", limits.reserve_note(kept, design.ocs.mass_total), class_="note")
 
 
 def bound_section(story: Story) -> Markup:
@@ -291,16 +291,19 @@ def assembly_section(story: Story) -> Markup:
         ),
         joined(element("figure", Markup(each), class_="sheet") for each in section_svgs(assembly)),
         table("Screws", Table(columns(*_SCREWS), screws)) if screws else "",
-        joined(_chapter(chapter) for chapter in chapters(assembly)),
+        *(
+            joined(
+                (
+                    element("h3", each.title),
+                    element("ol", *(element("li", text) for text in each.texts))
+                    if each.numbered
+                    else items(each.texts),
+                )
+            )
+            for each in chapters(assembly)
+        ),
         element("p", "The same stands on paper in ", element("code", "cad/assembly.pdf"), "."),
     )
-
-
-def _chapter(chapter: Chapter) -> Markup:
-    head = element("h3", chapter.title)
-    if not chapter.numbered:
-        return joined((head, items(chapter.texts)))
-    return joined((head, element("ol", *(element("li", text) for text in chapter.texts))))
 
 
 def record_section(story: Story) -> Markup:

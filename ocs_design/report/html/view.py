@@ -1,15 +1,25 @@
-"""The view of the robot that can be turned, with a picture in its place where it cannot."""
+"""The view of the robot that can be turned: a picture, its controls, and what the script takes."""
 
 import base64
 import json
+import zlib
 from collections.abc import Iterator, Sequence
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.arrays import FloatArray
+from ocs_design.device.naming import PREFIX, flywheels_among
 from ocs_design.export.png import png_bytes
 from ocs_design.export.snapshot import HEIGHT, WIDTH
 from ocs_design.report.bodies import ShownBody, still
 from ocs_design.report.html.elements import Markup, data, element, joined, void
-from ocs_design.report.story import Story
-from ocs_design.report.viewer.encoding import Blob, encoded_scene
+from ocs_design.report.story import Flight, Story
+from ocs_design.robot.mujoco_bodies import quaternion
+from ocs_design.simulation.quaternions import from_axis_angle
+from ocs_design.simulation.quaternions import product as hamilton
+from ocs_design.simulation.run import Poses
 
 _LOOKS = (
     ("Oblique", "home"),
@@ -109,3 +119,143 @@ def _choice(name: str, label: str, options: tuple[tuple[str, str], ...], *, chos
 def _tick(name: str, label: str, *, checked: bool) -> Markup:
     box = Markup(f'<input type="checkbox" id="{name}"{" checked" if checked else ""}>')
     return element("label", box, f" {label}")
+
+
+Record = dict[str, Any]
+"""Value that becomes an object of JSON."""
+
+_LARGEST = 32767
+"""Largest number of 16 bits with a sign, for parts of quaternions."""
+
+_MOST_UINT16 = 65535
+
+_FINE = 1e4
+"""Positions are kept to a tenth of a millimetre, which packs well."""
+
+_BESIDE = 1.25
+"""Distance between two robots shown side by side, over the width of one."""
+
+
+class Blob:
+    """Arrays one behind the other, which the script in a page unpacks."""
+
+    def __init__(self) -> None:
+        self._content = bytearray()
+
+    def add(self, values: NDArray[Any], kind: str) -> Record:
+        """Append an array as little-endian `f4`, `i2`, `u2` or `u4`; gives where it lies."""
+        content = np.ascontiguousarray(values, dtype=f"<{kind}").tobytes()
+        place = {"at": len(self._content), "kind": kind, "length": int(values.size)}
+        # A view of an array must begin at a multiple of the size of its numbers.
+        self._content += content + b"\0" * (-len(content) % 4)
+        return place
+
+    def text(self) -> str:
+        """All arrays, compressed by zlib, in base64."""
+        return base64.b64encode(zlib.compress(bytes(self._content), 6)).decode("ascii")
+
+
+def encoded_scene(
+    bodies: Sequence[ShownBody], flights: Sequence[Flight], scenarios: Sequence[str], blob: Blob
+) -> Record:
+    """Everything that the viewer shows; its arrays go into the blob.
+
+    Args:
+        bodies: at least one.
+        flights: of which those with poses can be replayed.
+        scenarios: in the order of the page.
+        blob: that grows.
+    """
+    low, high = _box(bodies)
+    radius = _radius(low, high)
+    device = _box([body for body in bodies if body.name.startswith(PREFIX)] or bodies)
+    names = [body.name for body in bodies]
+    wheels, shown = flywheels_among(names), []
+    for body in bodies:
+        surfaces = []
+        for surface in body.surfaces:
+            points = surface.vertices
+            low_corner, size = points.min(axis=0), np.ptp(points, axis=0)
+            # Coordinates as parts of the surface's box, 0..65535.
+            offsets = points - low_corner
+            parts = np.divide(offsets, size, out=np.zeros_like(points), where=size > 0.0)
+            kind = "u2" if len(points) <= _MOST_UINT16 else "u4"
+            record = {
+                "color": list(surface.color),
+                "low": low_corner.tolist(),
+                "size": size.tolist(),
+                "vertices": blob.add(np.round(_MOST_UINT16 * parts), "u2"),
+                "faces": blob.add(surface.faces, kind),
+            }
+            surfaces.append(record)
+        shown.append(
+            {
+                "name": body.name,
+                "device": body.name.startswith(PREFIX),
+                "wheel": wheels.index(body.name) if body.name in wheels else None,
+                "position": body.placement.position.tolist(),
+                "attitude": list(map(float, quaternion(body.placement.rotation))),
+                "surfaces": surfaces,
+            }
+        )
+    return {
+        "bodies": shown,
+        "trunk": 0,
+        "middle": ((low + high) / 2.0).tolist(),
+        "ground": float(low[2]),
+        "reach": radius,
+        "device": {"middle": np.mean(device, axis=0).tolist(), "reach": _radius(*device)},
+        "tile": float(10.0 ** np.round(np.log10(radius / 2.0))),
+        "apart": float(_BESIDE * (high - low)[1]),
+        "scenarios": list(scenarios),
+        "flights": [
+            _flight(flight, flight.poses, names, blob)
+            for flight in flights
+            if flight.poses is not None and set(names) <= set(flight.poses.bodies)
+        ],
+    }
+
+
+def _flight(flight: Flight, poses: Poses, names: Sequence[str], blob: Blob) -> Record:
+    places = [poses.bodies.index(name) for name in names]
+    tilt = [flight.columns[f"{axis}_rad"] for axis in ("pitch", "roll")]
+    at_frames = [np.interp(poses.time, flight.time, np.degrees(angle)) for angle in tilt]
+    return {
+        "scenario": flight.scenario,
+        "ocs": flight.ocs,
+        # What swings on a pivot swings below any floor.
+        "floor": not flight.on_pivot,
+        "frames": len(poses.time),
+        "time": blob.add(poses.time, "f4"),
+        "position": blob.add(np.round(_FINE * poses.position[:, places]) / _FINE, "f4"),
+        "attitude": blob.add(np.round(_LARGEST * _unspun(poses)[:, places]), "i2"),
+        "wheels": blob.add(poses.wheel_angle, "f4"),
+        "tilt": blob.add(np.stack(at_frames, axis=1), "f4"),
+    }
+
+
+def _unspun(poses: Poses) -> FloatArray:
+    """Attitudes with the wheels' own turns taken out, which are many from one pose to the next."""
+    attitude = poses.attitude.copy()
+    for wheel, name in enumerate(flywheels_among(poses.bodies)):
+        body = poses.bodies.index(name)
+        back = from_axis_angle(np.array([0.0, 0.0, 1.0]), -poses.wheel_angle[:, wheel])
+        attitude[:, body] = hamilton(attitude[:, body], back)
+    return attitude
+
+
+def _radius(low: FloatArray, high: FloatArray) -> float:
+    """Radius of the ball around a box."""
+    return float(np.linalg.norm(high - low)) / 2.0
+
+
+def _box(bodies: Sequence[ShownBody]) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest corner of all that is shown, in B [m]."""
+    corners = np.concatenate(
+        [
+            surface.vertices @ body.placement.rotation.T + body.placement.position
+            for body in bodies
+            for surface in body.surfaces
+        ]
+    )
+    return corners.min(axis=0), corners.max(axis=0)

@@ -30,6 +30,10 @@ MOST_NAMES = 8
 """Entries that are spelt out before a source they share."""
 
 
+TORQUE_CLASSES = (0.0, 0.05, 0.2, 0.5, 1.0, 2.0, 5.0, 20.0, math.inf)
+"""Limits of the classes of short-term torque that motors are counted in [N m]."""
+
+
 class Row(Protocol):
     """An entry of any catalogue."""
 
@@ -147,30 +151,17 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
     )
     show(console, Table(heads, rows))
     note(console, "+ k_t times the peak current   * stall torque, for want of a rating")
-    _print_classes(console, found)
-    _print_gaps(console, found)
-
-
-TORQUE_CLASSES = (0.0, 0.05, 0.2, 0.5, 1.0, 2.0, 5.0, 20.0, math.inf)
-"""Limits of the classes of short-term torque that motors are counted in [N m]."""
-
-
-def _print_classes(console: Console, found: Sequence[Motor]) -> None:
-    """How many motors of each class of torque a builder can use."""
     heading(console, "Complete, by short-term torque")
-    rows = []
+    classes = []
     for least, most in pairwise(TORQUE_CLASSES):
         of_class = [motor for motor in found if least <= (motor.peak_torque or -1.0) < most]
         complete = sum(not build_gaps(motor) for motor in of_class)
         if of_class:
             limits = f"{least:g} to {most:g}" if most < math.inf else f"{least:g} and more"
-            rows.append((limits, str(complete), str(len(of_class))))
-    show(console, Table(columns("<peak [N m]", "complete", "motors"), tuple(rows)))
+            classes.append((limits, str(complete), str(len(of_class))))
+    show(console, Table(columns("<peak [N m]", "complete", "motors"), tuple(classes)))
     note(console, "size chooses among complete motors; with --motors-any among all")
-
-
-def _print_gaps(console: Console, found: Sequence[Motor]) -> None:
-    """What a builder misses of the others: one line for each set of gaps."""
+    # What a builder misses of the others: one line for each set of gaps.
     by_gaps: dict[tuple[str, ...], list[str]] = {}
     for motor in found:
         by_gaps.setdefault(build_gaps(motor), []).append(motor.name)

@@ -36,8 +36,17 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
             ("heading drift", heading_drift(inspection.heading_drift)),
         ],
     )
-    if inspection.recognition is not None and inspection.recognition.likely:
-        _ask(console, inspection.recognition)
+    found = inspection.recognition
+    if found is not None and found.likely:
+        heading(console, "Trunk and legs are not clear; `size` will ask for one of")
+        rows = tuple(
+            (
+                f"--trunk {each.trunk} --legs {','.join(each.legs) or 'none'}",
+                f"{each.confidence:.0%}",
+            )
+            for each in found.likely
+        )
+        show(console, Table(columns("<options", "confidence"), rows))
     heading(console, "Incidence angle alpha* of the robot alone, by criterion")
     criteria = inspection.incidence_by_criterion.items()
     show(
@@ -97,24 +106,6 @@ def _recognised(recognition: RecognitionRecord | None) -> Iterator[tuple[str, st
     yield (
         "trunk, legs",
         f"{recognition.confidence:.0%} confidence{stated}{f': but {against}' if against else ''}",
-    )
-
-
-def _ask(console: Console, recognition: RecognitionRecord) -> None:
-    """What to choose from where trunk and legs are not clear."""
-    heading(console, "Trunk and legs are not clear; `size` will ask for one of")
-    show(
-        console,
-        Table(
-            columns("<options", "confidence"),
-            tuple(
-                (
-                    f"--trunk {each.trunk} --legs {','.join(each.legs) or 'none'}",
-                    f"{each.confidence:.0%}",
-                )
-                for each in recognition.likely
-            ),
-        ),
     )
 
 

@@ -16,6 +16,7 @@ from ocs_design.device.device import Module
 from ocs_design.device.joints import balance_of, burst_of, rim_fit
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import (
     assembly_pages,
 )
@@ -23,7 +24,7 @@ from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.assembly.views import pulled_apart, spread
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.export.device_parts import printed_foot, printed_parts
+from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Polyline, Text
 from ocs_design.export.meshes import part_mesh
 from ocs_design.export.module_bodies import carrier_placement, wheel_placement
@@ -80,7 +81,7 @@ def test_the_bench_is_told_what_the_foot_does_and_what_can_be_touched():
     }
     assert "Between the posts of the cage the motor's bell turns" in said["caged"]
     assert "Between the posts" not in said["by its face"]
-    hole = 2e3 * printed_foot(DEVICES["caged"]).housing.mount.pilot_radius
+    hole = 2e3 * foot_of(DEVICES["caged"]).housing.mount.pilot_radius
     assert f"no supports but in the hole of {hole:.0f} mm" in said["caged"]
 
 
@@ -299,7 +300,7 @@ def test_large_figures_are_written_out(assembly):
 def test_pedestals_of_two_shapes_stand_beside_each_other():
     """Each with its screws, and told and numbered by what stands on it."""
     caged = DEVICES["caged"]
-    foot = printed_foot(caged)
+    foot = foot_of(caged)
     low, high = (
         Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, lean, 0.04, module=module)
         for lean, module in ((0.3, "left"), (0.9, "right"))

@@ -11,9 +11,9 @@ from ocs_design.device.answers import PostureLine
 from ocs_design.report.charts.chart import Ink, Line, Points
 from ocs_design.report.charts.drive import torque_speed_chart
 from ocs_design.report.charts.figures import all_charts, reserve_charts
-from ocs_design.report.charts.files import write_svgs
 from ocs_design.report.charts.front import reliability_chart
 from ocs_design.report.charts.momentum import bound_charts, posture_chart, taken
+from ocs_design.report.charts.svg import write_svgs
 from ocs_design.report.limits import reserve_note
 
 RPM = 30.0 / np.pi

@@ -10,10 +10,9 @@ from PIL import Image
 from stories import story
 
 from ocs_design.common.errors import MissingToolError
-from ocs_design.report.charts.chart import Chart
+from ocs_design.report.charts.chart import Axis, Chart
 from ocs_design.report.charts.figures import all_charts
-from ocs_design.report.charts.files import png_file, write_charts
-from ocs_design.report.charts.scales import Axis
+from ocs_design.report.charts.svg import png_file, write_charts
 
 
 def picture(chart):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.report.charts.scales import Axis, tick_text
+from ocs_design.report.charts.chart import Axis, tick_text
 
 ENDS = st.tuples(st.floats(-1e6, 1e6), st.floats(1e-6, 1e7))
 

@@ -3,8 +3,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from ocs_design.report.charts.chart import Area, Chart, Ink, Line, Points, Rule, thinned
-from ocs_design.report.charts.scales import Axis
+from ocs_design.report.charts.chart import Area, Axis, Chart, Ink, Line, Points, Rule, thinned
 from ocs_design.report.charts.svg import inline_svg, svg_file
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from ocs_design.report.flights import off_level
-from ocs_design.report.text.plots import LEAST_SPAN, Canvas, Scale, frame, tilt_plots
+from ocs_design.report.text.front import Canvas, Scale, frame
+from ocs_design.report.text.size import LEAST_SPAN, tilt_plots
 
 ANGLES = st.floats(-np.pi, np.pi)
 

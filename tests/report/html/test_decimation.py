@@ -3,7 +3,7 @@ import pytest
 import trimesh
 
 from ocs_design.report.bodies import ShownBody, Surface
-from ocs_design.report.viewer.decimation import clustered, decimated
+from ocs_design.report.html.decimation import clustered, decimated
 from ocs_design.robot.tree import Placement
 
 GREY = (0.5, 0.5, 0.5, 1.0)

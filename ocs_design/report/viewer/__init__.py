@@ -1,1 +1,0 @@
-"""The robot in three dimensions on a web page: its surfaces, small enough to be mailed."""
