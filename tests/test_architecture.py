@@ -46,7 +46,7 @@ def is_package(path):
     return (path / "__init__.py").exists()
 
 
-DEEPEST = 25
+DEEPEST = 23
 """Modules in the longest chain of imports."""
 
 
