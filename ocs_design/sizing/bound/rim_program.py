@@ -17,10 +17,9 @@ the solutions stop moving, the multipliers of the last convex program are those 
 """
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -34,14 +33,8 @@ from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from cvxpy import (
-        Constraint as CvxpyConstraint,
-    )
-    from cvxpy import (
-        Expression,
-        Problem,
-        Variable,
-    )
+    from cvxpy import Constraint as CvxpyConstraint
+    from cvxpy import Expression, Problem, Variable
 
 
 class Constraint(NamedTuple):
@@ -49,14 +42,10 @@ class Constraint(NamedTuple):
 
     Attributes:
         convex: the CVXPY constraint.
-        value: of g itself, without tangents.
-        gradient: of g by a and b.
         derivative: of g by the limit where it binds, at (a, b) [1 / SI unit of the limit].
     """
 
     convex: "CvxpyConstraint"
-    value: Callable[[float, float], float]
-    gradient: Callable[[float, float], tuple[float, float]]
     derivative: Callable[[float, float], float]
 
 
@@ -86,26 +75,70 @@ class RimConstraints:
 
     Attributes:
         a, b: CVXPY variables.
-        by_name: the limits that are set, in the words of the specification.
+        by_name: the limits that are set, in the words of the specification; the derivative of the
+            hoop stress is by the allowed stress [1 / Pa].
     """
 
     def __init__(self, problem: RimProblem, scale: float) -> None:
         # Importing CVXPY takes a second, which only those pay who solve.
-        self._cvxpy = import_module("cvxpy")
-        self._problem, self._room, self._scale = problem, problem.envelope, scale
+        cvxpy = import_module("cvxpy")
         self.a: Variable
         self.b: Variable
-        self.a, self.b = self._cvxpy.Variable(), self._cvxpy.Variable()
+        self.a, self.b = cvxpy.Variable(), cvxpy.Variable()
         self._tangents: list[Tangent] = []
-        self.by_name = {"r_max": self._r_max(), "r_min": self._r_min(), "h_max": self._h_max()}
-        if self._room.wall_min > 0.0:
-            self.by_name["wall_min"] = self._wall_min()
-        if self._room.height_min > 0.0:
-            self.by_name["h_min"] = self._h_min()
-        if np.isfinite(self._room.mass_max):
-            self.by_name["wheel_mass_max"] = self._wheel_mass_max()
-        if np.isfinite(self._problem.stretch_max):
-            self.by_name["hoop_stress"] = self._hoop_stress()
+        room, inertia, density = problem.envelope, problem.spin_inertia, problem.material.density
+        radius, bore = room.outer_radius_max / scale, room.inner_radius_min / scale
+        wall, per_height = room.wall_min / scale, 2.0 * inertia / (np.pi * density * scale**4)
+        # Differences a^2 - b^2 of the tallest rim and of the flattest one.
+        tall = per_height / room.height_max
+        flat = per_height / room.height_min if room.height_min > 0.0 else np.inf
+        # The limit of the height is a second-order cone. The geometric mean of a - b and a + b is
+        # the same one, but costs Clarabel four digits of the multipliers.
+        norm = cvxpy.norm(cvxpy.hstack([self.b, np.sqrt(tall)]))
+        self.by_name = {
+            "r_max": Constraint(
+                self.a / radius**2 <= 1.0, lambda _a, _b: -2.0 / room.outer_radius_max
+            ),
+            "r_min": Constraint(self.b >= bore**2, lambda _a, _b: 2.0 * bore / scale),
+            "h_max": Constraint(
+                norm <= self.a,
+                lambda _a, b: -tall / (2.0 * room.height_max * np.hypot(b, np.sqrt(tall))),
+            ),
+        }
+        if room.wall_min > 0.0:
+
+            def widest_bore(a: float) -> tuple[float, float]:
+                """(sqrt(a) - t)^2 and its slope."""
+                widest = np.sqrt(a) - wall
+                return widest**2, widest / np.sqrt(a)
+
+            self.by_name["wall_min"] = Constraint(
+                self.b <= self._tangent(self.a, widest_bore),
+                lambda a, _b: 2.0 * (np.sqrt(a) - wall) / scale,
+            )
+        if room.height_min > 0.0:
+
+            def widest_rim(b: float) -> tuple[float, float]:
+                """sqrt(Q + b^2) and its slope."""
+                widest = np.hypot(b, np.sqrt(flat))
+                return widest, b / widest
+
+            self.by_name["h_min"] = Constraint(
+                self.a <= self._tangent(self.b, widest_rim),
+                lambda _a, b: flat / (2.0 * room.height_min * widest_rim(b)[0]),
+            )
+        if np.isfinite(room.mass_max):
+            least = 2.0 * inertia / (room.mass_max * scale**2)
+            self.by_name["wheel_mass_max"] = Constraint(
+                (self.a + self.b) / least >= 1.0, lambda _a, _b: -1.0 / room.mass_max
+            )
+        if np.isfinite(problem.stretch_max):
+            stretch = problem.stretch_max / scale**2
+            outer, inner = hoop_weights(problem.material.poisson_ratio or 0.0)
+            self.by_name["hoop_stress"] = Constraint(
+                self.a * (outer / stretch) + self.b * (inner / stretch) <= 1.0,
+                lambda _a, _b: -1.0 / problem.hoop_stress_max,
+            )
 
     def touch(self, a: float, b: float) -> None:
         """Move the tangents to this point."""
@@ -120,102 +153,8 @@ class RimConstraints:
     def _tangent(
         self, x: "Variable", function: Callable[[float], tuple[float, float]]
     ) -> "Expression":
-        tangent = Tangent(x, function)
-        self._tangents.append(tangent)
-        return tangent.bound
-
-    def _r_max(self) -> Constraint:
-        radius = self._room.outer_radius_max
-        largest = (radius / self._scale) ** 2
-        return Constraint(
-            convex=self.a / largest <= 1.0,
-            value=lambda a, _b: a / largest - 1.0,
-            gradient=lambda _a, _b: (1.0 / largest, 0.0),
-            derivative=lambda _a, _b: -2.0 / radius,
-        )
-
-    def _r_min(self) -> Constraint:
-        inner = self._room.inner_radius_min / self._scale
-        return Constraint(
-            convex=self.b >= inner**2,
-            value=lambda _a, b: inner**2 - b,
-            gradient=lambda _a, _b: (0.0, -1.0),
-            derivative=lambda _a, _b: 2.0 * inner / self._scale,
-        )
-
-    def _h_max(self) -> Constraint:
-        """a^2 - b^2 >= P as a second-order cone, norm(b, sqrt(P)) <= a.
-
-        The geometric mean of a - b and a + b is the same cone, but costs Clarabel four digits of
-        the multipliers.
-        """
-        height = self._room.height_max
-        least = self._spread(height)
-        norm = self._cvxpy.norm(self._cvxpy.hstack([self.b, np.sqrt(least)]))
-        return Constraint(
-            convex=norm <= self.a,
-            value=lambda a, b: np.hypot(b, np.sqrt(least)) - a,
-            gradient=lambda _a, b: (-1.0, b / np.hypot(b, np.sqrt(least))),
-            derivative=lambda _a, b: -least / (2.0 * height * np.hypot(b, np.sqrt(least))),
-        )
-
-    def _h_min(self) -> Constraint:
-        """a <= sqrt(Q + b^2), by its tangent."""
-        height = self._room.height_min
-        largest = self._spread(height)
-        return Constraint(
-            convex=self.a <= self._tangent(self.b, self._widest_rim),
-            value=lambda a, b: a - self._widest_rim(b)[0],
-            gradient=lambda _a, b: (1.0, -self._widest_rim(b)[1]),
-            derivative=lambda _a, b: largest / (2.0 * height * self._widest_rim(b)[0]),
-        )
-
-    def _wall_min(self) -> Constraint:
-        """b <= (sqrt(a) - t)^2, by its tangent."""
-        wall = self._room.wall_min / self._scale
-        return Constraint(
-            convex=self.b <= self._tangent(self.a, self._widest_bore),
-            value=lambda a, b: b - self._widest_bore(a)[0],
-            gradient=lambda a, _b: (-self._widest_bore(a)[1], 1.0),
-            derivative=lambda a, _b: 2.0 * (np.sqrt(a) - wall) / self._scale,
-        )
-
-    def _wheel_mass_max(self) -> Constraint:
-        mass = self._room.mass_max
-        least = 2.0 * self._problem.spin_inertia / (mass * self._scale**2)
-        return Constraint(
-            convex=(self.a + self.b) / least >= 1.0,
-            value=lambda a, b: 1.0 - (a + b) / least,
-            gradient=lambda _a, _b: (-1.0 / least, -1.0 / least),
-            derivative=lambda _a, _b: -1.0 / mass,
-        )
-
-    def _hoop_stress(self) -> Constraint:
-        """The derivative is by the allowed stress [1 / Pa]."""
-        nu = self._problem.material.poisson_ratio or 0.0
-        stretch = self._problem.stretch_max / self._scale**2
-        outer, inner = (weight / stretch for weight in hoop_weights(nu))
-        return Constraint(
-            convex=self.a * outer + self.b * inner <= 1.0,
-            value=lambda a, b: a * outer + b * inner - 1.0,
-            gradient=lambda _a, _b: (outer, inner),
-            derivative=lambda _a, _b: -1.0 / self._problem.hoop_stress_max,
-        )
-
-    def _spread(self, height: float) -> float:
-        """a^2 - b^2 of a rim of this height."""
-        density = self._problem.material.density
-        return 2.0 * self._problem.spin_inertia / (np.pi * density * height * self._scale**4)
-
-    def _widest_bore(self, a: float) -> tuple[float, float]:
-        """(sqrt(a) - t)^2 and its slope."""
-        bore = np.sqrt(a) - self._room.wall_min / self._scale
-        return bore**2, bore / np.sqrt(a)
-
-    def _widest_rim(self, b: float) -> tuple[float, float]:
-        """sqrt(Q + b^2) and its slope."""
-        widest = np.hypot(b, np.sqrt(self._spread(self._room.height_min)))
-        return widest, b / widest
+        self._tangents.append(Tangent(x, function))
+        return self._tangents[-1].bound
 
 
 _SOLVER_OPTIONS = {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10}
@@ -223,10 +162,6 @@ _STEP_TOLERANCE = 1e-8
 _ITERATIONS_MAX = 50
 # A multiplier below this belongs to a limit that does not bind; those that do are of order one.
 _IDLE = 1e-6
-_NEWTON_STEPS = 3
-# Newton goes to a vertex that Clarabel may mean, or nowhere.
-_REFINED_MAX = 1e-5
-_ROUNDING = 1e-11
 
 
 @dataclass(frozen=True)
@@ -272,10 +207,13 @@ def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) 
     while step > _STEP_TOLERANCE and iterations < _ITERATIONS_MAX:
         last = point
         constraints.touch(*last)
-        gap = _solve(program)
+        gap = _solved_gap(program)
         point = constraints.point()
         step, iterations = np.abs(point - last).max(), iterations + 1
-    point, multipliers = _refined(constraints)
+    multipliers = {
+        name: np.asarray(limit.convex.dual_value).item()
+        for name, limit in constraints.by_name.items()
+    }
     outer, inner = scale * np.sqrt(point)
     mass_scale = 2.0 * problem.spin_inertia / scale**2
     return RimOptimum(
@@ -283,56 +221,15 @@ def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) 
         inner_radius=float(inner),
         mass=float(mass_scale / point.sum()),
         prices={
-            # Plus zero: an idle limit has the price 0, not -0.
             name: mass_scale * multiplier * float(constraints.by_name[name].derivative(*point))
-            + 0.0
+            if multiplier > _IDLE
+            else 0.0
             for name, multiplier in multipliers.items()
         },
         gap=gap,
         iterations=iterations,
         status=str(program.status),
     )
-
-
-def _refined(constraints: RimConstraints) -> tuple[FloatArray, dict[str, float]]:
-    """The point and the multipliers with full digits, where Clarabel leaves about nine.
-
-    Two limits that bind are two equations for the vertex (Newton), and the Lagrange condition two
-    linear ones for their multipliers. Where more limits meet, the multipliers are not unique and
-    Clarabel's stand. Idle limits have none.
-    """
-    found = {
-        name: np.asarray(limit.convex.dual_value).item()
-        for name, limit in constraints.by_name.items()
-    }
-    binding = [name for name, multiplier in found.items() if multiplier > _IDLE]
-    limits = [constraints.by_name[name] for name in binding]
-    # The lightest point next to Clarabel's that lies on two binding limits and within all.
-    near = constraints.point()
-    feasible = [
-        vertex
-        for vertex in (_vertex(pair, near) for pair in combinations(limits, 2))
-        if np.abs(vertex - near).max() < _REFINED_MAX
-        and all(limit.value(*vertex) < _ROUNDING for limit in constraints.by_name.values())
-    ]
-    point = max(feasible, key=np.sum, default=near)
-    if len(binding) == 2:
-        exact = np.linalg.solve(_gradients(limits, point).T, np.full(2, point.sum() ** -2.0))
-        found.update(zip(binding, map(float, exact), strict=True))
-    return point, {name: found[name] if name in binding else 0.0 for name in found}
-
-
-def _vertex(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
-    """The point next to this one where both limits bind."""
-    for _ in range(_NEWTON_STEPS):
-        values = np.array([limit.value(*point) for limit in limits])
-        # Not `solve`: equal h_min and h_max are one equation twice.
-        point = point - np.linalg.lstsq(_gradients(limits, point), values, rcond=None)[0]
-    return point
-
-
-def _gradients(limits: Sequence[Constraint], point: FloatArray) -> FloatArray:
-    return np.array([limit.gradient(*point) for limit in limits])
 
 
 def load_solver() -> "ModuleType":
@@ -350,7 +247,7 @@ def load_solver() -> "ModuleType":
         ) from error
 
 
-def _solve(program: "Problem") -> float:
+def _solved_gap(program: "Problem") -> float:
     """Solve in place; returns the relative gap between the primal and the dual objective."""
     # Not `program.solve()`, which throws the dual objective away.
     data, chain, inverse = program.get_problem_data("CLARABEL", solver_opts=_SOLVER_OPTIONS)
