@@ -169,6 +169,28 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
             return maneuver
 
 
+def milder(maneuver: Maneuver, share: float) -> Maneuver:
+    """Maneuver with a share of its tilt or of its push; others as they are: part of a flip is none.
+
+    Args:
+        maneuver: as it is. share: that is left, 0..1.
+    """
+    match maneuver:
+        case Drop() | StandUp():
+            return replace(maneuver, roll=maneuver.roll * share, pitch=maneuver.pitch * share)
+        case Disturbance(torque=(x, y, z), velocity_change=(u, v, w), impulse=(a, b, c)):
+            return replace(
+                maneuver,
+                torque=(x * share, y * share, z * share),
+                velocity_change=(u * share, v * share, w * share),
+                impulse=(a * share, b * share, c * share),
+            )
+        case Shove(torque=(x, y, z)):
+            return replace(maneuver, torque=(x * share, y * share, z * share))
+        case _:
+            return maneuver
+
+
 def change_text(before: Maneuver, after: Maneuver) -> str:
     """The keys of `after` that are other than those of `before`, rounded up, as in `height 2 m`."""
     changes = []

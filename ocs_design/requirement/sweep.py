@@ -1,7 +1,7 @@
 """One figure of a specification that is varied while all else stays as it is."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from math import hypot
 from types import MappingProxyType
@@ -47,6 +47,25 @@ class Task:
             SpecificationError: see `resolve`.
         """
         return Task.of(specification, self.robot, self.robot_size)
+
+    def with_key(self, section: str, key: str, value: float) -> Specification:
+        """The specification with one key of the file at another value [SI]."""
+        stated: Any = getattr(self.specification, section)
+        changes: dict[str, Any] = {section: replace(stated, **{key: value})}
+        return replace(self.specification, **changes)
+
+    def with_maneuvers(
+        self, change: Callable[[Maneuver], Maneuver], names: Collection[str]
+    ) -> Specification:
+        """The specification with the maneuvers of these names changed.
+
+        All are written out, and then no longer asked for by name or in words.
+        """
+        maneuvers = tuple(
+            change(maneuver) if maneuver.name in names else maneuver for maneuver in self.maneuvers
+        )
+        requirement = replace(self.specification.requirement.without_words(), maneuvers=None)
+        return replace(self.specification, requirement=requirement, maneuvers=maneuvers)
 
     @property
     def maneuvers(self) -> tuple[Maneuver, ...]:
@@ -115,9 +134,7 @@ class KeySweep(Sweep):
 
     def at(self, value: float, task: Task) -> Specification:
         """Specification at another value (`Sweep.at`)."""
-        section = replace(getattr(task.specification, self.section), **{self.key: value})
-        changes: dict[str, Any] = {self.section: section}
-        return replace(task.specification, **changes)
+        return task.with_key(self.section, self.key, value)
 
     def remarks(self, task: Task) -> tuple[str, ...]:
         """Nothing else moves."""
@@ -157,16 +174,10 @@ class ManeuverSweep(Sweep):
 
     def at(self, value: float, task: Task) -> Specification:
         """Specification at another value (`Sweep.at`)."""
-        ratio, moved = value / self.own(task), self._figures(task)
-        maneuvers = tuple(
-            self.scaled(maneuver, ratio, task.standing_height)
-            if maneuver.name in moved
-            else maneuver
-            for maneuver in task.maneuvers
+        ratio, height = value / self.own(task), task.standing_height
+        return task.with_maneuvers(
+            lambda maneuver: self.scaled(maneuver, ratio, height), self._figures(task)
         )
-        # All are written out, and then no longer asked for by name or in words.
-        requirement = replace(task.specification.requirement.without_words(), maneuvers=None)
-        return replace(task.specification, requirement=requirement, maneuvers=maneuvers)
 
     def remarks(self, task: Task) -> tuple[str, ...]:
         """Which maneuver the value is of, which follow and which stay."""

@@ -1,33 +1,45 @@
-"""What single changes of the specification would save: each a selection with the rest as it was.
+"""What would make a device lighter: single changes of the specification, and what they save.
 
-An answer is good to about 1.5 %. The reserve for what is uncertain stays what it is but for another
-incidence, though a device of its own would keep a little more or less. The incidence stays, though
-a lighter device would move it by a fraction of a degree, and so does the material, where it is not
-what changes.
+Each change is a selection with the rest as it was, good to about 1.5 %. The reserve for what is
+uncertain stays what it is but for another incidence, though a device of its own would keep a little
+more or less. The incidence stays, though a lighter device would move it by a fraction of a degree,
+and so does the material, where it is not what changes.
+
+Where the mass to be saved is stated, each answer is the smallest change of one figure, in whole
+percent, or one or two other choices; where none of these does, one figure with one choice. It is
+searched for in the same way, and the changed question is then sized as a whole.
 """
 
-from collections.abc import Iterator
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import combinations
 from math import inf, isfinite
 
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.actuation.supply import Supply
-from ocs_design.common.errors import Infeasible
-from ocs_design.common.units import format_quantity
+from ocs_design.catalogue.materials import strong_materials
+from ocs_design.common.errors import Infeasible, OcsError
+from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
-from ocs_design.requirement.maneuver import Flip
+from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors
+from ocs_design.requirement.kinds import change_text, milder, slower
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.vocabulary import AUTO, LIGHTEST
+from ocs_design.requirement.sweep import Task
+from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, STEEL
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.limits import LIMITS, TIME
+from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME, Progress, unseen
 from ocs_design.sizing.on_robot import with_plate
 from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
 from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.selection.select import lightest_below
 from ocs_design.sizing.sized import Choice
-from ocs_design.sizing.specified import other_construction, relaxations
+from ocs_design.sizing.specified import other_construction
 
 MORE_ROOM, MORE_TIME = 1.2, 1.1
 """Factors on r_max and on the time of every maneuver."""
@@ -43,12 +55,60 @@ _WORTH = 0.005
 
 
 @dataclass(frozen=True, eq=False)
-class _Change:
-    """One change of what is asked: in words, the changed problem, and what speaks against it."""
+class Relaxation:
+    """A choice that the specification leaves open.
+
+    Attributes:
+        text: in words. option: of the command line, with what speaks against it.
+        stated: the specification with it. problem: the problem with it.
+    """
 
     text: str
-    problem: SelectionProblem
-    note: str = ""
+    option: str
+    stated: Callable[[Specification], Specification]
+    problem: Callable[[SelectionProblem], SelectionProblem]
+
+    @property
+    def told(self) -> str:
+        """Words for it, with the option."""
+        return f"{self.text} ({self.option})"
+
+
+def relaxations(specification: Specification, asked: SelectionProblem) -> Iterator[Relaxation]:
+    """Choices that a specification leaves open; `asked` is the problem that it states."""
+    stated = specification.ocs
+    if asked.layout.pairs and stated.alpha is None and stated.alpha_criterion != LIGHTEST:
+        yield Relaxation(
+            "the incidence with which it is lightest",
+            "--alpha-criterion lightest",
+            lambda s: replace(s, ocs=replace(s.ocs, alpha_criterion=LIGHTEST)),
+            lambda p: replace(p, incidence=None, requirement=replace(p.requirement, free=True)),
+        )
+    if specification.flywheel.material in {None, STEEL}:
+        yield Relaxation(
+            "any material",
+            "--material auto",
+            lambda s: replace(s, flywheel=replace(s.flywheel, material=AUTO)),
+            lambda p: replace(p, materials=strong_materials()),
+        )
+    if specification.motor.name in {None, AUTO} and not specification.motor.any:
+        # A motor that is slower than its maker states stays so (`specified`).
+        own = {motor.name: motor for motor in asked.motors}
+        motors = tuple(own.get(motor.name, motor) for motor in any_motors(specification))
+        yield Relaxation(
+            "any motor of the catalogue",
+            "--motors-any, not buildable",
+            lambda s: replace(s, motor=replace(s.motor, any=True)),
+            lambda p: replace(p, motors=motors),
+        )
+    more = min((v for v in BUS_VOLTAGES.values() if v > asked.bus_voltage), default=None)
+    if more is not None:
+        yield Relaxation(
+            f"a supply of {more:g} V",
+            f"--bus-voltage {more:g}V",
+            lambda s: replace(s, supply=replace(s.supply, voltage=more)),
+            lambda p: with_limit(p, BUS_VOLTAGE, more),
+        )
 
 
 def lighter_otherwise(
@@ -73,35 +133,114 @@ def alternatives(
         choice: the device, and what it was chosen from; None: it has no motor.
         robot: that carries it.
     """
-    if choice is None:
+    offered = resolved.choice
+    if choice is None or offered is None:
         return ()
-    below = (1.0 - _WORTH) * choice.chosen.modules_mass
+    chosen = choice.chosen
+    below = (1.0 - _WORTH) * chosen.modules_mass
 
-    def lightest(change: _Change) -> Candidate | None:
-        found = lightest_below(change.problem, below)
-        if found is None or change.problem.incidence is not None:
-            return None if found is None else with_plate(found, choice.problem, robot)
-        # At another incidence another reserve is kept: a design of its own, of those parts.
+    def lightest(problem: SelectionProblem) -> Candidate | None:
+        """The lightest device with its plate, at another incidence with another reserve."""
+        found = lightest_below(problem, below)
+        if found is None or problem.incidence is not None:
+            return None if found is None else with_plate(found, problem, robot)
+        # A design of its own, of those parts.
         free = replace(specification, ocs=replace(specification.ocs, alpha_criterion=LIGHTEST))
-        assert resolved.choice is not None, "wheels without motors have no alternatives"
         # Steels make much the same device; of all materials another may be the lightest there.
         any_material = specification.flywheel.material == AUTO
         parts = replace(
-            resolved.choice,
+            offered,
             motors=(found.motor,),
             gears=(found.gear,),
-            materials=resolved.choice.materials if any_material else (found.material,),
+            materials=offered.materials if any_material else (found.material,),
         )
-        offered = replace(resolved, choice=parts)
         try:
-            own = design_device(free, robot, offered, ranked=False)
+            own = design_device(free, robot, replace(resolved, choice=parts), ranked=False)
         except Infeasible:
             return None
         return None if own.choice is None else own.choice.chosen
 
-    changes = _changes(specification, choice)
-    found = [_answer(change, lightest(change), choice) for change in changes]
-    return (*found, *_constructions(specification, resolved, choice, robot))
+    answers = []
+    for text, problem in _changes(specification, choice):
+        found, note = lightest(problem), SAVES_NOTHING
+        # What is lighter may be wider, and so may its plate.
+        if found is None or found.mass > (1.0 - _WORTH) * chosen.mass:
+            found = chosen
+        else:
+            note = "; ".join(_notes(problem, found, choice.problem))
+        answers.append(_answer(text, found, note))
+    asked = replace(choice.problem, incidence=chosen.incidence)
+    other = other_construction(specification, resolved, asked)
+    found = None if other is None else lightest_below(other, inf)
+    if other is not None and found is not None:
+        text, note = "a disc on each motor in place of the ring around its bell", "--wheel disc"
+        if other.on_bell:
+            text, note = (
+                "a ring bonded around each motor's bell in place of the disc",
+                "--wheel ring",
+            )
+        answers.append(_answer(text, with_plate(found, other, robot), note))
+    return tuple(answers)
+
+
+def _answer(text: str, device: Candidate, note: str) -> Alternative:
+    """The device after a change, with what speaks for or against it."""
+    return Alternative(change=text, mass_total=device.mass, motor=device.motor.name, note=note)
+
+
+def _changes(
+    specification: Specification, choice: Choice
+) -> Iterator[tuple[str, SelectionProblem]]:
+    """Each relaxation, and more power, room and time: the question about it alone changed."""
+    chosen = choice.chosen
+    problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
+    for each in relaxations(specification, problem):
+        yield each.text, each.problem(problem)
+    asked = problem.requirement
+    turned = tuple(
+        replace(maneuver, incidence=0.0)
+        if isinstance(maneuver, Flip) and maneuver.incidence is None
+        else maneuver
+        for maneuver in asked.maneuvers
+    )
+    if problem.layout.pairs and turned != asked.maneuvers:
+        kept = dict(asked.reserves)
+        for flip in turned:
+            if isinstance(flip, Flip) and flip.incidence == 0.0 and flip.name in kept:
+                # At 0 deg no wheel takes up a rate of roll.
+                own = kept[flip.name]
+                kept[flip.name] = replace(own, rate=(0.0, own.rate[1]), roll=0.0)
+        by_hand = replace(asked, maneuvers=turned, reserves=kept)
+        text = "modules turned to 0 deg by hand for each flip"
+        yield text, replace(problem, requirement=by_hand)
+    power = problem.supply.power
+    if isfinite(power):
+        least = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
+        endless = Supply(problem.supply.voltage, inf, inf)
+        yield f"a supply of more than {least}", replace(problem, supply=endless)
+    room = LIMITS["r_max"]
+    radius = MORE_ROOM * room.value(problem.envelope)
+    text = f"r_max {format_quantity(radius, 'mm', 3)}, {MORE_ROOM - 1.0:.0%} more"
+    yield text, with_limit(problem, room, radius)
+    if asked.maneuvers:
+        text = f"{MORE_TIME - 1.0:.0%} more time for every maneuver"
+        yield text, with_limit(problem, TIME, MORE_TIME)
+
+
+def _notes(changed: SelectionProblem, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
+    """What to know of the device of a changed problem, beside its mass and its motor."""
+    if changed.incidence is None:
+        yield f"alpha {format_quantity(found.incidence, 'deg', 3)}"
+    if len(changed.materials) > 1:
+        yield found.material.name
+    rated = found.motor.rated_voltage
+    if rated is not None and changed.bus_voltage > _OVER * rated:
+        yield f"the motor is rated for {rated:g} V"
+    gaps = build_gaps(found.motor)
+    if gaps:
+        yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
+    elif found.motor.name not in {motor.name for motor in asked.motors}:
+        yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
 def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
@@ -131,101 +270,203 @@ def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
     return owed
 
 
-def _answer(change: _Change, lighter: Candidate | None, choice: Choice) -> Alternative:
-    """The device after a change, or that no device is lighter by enough to be worth telling.
+MOST = 200
+"""Largest change that is looked for [%]."""
 
-    What is lighter may be wider, and so may its plate.
+_LOOSER = (0, 1, 3, 7, 15, 31)
+"""By how much an answer is loosened [%], one after the other, until its whole design agrees."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Lever:
+    """One figure that can give way by a share [%]: the changed question, and its words."""
+
+    changed: Callable[[int], Specification]
+    text: Callable[[int], str]
+
+    def beside(self, choice: Relaxation) -> "_Lever":
+        """Lever on the same figure, where another choice is made too."""
+        return _Lever(
+            lambda percent: choice.stated(self.changed(percent)),
+            lambda percent: f"{self.text(percent)}, and {choice.told}",
+        )
+
+
+def lighter_by(
+    mass: float, task: Task, choice: Choice, owed: str, progress: Progress = unseen
+) -> tuple[Alternative, ...]:
+    """Changes of the question, each of which makes the device lighter by so much.
+
+    Args:
+        mass: by which [kg].
+        task: that the device was designed for. choice: how it was.
+        owed: maneuver that the mass is owed to, which may give way alone; empty: none.
+        progress: told the share that is done.
     """
-    chosen = choice.chosen
-    if lighter is None or lighter.mass > (1.0 - _WORTH) * chosen.mass:
-        return Alternative(
-            change=change.text,
-            mass_total=chosen.mass,
-            motor=chosen.motor.name,
-            note=SAVES_NOTHING,
+    target = choice.chosen.mass - mass
+    if target <= 0.0:
+        return ()
+    search = _Search(task, choice, target)
+    stated, levers = task.specification, list(_levers(task, owed))
+    options = list(relaxations(stated, choice.problem))
+    found = [search.answer(each.told, each.stated(stated)) for each in options]
+    vain = [option for option, answer in zip(options, found, strict=True) if answer is None]
+    for first, second in combinations(vain, 2):
+        both = second.stated(first.stated(stated))
+        found.append(search.answer(f"{first.told}, and {second.told}", both))
+    for index, lever in enumerate(levers):
+        found.append(search.smallest(lever))
+        progress((index + 1) / len(levers))
+    if not any(found):
+        # No figure and no choice does it alone: one of each together may.
+        found += [search.smallest(lever.beside(each)) for each in options for lever in levers]
+    return tuple(answer for answer in found if answer is not None)
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Devices of changed questions, as light as the target [kg]."""
+
+    task: Task
+    choice: Choice
+    target: float
+
+    def smallest(self, lever: _Lever) -> Alternative | None:
+        """The smallest change that does: the more gives way, the lighter the device."""
+
+        def does(percent: int) -> bool:
+            """Whether the selection has a device that is light enough."""
+            return self._selected(lever.changed(percent)) is not None
+
+        @cache
+        def answer(percent: int) -> Alternative | None:
+            """Whether it is as light sized as a whole."""
+            return self.answer(lever.text(percent), lever.changed(percent))
+
+        if not does(MOST):
+            return None
+        low = least = bisect_left(range(MOST), True, lo=1, key=does)
+        for looser in _LOOSER:
+            if answer(least + looser) is not None:
+                tried = range(least + looser)
+                return answer(bisect_left(tried, True, lo=low, key=lambda p: bool(answer(p))))
+            low = least + looser + 1
+        return None
+
+    def answer(self, text: str, changed: Specification) -> Alternative | None:
+        """The device of a changed question, sized as a whole with the motor that does."""
+        selected = self._selected(changed)
+        if selected is None:
+            return None
+        motor = replace(changed.motor, name=selected.motor.name)
+        named = replace(changed, motor=motor, ocs=replace(changed.ocs, co_design=None))
+        try:
+            task = self.task.with_specification(named)
+            device = design_device(named, task.robot, task.resolved).device
+        except Infeasible:
+            return None
+        if device.mass > self.target:
+            return None
+        return Alternative(change=text, mass_total=device.mass, motor=device.motor.name)
+
+    def _selected(self, changed: Specification) -> Candidate | None:
+        """The lightest device of a changed question, on the footing of the device that there is.
+
+        None: it is too heavy, or there is none.
+        """
+        chosen, stated, asked = self.choice.chosen, changed.ocs, self.choice.problem
+        try:
+            resolved = self.task.with_specification(changed).resolved
+        except OcsError:
+            return None
+        offered = resolved.choice
+        assert offered is not None, "wheels without motors are not made lighter"
+        any_material = changed.flywheel.material == AUTO
+        free = stated.alpha is None and stated.alpha_criterion == LIGHTEST
+        problem = replace(
+            asked,
+            requirement=resolved.requirement.on(chosen.total),
+            envelope=resolved.envelope,
+            supply=offered.supply,
+            motors=offered.motors if changed.motor.any else asked.motors,
+            materials=offered.materials if any_material else (chosen.material,),
+            incidence=None if free else chosen.incidence,
         )
-    return Alternative(
-        change=change.text,
-        mass_total=lighter.mass,
-        motor=lighter.motor.name,
-        note="; ".join(_notes(change, lighter, choice.problem)),
-    )
+        found = lightest_below(problem, self.target)
+        if found is None:
+            return None
+        found = with_plate(found, problem, self.task.robot)
+        return found if found.mass <= self.target else None
 
 
-def _notes(change: _Change, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
-    if change.problem.incidence is None:
-        yield f"alpha {format_quantity(found.incidence, 'deg', 3)}"
-    if len(change.problem.materials) > 1:
-        yield found.material.name
-    rated, voltage = found.motor.rated_voltage, change.problem.bus_voltage
-    if rated is not None and voltage > _OVER * rated:
-        yield f"the motor is rated for {rated:g} V"
-    gaps = build_gaps(found.motor)
-    if gaps:
-        yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
-    elif found.motor.name not in {motor.name for motor in asked.motors}:
-        yield "not buildable: its threads or shaft do not hold the wheel or the motor"
-    if change.note:
-        yield change.note
-
-
-def _changes(specification: Specification, choice: Choice) -> Iterator[_Change]:
-    """Each relaxation, and more power, room and time: the question about it alone changed."""
-    chosen = choice.chosen
-    problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
-    for each in relaxations(specification, problem):
-        yield _Change(each.text, each.problem(problem))
-    asked = problem.requirement
-    turned = tuple(
-        replace(maneuver, incidence=0.0)
-        if isinstance(maneuver, Flip) and maneuver.incidence is None
-        else maneuver
-        for maneuver in asked.maneuvers
-    )
-    if problem.layout.pairs and turned != asked.maneuvers:
-        kept = dict(asked.reserves)
-        for flip in turned:
-            if isinstance(flip, Flip) and flip.incidence == 0.0 and flip.name in kept:
-                # At 0 deg no wheel takes up a rate of roll.
-                own = kept[flip.name]
-                kept[flip.name] = replace(own, rate=(0.0, own.rate[1]), roll=0.0)
-        by_hand = replace(asked, maneuvers=turned, reserves=kept)
-        yield _Change(
-            "modules turned to 0 deg by hand for each flip", replace(problem, requirement=by_hand)
+def _levers(task: Task, owed: str) -> Iterator[_Lever]:
+    """Figures that can give way: time, room, supply, and what is asked."""
+    names, height = [maneuver.name for maneuver in task.maneuvers], task.standing_height
+    if names:
+        yield _Lever(
+            lambda percent: task.with_maneuvers(
+                lambda each: slower(each, 1.0 + percent / 100.0, height), names
+            ),
+            lambda percent: f"{percent}% more time for every maneuver",
         )
-    if isfinite(problem.supply.power):
-        endless = Supply(problem.supply.voltage, inf, inf)
-        power = problem.supply.power
-        least = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
-        yield _Change(f"a supply of more than {least}", replace(problem, supply=endless))
-    room = LIMITS["r_max"]
-    radius = MORE_ROOM * room.value(problem.envelope)
-    yield _Change(
-        f"r_max {format_quantity(radius, 'mm', 3)}, {MORE_ROOM - 1.0:.0%} more",
-        with_limit(problem, room, radius),
-    )
-    if asked.maneuvers:
-        yield _Change(
-            f"{MORE_TIME - 1.0:.0%} more time for every maneuver",
-            with_limit(problem, TIME, MORE_TIME),
+    alone = next((each for each in task.maneuvers if each.name == owed), None)
+    if alone is not None:
+        yield from _levers_of_one(task, alone)
+    resolved = task.resolved
+    envelope, rate = resolved.envelope, resolved.requirement.rate_change
+    yield _key(task, "flywheel", "r_max", envelope.outer_radius_max, "mm")
+    yield _key(task, "flywheel", "h_max", envelope.height_max, "mm")
+    if rate is not None:
+        yield _key(task, "requirement", "rate_change", rate, "rad/s", upwards=False)
+    if resolved.choice is not None:
+        supply = resolved.choice.supply
+        yield _key(task, "supply", "voltage", supply.voltage, "V")
+        if isfinite(supply.power_max):
+            yield _key(task, "supply", "power_max", supply.power_max, "W")
+
+
+def _levers_of_one(task: Task, maneuver: Maneuver) -> Iterator[_Lever]:
+    """More time for one maneuver among others, and less of what it asks: part of a flip is none."""
+
+    def after(percent: int) -> Maneuver:
+        """The maneuver with more time."""
+        return slower(maneuver, 1.0 + percent / 100.0, task.standing_height)
+
+    def share(percent: int) -> float:
+        """Share of its tilt or push that is left."""
+        return round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
+
+    if len(task.maneuvers) > 1:
+        yield _Lever(
+            lambda percent: task.with_maneuvers(lambda _: after(percent), [maneuver.name]),
+            lambda percent: (
+                f"{percent}% more time for one: {change_text(maneuver, after(percent))}"
+            ),
+        )
+    kinds = {Drop: "tilt", StandUp: "tilt", Disturbance: "push", Shove: "push"}
+    if (what := kinds.get(type(maneuver))) is not None:
+        yield _Lever(
+            lambda percent: task.with_maneuvers(
+                lambda _: milder(maneuver, share(percent)), [maneuver.name]
+            ),
+            lambda percent: f"{share(percent):.0%} of the {what} of {maneuver.name}",
         )
 
 
-def _constructions(
-    specification: Specification, resolved: Resolved, choice: Choice, robot: Robot
-) -> Iterator[Alternative]:
-    """The other way to join rim and rotor, heavier or lighter."""
-    asked = replace(choice.problem, incidence=choice.chosen.incidence)
-    other = other_construction(specification, resolved, asked)
-    found = None if other is None else lightest_below(other, inf)
-    if other is None or found is None:
-        return
-    device = with_plate(found, other, robot)
-    yield Alternative(
-        change="a ring bonded around each motor's bell in place of the disc"
-        if other.on_bell
-        else "a disc on each motor in place of the ring around its bell",
-        mass_total=device.mass,
-        motor=device.motor.name,
-        note=f"--wheel {'ring' if other.on_bell else 'disc'}",
+def _key(
+    task: Task, section: str, key: str, own: float, unit: str, *, upwards: bool = True
+) -> _Lever:
+    """A key of the file, rounded to three digits on its loose side."""
+
+    def value(percent: int) -> float:
+        """Value of the key [SI]."""
+        factor = 1.0 + percent / 100.0
+        return round_outwards(own * factor if upwards else own / factor, upwards=upwards)
+
+    return _Lever(
+        lambda percent: task.with_key(section, key, value(percent)),
+        lambda percent: (
+            f"{key} {format_quantity(value(percent), unit)} in place of "
+            f"{format_quantity(own, unit, 3)}"
+        ),
     )

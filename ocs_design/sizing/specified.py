@@ -1,14 +1,14 @@
 """The selection's problem that a specification poses, and its layout, criterion, webs and cuts."""
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from math import inf, isfinite
 
 import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.actuation.motor import DIRECT, Motor, Mounting
-from ocs_design.catalogue.materials import material, strong_materials
+from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import vector
 from ocs_design.common.errors import SpecificationError, UsageError
 from ocs_design.common.units import format_quantity
@@ -22,7 +22,7 @@ from ocs_design.parts.rim import (
     RimCuts,
     hub_height,
 )
-from ocs_design.requirement.choices import BUS_VOLTAGES, MotorChoice, any_motors
+from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.device_sections import FlywheelSection
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.pivoted import StandUp
@@ -42,12 +42,10 @@ from ocs_design.requirement.vocabulary import (
     LIGHTEST,
     NO_WEB,
     RING,
-    STEEL,
 )
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.footing.standing import footing_of
-from ocs_design.sizing.limits import BUS_VOLTAGE
-from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
+from ocs_design.sizing.selection.problem import SelectionProblem
 
 
 def selection_problem(
@@ -165,12 +163,6 @@ def _motors_held(specification: Specification, choice: MotorChoice) -> tuple[Mot
     return tuple(held) or choice.motors
 
 
-def _and_others(motors: Sequence[Motor], others: Sequence[Motor]) -> tuple[Motor, ...]:
-    """Motors as they may be used (`_slowed`), and others beside them, in the order of these."""
-    usable = {motor.name: motor for motor in motors}
-    return tuple(usable.get(motor.name, motor) for motor in others)
-
-
 def _holds_wheel(motor: Motor) -> bool:
     """True if the joint of hub and motor carries its peak torque with what is to spare."""
     carried = _carried(motor)
@@ -258,52 +250,3 @@ def specified_criterion(specification: Specification) -> Criterion | None:
     """Criterion for a pair's incidence; None: whatever makes the device lightest."""
     stated = specification.ocs.alpha_criterion or EQUAL_RATE
     return None if stated == LIGHTEST else Criterion(stated)
-
-
-@dataclass(frozen=True, eq=False)
-class Relaxation:
-    """A choice that the specification leaves open.
-
-    Attributes:
-        text: in words. option: of the command line, with what speaks against it.
-        stated: the specification with it. problem: the problem with it.
-    """
-
-    text: str
-    option: str
-    stated: Callable[[Specification], Specification]
-    problem: Callable[[SelectionProblem], SelectionProblem]
-
-
-def relaxations(specification: Specification, asked: SelectionProblem) -> Iterator[Relaxation]:
-    """Choices that a specification leaves open; `asked` is the problem that it states."""
-    stated = specification.ocs
-    if asked.layout.pairs and stated.alpha is None and stated.alpha_criterion != LIGHTEST:
-        yield Relaxation(
-            "the incidence with which it is lightest",
-            "--alpha-criterion lightest",
-            lambda s: replace(s, ocs=replace(s.ocs, alpha_criterion=LIGHTEST)),
-            lambda p: replace(p, incidence=None, requirement=replace(p.requirement, free=True)),
-        )
-    if specification.flywheel.material in {None, STEEL}:
-        yield Relaxation(
-            "any material",
-            "--material auto",
-            lambda s: replace(s, flywheel=replace(s.flywheel, material=AUTO)),
-            lambda p: replace(p, materials=strong_materials()),
-        )
-    if specification.motor.name in {None, AUTO} and not specification.motor.any:
-        yield Relaxation(
-            "any motor of the catalogue",
-            "--motors-any, not buildable",
-            lambda s: replace(s, motor=replace(s.motor, any=True)),
-            lambda p: replace(p, motors=_and_others(p.motors, any_motors(specification))),
-        )
-    more = min((v for v in BUS_VOLTAGES.values() if v > asked.bus_voltage), default=None)
-    if more is not None:
-        yield Relaxation(
-            f"a supply of {more:g} V",
-            f"--bus-voltage {more:g}V",
-            lambda s: replace(s, supply=replace(s.supply, voltage=more)),
-            lambda p: with_limit(p, BUS_VOLTAGE, more),
-        )

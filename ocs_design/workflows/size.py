@@ -34,10 +34,9 @@ from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
-from ocs_design.sizing.alternatives import lighter_otherwise
+from ocs_design.sizing.alternatives import lighter_by, lighter_otherwise
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import mass_without_survival
-from ocs_design.sizing.lighter import lighter_by
 from ocs_design.workflows.flying import control_of, flown_hash
 from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.recording import record_design, write_runs

@@ -10,9 +10,8 @@ from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.sizing.alternatives import owed_to
+from ocs_design.sizing.alternatives import lighter_by, owed_to
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.lighter import lighter_by
 
 MOTORS = MotorSection(name="Antigravity MN5006 KV450, MN4014 KV400")
 """Two, so that it is quick."""
@@ -93,8 +92,8 @@ def test_where_neither_does_alone_a_figure_is_tried_with_a_choice(monkeypatch):
         """What would be asked at 10 %."""
         asked[lever.text(10)] = lever.changed(10)
 
-    monkeypatch.setattr("ocs_design.sizing.lighter._Search.answer", lambda *_: None)
-    monkeypatch.setattr("ocs_design.sizing.lighter._Search.smallest", smallest)
+    monkeypatch.setattr("ocs_design.sizing.alternatives._Search.answer", lambda *_: None)
+    monkeypatch.setattr("ocs_design.sizing.alternatives._Search.smallest", smallest)
     assert lighter_by(LESS, task, designed.choice, "") == ()
     (both,) = (each for text, each in asked.items() if "r_max 55 mm" in text and "incid" in text)
     assert both.ocs.alpha_criterion == "lightest"
