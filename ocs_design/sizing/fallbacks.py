@@ -10,9 +10,9 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, MORE_PAIRS, RELIABILITY, WHEELS
+from ocs_design.sizing.advice import advice_on
 from ocs_design.sizing.limits import Progress
 from ocs_design.sizing.on_robot import NeverHeld
-from ocs_design.sizing.selection.advice import advice_on
 from ocs_design.sizing.selection.rejections import NO_ROOM, Refused
 
 LESS_SURE = (0.9, 0.8)

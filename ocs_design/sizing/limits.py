@@ -110,6 +110,21 @@ def unseen(share: float) -> None:
     """Progress that nobody looks at."""
 
 
+def narrowed(
+    does: Callable[[float], bool], low: float, high: float, precision: float
+) -> tuple[float, float]:
+    """Two values next to each other, relative, of which the larger does and the smaller does not.
+
+    Args:
+        does: whether a value does. low: that does not. high: that does.
+        precision: to which they are near.
+    """
+    while high > (1.0 + precision) * low:
+        middle = sqrt(low * high)
+        low, high = (low, middle) if does(middle) else (middle, high)
+    return low, high
+
+
 def smallest_changes(
     values: Mapping[Limit, float],
     mends: Test,
@@ -180,24 +195,14 @@ def smallest_change(
     if conceivable is not None:
         if not at(mends)(most):
             return None
-        low, _ = _bracket(at(conceivable), low, most, precision)
+        low, _ = narrowed(at(conceivable), low, most, precision)
     high = min(low * step, most)
     while not at(mends)(high):
         if high >= most:
             return None
         low, step = high, min(step**2, _LARGEST_STEP)
         high = min(low * step, most)
-    return limit.loosened(now, _bracket(at(mends), low, high, precision)[1])
-
-
-def _bracket(
-    mends: Callable[[float], bool], low: float, high: float, precision: float
-) -> tuple[float, float]:
-    """Two factors next to each other, of which the larger mends and the smaller does not."""
-    while high > (1.0 + precision) * low:
-        middle = sqrt(low * high)
-        low, high = (low, middle) if mends(middle) else (middle, high)
-    return low, high
+    return limit.loosened(now, narrowed(at(mends), low, high, precision)[1])
 
 
 def advice(changes: Sequence[str], most: float, otherwise: str) -> str:

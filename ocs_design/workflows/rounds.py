@@ -42,6 +42,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.trotting import require_trot
+from ocs_design.sizing.advice import unasked
 from ocs_design.sizing.design import CannotSurvive, design_device, survivors
 from ocs_design.sizing.fallbacks import (
     Tried,
@@ -54,7 +55,6 @@ from ocs_design.sizing.fallbacks import (
 from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
 from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.sizing.reserve import Reserve
-from ocs_design.sizing.selection.advice import unasked
 from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.sized import Designed
 from ocs_design.workflows.flying import Flights, control_of, trajectories

@@ -23,8 +23,8 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.advice import PRECISION, Field, advice_on, single_changes
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
-from ocs_design.sizing.selection.advice import PRECISION, Field, advice_on, single_changes
 from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import with_limit
 from ocs_design.sizing.selection.result import Reason

@@ -9,7 +9,6 @@ import numpy as np
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import round_outwards
-from ocs_design.requirement.bound import SpinDemand
 from ocs_design.sizing.bound.device_problem import (
     DeadEnd,
     DeviceProblem,
@@ -21,9 +20,11 @@ from ocs_design.sizing.limits import (
     MOST_CHANGE,
     PRECISION,
     RIM_LIMITS,
+    STRESS,
     WHEEL_SPEED,
     Limit,
     advice,
+    narrowed,
     smallest_changes,
 )
 
@@ -55,15 +56,29 @@ def infeasible_device(
         dead_end: where its iteration ended.
         solve: proves each change by sizing again with it; raises where it fails.
     """
+    demands = dead_end.demands
     if isinf(dead_end.spin_inertia):
-        return _axis_out_of_reach(problem, dead_end.demands)
+        blind = next(demand for demand in demands if isinf(demand.spin_inertia))
+        axes = " and ".join(blind.unreachable_axes)
+        # The largest of the others: infinity is no number in JSON.
+        finite = filter(isfinite, (demand.spin_inertia for demand in demands))
+        return Infeasible(
+            f"{capitalised(blind.source)} asks for {axes} momentum, which wheels at an incidence "
+            f"of {degrees(blind.incidence):.4g} deg cannot give.",
+            binding=["incidence"],
+            required_spin_inertia=max(finite, default=0.0),
+            largest_spin_inertia=largest_spin_inertia(problem.rim_problem(1.0)),
+            relaxations={},
+            hint="Choose an incidence between 0 and 90 deg, another criterion, "
+            "or drop what asks for that axis.",
+        )
     rim = problem.rim_problem(dead_end.spin_inertia)
     limits, asked_by = limits_set(rim), ""
     if problem.requirement.spin_inertia is None:
         # The wheel speed is a limit only where it decides on the spin inertia.
         limits = (*limits, WHEEL_SPEED)
         if largest_spin_inertia(rim) > 0.0:
-            most = max(dead_end.demands, key=lambda demand: demand.spin_inertia)
+            most = max(demands, key=lambda demand: demand.spin_inertia)
             asked_by = f"{most.source} asks for too much: "
 
     def possible(changed: DeviceProblem) -> bool:
@@ -104,20 +119,25 @@ def _infeasible(
     binding: Sequence[Limit],
     asked_by: str = "",
 ) -> Infeasible:
+    """The error with the changes that would do, each proved by solving with it."""
+    texts, relaxations = [], {}
     for limit, value in changes.items():
         solve(with_limit(problem, limit, value))
-    message = asked_by + shortfall(rim)
-    texts = [_change_text(rim, limit, value) for limit, value in changes.items()]
+        text, relaxations[limit.name] = limit.loose_text(value), value
+        if limit is STRESS:
+            safety = rim.envelope.stress_safety
+            # Told is the stress to allow [Pa].
+            relaxations[limit.name] = rim.hoop_stress_max * safety / value
+            needed = round_outwards(relaxations[limit.name] * safety / 1e6, upwards=True)
+            stronger = f"a material that yields at {needed:g} MPa"
+            text = stronger if value < 1.0 else f"{text} or {stronger}"
+        texts.append(text)
     return Infeasible(
-        f"{capitalised(message)}.",
+        f"{capitalised(asked_by + shortfall(rim))}.",
         binding=[limit.name for limit in binding],
         required_spin_inertia=rim.spin_inertia,
         largest_spin_inertia=largest_spin_inertia(rim),
-        # Of the hoop stress it is the stress to allow [Pa].
-        relaxations={
-            limit.name: _allowed_stress(rim, value) if limit.name == "hoop_stress" else value
-            for limit, value in changes.items()
-        },
+        relaxations=relaxations,
         hint=advice(texts, MOST_CHANGE, "loosen several, or ask for less."),
     )
 
@@ -140,7 +160,7 @@ def limits_set(problem: RimProblem) -> tuple[Limit, ...]:
     return tuple(
         limit
         for limit in RIM_LIMITS
-        if 0.0 < limit.value(problem.envelope) < np.inf and (limit.name != "hoop_stress" or limited)
+        if 0.0 < limit.value(problem.envelope) < np.inf and (limit is not STRESS or limited)
     )
 
 
@@ -174,15 +194,12 @@ def largest_spin_inertia(problem: RimProblem) -> float:
     beyond = float(ceiling) * (1.0 + 1e-9)
     if not is_feasible(replace(problem, spin_inertia=reached)):
         return 0.0
-    while beyond - reached > 1e-12 * reached:
-        middle = (reached + beyond) / 2.0
-        if not reached < middle < beyond:
-            break
-        if is_feasible(replace(problem, spin_inertia=middle)):
-            reached = middle
-        else:
-            beyond = middle
-    return reached
+
+    def fails(inertia: float) -> bool:
+        """Whether no rim has it."""
+        return not is_feasible(replace(problem, spin_inertia=inertia))
+
+    return narrowed(fails, reached, beyond, 1e-12)[0]
 
 
 def shortfall(problem: RimProblem) -> str:
@@ -207,36 +224,6 @@ def in_the_way(problem: RimProblem) -> Sequence[Limit]:
     return conflicting_limits(problem) or limits_set(problem)
 
 
-def _change_text(problem: RimProblem, limit: Limit, value: float) -> str:
-    if limit.name != "hoop_stress":
-        return limit.loose_text(value)
-    needed = _allowed_stress(problem, value) * problem.envelope.stress_safety
-    stronger = f"a material that yields at {round_outwards(needed / 1e6, upwards=True):g} MPa"
-    return stronger if value < 1.0 else f"{limit.loose_text(value)} or {stronger}"
-
-
-def _allowed_stress(problem: RimProblem, stress_safety: float) -> float:
-    return problem.hoop_stress_max * problem.envelope.stress_safety / stress_safety
-
-
 def capitalised(text: str) -> str:
     """Text with a capital first letter and the rest as it is."""
     return text[:1].upper() + text[1:]
-
-
-def _axis_out_of_reach(problem: DeviceProblem, demands: Sequence[SpinDemand]) -> Infeasible:
-    """The error for wheels that have no authority about an axis that needs momentum."""
-    blind = next(demand for demand in demands if isinf(demand.spin_inertia))
-    axes = " and ".join(blind.unreachable_axes)
-    rim_problem = problem.rim_problem(1.0)
-    return Infeasible(
-        f"{capitalised(blind.source)} asks for {axes} momentum, which wheels at an incidence of "
-        f"{degrees(blind.incidence):.4g} deg cannot give.",
-        binding=["incidence"],
-        # The largest of the others: infinity is no number in JSON.
-        required_spin_inertia=max(filter(isfinite, (d.spin_inertia for d in demands)), default=0.0),
-        largest_spin_inertia=largest_spin_inertia(rim_problem),
-        relaxations={},
-        hint="Choose an incidence between 0 and 90 deg, another criterion, "
-        "or drop what asks for that axis.",
-    )

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from selections import has_device, random_problem, with_radius
 
+from ocs_design.sizing import advice
+from ocs_design.sizing.advice import PRECISION, Field, single_changes
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
-from ocs_design.sizing.selection import advice
-from ocs_design.sizing.selection.advice import PRECISION, Field, single_changes
 from ocs_design.sizing.selection.problem import limits_of, with_limit
 from ocs_design.sizing.selection.search import search
 

@@ -10,7 +10,7 @@ from selections import random_problem
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.pivoted import Balance
-from ocs_design.sizing.selection.advice import NeededMotor, advice_on, needed_motor
+from ocs_design.sizing.advice import NeededMotor, advice_on, needed_motor
 from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.selection.select import select
 

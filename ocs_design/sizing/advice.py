@@ -9,8 +9,8 @@ closed form.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain, repeat
-from math import sqrt
 
 import numpy as np
 
@@ -24,7 +24,15 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Balance
 from ocs_design.robot.links import listed
 from ocs_design.sizing.bound.rim_problem import largest_spin_inertia
-from ocs_design.sizing.limits import TIME, Limit, Progress, advice, smallest_changes, unseen
+from ocs_design.sizing.limits import (
+    TIME,
+    Limit,
+    Progress,
+    advice,
+    narrowed,
+    smallest_changes,
+    unseen,
+)
 from ocs_design.sizing.selection.bounds import cells_of, initial_guess, least_spin_inertias
 from ocs_design.sizing.selection.candidates import Candidates, Drives, Guess, drives_of, known_pairs
 from ocs_design.sizing.selection.fixed_point import solve_stepwise
@@ -121,9 +129,17 @@ class Field:
 
     def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
         """Candidates that no bound rules out, the most promising first, few at first."""
-        left, needed = self._roomy()
+        kinds, rows = np.arange(len(self.problem.materials)), np.arange(len(self.drives))
+        material, row = (each.ravel() for each in np.meshgrid(kinds, rows))
+        every = Candidates(self.problem, self.drives.take(row), material)
+        # First comes whose largest wheel has the most to spare; too small a one is left out.
+        beside, needed = every.drives.beside_rim, self.needed[row]
+        largest = largest_spin_inertia(every.limits) + beside
+        spare = largest / np.maximum(needed, 1e-15)
+        roomy = np.flatnonzero((largest > beside) & (spare >= 1.0))
+        order = roomy[np.argsort(-spare[roomy], kind="stable")]
+        left, needed = every.take(order), needed[order]
         sizes = chain([_FIRST], repeat(_BLOCK))
-        solved = chain([_FIRST_SOLVED], repeat(_SOLVED))
         while len(left):
             size = next(sizes)
             some = left.take(np.arange(min(size, len(left))))
@@ -135,21 +151,6 @@ class Field:
                 yield some.take(rows[:count]), guess.take(rows[:count])
                 rows = rows[count:]
             left, needed = left.take(np.arange(size, len(left))), needed[size:]
-
-    def _roomy(self) -> tuple[Candidates, FloatArray]:
-        """Candidates whose largest wheel is large enough, and what they need [kg m^2].
-
-        Those with the most to spare come first.
-        """
-        kinds, rows = np.arange(len(self.problem.materials)), np.arange(len(self.drives))
-        material, row = (each.ravel() for each in np.meshgrid(kinds, rows))
-        every = Candidates(self.problem, self.drives.take(row), material)
-        beside, needed = every.drives.beside_rim, self.needed[row]
-        largest = largest_spin_inertia(every.limits) + beside
-        spare = largest / np.maximum(needed, 1e-15)
-        roomy = np.flatnonzero((largest > beside) & (spare >= 1.0))
-        order = roomy[np.argsort(-spare[roomy], kind="stable")]
-        return every.take(order), needed[order]
 
 
 def any_solved(candidates: Candidates, guess: Guess) -> bool:
@@ -214,13 +215,11 @@ def _caught(field: Field) -> Iterator[str]:
         less = replace(requirement, maneuvers=maneuvers)
         return field.changed(replace(field.problem, requirement=less)).possible
 
-    low, high = 1.0 / MOST_CHANGE, 1.0
-    if not asked or not does(low):
+    least = 1.0 / MOST_CHANGE
+    if not asked or not does(least):
         return
-    while high > (1.0 + PRECISION) * low:
-        middle = sqrt(low * high)
-        low, high = (middle, high) if does(middle) else (low, middle)
-    told = listed([f"{each.times(low).upset} for {each.name}" for each in asked])
+    part, _ = narrowed(lambda each: not does(each), least, 1.0, PRECISION)
+    told = listed([f"{each.times(part).upset} for {each.name}" for each in asked])
     yield f"With {told} there is a device."
 
 
@@ -243,22 +242,6 @@ def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, flo
         conceivable=lambda limit, value: changed(limit, value).conceivable,
         progress=progress,
     )
-
-
-def slowed_maneuvers(field: Field, factor: float) -> SelectionProblem:
-    """The problem with `factor` times the time for those maneuvers that need it.
-
-    Args:
-        field: of a problem that has a solution if all have so much more time.
-        factor: above 1.
-    """
-    problem = field.problem
-    slow = [maneuver.name for maneuver in problem.requirement.maneuvers]
-    for name in tuple(slow):
-        fewer = set(slow) - {name}
-        if fewer and field.changed(with_time(problem, factor, fewer)).possible:
-            slow.remove(name)
-    return with_time(problem, factor, set(slow))
 
 
 def _hints(
@@ -318,11 +301,19 @@ def unasked(maneuvers: Sequence[Maneuver]) -> str:
 
 
 def _change_text(field: Field, limit: Limit, value: float) -> str:
-    """A change as the user states it: time is a matter of each maneuver's own keys."""
+    """A change as the user states it: time is a matter of each maneuver's own keys.
+
+    More of it is told for those maneuvers that need it; all of them with so much more can be done.
+    """
     if limit is not TIME:
         return limit.loose_text(value)
-    before = field.problem.requirement.maneuvers
-    after = slowed_maneuvers(field, value).requirement.maneuvers
+    problem, before = field.problem, field.problem.requirement.maneuvers
+    slow = {maneuver.name for maneuver in before}
+    for maneuver in before:
+        fewer = slow - {maneuver.name}
+        if fewer and field.changed(with_time(problem, value, fewer)).possible:
+            slow = fewer
+    after = with_time(problem, value, slow).requirement.maneuvers
     both = zip(before, after, strict=True)
     return " together with ".join(change_text(old, new) for old, new in both if old is not new)
 
@@ -391,39 +382,23 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
     largest = largest_wheel(problem, problem.envelope)
     if not (torque > 0.0 and np.isfinite(momentum) and largest > 0.0):
         return None
+
+    def does(speed: float, peak: float) -> bool:
+        """Whether a motor of this speed without load [rad/s] and peak torque [N m] does."""
+        motor = _scaled(model, peak, speed, problem.bus_voltage)
+        return Field.of(replace(problem, motors=(motor,), gears=(DIRECT,))).possible
+
     found = []
     for faster in _FASTER:
         speed = faster * momentum / largest
-        peak = _least_torque(problem, model, torque, speed)
-        if peak is not None:
+        enough = partial(does, speed)
+        high = next((peak for peak in (torque * _STRONGER).tolist() if enough(peak)), None)
+        if high is not None:
+            _, peak = narrowed(enough, high / _STRONGER[0], high, PRECISION)
             mass = model.mass * peak / model.peak_torque
             found.append(NeededMotor(peak, speed, mass, problem.bus_voltage))
     weakest = min((need.peak_torque for need in found), default=0.0)
     return next((need for need in found if need.peak_torque <= _AS_WEAK * weakest), None)
-
-
-def _least_torque(
-    problem: SelectionProblem, model: Motor, torque: float, speed: float
-) -> float | None:
-    """Least peak torque that does with this speed without load [N m]; None: none that is tried.
-
-    Args:
-        torque: that turns the robot alone in time [N m].
-        speed: [rad/s].
-    """
-
-    def does(peak: float) -> bool:
-        motor = _scaled(model, peak, speed, problem.bus_voltage)
-        return Field.of(replace(problem, motors=(motor,), gears=(DIRECT,))).possible
-
-    high = next((peak for peak in (torque * _STRONGER).tolist() if does(peak)), None)
-    if high is None:
-        return None
-    low = high / _STRONGER[0]
-    while high > (1.0 + PRECISION) * low:
-        middle = float(np.sqrt(low * high))
-        low, high = (low, middle) if does(middle) else (middle, high)
-    return float(high)
 
 
 def _scaled(model: Motor, peak_torque: float, speed: float, voltage: float) -> Motor:
