@@ -55,8 +55,11 @@ class Table(DataclassInstance):
     a number or a sequence that all rows share, is carried along unchanged.
     """
 
-    def take(self, rows: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Self:
-        """Table of the rows with these indices, of this slice, or of those where a mask holds."""
+    def take(self, rows: NDArray[np.intp] | NDArray[np.bool_] | slice | int) -> Self:
+        """Table of the rows with these indices, of this slice, or of those where a mask holds.
+
+        A single index gives that row alone, of scalars.
+        """
         return self._each(lambda column: column[rows], lambda table: table.take(rows))
 
     @classmethod

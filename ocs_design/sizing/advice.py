@@ -42,8 +42,7 @@ from ocs_design.sizing.selection.problem import (
     with_limit,
     with_time,
 )
-from ocs_design.sizing.selection.rejections import Refused, largest_wheel
-from ocs_design.sizing.selection.result import Reason
+from ocs_design.sizing.selection.rejections import Reason, Refused, largest_wheel
 
 PRECISION = 0.03
 """Precision of the changes, relative: with less by more than that none of the drives that

@@ -17,9 +17,10 @@ from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.footing.feet import Footing
 from ocs_design.sizing.footing.standing import footing_under, stand_on_trunk
 from ocs_design.sizing.reserve import Reality, Reserve
+from ocs_design.sizing.selection.device import Candidate, devices_by_mass, of_parts
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.result import Candidate, Selection, devices_by_mass, of_parts
 from ocs_design.sizing.selection.select import (
+    Selection,
     at_own_incidence,
     device_at,
     lightest_by,
@@ -71,12 +72,12 @@ def with_plates(
     for entry in selection.ranking:
         if ranked or all(entry.modules_mass < other.mass for other in plated):
             plated.append(with_plate(entry, problem, robot))
-    first, lightest = plated[0], devices_by_mass(plated, problem.envelope)[0]
+    first, lightest = plated[0], devices_by_mass(plated)[0]
     if lightest is not first and criterion is not None and problem.incidence is None:
         _, own = at_own_incidence(problem, lightest, criterion)
         lightest = first if own is None else with_plate(own, problem, robot)
     others = [entry for entry in plated if not same_parts(entry, lightest)]
-    return replace(selection, ranking=(lightest, *devices_by_mass(others, problem.envelope)))
+    return replace(selection, ranking=(lightest, *devices_by_mass(others)))
 
 
 def on_its_footing(
@@ -282,7 +283,7 @@ def in_rings(
             selection = replace(selection, ranking=tuple(others))
             continue
         again, at = with_plates(again, alone, criterion, robot), own
-        ranking = devices_by_mass((*again.ranking, *others), own.envelope)
+        ranking = devices_by_mass((*again.ranking, *others))
         selection = replace(selection, ranking=tuple(ranking))
     return at, selection
 

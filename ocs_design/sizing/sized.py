@@ -23,9 +23,9 @@ from ocs_design.sizing.bound.device_sizing import DeviceSizing
 from ocs_design.sizing.bound.rim_problem import RimProblem
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.reserve import Reserve
-from ocs_design.sizing.selection.device import inertia_at
+from ocs_design.sizing.selection.device import Candidate, inertia_at
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.result import Candidate, Selection
+from ocs_design.sizing.selection.select import Selection
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.co_design import CoDesign
@@ -147,7 +147,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     """
     rim_inertia = chosen.spin_inertia - chosen.rotor_share - chosen.hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
-    limits = chosen.limits(problem.envelope)
+    limits = chosen.limits
     motor, plate = chosen.motor, chosen.foot_plate
     mount = mount_of(motor, chosen.gear.room, plate, on_bell=chosen.on_bell)
     shell = Printed(mount.holes.reach, mount.posts, chosen.guard_wall, plate, mount.room)

@@ -27,6 +27,8 @@ from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.alternatives import alternatives
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.limits import TIME
+from ocs_design.sizing.selection.candidates import Candidates, drives_of
+from ocs_design.sizing.selection.device import of_parts
 from ocs_design.sizing.selection.problem import with_limit
 from ocs_design.sizing.selection.select import lightest_by
 
@@ -74,7 +76,7 @@ def test_the_rotor_counts():
 def test_no_ring_on_a_grid_is_lighter():
     _, designed = made()
     chosen = designed.choice.chosen
-    limits = chosen.limits(designed.choice.problem.envelope)
+    limits = chosen.limits
     mount = mount_of(chosen.motor, None, chosen.foot_plate, on_bell=True)
     shell = Printed(mount.holes.reach, foot_plate=chosen.foot_plate, room=mount.room)
     inertia, inner = chosen.spin_inertia - chosen.rotor_share, chosen.inner_radius
@@ -210,7 +212,9 @@ def test_what_a_ring_has_nothing_of_is_a_contradiction():
 def test_a_bore_below_the_least_is_no_ring():
     _, designed = made()
     envelope = replace(designed.choice.problem.envelope, inner_radius_min=0.03)
-    narrow = designed.choice.chosen.limits(envelope)
+    alone = of_parts(replace(designed.choice.problem, envelope=envelope), designed.choice.chosen)
+    first = np.zeros(1, dtype=np.intp)
+    narrow = Candidates(alone, drives_of(alone, first.repeat(2)[None]), first).limits.take(0)
     assert np.isnan(float(lightest_module(1e-4, narrow, Printed(0.01)).mass))
 
 

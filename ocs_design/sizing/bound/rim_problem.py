@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ocs_design.catalogue.materials import Material
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import UsageError
 from ocs_design.parts.joints import bell_bond_radius
 from ocs_design.parts.printed import CLEARANCE, WALL
@@ -56,7 +56,7 @@ from ocs_design.requirement.froude import Envelope
 
 
 @dataclass(frozen=True, eq=False)
-class RimLimits:
+class RimLimits(Table):
     """Everything that bounds a rim, as plain numbers: scalars, or arrays that broadcast.
 
     Attributes:

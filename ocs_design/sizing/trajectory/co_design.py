@@ -26,9 +26,8 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import lightest_module_at
 from ocs_design.sizing.place import motor_size
 from ocs_design.sizing.selection.demand import UNDOES, held_by_rate
-from ocs_design.sizing.selection.device import binding_limits, braked
+from ocs_design.sizing.selection.device import Candidate, binding_limits, braked
 from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.result import Candidate
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
@@ -168,7 +167,7 @@ class FreeDevice:
         angles = np.linspace(0.0, np.pi / 2.0, 5)
         sine, cosine = np.sin(angles), np.cos(angles)
         terms = np.column_stack([np.ones(5), sine, cosine, sine**2, sine * cosine])
-        room = float(selected.limits(problem.envelope).outer_radius_max) / selected.outer_radius
+        room = float(selected.limits.outer_radius_max) / selected.outer_radius
         # Spin inertias over the selected one of which there is a module in the room.
         modules = with_wheels(problem, selected, _WHEELS, np.ones_like(_WHEELS))
         factors = np.array([each.spin_inertia for each in modules]) / selected.spin_inertia
@@ -282,7 +281,7 @@ def with_wheels(
         radii: outer radii likewise; the nearest possible one is taken.
     """
     motor, gear, turning = selected.motor, selected.gear, selected.rotor_share + selected.hub_share
-    limits = selected.limits(problem.envelope)
+    limits = selected.limits
     guard, plate = selected.guard_wall, selected.foot_plate
     mount = mount_of(motor, gear.room, plate)
     shell = Printed(mount.holes.reach, mount.posts, guard, plate)
@@ -300,7 +299,7 @@ def with_wheels(
             web_mass=sized.wheel.mass - rim_mass,
             carrier=standing(motor, gear, outer, height, guard, foot_plate=plate),
             centers=problem.place.centers(size),
-            binding=binding_limits(shapes, limits, problem.envelope, int(row)),
+            binding=binding_limits(shapes.take(int(row)), limits, problem.envelope),
         )
 
 

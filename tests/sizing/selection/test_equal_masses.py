@@ -13,7 +13,7 @@ from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.selection.result import SAME_MASS, devices_by_mass, lightest_first
+from ocs_design.sizing.selection.device import SAME_MASS, devices_by_mass, lightest_first
 from ocs_design.sizing.selection.search import search_lightest
 from ocs_design.sizing.selection.select import select, select_by
 from ocs_design.workflows.pareto import read_task
@@ -78,7 +78,7 @@ def test_a_device_that_is_lighter_leads_whatever_its_strength(steels):
     problem = problem_of(steels, incidence=0.6)
     twin = select(problem).best
     lighter = replace(twin, material=WEAK, rim_mass=twin.rim_mass * (1.0 - 1e-3))
-    assert devices_by_mass([twin, lighter], problem.envelope) == [lighter, twin]
+    assert devices_by_mass([twin, lighter]) == [lighter, twin]
 
 
 def test_equal_masses_are_those_next_to_the_lightest_of_them():

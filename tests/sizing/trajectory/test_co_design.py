@@ -117,8 +117,8 @@ def test_its_maneuvers_hold_on_the_fine_grid(answered):
 
 
 def test_its_rim_is_within_the_limits(answered):
-    problem, selected, found = answered
-    limits, rim = selected.limits(problem.envelope), found.device
+    _, selected, found = answered
+    limits, rim = selected.limits, found.device
     nu, slack = limits.poisson_ratio, 1.0 + 1e-9
     assert rim.outer_radius <= limits.outer_radius_max * slack
     assert rim.inner_radius * slack >= limits.inner_radius_min
@@ -190,8 +190,7 @@ def test_where_the_room_leaves_one_wheel_only_the_selection_stands():
         "height_min": selected.height,
         "wall_min": 0.999 * (selected.outer_radius - selected.inner_radius),
     }
-    tight = replace(problem, envelope=replace(problem.envelope, **size))
-    found = co_design(tight, selected)
+    found = co_design(problem, replace(selected, limits=replace(selected.limits, **size)))
     assert not found.adopted
     assert "no choice" in found.note
 
