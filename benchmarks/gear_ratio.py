@@ -15,8 +15,7 @@ from co_design import FILES, robot_problem
 
 from ocs_design.actuation.motor import DIRECT, Gear
 from ocs_design.common.errors import Infeasible
-from ocs_design.sizing.selection.device import Candidate
-from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.selection.select import select
 
 STEPS = ((0.20, 0.01), (0.01, 0.001))

@@ -37,12 +37,13 @@ from ocs_design.sizing.selection.bounds import cells_of, initial_guess, least_sp
 from ocs_design.sizing.selection.candidates import Candidates, Drives, Guess, drives_of, known_pairs
 from ocs_design.sizing.selection.fixed_point import solve_stepwise
 from ocs_design.sizing.selection.problem import (
+    Reason,
     SelectionProblem,
     limits_of,
     with_limit,
     with_time,
 )
-from ocs_design.sizing.selection.rejections import Reason, Refused, largest_wheel
+from ocs_design.sizing.selection.rejections import Refused, largest_wheel
 
 PRECISION = 0.03
 """Precision of the changes, relative: with less by more than that none of the drives that

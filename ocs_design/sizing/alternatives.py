@@ -35,8 +35,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME, Progress, unseen
 from ocs_design.sizing.on_robot import with_plate
-from ocs_design.sizing.selection.device import Candidate
-from ocs_design.sizing.selection.problem import SelectionProblem, with_limit
+from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, with_limit
 from ocs_design.sizing.selection.select import lightest_below
 from ocs_design.sizing.sized import Choice
 from ocs_design.sizing.specified import other_construction

@@ -21,7 +21,7 @@ from ocs_design.parts.rim import (
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
 from ocs_design.sizing.motion import DrivenWheel
-from ocs_design.sizing.selection.device import Candidate
+from ocs_design.sizing.selection.problem import Candidate
 
 
 def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:

@@ -27,8 +27,8 @@ from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
 from ocs_design.sizing.placement import specified_place
 from ocs_design.sizing.reserve import Reality, Reserve, account
-from ocs_design.sizing.selection.device import Candidate, braked, with_demands
-from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.device import braked, with_demands
+from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.selection.select import (
     device_at,
 )

@@ -17,10 +17,14 @@ from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.footing.feet import Footing
 from ocs_design.sizing.footing.standing import footing_under, stand_on_trunk
 from ocs_design.sizing.reserve import Reality, Reserve
-from ocs_design.sizing.selection.device import Candidate, devices_by_mass, of_parts
-from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.select import (
+from ocs_design.sizing.selection.problem import (
+    Candidate,
     Selection,
+    SelectionProblem,
+    devices_by_mass,
+    of_parts,
+)
+from ocs_design.sizing.selection.select import (
     at_own_incidence,
     device_at,
     lightest_by,

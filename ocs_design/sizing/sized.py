@@ -23,9 +23,8 @@ from ocs_design.sizing.bound.device_sizing import DeviceSizing
 from ocs_design.sizing.bound.rim_problem import RimProblem
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.reserve import Reserve
-from ocs_design.sizing.selection.device import Candidate, inertia_at
-from ocs_design.sizing.selection.problem import SelectionProblem
-from ocs_design.sizing.selection.select import Selection
+from ocs_design.sizing.selection.device import inertia_at
+from ocs_design.sizing.selection.problem import Candidate, Selection, SelectionProblem
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.co_design import CoDesign

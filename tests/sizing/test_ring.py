@@ -28,8 +28,7 @@ from ocs_design.sizing.alternatives import alternatives
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.limits import TIME
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
-from ocs_design.sizing.selection.device import of_parts
-from ocs_design.sizing.selection.problem import with_limit
+from ocs_design.sizing.selection.problem import of_parts, with_limit
 from ocs_design.sizing.selection.select import lightest_by
 
 MORE_TIME = 1.2

@@ -26,8 +26,7 @@ from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.advice import PRECISION, Field, advice_on, single_changes
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
 from ocs_design.sizing.selection.device import with_demands
-from ocs_design.sizing.selection.problem import with_limit
-from ocs_design.sizing.selection.rejections import Reason
+from ocs_design.sizing.selection.problem import Reason, with_limit
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.specified import selection_problem
 

@@ -1,27 +1,22 @@
-"""A whole device, as it is selected: its figures, the limits that hold its mass, its demands."""
+"""A solved candidate as a whole device, the limits that hold its mass, and its figures."""
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from ocs_design.actuation.drive import DriveLine
-from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.actuation.slew import slew_profile
 from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, spin_demand
-from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
-from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
-from ocs_design.parts.pedestal import Pedestal
-from ocs_design.parts.printed import PLATE_THICKNESS
-from ocs_design.parts.rim import Hub, RimCuts, wheel_body
+from ocs_design.parts.rim import wheel_body
 from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Maneuver
@@ -32,7 +27,7 @@ from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.place import motor_size
 from ocs_design.sizing.selection.demand import held_by_rate, held_in_roll, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
-from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 
 HOUSING = "housing"
 """Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
@@ -56,126 +51,6 @@ MOUNT = "mount"
 
 _TOUCHING = 1e-5
 """Relative distance from an active limit; a hundredth of what can be turned."""
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A whole device: equal modules on the robot.
-
-    Attributes:
-        motor, gear, material: chosen.
-        incidence: of the wheel axes [rad].
-        spin_inertia: of each wheel, the rotor's share included [kg m^2].
-        rotor_share: s N J_r of it. armature: what the motor accelerates beyond it [kg m^2].
-        inner_radius, outer_radius, height: of the rim [m].
-        hub: in the middle of a wheel's web; None: massless spokes.
-        cuts: off its rim.
-        rim_mass: of one module [kg]. web_mass: with the hub.
-        carrier: what stands still of one module: motor, gear, housing and foot.
-        line: of the drive at the wheel, nothing held back.
-        overspeed: at which the hoop stress is limited [rad/s].
-        limits: of its rim.
-        total: robot and all modules, braked, in B.
-        centers: of the wheels in B [m], shape (n, 3).
-        demands: of all parts of the requirement; empty where nobody looked at them.
-        binding: limits that hold the mass up, as named in the specification; "housing" where a
-            larger rim would be lighter, but its housing heavier.
-        residual: relative change of the spin inertia in one more iteration of the fixed point.
-        iterations: taken.
-        web_material: of web and hub; None: of one piece with the rim.
-        plate: that it stands on; None: the trunk itself, or not looked for yet.
-        guard_wall: of the steel rings in the housings [m]; 0: none.
-        foot_plate: thickness of the feet's plates [m].
-        layout: of the modules.
-        pedestals: under feet that lean; empty: none, or not looked for yet.
-    """
-
-    motor: Motor
-    gear: Gear
-    material: Material
-    incidence: float
-    spin_inertia: float
-    rotor_share: float
-    armature: float
-    inner_radius: float
-    outer_radius: float
-    height: float
-    hub: Hub | None
-    cuts: RimCuts
-    rim_mass: float
-    web_mass: float
-    carrier: Carrier
-    line: DriveLine
-    overspeed: float
-    limits: RimLimits
-    total: MassProperties
-    centers: FloatArray
-    demands: tuple[TaskDemand, ...]
-    binding: tuple[str, ...]
-    residual: float
-    iterations: int
-    web_material: Material | None = None
-    plate: CarrierPlate | None = None
-    guard_wall: float = 0.0
-    foot_plate: float = PLATE_THICKNESS
-    layout: Layout = PAIR
-    pedestals: tuple[Pedestal, ...] = ()
-    on_bell: bool = False
-
-    @property
-    def web_density(self) -> float | None:
-        """Density of web and hub [kg/m^3]; None: of one piece with the rim."""
-        return None if self.web_material is None else self.web_material.density
-
-    @property
-    def hub_share(self) -> float:
-        """Part of the spin inertia that is the hub's [kg m^2]."""
-        if self.hub is None:
-            return 0.0
-        return self.hub.axial_inertia(self.web_density or self.material.density)
-
-    @property
-    def mass(self) -> float:
-        """Mass of all modules and of what is under them [kg]."""
-        return self.modules_mass + self.plate_mass
-
-    @property
-    def modules_mass(self) -> float:
-        """Mass of all modules: wheels, motors, gears, housings and feet [kg]."""
-        return len(self.layout) * (self.wheel_mass + self.carrier.mass)
-
-    @property
-    def plate_mass(self) -> float:
-        """Mass of plate and pedestals; 0 without any [kg]."""
-        plate = 0.0 if self.plate is None else self.plate.mass
-        return plate + sum(each.mass for each in self.pedestals)
-
-    @property
-    def printed_mass(self) -> float:
-        """Mass of one housing with its foot, what holds the motor, and all screws [kg]."""
-        bought = (self.motor.mass or 0.0) + self.motor.controller_mass + self.gear.mass
-        return self.carrier.mass - bought
-
-    @property
-    def wheel_mass(self) -> float:
-        """Mass of one wheel: rim, web and hub [kg]."""
-        return self.rim_mass + self.web_mass
-
-    @property
-    def wheel(self) -> Carrier:
-        """One wheel, without what turns in the motor."""
-        size = (self.inner_radius, self.outer_radius, self.height)
-        return wheel_body(
-            *size, self.material.density, self.hub, cuts=self.cuts, web_density=self.web_density
-        )
-
-    @property
-    def binding_maneuver(self) -> str:
-        """Maneuver that asks for the most; "" where the smallest rim or a stated one has more."""
-        most = max(self.demands, key=lambda demand: demand.spin_inertia, default=None)
-        if most is None or most.spin_inertia < self.spin_inertia * (1.0 - 1e-6):
-            return ""
-        return most.source
 
 
 def device_of(solved: Solved) -> Candidate:
@@ -388,56 +263,3 @@ def binding_limits(shape: ModuleShape, limits: RimLimits, room: Envelope) -> tup
     )
     radius_is_held = {"r_max", BOND, stress, MOUNT} & set(names) or {flat, wall} <= set(names)
     return names if radius_is_held else (*names, HOUSING)
-
-
-def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem:
-    """The problem with motor, gear, material and web of each device alone to choose from."""
-    hubs = [device.hub for device in devices]
-    return replace(
-        problem,
-        motors=tuple(device.motor for device in devices),
-        gears=tuple(device.gear for device in devices),
-        materials=tuple(device.material for device in devices),
-        lightenings=tuple(0 if hub is None else hub.lightening for hub in hubs),
-    )
-
-
-SAME_MASS = 1e-5
-"""Relative difference of two masses that is none: materials of one density make devices of one mass
-but for rounding, which differs from processor to processor."""
-
-Entry = TypeVar("Entry")
-
-
-def lightest_first(
-    entries: Iterable[Entry], mass: Callable[[Entry], float], preference: Callable[[Entry], Any]
-) -> list[Entry]:
-    """Entries by mass; of those that are equally heavy, the preferred ones first.
-
-    Args:
-        entries: any.
-        mass: of an entry [kg].
-        preference: sorts entries whose masses differ by less than `SAME_MASS`, smallest first.
-    """
-    alike, ordered = list[Entry](), list[Entry]()
-    for entry in sorted(entries, key=mass):
-        if alike and mass(entry) > mass(alike[0]) * (1.0 + SAME_MASS):
-            ordered += sorted(alike, key=preference)
-            alike = []
-        alike.append(entry)
-    return ordered + sorted(alike, key=preference)
-
-
-def devices_by_mass(devices: Iterable[Candidate]) -> list[Candidate]:
-    """Devices, the lightest first; of equally heavy ones, the safest.
-
-    That is the one whose bond allows the wider ring, where it has one, then that of the material
-    which yields last.
-    """
-
-    def preference(device: Candidate) -> tuple[float, float, str, str, str]:
-        widest = float(device.limits.outer_radius_max)
-        names = (device.motor.name, device.gear.name, device.material.name)
-        return -widest, -(device.material.yield_strength or 0.0), *names
-
-    return lightest_first(devices, lambda device: device.mass, preference)

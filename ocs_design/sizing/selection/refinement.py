@@ -31,9 +31,14 @@ from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED
 from ocs_design.sizing.selection.candidates import Candidates, drives_of, web_inertia
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia, composite_inertia
 from ocs_design.sizing.selection.demand import margins_of
-from ocs_design.sizing.selection.device import Candidate, of_parts
 from ocs_design.sizing.selection.fixed_point import FINE, Design, FixedPoint, fixed_point
-from ocs_design.sizing.selection.problem import SelectionProblem, limits_of, with_limit
+from ocs_design.sizing.selection.problem import (
+    Candidate,
+    SelectionProblem,
+    limits_of,
+    of_parts,
+    with_limit,
+)
 
 HELD = 1e-10
 """Relative violation of a limit that is rounding."""

@@ -1,8 +1,7 @@
 """Why motors are rejected: one reason each, at the most promising gear and incidence."""
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from enum import StrEnum
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -42,62 +41,13 @@ from ocs_design.sizing.selection.demand import (
     needed_by_rate,
     wheel_task,
 )
-from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.problem import Reason, Rejection, SelectionProblem
 
 _NEVER = 1e9
 """Beyond any time that is finite."""
 
 _NOTHING = 1e-15
 """Spin inertia below that of any wheel [kg m^2]."""
-
-
-class Reason(StrEnum):
-    """Why a motor has no place among the lightest devices.
-
-    Attributes:
-        FIGURES: its source lacks what the choice needs.
-        HEAVIER: it can do it, or may be able to, but its device is heavier than those listed.
-        TORQUE: too weak, whatever the wheel. SPEED: too slow, whatever the wheel.
-        ENVELOPE: the wheel that it needs has no room. MASS: that wheel is heavier than allowed.
-        STRESS: that wheel would burst.
-        INCIDENCE: the stated one leaves an axis out of reach.
-        OWN_WEIGHT: it could turn the robot alone, but not with the device on it.
-    """
-
-    FIGURES = "missing figures"
-    HEAVIER = "heavier"
-    TORQUE = "torque"
-    SPEED = "speed"
-    ENVELOPE = "envelope"
-    MASS = "mass"
-    STRESS = "stress"
-    INCIDENCE = "incidence"
-    OWN_WEIGHT = "own weight"
-
-
-@dataclass(frozen=True)
-class Rejection:
-    """Why a motor was rejected.
-
-    Attributes:
-        motor: its name.
-        reason: the first thing in the way of its most promising combination.
-        detail: the same with figures.
-        shortfall: by how much it fails: time with the largest wheel that fits over the time given,
-            or wheel needed over the largest, whichever is less, over 1, or what the least radius
-            around the motor makes of it; inf if not known.
-        needed: spin inertia of the smallest wheel that would do [kg m^2]; None: none would, however
-            large, or it is not known.
-        largest: of the largest wheel that fits, its rotor included [kg m^2]; None: not looked at.
-    """
-
-    motor: str
-    reason: Reason
-    detail: str
-    shortfall: float
-    needed: float | None = None
-    largest: float | None = None
-
 
 NO_ROOM = frozenset({Reason.ENVELOPE, Reason.STRESS, Reason.MASS})
 """Reasons that are a wheel's, not a motor's."""

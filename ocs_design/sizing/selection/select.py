@@ -1,7 +1,7 @@
 """The lightest device that does everything that is required, at the best or a stated incidence."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -10,17 +10,19 @@ from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.selection.bounds import cells_of
 from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
-from ocs_design.sizing.selection.device import (
+from ocs_design.sizing.selection.device import device_of, with_demands
+from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
+from ocs_design.sizing.selection.problem import (
     Candidate,
-    device_of,
+    Reason,
+    Rejection,
+    Selection,
+    SelectionProblem,
     devices_by_mass,
     of_parts,
-    with_demands,
 )
-from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
-from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.refinement import refine
-from ocs_design.sizing.selection.rejections import Reason, Refused, Rejection, rejections
+from ocs_design.sizing.selection.rejections import Refused, rejections
 from ocs_design.sizing.selection.search import Found, search, search_lightest
 
 _CONVERGED = 1e-10
@@ -28,28 +30,6 @@ _ITERATIONS_MAX = 50
 _WINNERS_MAX = 8
 _ABOUT = 1e-4
 """Relative difference of masses that an incidence which is about right may make."""
-
-
-@dataclass(frozen=True, eq=False)
-class Selection:
-    """The lightest devices.
-
-    Attributes:
-        ranking: the ten lightest that differ in motor, gear or material, and the lightest of each
-            of the five best motors, lightest first.
-        rejections: one for each motor that has no place in it, in the order of the problem.
-        candidates: combinations of motor, gear, material and 5 deg of incidence that were decided;
-            without those whose figures do not suffice.
-    """
-
-    ranking: tuple[Candidate, ...]
-    rejections: tuple[Rejection, ...]
-    candidates: int
-
-    @property
-    def best(self) -> Candidate:
-        """The lightest."""
-        return self.ranking[0]
 
 
 def select(problem: SelectionProblem) -> Selection:

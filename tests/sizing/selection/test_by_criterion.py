@@ -13,7 +13,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import Criterion
 from ocs_design.sizing.selection import select as selecting
-from ocs_design.sizing.selection.rejections import Reason
+from ocs_design.sizing.selection.problem import Reason
 from ocs_design.sizing.selection.select import select, select_by
 
 pytestmark = pytest.mark.exhaustive

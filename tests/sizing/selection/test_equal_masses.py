@@ -13,7 +13,7 @@ from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.selection.device import SAME_MASS, devices_by_mass, lightest_first
+from ocs_design.sizing.selection.problem import SAME_MASS, devices_by_mass, lightest_first
 from ocs_design.sizing.selection.search import search_lightest
 from ocs_design.sizing.selection.select import select, select_by
 from ocs_design.workflows.pareto import read_task
